@@ -1,0 +1,95 @@
+#include "base/communicator.h"
+
+#include "base/error.h"
+
+namespace seiche {
+namespace {
+
+template <class T>
+T reduce(MPI_Comm comm, T value, MPI_Datatype type, MPI_Op op) {
+  T result{};
+  MPI_Allreduce(&value, &result, 1, type, op, comm);
+  return result;
+}
+
+struct Pieces {
+  std::vector<int> counts, offsets;
+  std::string bytes;
+};
+
+Pieces exchange_sizes(MPI_Comm comm, int ranks, int mine) {
+  Pieces p{std::vector<int>(ranks), std::vector<int>(ranks), {}};
+  MPI_Allgather(&mine, 1, MPI_INT, p.counts.data(), 1, MPI_INT, comm);
+  std::int64_t total = 0;
+  for (int r = 0; r < ranks; ++r) {
+    p.offsets[r] = int(total);
+    total += p.counts[r];
+    if (total > INT32_MAX) throw Error(ExitCode::machine, "more than 2 GiB gathered on one rank");
+  }
+  p.bytes.resize(std::size_t(total));
+  return p;
+}
+
+std::vector<std::string> split(const Pieces& p) {
+  std::vector<std::string> parts;
+  for (std::size_t r = 0; r < p.counts.size(); ++r) parts.push_back(p.bytes.substr(p.offsets[r], p.counts[r]));
+  return parts;
+}
+
+}  // namespace
+
+MpiSession::MpiSession(int& argc, char**& argv) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+}
+
+MpiSession::~MpiSession() { MPI_Finalize(); }
+
+Communicator::Communicator(MPI_Comm handle) : handle_(handle) {
+  MPI_Comm_rank(handle, &rank_);
+  MPI_Comm_size(handle, &size_);
+}
+
+double Communicator::global_sum(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_SUM); }
+double Communicator::global_max(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_MAX); }
+double Communicator::global_min(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_MIN); }
+std::int64_t Communicator::global_sum(std::int64_t value) const { return reduce(handle_, value, MPI_INT64_T, MPI_SUM); }
+std::int64_t Communicator::global_max(std::int64_t value) const { return reduce(handle_, value, MPI_INT64_T, MPI_MAX); }
+
+void Communicator::global_sum(std::span<double> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
+}
+
+std::int64_t Communicator::exclusive_prefix_sum(std::int64_t value) const {
+  std::int64_t before = 0;
+  MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, handle_);
+  return rank_ == 0 ? 0 : before;
+}
+
+void Communicator::barrier() const { MPI_Barrier(handle_); }
+
+std::string Communicator::broadcast(const std::string& text) const {
+  std::int64_t size = std::int64_t(text.size());
+  MPI_Bcast(&size, 1, MPI_INT64_T, 0, handle_);
+  std::string result = text;
+  result.resize(std::size_t(size));
+  MPI_Bcast(result.data(), int(size), MPI_CHAR, 0, handle_);
+  return result;
+}
+
+std::vector<std::string> Communicator::gather(const std::string& bytes) const {
+  Pieces p = exchange_sizes(handle_, size_, int(bytes.size()));
+  if (!is_root()) p.bytes.clear();
+  MPI_Gatherv(bytes.data(), int(bytes.size()), MPI_CHAR, p.bytes.data(), p.counts.data(), p.offsets.data(), MPI_CHAR, 0,
+              handle_);
+  return is_root() ? split(p) : std::vector<std::string>{};
+}
+
+std::vector<std::string> Communicator::all_gather(const std::string& bytes) const {
+  Pieces p = exchange_sizes(handle_, size_, int(bytes.size()));
+  MPI_Allgatherv(bytes.data(), int(bytes.size()), MPI_CHAR, p.bytes.data(), p.counts.data(), p.offsets.data(), MPI_CHAR,
+                 handle_);
+  return split(p);
+}
+
+}  // namespace seiche

@@ -1,0 +1,36 @@
+#pragma once
+// Formulas in x, y, z, t (muParser behind it). One object is not to be used by two threads at once.
+#include <memory>
+#include <string>
+
+#include "base/scene.h"
+
+namespace seiche {
+
+class Expression {
+ public:
+  explicit Expression(const Formula& text);  // throws Error(bad_input) with muParser's message and position
+  ~Expression();
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression&&) noexcept;
+
+  double operator()(const Vec3& x, double t) const;
+  bool is_constant() const;  // mentions none of x, y, z, t
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Three formulas as one vector field.
+class VectorExpression {
+ public:
+  explicit VectorExpression(const VectorFormula& text);
+  Vec3 operator()(const Vec3& x, double t) const;
+  double component(int axis, const Vec3& x, double t) const { return parts_[axis](x, t); }
+
+ private:
+  std::array<Expression, 3> parts_;
+};
+
+}  // namespace seiche

@@ -1,0 +1,141 @@
+#pragma once
+// What a scene file says, as plain data in SI units. Scene vectors always have three components; in 2D the third is
+// zero. Filled by src/io/scene_reader, which has checked every value; the other layers read it.
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace seiche {
+
+// A number or a formula in x, y, z, t, as text for base/expression.h ("0.5", "6*y*(1-y)").
+using Formula = std::string;
+using VectorFormula = std::array<Formula, 3>;
+
+struct RotationSpec {
+  Vec3 axis{0, 0, 1};
+  double degrees = 0;
+};
+
+// x -> translate + R (scale x): scale first, then rotate about the origin, then translate.
+struct TransformSpec {
+  double scale = 1;
+  RotationSpec rotate;
+  Vec3 translate{0, 0, 0};
+};
+
+struct ShapeSpec {
+  std::string kind;  // a name of the table in levelset/shapes.h
+  Vec3 lower{0, 0, 0}, upper{0, 0, 0};
+  Vec3 center{0, 0, 0};
+  Vec3 from{0, 0, 0}, to{0, 0, 0};
+  Vec3 point{0, 0, 0}, normal{0, 1, 0};
+  double radius = 0;
+  std::filesystem::path file;  // resolved against the scene's folder
+  Formula phi;                 // negative inside
+  bool invert = false;
+  TransformSpec transform;
+  std::string where;           // "scene.toml:14" for messages
+};
+
+enum class SideType { free_slip, no_slip, periodic, inflow, outflow, moving_wall };
+
+struct SideSpec {
+  SideType type = SideType::free_slip;
+  VectorFormula velocity{"0", "0", "0"};  // inflow, moving_wall
+  Formula pressure = "0";                 // outflow, Pa
+};
+
+struct DomainSpec {
+  Vec3 lower{0, 0, 0}, upper{1, 1, 1};
+  double cell_size = 0;
+  std::array<int, 3> cells{1, 1, 1};                 // 1 along z in 2D
+  std::array<std::array<SideSpec, 2>, 3> sides;      // [axis][0 = lower, 1 = upper]
+};
+
+enum class TimeScheme { first_order, second_order };
+
+struct TimeSpec {
+  double end = 1;
+  double frame_rate = 24;
+  double cfl = 1;
+  std::optional<double> max_step, fixed_step;
+  TimeScheme scheme = TimeScheme::second_order;
+};
+
+struct LiquidRegionSpec {
+  ShapeSpec shape;
+  std::optional<VectorFormula> velocity;
+};
+
+struct LiquidSourceSpec {
+  ShapeSpec shape;
+  VectorFormula velocity{"0", "0", "0"};
+  double from = 0;
+  double until = std::numeric_limits<double>::infinity();
+};
+
+struct LiquidSpec {
+  double density = 1000;
+  VectorFormula velocity{"0", "0", "0"};
+  std::vector<LiquidRegionSpec> regions;
+  std::vector<LiquidSourceSpec> sources;
+};
+
+enum class SolidKind { fixed, kinematic };  // "static", "kinematic"
+enum class Slip { free_slip, no_slip };
+
+// Displacement of a kinematic solid from its rest pose: first rotate about center, then translate.
+struct MotionSpec {
+  VectorFormula translate{"0", "0", "0"};
+  Vec3 axis{0, 0, 1}, center{0, 0, 0};
+  Formula degrees = "0";
+};
+
+struct SolidSpec {
+  std::string name;
+  SolidKind kind = SolidKind::fixed;
+  ShapeSpec shape;
+  Slip slip = Slip::free_slip;
+  MotionSpec motion;
+};
+
+enum class ProbeKind { pressure, velocity, surface_height, front };
+
+struct ProbeSpec {
+  std::string name;
+  ProbeKind kind = ProbeKind::pressure;
+  Vec3 position{0, 0, 0};
+  std::optional<double> every;  // s; unset: each step
+};
+
+struct SolverSpec {
+  double tolerance = 1e-8;
+  std::string preconditioner = "auto";
+};
+
+struct OutputSpec {
+  std::vector<std::string> frames{"surface", "velocity"};
+  std::vector<std::string> formats{"vdb"};
+  int checkpoint_every = 10;  // frames
+};
+
+struct Scene {
+  std::string title;
+  int dimension = 3;
+  Vec3 gravity{0, -9.81, 0};
+  DomainSpec domain;
+  TimeSpec time;
+  LiquidSpec liquid;
+  std::vector<SolidSpec> solids;
+  std::vector<ProbeSpec> probes;
+  std::string tracking = "level_set";
+  SolverSpec solver;
+  OutputSpec output;
+};
+
+}  // namespace seiche

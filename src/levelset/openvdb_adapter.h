@@ -1,0 +1,59 @@
+#pragma once
+// The only door to OpenVDB: signed distances of meshes, contouring, frames written and read.
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "levelset/mesh.h"
+
+namespace seiche::vdb {
+
+// A sampled signed distance (trilinear between voxels), constant +-band outside the narrow band.
+class SampledDistance {
+ public:
+  virtual ~SampledDistance() = default;
+  virtual double operator()(const Vec3& x) const = 0;
+};
+
+// Signed distance of a closed triangle mesh on voxels of the given size, half_width voxels to each side.
+std::unique_ptr<SampledDistance> mesh_to_distance(const SurfaceMesh& mesh, double voxel, double half_width);
+
+// The level set of one of our own frames.
+std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file);
+
+// The zero contour of values given at the nodes lower + i*spacing, i < nodes, first axis fastest (3D).
+SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower, double spacing);
+
+enum class GridKind { level_set, scalar, staggered_vector };
+
+// Values of the voxels lower <= index < upper, first axis fastest; vectors as x, y, z triples.
+struct Block {
+  std::array<int, 3> lower{0, 0, 0}, upper{0, 0, 0};
+  std::vector<float> values;
+};
+
+struct Grid {
+  std::string name;
+  GridKind kind = GridKind::scalar;
+  float background = 0;           // level sets: 3 h; voxels with |value| >= background are inactive
+  std::vector<Block> blocks;      // pieces from ranks; disjoint
+};
+
+struct Frame {
+  int dimension = 3;              // 2D frames are one voxel thick at k = 0
+  Vec3 lower{0, 0, 0};            // low corner of voxel (0,0,0), m
+  double cell_size = 0;
+  double time = 0, dt = 0;
+  int number = 0;
+  std::string creator;
+  std::vector<Grid> grids;
+};
+
+// Serialises a frame to the bytes of a .vdb file (Blosc, active mask, statistics metadata, cell-centre transform).
+std::string encode(const Frame& frame);
+// Reads a frame of ours back, each grid as one dense block over the frame's domain. Throws Error(bad_input).
+Frame decode(const std::filesystem::path& file);
+
+}  // namespace seiche::vdb

@@ -1,0 +1,36 @@
+#pragma once
+// Symmetric positive (semi-)definite systems: preconditioned conjugate gradients with a ladder of preconditioners.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/communicator.h"
+#include "linalg/sparse_matrix.h"
+
+namespace seiche {
+
+struct SolveOptions {
+  double tolerance = 1e-8;       // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence left in the flow
+  int max_iterations = 400;
+  std::string preconditioner = "auto";
+};
+
+struct SolveReport {
+  bool converged = false;
+  int iterations = 0;            // over all rungs tried
+  double residual = 0;           // recomputed |b - A x| / |b|
+  std::string used;              // preconditioner of the last rung
+  std::vector<std::string> ladder;  // one line a rung that failed
+};
+
+// The names a scene may ask for.
+std::vector<std::string> preconditioner_names();
+
+// Solves A x = b from the initial x. b is made compatible per null-space component first (its mean removed), x keeps
+// mean zero there. Tries the preconditioner asked for, then the rungs of the ladder; never returns a result whose
+// recomputed residual was not checked. Throws Error(machine) for more rows than hypre can index.
+[[nodiscard]] SolveReport solve_spd(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space,
+                                    const std::vector<double>& b, std::vector<double>& x, const SolveOptions& options,
+                                    const Communicator& ranks);
+
+}  // namespace seiche
