@@ -1,0 +1,81 @@
+#pragma once
+// Tensor-product interpolation of fields at points given in index coordinates g = (x - lower)/h - offset.
+// Points must keep `reach` sites from the end of the padded box; they are moved inside it otherwise.
+#include <cmath>
+
+#include "grid/layout.h"
+
+namespace seiche {
+
+// Four-point Lagrange weights at fraction t in [0, 1) between the second and the third point.
+inline std::array<double, 4> lagrange_weights(double t) {
+  const double a = t + 1, c = t - 1, d = t - 2;
+  return {-t * c * d / 6, a * c * d / 2, -a * t * d / 2, a * t * c / 6};
+}
+
+namespace detail {
+
+// Splits g into the base site and the fraction, with `low` points kept below and `high` above the base.
+template <int Dim>
+Site base_site(const Layout<Dim>& layout, const Vec<Dim>& g, int low, int high, Vec<Dim>& t) {
+  Site s = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const int first = layout.padded().lower[a] + low, last = layout.padded().upper[a] - 1 - high;
+    const double x = std::min(std::max(g[a], double(first)), double(last) + 1);
+    const int i = std::min(int(std::floor(x)), last);
+    t[a] = x - i;
+    s += (i - layout.padded().lower[a]) * layout.stride(a);
+  }
+  return s;
+}
+
+}  // namespace detail
+
+// Multilinear, 2^Dim points.
+template <int Dim>
+double interpolate_linear(const Layout<Dim>& layout, const double* f, const Vec<Dim>& g) {
+  Vec<Dim> t;
+  const Site s = detail::base_site<Dim>(layout, g, 0, 1, t);
+  double sum = 0;
+  for (int corner = 0; corner < (1 << Dim); ++corner) {
+    double w = 1;
+    Site at = s;
+    for (int a = 0; a < Dim; ++a) {
+      const int up = (corner >> a) & 1;
+      w *= up ? t[a] : 1 - t[a];
+      at += up * layout.stride(a);
+    }
+    sum += w * f[at];
+  }
+  return sum;
+}
+
+// Tensor product of four-point Lagrange polynomials: fourth order, exact for cubics.
+template <int Dim>
+double interpolate_cubic(const Layout<Dim>& layout, const double* f, const Vec<Dim>& g) {
+  Vec<Dim> t;
+  const Site s = detail::base_site<Dim>(layout, g, 1, 2, t);
+  std::array<std::array<double, 4>, Dim> w;
+  for (int a = 0; a < Dim; ++a) w[a] = lagrange_weights(t[a]);
+  const auto row = [&](const double* p) {
+    return w[0][0] * p[-1] + w[0][1] * p[0] + w[0][2] * p[1] + w[0][3] * p[2];
+  };
+  const auto plane = [&](const double* p) {
+    const Site d = layout.stride(1);
+    return w[1][0] * row(p - d) + w[1][1] * row(p) + w[1][2] * row(p + d) + w[1][3] * row(p + 2 * d);
+  };
+  if constexpr (Dim == 2) return plane(f + s);
+  if constexpr (Dim == 3) {
+    const Site d = layout.stride(2);
+    const double* p = f + s;
+    return w[2][0] * plane(p - d) + w[2][1] * plane(p) + w[2][2] * plane(p + d) + w[2][3] * plane(p + 2 * d);
+  }
+}
+
+// Index coordinates of a position for fields of the given offset.
+template <int Dim>
+Vec<Dim> index_coordinates(const Layout<Dim>& layout, const Vec<Dim>& x, const Vec<Dim>& offset) {
+  return (x - layout.geometry().lower) / layout.h() - offset;
+}
+
+}  // namespace seiche

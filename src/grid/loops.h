@@ -1,0 +1,131 @@
+#pragma once
+// The only loops over the grid. Bodies run on several threads unless the name says otherwise; results do not depend on
+// their number: sums are formed row by row in a fixed order.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "grid/layout.h"
+
+namespace seiche {
+
+namespace detail {
+
+// The rows of a box along the first axis.
+template <int Dim>
+struct Rows {
+  const Layout<Dim>& layout;
+  Box<Dim> box;
+  int length = 0;
+  std::int64_t count = 0;
+
+  Rows(const Layout<Dim>& l, const Box<Dim>& b) : layout(l), box(b) {
+    if (b.empty()) return;
+    length = b.upper[0] - b.lower[0];
+    count = b.size() / length;
+  }
+  IVec<Dim> first(std::int64_t row) const {
+    IVec<Dim> i = box.lower;
+    for (int a = 1; a < Dim; ++a) {
+      const int n = box.upper[a] - box.lower[a];
+      i[a] += int(row % n);
+      row /= n;
+    }
+    return i;
+  }
+};
+
+constexpr std::int64_t sites_a_task = 4096;
+
+template <int Dim, class RowBody>
+void for_each_row(const Rows<Dim>& rows, const RowBody& body) {
+  if (rows.count == 0) return;
+  const std::int64_t grain = std::max<std::int64_t>(1, sites_a_task / rows.length);
+  if (rows.count <= grain) {
+    for (std::int64_t r = 0; r < rows.count; ++r) body(r);
+    return;
+  }
+  tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, rows.count, grain), [&](const auto& range) {
+    for (std::int64_t r = range.begin(); r != range.end(); ++r) body(r);
+  });
+}
+
+}  // namespace detail
+
+// body(site) over a box.
+template <int Dim, class Body>
+void for_each_site(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const Site begin = layout.site(rows.first(r)), end = begin + rows.length;
+    for (Site s = begin; s < end; ++s) body(s);
+  });
+}
+
+// body(site, index) over a box.
+template <int Dim, class Body>
+void for_each_index(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    IVec<Dim> i = rows.first(r);
+    Site s = layout.site(i);
+    for (int n = 0; n < rows.length; ++n, ++s, ++i[0]) body(s, i);
+  });
+}
+
+// body(site, index) in order on one thread: for formulas and for filling lists.
+template <int Dim, class Body>
+void for_each_index_in_order(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  for (std::int64_t r = 0; r < rows.count; ++r) {
+    IVec<Dim> i = rows.first(r);
+    Site s = layout.site(i);
+    for (int n = 0; n < rows.length; ++n, ++s, ++i[0]) body(s, i);
+  }
+}
+
+// body(list[n]) over a list of sites.
+template <class Body>
+void for_each_listed(const std::vector<Site>& list, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, list.size(), detail::sites_a_task), [&](const auto& range) {
+    for (std::size_t n = range.begin(); n != range.end(); ++n) body(list[n]);
+  });
+}
+
+// Sum of body(site, index) over a box on this rank.
+template <int Dim, class Body>
+double local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  std::vector<double> partial(std::size_t(rows.count), 0.0);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    IVec<Dim> i = rows.first(r);
+    Site s = layout.site(i);
+    double sum = 0;
+    for (int n = 0; n < rows.length; ++n, ++s, ++i[0]) sum += body(s, i);
+    partial[std::size_t(r)] = sum;
+  });
+  double total = 0;
+  for (double p : partial) total += p;
+  return total;
+}
+
+// Largest body(site) over a box on this rank; the given value where the box is empty.
+template <int Dim, class Body>
+double local_max(const Layout<Dim>& layout, const Box<Dim>& box, double least, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  std::vector<double> partial(std::size_t(rows.count), least);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const Site begin = layout.site(rows.first(r));
+    double largest = least;
+    for (Site s = begin; s < begin + rows.length; ++s) largest = std::max<double>(largest, body(s));
+    partial[std::size_t(r)] = largest;
+  });
+  double largest = least;
+  for (double p : partial) largest = std::max(largest, p);
+  return largest;
+}
+
+}  // namespace seiche
