@@ -1,6 +1,6 @@
 # The packages Seiche builds on, as targets. Debian's hypre, OpenVDB and muParser come without CMake configuration.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(MPI REQUIRED COMPONENTS CXX)
+find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PNG REQUIRED)
