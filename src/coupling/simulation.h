@@ -61,9 +61,16 @@ struct Cost {
   double bytes = 0;      // over all ranks
 };
 
+// Called at the start of each named phase of a step (transport, geometry, solve, restore) on every rank: tells the
+// watchdog where the run is, and lets tests inject faults: it may throw, and answers poison when the simulation is to
+// write a NaN into one owned value of the phase's result (which must then be caught in the same step).
+enum class PhaseFault { none, poison };
+using FaultHook = std::function<PhaseFault(const std::string& phase)>;
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
+  virtual void set_fault_hook(FaultHook hook) = 0;
   virtual double time() const = 0;
   virtual std::int64_t step_count() const = 0;
   // Advances by one step that ends at or before `until`. Throws Error(cannot_continue) after the ladder is exhausted,
@@ -83,9 +90,6 @@ class Simulation {
   virtual const Timers& timers() const = 0;
   virtual std::vector<std::string> take_warnings() = 0;     // since the last call, for the log; equal on all ranks
 };
-
-// Fault injection for tests: called at named phases with the phase name; may throw or poison.
-using FaultHook = std::function<void(const std::string& phase)>;
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks);
 Cost estimate_cost(const Scene& scene, int ranks);

@@ -1,0 +1,10 @@
+#include "verbs.h"
+
+namespace seiche {
+
+const std::vector<AddVerb>& verbs() {
+  static const std::vector<AddVerb> table{add_run, add_resume, add_check};
+  return table;
+}
+
+}  // namespace seiche
