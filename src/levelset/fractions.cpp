@@ -1,0 +1,172 @@
+#include "levelset/fractions.h"
+
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Visits simplices that tile the part of s with f < 0. Splits an edge that f crosses at its zero until none is left.
+template <int N, class Visit>
+void visit_negative(const CutSimplex<N>& s, const Visit& visit) {
+  int low = -1, high = -1;
+  for (int i = 0; i <= N; ++i) {
+    if (s.f[i] < 0) low = i;
+    if (s.f[i] > 0) high = i;
+  }
+  if (low < 0) return;
+  if (high < 0) return visit(s);
+  const double t = s.f[low] / (s.f[low] - s.f[high]);
+  CutSimplex<N> near_low = s, near_high = s;
+  near_low.f[high] = near_high.f[low] = 0;
+  near_low.g[high] = near_high.g[low] = s.g[low] + t * (s.g[high] - s.g[low]);
+  near_low.measure = t * s.measure;
+  near_high.measure = (1 - t) * s.measure;
+  visit_negative(near_low, visit);
+  visit_negative(near_high, visit);
+}
+
+template <class Values>
+bool all_negative(const Values& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return x < 0; });
+}
+template <class Values>
+bool none_negative(const Values& v) {
+  return std::none_of(v.begin(), v.end(), [](double x) { return x < 0; });
+}
+
+// Corner values of a cube of D dimensions; corner c has bit a set where it is high along axis a.
+template <int D>
+struct Cube {
+  std::array<double, (1 << D)> f, g;
+  double f_center, g_center;
+};
+
+template <int D>
+double mean(const std::array<double, D>& v) {
+  double s = 0;
+  for (double x : v) s += x;
+  return s / D;
+}
+
+// The square's part with f < 0 (and g < 0), as four triangles around its centre, of the given total measure. `apex`
+// joins them to a further point (a tetrahedron each) where N = 3.
+template <int N>
+double square_part(const Cube<2>& q, const std::array<double, 2>& apex, double measure) {
+  static constexpr int ring[5] = {0, 1, 3, 2, 0};
+  double sum = 0;
+  for (int e = 0; e < 4; ++e) {
+    CutSimplex<N> s;
+    s.f[0] = q.f[ring[e]], s.f[1] = q.f[ring[e + 1]], s.f[2] = q.f_center;
+    s.g[0] = q.g[ring[e]], s.g[1] = q.g[ring[e + 1]], s.g[2] = q.g_center;
+    if constexpr (N == 3) s.f[3] = apex[0], s.g[3] = apex[1];
+    s.measure = measure / 4;
+    sum += negative_measure_both(s);
+  }
+  return sum;
+}
+
+double cube_part(const Cube<2>& c) { return square_part<2>(c, {}, 1.0); }
+
+double cube_part(const Cube<3>& c) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int side = 0; side < 2; ++side) {
+      Cube<2> q;
+      for (int k = 0; k < 4; ++k) {
+        const int corner = (side << a) | ((k & 1) << ((a + 1) % 3)) | ((k >> 1) << ((a + 2) % 3));
+        q.f[k] = c.f[corner], q.g[k] = c.g[corner];
+      }
+      q.f_center = mean<4>(q.f), q.g_center = mean<4>(q.g);
+      sum += square_part<3>(q, {c.f_center, c.g_center}, 1.0 / 6);
+    }
+  return sum;
+}
+
+template <int Dim>
+double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site s) {
+  if constexpr (Dim == 2) {
+    const double a = psi[s], b = psi[s + layout.stride(1 - axis)];
+    return negative_measure(CutSimplex<1>{{-a, -b}, {}, 1.0});
+  } else {
+    const Site d1 = layout.stride((axis + 1) % 3), d2 = layout.stride((axis + 2) % 3);
+    Cube<2> q{{-psi[s], -psi[s + d1], -psi[s + d2], -psi[s + d1 + d2]}, {-1, -1, -1, -1}, 0, -1};
+    if (all_negative(q.f)) return 1;
+    if (none_negative(q.f)) return 0;
+    q.f_center = mean<4>(q.f);
+    return square_part<2>(q, {}, 1.0);
+  }
+}
+
+}  // namespace
+
+template <int N>
+double negative_measure(const CutSimplex<N>& s) {
+  double sum = 0;
+  visit_negative(s, [&](const CutSimplex<N>& part) { sum += part.measure; });
+  return sum;
+}
+
+template <int N>
+double negative_measure_both(const CutSimplex<N>& s) {
+  double sum = 0;
+  visit_negative(s, [&](const CutSimplex<N>& part) {
+    CutSimplex<N> swapped{part.g, part.f, part.measure};
+    sum += negative_measure(swapped);
+  });
+  return sum;
+}
+
+template <int Dim>
+void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceField<Dim>& open) {
+  for (int a = 0; a < Dim; ++a) {
+    Box<Dim> box = layout.grown(2);
+    for (int b = 0; b < Dim; ++b) box.upper[b] = std::min(box.upper[b], layout.padded().upper[b] - 1);
+    for_each_site(layout, box, [&](Site s) { open.at(a, s) = open_part_of_face(layout, psi, a, s); });
+  }
+}
+
+template <int Dim>
+double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
+  constexpr int corners = 1 << Dim;
+  Cube<Dim> c;
+  for (int k = 0; k < corners; ++k) {
+    Site node = cell;
+    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * layout.stride(a);
+    double sum = 0;
+    for (int m = 0; m < corners; ++m) {
+      Site around = node;
+      for (int a = 0; a < Dim; ++a) around -= ((m >> a) & 1) * layout.stride(a);
+      sum += phi[around];
+    }
+    c.f[k] = sum / corners;
+    c.g[k] = -psi[node];
+  }
+  c.f_center = phi[cell];
+  if (none_negative(c.g) || (none_negative(c.f) && c.f_center >= 0)) return 0;
+  if (all_negative(c.f) && c.f_center < 0 && all_negative(c.g)) return 1;
+  c.g_center = mean<corners>(c.g);
+  return cube_part(c);
+}
+
+template <int Dim>
+double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
+  const double far = 2 * layout.h();  // farther than any corner of the cell
+  return layout.geometry().cell_volume() * local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) {
+           if (phi[s] > far) return 0.0;
+           return liquid_share(layout, phi, psi, s);
+         });
+}
+
+template double negative_measure<1>(const CutSimplex<1>&);
+template double negative_measure<2>(const CutSimplex<2>&);
+template double negative_measure<3>(const CutSimplex<3>&);
+template double negative_measure_both<2>(const CutSimplex<2>&);
+template double negative_measure_both<3>(const CutSimplex<3>&);
+template void open_fractions<2>(const Layout<2>&, const NodeField<2>&, FaceField<2>&);
+template void open_fractions<3>(const Layout<3>&, const NodeField<3>&, FaceField<3>&);
+template double liquid_share<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);
+template double liquid_share<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
+template double local_liquid_volume<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
+template double local_liquid_volume<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
+
+}  // namespace seiche

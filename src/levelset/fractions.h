@@ -1,0 +1,36 @@
+#pragma once
+// Shares of cells and faces cut by level sets that are linear on simplices around the centre (exact for planes, and the
+// same under all rotations and mirrorings of the grid).
+#include <array>
+
+#include "grid/fields.h"
+
+namespace seiche {
+
+// A simplex of N dimensions with two linear functions given at its corners.
+template <int N>
+struct CutSimplex {
+  std::array<double, N + 1> f, g;
+  double measure;
+};
+
+// Measure of {f < 0}, or of {f < 0 and g < 0}.
+template <int N>
+double negative_measure(const CutSimplex<N>& s);
+template <int N>
+double negative_measure_both(const CutSimplex<N>& s);
+
+// Open fraction of every face: the part with psi > 0, psi given at the nodes (m, negative inside solids).
+// Faces of owned cells on both sides, so within grown(1).
+template <int Dim>
+void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceField<Dim>& open);
+
+// Share of a cell with phi < 0 (phi at cell centres, valid one cell around) and psi > 0.
+template <int Dim>
+double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell);
+
+// Liquid volume of the owned cells, m^Dim.
+template <int Dim>
+double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi);
+
+}  // namespace seiche

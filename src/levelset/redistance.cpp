@@ -1,0 +1,142 @@
+#include "levelset/redistance.h"
+
+#include "grid/ghosts.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+double minmod(double a, double b) { return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b); }
+
+// Second difference along d, unscaled.
+double second(const double* f, Site d) { return f[-d] - 2 * f[0] + f[d]; }
+
+// Share of the way from f[0] to f[d] at which the ENO parabola crosses zero; signs of f[0], f[d] differ.
+double crossing(const double* f, Site d) {
+  const double c = minmod(second(f, d), second(f + d, d)), a = f[0], b = f[d];
+  const double straight = a / (a - b);
+  if (std::abs(c) < 1e-10 * std::abs(a - b)) return straight;
+  const double root = std::sqrt(std::max(0.0, (c / 2 - a - b) * (c / 2 - a - b) - 4 * a * b));
+  const double theta = 0.5 + (a - b - std::copysign(root, a - b)) / c;
+  return theta > 0 && theta < 1 ? theta : straight;
+}
+
+// What the relaxation needs of a band cell's initial values: for each neighbour, the distance in cells to the zero
+// crossing or 1, and the smallest of these for the step.
+template <int Dim>
+struct BandCell {
+  Site site;
+  double sign;
+  double step;
+  std::array<std::array<double, 2>, Dim> reach;
+};
+
+template <int Dim>
+class Relaxation {
+ public:
+  Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi)
+      : layout_(layout), halo_(halo), limit_(options.band), phi_(phi), start_(phi) {
+    collect();
+  }
+
+  // Heun steps: two forward steps averaged with the start.
+  void run(int iterations) {
+    std::vector<double> before(cells_.size());
+    for (int n = 0; n < iterations; ++n) {
+      for (std::size_t k = 0; k < cells_.size(); ++k) before[k] = phi_[cells_[k].site];
+      forward_step();
+      forward_step();
+      for (std::size_t k = 0; k < cells_.size(); ++k) {
+        double& p = phi_[cells_[k].site];
+        p = 0.5 * (before[k] + p);
+      }
+      fill_level_set_ghosts(layout_, halo_, phi_);
+    }
+  }
+
+ private:
+  void collect() {
+    for_each_index_in_order(layout_, layout_.cells(), [&](Site s, const IVec<Dim>&) {
+      if (std::abs(start_[s]) < limit_ && start_[s] != 0) cells_.push_back(describe(s));
+    });
+    change_.resize(cells_.size());
+  }
+
+  BandCell<Dim> describe(Site s) const {
+    BandCell<Dim> c{s, start_[s] < 0 ? -1.0 : 1.0, 1.0, {}};
+    for (int a = 0; a < Dim; ++a)
+      for (int side = 0; side < 2; ++side) {
+        const Site d = side == 0 ? -layout_.stride(a) : layout_.stride(a);
+        const bool crosses = start_[s] * start_[s + d] < 0;
+        c.reach[a][side] = crosses ? std::max(crossing(start_.data() + s, d), 1e-6) : 1;
+        c.step = std::min(c.step, c.reach[a][side]);
+      }
+    c.step *= 0.45;
+    return c;
+  }
+
+  // One-sided slope along +-axis, ending at the interface where it lies between (phi = 0 there).
+  double slope(const BandCell<Dim>& c, int axis, int side) const {
+    const Site d = side == 0 ? -layout_.stride(axis) : layout_.stride(axis);
+    const double* f = phi_.data() + c.site;
+    const double reach = c.reach[axis][side];
+    const bool crosses = start_[c.site] * start_[c.site + d] < 0;
+    const double rise = crosses ? -f[0] : f[d] - f[0];
+    return rise / reach - 0.5 * reach * minmod(second(f, d), second(f + d, d));
+  }
+
+  // Godunov's |grad phi| for a front moving away from the interface.
+  double gradient_norm(const BandCell<Dim>& c) const {
+    double sum = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const double backward = -slope(c, a, 0) * c.sign, forward = slope(c, a, 1) * c.sign;
+      const double g = std::max({backward, -forward, 0.0});
+      sum += g * g;
+    }
+    return std::sqrt(sum);
+  }
+
+  void forward_step() {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells_.size(), 1024), [&](const auto& range) {
+      for (std::size_t k = range.begin(); k != range.end(); ++k)
+        change_[k] = -cells_[k].step * cells_[k].sign * (gradient_norm(cells_[k]) - 1);
+    });
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      double& p = phi_[cells_[k].site];
+      p = std::clamp(p + change_[k], -limit_, limit_);
+    }
+    fill_level_set_ghosts(layout_, halo_, phi_);
+  }
+
+  const Layout<Dim>& layout_;
+  const Halo<Dim>& halo_;
+  double limit_;
+  CellField<Dim>& phi_;
+  CellField<Dim> start_;
+  std::vector<BandCell<Dim>> cells_;
+  std::vector<double> change_;
+};
+
+}  // namespace
+
+template <int Dim>
+void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& phi) {
+  halo.fill_ghosts(phi);
+  extend_beyond_sides(layout, phi.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
+}
+
+template <int Dim>
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi) {
+  const double h = layout.h(), limit = options.band;
+  for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
+  fill_level_set_ghosts(layout, halo, phi);
+  Relaxation<Dim>(layout, halo, options, phi).run(options.iterations);
+  for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
+}
+
+template void redistance<2>(const Layout<2>&, const Halo<2>&, const RedistanceOptions&, CellField<2>&);
+template void redistance<3>(const Layout<3>&, const Halo<3>&, const RedistanceOptions&, CellField<3>&);
+template void fill_level_set_ghosts<2>(const Layout<2>&, const Halo<2>&, CellField<2>&);
+template void fill_level_set_ghosts<3>(const Layout<3>&, const Halo<3>&, CellField<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,21 @@
+#pragma once
+// Makes a level set a signed distance again near its zero without moving the zero.
+#include "grid/halo.h"
+
+namespace seiche {
+
+struct RedistanceOptions {
+  double band = 5;       // cells on each side within which phi is kept; beyond it is +-band
+  int iterations = 8;    // each carries distance 0.45 cells outwards
+};
+
+// Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka
+// 2000; du Chene, Min, Gibou 2008). Fills ghosts. Collective.
+template <int Dim>
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi);
+
+// Halo exchange and straight continuation beyond the sides, as level sets need it.
+template <int Dim>
+void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& phi);
+
+}  // namespace seiche
