@@ -122,7 +122,7 @@ class Relaxation {
 template <int Dim>
 void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& phi) {
   halo.fill_ghosts(phi);
-  extend_beyond_sides(layout, phi.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
+  extend_beyond_sides<Dim>(layout, phi.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
 }
 
 template <int Dim>
