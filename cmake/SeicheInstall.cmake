@@ -1,2 +1,19 @@
-# Placeholder-free minimum: the program; the package part is added beside it.
+# Installs the program, the libraries with their headers, and the files by which find_package(Seiche) finds them.
+include(CMakePackageConfigHelpers)
+
+set(seiche_config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Seiche)
+
 install(TARGETS seiche RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS seiche_base seiche_grid seiche_linalg seiche_levelset seiche_fluid seiche_coupling seiche_io seiche_all
+  EXPORT SeicheTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seiche FILES_MATCHING PATTERN "*.h")
+install(EXPORT SeicheTargets NAMESPACE Seiche:: DESTINATION ${seiche_config_folder})
+
+configure_package_config_file(cmake/SeicheConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfig.cmake
+  INSTALL_DESTINATION ${seiche_config_folder})
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/SeicheConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfigVersion.cmake
+  cmake/SeicheDependencies.cmake DESTINATION ${seiche_config_folder})
+install(FILES LICENSE NOTICE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
