@@ -1,0 +1,43 @@
+#include "base/emergency_channel.h"
+
+#include <cstdlib>
+#include <thread>
+
+namespace seiche {
+
+EmergencyChannel::EmergencyChannel(const Communicator& ranks) : codes_(std::size_t(ranks.size()), 0) {
+  MPI_Comm_dup(ranks.handle(), &handle_);
+}
+
+// The duplicate goes with MPI_Finalize: freeing it is collective, and a failing rank may be alone here.
+EmergencyChannel::~EmergencyChannel() = default;
+
+std::optional<std::vector<int>> EmergencyChannel::meet(int code, std::chrono::milliseconds patience) const {
+  mine_ = code;
+  MPI_Request request;
+  MPI_Iallgather(&mine_, 1, MPI_INT, codes_.data(), 1, MPI_INT, handle_, &request);
+  const auto give_up = std::chrono::steady_clock::now() + patience;
+  int done = 0;
+  do {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done) return codes_;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  } while (std::chrono::steady_clock::now() < give_up);
+  return std::nullopt;
+}
+
+void EmergencyChannel::abort(int code) const {
+  if (codes_.size() > 1) MPI_Abort(handle_, code);
+  std::_Exit(code);
+}
+
+int ranks_on_this_machine(const Communicator& ranks) {
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(ranks.handle(), MPI_COMM_TYPE_SHARED, ranks.rank(), MPI_INFO_NULL, &machine);
+  int count = 1;
+  MPI_Comm_size(machine, &count);
+  MPI_Comm_free(&machine);
+  return count;
+}
+
+}  // namespace seiche
