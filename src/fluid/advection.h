@@ -1,0 +1,30 @@
+#pragma once
+// Semi-Lagrangian transport: values are looked up where the flow brought them from.
+#include "grid/fields.h"
+
+namespace seiche {
+
+// Velocity at x from the staggered field, each component by four-point Lagrange interpolation (m/s).
+template <int Dim>
+Vec<Dim> sample_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x);
+
+// Departure point of x under the frozen field u: explicit midpoint rule, second order.
+template <int Dim>
+Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x, double dt);
+
+// The same by Ralston's third-order Runge-Kutta rule.
+template <int Dim>
+Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x, double dt);
+
+// phi(x) <- phi(departure point) at the owned cells with |phi| < band; the others keep their value. Ghosts of phi and u
+// must be filled.
+template <int Dim>
+void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band, const CellField<Dim>& phi,
+                      CellField<Dim>& moved);
+
+// result(f) <- carried(departure point) at the owned faces where near[f] is set; the others keep their value.
+template <int Dim>
+void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double dt, const FaceField<Dim, char>& near,
+                  const FaceField<Dim>& carried, FaceField<Dim>& result);
+
+}  // namespace seiche

@@ -1,0 +1,44 @@
+#pragma once
+// The sides of the domain: what they let through, and the values beyond them.
+#include <vector>
+
+#include "base/expression.h"
+#include "grid/ghosts.h"
+#include "grid/halo.h"
+
+namespace seiche {
+
+template <int Dim>
+class Sides {
+ public:
+  explicit Sides(const DomainSpec& domain);
+
+  SideType type(int axis, int side) const { return types_[axis][side]; }
+  bool is_outflow(int axis, int side) const { return type(axis, side) == SideType::outflow; }
+  // Velocity of the wall or the inflow at x (component along `axis`); 0 for resting walls.
+  double velocity(int axis, int side, int component, const Vec<Dim>& x, double t) const;
+  // Pressure beyond an outflow side, Pa.
+  double pressure(int axis, int side, const Vec<Dim>& x, double t) const;
+  // Speed into the domain through an inflow side, or 0.
+  double inward_speed(int axis, int side, const Vec<Dim>& x, double t) const;
+  bool any_inflow() const;
+
+  // How velocity continues beyond the sides: mirrored at walls, constant through inflow and outflow.
+  Extensions<Dim> velocity_extensions() const;
+
+ private:
+  std::array<std::array<SideType, 2>, Dim> types_{};
+  std::vector<VectorExpression> velocity_;
+  std::vector<Expression> pressure_;
+};
+
+// Halo exchange and continuation beyond the sides. Collective.
+template <int Dim>
+void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides, FaceField<Dim>& u);
+
+// Makes the level set know the liquid that stands behind inflow sides: phi at most the distance to the inflow. Ghosts of
+// phi must be filled; fills some of them.
+template <int Dim>
+void join_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, CellField<Dim>& phi);
+
+}  // namespace seiche

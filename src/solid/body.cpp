@@ -1,0 +1,64 @@
+#include "solid/body.h"
+
+namespace seiche {
+namespace {
+
+double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
+
+// A representative point of the shape before its transform.
+Vec3 shape_center(const ShapeSpec& s) {
+  if (s.kind == "box") return 0.5 * (s.lower + s.upper);
+  if (s.kind == "sphere") return s.center;
+  if (s.kind == "cylinder" || s.kind == "capsule") return 0.5 * (s.from + s.to);
+  if (s.kind == "plane") return s.point;
+  return Vec3::Zero();
+}
+
+}  // namespace
+
+template <int Dim>
+Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options)
+    : spec_(spec), shape_(make_shape<Dim>(spec.shape, options)) {
+  if (spec.kind != SolidKind::kinematic) return;
+  const MotionSpec& m = spec.motion;
+  motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
+}
+
+template <int Dim>
+Pose Body<Dim>::pose(double t) const {
+  if (!motion_) return {};
+  const double angle = radians(motion_->degrees(Vec3::Zero(), t));
+  return {Eigen::AngleAxisd(angle, motion_->axis).toRotationMatrix(), motion_->center,
+          motion_->translate(Vec3::Zero(), t)};
+}
+
+template <int Dim>
+Twist Body<Dim>::twist(double t0, double t1) const {
+  if (!motion_ || t1 == t0) return {};
+  const double dt = t1 - t0;
+  const Vec3 d0 = motion_->translate(Vec3::Zero(), t0), d1 = motion_->translate(Vec3::Zero(), t1);
+  const double turn = motion_->degrees(Vec3::Zero(), t1) - motion_->degrees(Vec3::Zero(), t0);
+  return {(d1 - d0) / dt, motion_->axis * (radians(turn) / dt), motion_->center + d1};
+}
+
+template <int Dim>
+double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
+  return (*shape_)(truncate<Dim>(pose.to_rest(extend<Dim>(x))));
+}
+
+template <int Dim>
+double Body<Dim>::distance(const Vec<Dim>& x, double t) const {
+  return motion_ ? distance_in(pose(t), x) : (*shape_)(x);
+}
+
+template <int Dim>
+Vec3 Body<Dim>::reference_point() const {
+  const TransformSpec& t = spec_.shape.transform;
+  const Vec3 axis = t.rotate.axis.normalized();
+  return t.translate + Eigen::AngleAxisd(radians(t.rotate.degrees), axis) * Vec3(t.scale * shape_center(spec_.shape));
+}
+
+template class Body<2>;
+template class Body<3>;
+
+}  // namespace seiche

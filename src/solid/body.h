@@ -1,0 +1,56 @@
+#pragma once
+// Static and kinematic solids: a shape in its rest pose and a prescribed rigid motion.
+#include <memory>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "base/expression.h"
+#include "levelset/shapes.h"
+
+namespace seiche {
+
+// x = rotation (X - pivot) + pivot + displacement, X the rest position.
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vec3 pivot{0, 0, 0}, displacement{0, 0, 0};
+  Vec3 apply(const Vec3& rest) const { return rotation * (rest - pivot) + pivot + displacement; }
+  Vec3 to_rest(const Vec3& x) const { return rotation.transpose() * (x - pivot - displacement) + pivot; }
+};
+
+// Rigid velocity field v(x) = linear + angular x (x - about): free of divergence, also as sampled on a grid.
+struct Twist {
+  Vec3 linear{0, 0, 0}, angular{0, 0, 0}, about{0, 0, 0};
+  Vec3 at(const Vec3& x) const { return linear + angular.cross(x - about); }
+  bool at_rest() const { return linear.isZero(0) && angular.isZero(0); }
+};
+
+template <int Dim>
+class Body {
+ public:
+  Body(const SolidSpec& spec, const ShapeOptions& options);
+
+  const SolidSpec& spec() const { return spec_; }
+  bool moves() const { return motion_.has_value(); }
+  Pose pose(double t) const;
+  // The rigid motion that takes the body from its pose at t0 to that at t1 in t1 - t0.
+  Twist twist(double t0, double t1) const;
+  // Signed distance at time t, negative inside (m).
+  double distance(const Vec<Dim>& x, double t) const;
+  double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
+  double distance_in(const Pose& pose, const Vec<Dim>& x) const;
+  // The point that solids.csv reports and torques are taken about, at rest.
+  Vec3 reference_point() const;
+
+ private:
+  struct Motion {
+    VectorExpression translate;
+    Expression degrees;
+    Vec3 axis, center;
+  };
+  SolidSpec spec_;
+  std::unique_ptr<ShapeField<Dim>> shape_;
+  std::optional<Motion> motion_;
+};
+
+}  // namespace seiche
