@@ -1,6 +1,6 @@
 #pragma once
 // Symmetric positive (semi-)definite systems: preconditioned conjugate gradients with a ladder of preconditioners.
-#include <memory>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@ struct SolveOptions {
   double tolerance = 1e-8;       // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence left in the flow
   int max_iterations = 400;
   std::string preconditioner = "auto";
+  int fail_rungs = 0;            // for tests: the first rungs of the ladder return a wrong x and claim success
 };
 
 struct SolveReport {
@@ -21,6 +22,8 @@ struct SolveReport {
   double residual = 0;           // recomputed |b - A x| / |b|
   std::string used;              // preconditioner of the last rung
   std::vector<std::string> ladder;  // one line a rung that failed
+  std::int64_t identity_rows = 0;   // rows with a zero diagonal (cells with no open face): x = 0 there
+  double mismatch = 0;           // |part of b no x can reach| / |b|: net inflow of closed components, for instance
 };
 
 // The names a scene may ask for.
