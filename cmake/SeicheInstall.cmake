@@ -4,8 +4,11 @@ include(CMakePackageConfigHelpers)
 set(seiche_config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Seiche)
 
 install(TARGETS seiche RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS seiche_base seiche_grid seiche_linalg seiche_levelset seiche_fluid seiche_coupling seiche_io seiche_all
-  EXPORT SeicheTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(layer base grid linalg levelset fluid solid coupling io all)
+  if(TARGET seiche_${layer})
+    install(TARGETS seiche_${layer} EXPORT SeicheTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endif()
+endforeach()
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/seiche FILES_MATCHING PATTERN "*.h")
 install(EXPORT SeicheTargets NAMESPACE Seiche:: DESTINATION ${seiche_config_folder})
 
