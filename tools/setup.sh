@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # What ./demo and ./check share: packages, environment, build. Sourced by them from the top folder, not run.
 
 say() { printf '\n== %s\n' "$*"; }
@@ -19,15 +20,15 @@ missing_packages() {
 
 # Runs a command as root, saying which.
 as_root() {
-  if [ "$(id -u)" -eq 0 ]; then
-    note "running: $*"
-    "$@" </dev/null
-  elif command -v sudo >/dev/null; then
-    note "running: sudo $*"
-    sudo "$@"
-  else
-    note "these packages have to be installed as root, and there is no sudo; run as root:"
-    note "  $*"
+  [ "$(id -u)" -eq 0 ] || set -- sudo "$@"
+  note "running: $*"
+  "$@" </dev/null
+}
+
+require_root() {
+  if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+    note "that needs root, and there is no sudo; run this as root and start again:"
+    note "  apt-get install --no-install-recommends $*"
     exit 5
   fi
 }
@@ -41,6 +42,7 @@ install_packages() {
   absent=$(missing_packages "$@")
   [ -n "$absent" ] || { note "all there"; return; }
   note "missing: $absent"
+  require_root "$absent"
   as_root apt-get update -q || note "apt-get update had errors; trying with the lists that are there"
   # shellcheck disable=SC2086
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
