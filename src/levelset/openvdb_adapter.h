@@ -20,10 +20,13 @@ class SampledDistance {
 // Signed distance of a closed triangle mesh on voxels of the given size, half_width voxels to each side.
 std::unique_ptr<SampledDistance> mesh_to_distance(const SurfaceMesh& mesh, double voxel, double half_width);
 
-// The level set of one of our own frames.
-std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file);
+// The level set of one of our own frames, "surface" if it holds several; outside the frame's domain it is at least the
+// distance to the domain. 2D frames ignore z. Throws Error(bad_input) if the file is no such frame or of another
+// dimension than asked for.
+std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file, int dimension = 3);
 
-// The zero contour of values given at the nodes lower + i*spacing, i < nodes, first axis fastest (3D).
+// The zero contour of values given at the nodes lower + i*spacing, i < nodes, first axis fastest (3D). Triangles face
+// the positive side; where the negative side reaches the outermost nodes the surface is left open.
 SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower, double spacing);
 
 enum class GridKind { level_set, scalar, staggered_vector };
@@ -52,6 +55,8 @@ struct Frame {
 };
 
 // Serialises a frame to the bytes of a .vdb file (Blosc, active mask, statistics metadata, cell-centre transform).
+// The domain is the box from voxel 0 to the highest upper of all blocks. Throws Error(cannot_continue) naming grid and
+// voxel on a value that is not finite.
 std::string encode(const Frame& frame);
 // Reads a frame of ours back, each grid as one dense block over the frame's domain. Throws Error(bad_input).
 Frame decode(const std::filesystem::path& file);

@@ -1,0 +1,110 @@
+// Finds out what a mesh file is, has it parsed, and mends or refuses its surface.
+#include "levelset/mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "levelset/mesh_formats.h"
+#include "levelset/mesh_topology.h"
+
+namespace seiche {
+namespace mesh {
+namespace {
+
+struct Format {
+  const char* name;
+  const char* extension;
+  SurfaceMesh (*parse)(const Source&);
+};
+constexpr std::array<Format, 3> formats{{{"OBJ", ".obj", parse_obj}, {"PLY", ".ply", parse_ply},
+                                         {"STL", ".stl", parse_stl}}};
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
+  throw Error(ExitCode::bad_input, file.string() + ": " + message);
+}
+
+std::string read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) fail(file, "is a folder, not a mesh");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, std::string("cannot be read: ") + std::strerror(errno));
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) fail(file, "cannot be read to its end");
+  if (bytes.empty()) fail(file, "is empty (0 bytes), not a mesh");
+  return bytes;
+}
+
+const Format& format_of_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  for (const Format& format : formats) {
+    if (extension == format.extension) return format;
+  }
+  fail(file, "the extension '" + extension + "' is not a mesh of triangles; use .obj, .ply or .stl");
+}
+
+bool is_text(std::string_view bytes) { return bytes.substr(0, 1024).find('\0') == std::string_view::npos; }
+
+// What the content says, if it says so clearly.
+const char* sniff(std::string_view bytes) {
+  if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r") return "PLY";
+  if (!is_text(bytes)) return is_binary_stl(bytes) ? "STL" : "";
+  const std::size_t line_end = bytes.find('\n');
+  const bool facet = line_end != std::string_view::npos && Tokens(bytes.substr(line_end)).next() == "facet";
+  return bytes.substr(0, 5) == "solid" && facet ? "STL" : "";
+}
+
+void require_content(const Source& source, const Format& format) {
+  if (source.bytes.rfind("version https://git-lfs", 0) == 0) {
+    fail(source.file, "is a Git LFS pointer, not the mesh itself; fetch it with 'git lfs pull'");
+  }
+  const std::string found = sniff(source.bytes), expected = format.name;
+  const bool is_ply = found == "PLY";
+  if ((found.empty() || found == expected) && (expected != "PLY" || is_ply)) return;
+  const std::string content = found.empty() ? "not PLY (it does not begin with 'ply')" : "of a " + found + " file";
+  fail(source.file, fmt::format("the extension says {}, but the content is {}; rename or export it anew", expected,
+                                content));
+}
+
+SurfaceMesh parse(const std::filesystem::path& file) {
+  const Format& format = format_of_extension(file);
+  const Source source{file, read_bytes(file)};
+  require_content(source, format);
+  SurfaceMesh mesh = format.parse(source);
+  if (mesh.triangles.empty()) fail(file, "holds no faces; the surface of a solid takes at least 4 triangles");
+  return mesh;
+}
+
+SurfaceMesh mend(SurfaceMesh mesh, std::vector<std::string>& notes) {
+  weld(mesh);
+  drop_degenerate_and_duplicate(mesh, notes);
+  require_closed(mesh);
+  orient(mesh, notes);
+  drop_slivers(mesh, notes);
+  return mesh;
+}
+
+}  // namespace
+}  // namespace mesh
+
+SurfaceMesh read_closed_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {
+  SurfaceMesh raw = mesh::parse(file);
+  std::vector<std::string> own;
+  try {
+    SurfaceMesh result = mesh::mend(std::move(raw), own);
+    for (const std::string& note : own) notes.push_back(file.string() + ": " + note);
+    return result;
+  } catch (const Error& e) {
+    throw Error(e.code(), file.string() + ": " + e.what());
+  }
+}
+
+}  // namespace seiche
