@@ -32,9 +32,9 @@ class ColumnHalo {
   Communicator ranks_;
   Row first_row_;
   int owned_;
-  std::vector<Row> ghost_rows_;           // ascending, so the ghosts of one owner are contiguous
+  std::vector<Row> ghost_rows_;  // ascending, so the ghosts of one owner are contiguous
   std::vector<Peer> receive_, send_;
-  std::vector<int> sent_;                 // owned entries that others want, by peer
+  std::vector<int> sent_;  // owned entries that others want, by peer
   mutable std::vector<double> send_buffer_;
 };
 

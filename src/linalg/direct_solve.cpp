@@ -78,7 +78,8 @@ bool eliminate(const Matrix& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
 }
 
 // Solves on rank 0; an empty vector means failure.
-std::vector<double> solve_gathered(const std::vector<Entry>& entries, const std::vector<RowData>& rows, int components) {
+std::vector<double> solve_gathered(const std::vector<Entry>& entries, const std::vector<RowData>& rows,
+                                   int components) {
   std::vector<char> grounded(rows.size(), 0), seen(components, 0);
   Eigen::VectorXd b(rows.size()), x;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -6,10 +6,13 @@
 namespace seiche {
 namespace {
 
-std::int64_t cell_count(const RowGrid& grid) {
-  std::int64_t count = 1;
-  for (int a = 0; a < 3; ++a) count *= std::max(0, grid.upper[a] - grid.lower[a]);
-  return count;
+template <class Visit>
+void for_cells(const CellBox& box, Visit visit) {
+  for (int k = box.lower[2]; k < box.upper[2]; ++k) {
+    for (int j = box.lower[1]; j < box.upper[1]; ++j) {
+      for (int i = box.lower[0]; i < box.upper[0]; ++i) visit(std::array<int, 3>{i, j, k});
+    }
+  }
 }
 
 // The cell of each row and of each ghost column: one vector an axis.
@@ -17,18 +20,11 @@ std::array<Vector, 3> row_coordinates(const LinearSystem& system) {
   const RowGrid& grid = system.grid();
   std::array<Vector, 3> coordinates;
   coordinates.fill(Vector(system.rows() + system.halo().ghosts(), 0.0));
-  std::size_t cell = 0;
-  for (int k = grid.lower[2]; k < grid.upper[2]; ++k) {
-    for (int j = grid.lower[1]; j < grid.upper[1]; ++j) {
-      for (int i = grid.lower[0]; i < grid.upper[0]; ++i) {
-        const int row = grid.row_of_cell[cell++];
-        if (row < 0) continue;
-        coordinates[0][row] = i;
-        coordinates[1][row] = j;
-        coordinates[2][row] = k;
-      }
-    }
-  }
+  std::size_t next = 0;
+  for_cells({grid.lower, grid.upper}, [&](const std::array<int, 3>& cell) {
+    const int row = grid.row_of_cell[next++];
+    for (int a = 0; a < 3 && row >= 0; ++a) coordinates[a][row] = cell[a];
+  });
   for (Vector& axis : coordinates) system.halo().fill_ghosts(axis);
   return coordinates;
 }
@@ -59,41 +55,87 @@ bool fill_couplings(const LinearSystem& system, const std::array<Vector, 3>& x, 
   return true;
 }
 
-std::string unusable(const LinearSystem& system) {
+bool rows_on_grid(const LinearSystem& system) {
   const RowGrid& grid = system.grid();
-  const std::int64_t cells = cell_count(grid);
   const auto on_grid = std::count_if(grid.row_of_cell.begin(), grid.row_of_cell.end(), [](int r) { return r >= 0; });
-  if (system.ranks().any(cells != std::int64_t(grid.row_of_cell.size()) || on_grid != system.rows())) {
-    return "rows are not on a grid";
+  const bool fits = CellBox{grid.lower, grid.upper}.cells() == std::int64_t(grid.row_of_cell.size());
+  return !system.ranks().any(!fits || on_grid != system.rows());
+}
+
+// This rank's part of the box and the rows there.
+GridStencil empty_stencil(const LinearSystem& system, const CellBox& box) {
+  const RowGrid& grid = system.grid();
+  GridStencil stencil{grid.dimension, {}, grid.periodic, {}, {}};
+  for (int a = 0; a < 3; ++a) {
+    stencil.box.lower[a] = std::max(box.lower[a], grid.lower[a]);
+    stencil.box.upper[a] = std::min(box.upper[a], grid.upper[a]);
   }
-  const auto narrow = [](int n) { return n > 0 && n < 3; };
-  if (std::any_of(grid.periodic.begin(), grid.periodic.end(), narrow)) return "a periodic axis has fewer than 3 cells";
-  if (system.ranks().global_sum(cells) > INT32_MAX) return "more cells than 32 bits count";
-  return {};
+  const std::int64_t nx = grid.upper[0] - grid.lower[0], ny = grid.upper[1] - grid.lower[1];
+  for_cells(stencil.box, [&](const std::array<int, 3>& c) {
+    const auto plane = (c[2] - grid.lower[2]) * ny + (c[1] - grid.lower[1]);
+    stencil.row_of_cell.push_back(grid.row_of_cell[plane * nx + (c[0] - grid.lower[0])]);
+  });
+  return stencil;
+}
+
+// False if the matrix couples cells that are not neighbours.
+bool fill_coefficients(const LinearSystem& system, double diagonal_shift, double scale, GridStencil& stencil) {
+  const std::array<Vector, 3> x = row_coordinates(system);
+  const auto& component = system.null_space().component;
+  stencil.coefficients.assign(stencil.row_of_cell.size() * stencil.entries(), 0.0);
+  bool neighbours_only = true;
+  for (std::size_t cell = 0; cell < stencil.row_of_cell.size(); ++cell) {
+    double* entry = &stencil.coefficients[cell * stencil.entries()];
+    const int row = stencil.row_of_cell[cell];
+    entry[0] = row < 0 ? scale : system.diagonal(row);
+    if (row < 0) continue;
+    if (!component.empty() && component[row] >= 0) entry[0] *= 1 + diagonal_shift;
+    neighbours_only = fill_couplings(system, x, row, entry) && neighbours_only;
+  }
+  return neighbours_only;
 }
 
 }  // namespace
 
-StencilOrFailure make_grid_stencil(const LinearSystem& system, double diagonal_shift) {
+std::int64_t CellBox::cells() const {
+  std::int64_t count = 1;
+  for (int a = 0; a < 3; ++a) count *= std::max(0, upper[a] - lower[a]);
+  return count;
+}
+
+CellBox box_of_rows(const LinearSystem& system) {
+  if (!rows_on_grid(system)) return {};
   const RowGrid& grid = system.grid();
-  if (std::string failure = unusable(system); !failure.empty()) return {{}, failure};
-  GridStencil stencil{grid.dimension, grid.lower, grid.upper, grid.periodic, {}};
-  double scale = 0;
-  for (int row = 0; row < system.rows(); ++row) scale = std::max(scale, system.diagonal(row));
-  scale = system.ranks().global_max(scale);
-  const std::array<Vector, 3> x = row_coordinates(system);
-  const NullSpace& null_space = system.null_space();
-  stencil.coefficients.assign(grid.row_of_cell.size() * stencil.entries(), 0.0);
-  bool neighbours_only = true;
-  for (std::size_t cell = 0; cell < grid.row_of_cell.size(); ++cell) {
-    double* entry = &stencil.coefficients[cell * stencil.entries()];
-    const int row = grid.row_of_cell[cell];
-    entry[0] = row < 0 ? scale : system.diagonal(row);
-    if (row < 0) continue;
-    if (!null_space.component.empty() && null_space.component[row] >= 0) entry[0] *= 1 + diagonal_shift;
-    neighbours_only = fill_couplings(system, x, row, entry) && neighbours_only;
+  CellBox box;
+  box.lower.fill(INT32_MAX);
+  box.upper.fill(INT32_MIN);
+  std::size_t next = 0;
+  for_cells({grid.lower, grid.upper}, [&](const std::array<int, 3>& cell) {
+    if (grid.row_of_cell[next++] < 0) return;
+    for (int a = 0; a < 3; ++a) {
+      box.lower[a] = std::min(box.lower[a], cell[a]);
+      box.upper[a] = std::max(box.upper[a], cell[a] + 1);
+    }
+  });
+  for (int a = 0; a < 3; ++a) {
+    box.lower[a] = grid.periodic[a] > 0 ? 0 : int(system.ranks().global_min(double(box.lower[a])));
+    box.upper[a] = grid.periodic[a] > 0 ? grid.periodic[a] : int(system.ranks().global_max(double(box.upper[a])));
   }
-  if (system.ranks().any(!neighbours_only)) return {{}, "the matrix couples cells that are not neighbours"};
+  return box;
+}
+
+StencilOrFailure make_grid_stencil(const LinearSystem& system, double diagonal_shift) {
+  const CellBox box = box_of_rows(system);
+  if (box.cells() == 0) return {{}, "rows are not on a grid"};
+  if (box.cells() > INT32_MAX) return {{}, "more cells than 32 bits count"};
+  for (const int n : system.grid().periodic) {
+    if (n > 0 && n < 3) return {{}, "a periodic axis has fewer than 3 cells"};
+  }
+  double scale = 0;  // of the identity in cells without a row
+  for (int row = 0; row < system.rows(); ++row) scale = std::max(scale, system.diagonal(row));
+  GridStencil stencil = empty_stencil(system, box);
+  const bool filled = fill_coefficients(system, diagonal_shift, system.ranks().global_max(scale), stencil);
+  if (system.ranks().any(!filled)) return {{}, "the matrix couples cells that are not neighbours"};
   return {std::move(stencil), {}};
 }
 

@@ -135,7 +135,7 @@ class BoomerAmg : public Preconditioner {
     HYPRE_BoomerAMGSetNumSweeps(solver_, 1);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_down, 1);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_up, 2);
-    HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_coarsest, 3);  // direct elimination fails on singular systems
+    HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_coarsest, 3);
     HYPRE_BoomerAMGSetMaxIter(solver_, 1);
     HYPRE_BoomerAMGSetTol(solver_, 0.0);
     HYPRE_BoomerAMGSetPrintLevel(solver_, 0);
@@ -151,11 +151,13 @@ class BoomerAmg : public Preconditioner {
 class Pfmg : public Preconditioner {
  public:
   Pfmg(const LinearSystem& system, GridStencil stencil, const PfmgSettings& settings)
-      : row_of_cell_(system.grid().row_of_cell), comm_(system.ranks(), stencil.cells()), cells_(stencil.cells()) {
+      : row_of_cell_(std::move(stencil.row_of_cell)),
+        comm_(system.ranks(), int(row_of_cell_.size())),
+        cells_(row_of_cell_.size()) {
     start_hypre();
     if (!comm_.include_me()) return;
-    lower_ = stencil.lower;
-    for (int a = 0; a < 3; ++a) upper_[a] = stencil.upper[a] - 1;  // hypre includes the last cell
+    lower_ = stencil.box.lower;
+    for (int a = 0; a < 3; ++a) upper_[a] = stencil.box.upper[a] - 1;  // hypre includes the last cell
     make_grid(stencil);
     make_matrix(stencil);
     configure(settings);
@@ -219,7 +221,7 @@ class Pfmg : public Preconditioner {
     HYPRE_StructPFMGSetNumPostRelax(solver_, 1);
   }
 
-  const std::vector<int>& row_of_cell_;
+  std::vector<int> row_of_cell_;
   ActiveRanks comm_;
   std::vector<double> cells_;
   std::array<HYPRE_Int, 3> lower_{}, upper_{};

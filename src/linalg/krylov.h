@@ -10,7 +10,7 @@
 namespace seiche {
 
 struct KrylovLimits {
-  double target = 0;    // stop at |r| <= target, with r the residual as the loop updates it
+  double target = 0;  // stop at |r| <= target, with r the residual as the loop updates it
   int iterations = 0;
 };
 
@@ -33,8 +33,10 @@ KrylovResult conjugate_gradients(const Operator& A, Preconditioner& B, const Vec
     const double rz_before = rz;
     rz = dot(r, z, ranks);
     if (!(rz > 0)) return {k, "preconditioner not positive definite"};
-    if (k == 0) p = z;
-    else scale_and_add(p, rz / rz_before, z);  // p = z + beta p
+    if (k == 0)
+      p = z;
+    else
+      scale_and_add(p, rz / rz_before, z);  // p = z + beta p
     A.multiply(p, q);
     const double pq = dot(p, q, ranks);
     if (!(pq > 0)) return {k, "matrix not positive definite"};

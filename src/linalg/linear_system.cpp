@@ -18,8 +18,14 @@ NullSpace without_rows(NullSpace null_space, const SparseMatrix& A) {
 
 LinearSystem::LinearSystem(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space,
                            const Communicator& ranks)
-    : pattern_(A), grid_(grid), null_space_(without_rows(null_space, A)), ranks_(ranks), halo_(A, ranks),
-      values_(A.value), columns_(A.column.size()), means_(null_space_, ranks) {
+    : pattern_(A),
+      grid_(grid),
+      null_space_(without_rows(null_space, A)),
+      ranks_(ranks),
+      halo_(A, ranks),
+      values_(A.value),
+      columns_(A.column.size()),
+      means_(null_space_, ranks) {
   std::transform(A.column.begin(), A.column.end(), columns_.begin(), [&](Row c) { return halo_.local_index(c); });
   replace_zero_diagonals();
 }

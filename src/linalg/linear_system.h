@@ -45,8 +45,8 @@ class LinearSystem {
   Communicator ranks_;
   ColumnHalo halo_;
   std::vector<double> values_;
-  std::vector<int> columns_;        // as ColumnHalo::local_index gives them
-  std::vector<int> identity_;       // local rows
+  std::vector<int> columns_;   // as ColumnHalo::local_index gives them
+  std::vector<int> identity_;  // local rows
   std::int64_t identity_rows_ = 0;
   MeanRemover means_;
   mutable std::vector<double> extended_;

@@ -18,7 +18,7 @@ class MeanRemover {
  private:
   Communicator ranks_;
   std::vector<int> component_;
-  std::vector<double> rows_;         // of each component, over all ranks
+  std::vector<double> rows_;  // of each component, over all ranks
   mutable std::vector<double> mean_;
 };
 

@@ -29,20 +29,29 @@ class DiagonalScaling : public Preconditioner {
 PreconditionerOrFailure diagonal_scaling(const LinearSystem& system) {
   return {std::make_unique<DiagonalScaling>(system), {}};
 }
-PreconditionerOrFailure boomeramg(const LinearSystem& system) { return make_boomeramg(system); }
-PreconditionerOrFailure multigrid(const LinearSystem& system) { return make_pfmg(system); }
+PreconditionerOrFailure boomeramg(const LinearSystem& system) {
+  return make_boomeramg(system);
+}
+PreconditionerOrFailure multigrid(const LinearSystem& system) {
+  return make_pfmg(system);
+}
 
 constexpr PreconditionerEntry table[] = {
     {"none", "each row scaled by its diagonal", diagonal_scaling},
     {"boomeramg", "algebraic multigrid (hypre BoomerAMG): any liquid shape", boomeramg},
-    {"multigrid", "geometric multigrid (hypre PFMG) on the whole box: for domains full of liquid", multigrid},
+    {"multigrid", "geometric multigrid (hypre PFMG) on the box around the liquid: fast where that is well filled",
+     multigrid},
 };
 
-constexpr std::int64_t rows_worth_multigrid = 2000;
+// docs/decisions/0002-preconditioner-choice.md
+constexpr std::int64_t rows_worth_a_hierarchy = 2000;
+constexpr double share_worth_a_box = 0.25;
 
 }  // namespace
 
-std::span<const PreconditionerEntry> preconditioner_table() { return table; }
+std::span<const PreconditionerEntry> preconditioner_table() {
+  return table;
+}
 
 std::vector<std::string> preconditioner_names() {
   std::vector<std::string> names{"auto"};
@@ -52,7 +61,9 @@ std::vector<std::string> preconditioner_names() {
 
 std::string choose_preconditioner(const std::string& name, const LinearSystem& system) {
   if (name != "auto") return name;
-  return system.pattern().global_rows < rows_worth_multigrid ? "none" : "boomeramg";
+  const auto rows = system.pattern().global_rows;
+  if (rows < rows_worth_a_hierarchy) return "none";
+  return double(rows) >= share_worth_a_box * double(box_of_rows(system).cells()) ? "multigrid" : "boomeramg";
 }
 
 PreconditionerOrFailure make_preconditioner(const std::string& name, const LinearSystem& system) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"
@@ -26,9 +27,12 @@ struct Rung {
 
 const char* name(Method method) {
   switch (method) {
-    case Method::conjugate_gradients: return "conjugate gradients";
-    case Method::flexible_gmres: return "flexible GMRES";
-    case Method::direct: return "direct";
+    case Method::conjugate_gradients:
+      return "conjugate gradients";
+    case Method::flexible_gmres:
+      return "flexible GMRES";
+    case Method::direct:
+      return "direct";
   }
   return "";
 }
@@ -39,12 +43,25 @@ std::string label(const Rung& rung) {
                      rung.start == Start::warm ? "warm" : "cold");
 }
 
-std::vector<Rung> make_ladder(const std::string& asked, int iterations) {
+// What "auto" chose must earn its keep: so many iterations for each digit of the tolerance, or the next rung's turn.
+constexpr double iterations_per_digit = 4;
+
+std::vector<Rung> make_ladder(const std::string& asked, const std::string& chosen, const SolveOptions& options) {
   constexpr auto cg = Method::conjugate_gradients;
-  std::vector<Rung> ladder{{cg, asked, Start::warm, iterations}, {cg, asked, Start::cold, iterations}};
-  if (asked != "boomeramg") ladder.push_back({cg, "boomeramg", Start::cold, iterations});
-  ladder.push_back({cg, "none", Start::cold, std::max(2000, 10 * iterations)});
-  ladder.push_back({Method::flexible_gmres, "boomeramg", Start::cold, iterations});
+  const int limit = options.max_iterations, patience = std::max(2000, 10 * limit);  // the latter without a hierarchy
+  const int start_limit = chosen == "none" ? patience : limit;
+  std::vector<Rung> ladder;
+  if (asked == "auto" && chosen == "multigrid") {
+    const double digits = -std::log10(options.tolerance);
+    ladder.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
+    ladder.push_back({cg, "boomeramg", Start::warm, limit});
+  } else {
+    ladder.push_back({cg, chosen, Start::warm, start_limit});
+  }
+  if (chosen != "boomeramg") ladder.push_back({cg, chosen, Start::cold, start_limit});
+  ladder.push_back({cg, "boomeramg", Start::cold, limit});
+  if (chosen != "none") ladder.push_back({cg, "none", Start::cold, patience});
+  ladder.push_back({Method::flexible_gmres, "boomeramg", Start::cold, limit});
   ladder.push_back({Method::direct, "direct", Start::cold, 0});
   return ladder;
 }
@@ -62,7 +79,7 @@ struct ProjectedPreconditioner {
 // A compatible right-hand side and what a solution must reach.
 struct Problem {
   Vector b;
-  double norm = 0;        // of b
+  double norm = 0;  // of b
   double tolerance = 0;
 };
 
@@ -116,10 +133,10 @@ std::string failure_line(const Rung& rung, const KrylovResult& result, double re
 // x keeps the best finite vector met.
 void climb_ladder(const LinearSystem& system, const Problem& problem, const SolveOptions& options, Vector& x,
                   SolveReport& report) {
-  const std::string asked = choose_preconditioner(options.preconditioner, system);
+  const std::string chosen = choose_preconditioner(options.preconditioner, system);
   Vector y = x;
   int index = 0;
-  for (const Rung& rung : make_ladder(asked, options.max_iterations)) {
+  for (const Rung& rung : make_ladder(options.preconditioner, chosen, options)) {
     const KrylovResult result = climb(system, rung, problem, y);
     if (index < options.fail_rungs) spoil(y, index);
     ++index;

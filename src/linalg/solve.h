@@ -10,20 +10,20 @@
 namespace seiche {
 
 struct SolveOptions {
-  double tolerance = 1e-8;       // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence left in the flow
-  int max_iterations = 400;
+  double tolerance = 1e-8;   // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence left in the flow
+  int max_iterations = 400;  // of a rung with a hierarchy; rungs with "none" get ten times as many
   std::string preconditioner = "auto";
-  int fail_rungs = 0;            // for tests: the first rungs of the ladder return a wrong x and claim success
+  int fail_rungs = 0;  // for tests: the first rungs of the ladder return a wrong x and claim success
 };
 
 struct SolveReport {
   bool converged = false;
-  int iterations = 0;            // over all rungs tried
-  double residual = 0;           // recomputed |b - A x| / |b|
-  std::string used;              // preconditioner of the last rung
+  int iterations = 0;               // over all rungs tried
+  double residual = 0;              // recomputed |b - A x| / |b|
+  std::string used;                 // preconditioner of the last rung
   std::vector<std::string> ladder;  // one line a rung that failed
   std::int64_t identity_rows = 0;   // rows with a zero diagonal (cells with no open face): x = 0 there
-  double mismatch = 0;           // |part of b no x can reach| / |b|: net inflow of closed components, for instance
+  double mismatch = 0;              // |part of b no x can reach| / |b|: net inflow of closed components, for instance
 };
 
 // The names a scene may ask for.

@@ -12,8 +12,8 @@ using Row = std::int64_t;
 struct SparseMatrix {
   Row first_row = 0;
   Row global_rows = 0;
-  std::vector<int> row_start{0};     // size rows() + 1
-  std::vector<Row> column;           // global; the diagonal comes first in each row
+  std::vector<int> row_start{0};  // size rows() + 1
+  std::vector<Row> column;        // global; the diagonal comes first in each row
   std::vector<double> value;
   int rows() const { return int(row_start.size()) - 1; }
 };
@@ -23,7 +23,7 @@ struct SparseMatrix {
 struct RowGrid {
   int dimension = 3;
   std::array<int, 3> lower{0, 0, 0}, upper{1, 1, 1};
-  std::array<int, 3> periodic{0, 0, 0};   // cells along a periodic axis, else 0
+  std::array<int, 3> periodic{0, 0, 0};  // cells along a periodic axis, else 0
   std::vector<int> row_of_cell;
 };
 

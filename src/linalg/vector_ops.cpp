@@ -22,9 +22,13 @@ double local_dot(const Vector& x, const Vector& y) {
 
 }  // namespace
 
-double dot(const Vector& x, const Vector& y, const Communicator& ranks) { return ranks.global_sum(local_dot(x, y)); }
+double dot(const Vector& x, const Vector& y, const Communicator& ranks) {
+  return ranks.global_sum(local_dot(x, y));
+}
 
-double norm(const Vector& x, const Communicator& ranks) { return std::sqrt(dot(x, x, ranks)); }
+double norm(const Vector& x, const Communicator& ranks) {
+  return std::sqrt(dot(x, x, ranks));
+}
 
 void add_scaled(Vector& y, double a, const Vector& x) {
   assert(x.size() == y.size());
