@@ -1,0 +1,21 @@
+#include <fmt/format.h>
+
+#include "io/info.h"
+#include "verbs.h"
+
+namespace seiche {
+
+void add_info(CLI::App& program, VerbContext& context) {
+  auto* verb = program.add_subcommand("info", "Tell what a frame, checkpoint or run directory holds");
+  auto path = std::make_shared<std::string>();
+  verb->add_option("path", *path, "A .vdb frame, a folder of checkpoints/, or a run directory")->required();
+  verb->callback([path, &context] {
+    context.action = [path, &context] {
+      if (!context.ranks.is_root()) return ExitCode::done;
+      for (const std::string& line : describe_path(*path)) fmt::print("{}\n", line);
+      return ExitCode::done;
+    };
+  });
+}
+
+}  // namespace seiche
