@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "base/communicator.h"
+#include "base/emergency_channel.h"
 #include "base/error.h"
 
 namespace seiche {
 
 struct VerbContext {
   const Communicator& ranks;
+  const EmergencyChannel& emergency;
   // Set by the verb that was chosen. Runs on every rank; returns the exit code or throws Error (the main program prints it
   // once and ends all ranks with its code).
   std::function<ExitCode()> action;
@@ -27,5 +29,7 @@ const std::vector<AddVerb>& verbs();
 void add_run(CLI::App& program, VerbContext& context);
 void add_resume(CLI::App& program, VerbContext& context);
 void add_check(CLI::App& program, VerbContext& context);
+void add_info(CLI::App& program, VerbContext& context);
+void add_render(CLI::App& program, VerbContext& context);
 
 }  // namespace seiche
