@@ -1,0 +1,7 @@
+#include "base/version.h"
+
+namespace seiche {
+
+std::string version() { return SEICHE_VERSION; }
+
+}  // namespace seiche

@@ -1,0 +1,139 @@
+#include "io/scene_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+
+namespace seiche {
+namespace {
+
+constexpr double whole_cells = 1e-6;  // relative; below it an extent is taken as rounded in the scene's decimals
+
+struct Checker {
+  SceneContext& context;
+  const TomlNode& root;
+  void report(const std::string& path, const std::string& text) const { context.report(path, line_of(root, path), text); }
+};
+
+// True if the extent along the axis is right; sets cells[axis].
+void check_extent(const Checker& c, DomainSpec& d, int axis) {
+  const char name = "xyz"[axis];
+  const double extent = d.upper[axis] - d.lower[axis], cells = extent / d.cell_size, whole = std::round(cells);
+  if (!(extent > 0)) {
+    return c.report("domain.upper", fmt::format("the domain must have lower < upper; along {} they are {} and {}", name,
+                                                d.lower[axis], d.upper[axis]));
+  }
+  if (cells > INT32_MAX) return c.report("domain.cell_size", fmt::format("{} cells along {}; raise cell_size", cells, name));
+  if (std::abs(cells - whole) > whole_cells * cells) {
+    return c.report("domain.cell_size", fmt::format("the domain is {} m long along {}: {} cells of {} m; it must be a whole "
+                                                    "number of cells (upper {} = {} would be)", extent, name, cells,
+                                                    d.cell_size, name, d.lower[axis] + std::max(2.0, whole) * d.cell_size));
+  }
+  if (whole < 2) {
+    return c.report("domain.cell_size", fmt::format("the domain is {} cell(s) wide along {}; it must have at least 2", whole, name));
+  }
+  d.cells[axis] = int(whole);
+}
+
+void check_cell_count(const Checker& c, const DomainSpec& d, int dimension) {
+  double cells = 1;
+  std::string product;
+  for (int axis = 0; axis < dimension; ++axis) {
+    cells *= d.cells[axis];
+    product += fmt::format("{}{}", axis ? " x " : "", d.cells[axis]);
+  }
+  if (cells <= INT32_MAX) return;
+  c.report("domain.cell_size", fmt::format("{} = {:.3g} cells; the linear solvers (hypre) number rows with 32-bit integers, so "
+                                           "at most {} cells are possible; raise cell_size", product, cells, INT32_MAX));
+}
+
+void check_periodic(const Checker& c, const DomainSpec& d) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto is_periodic = [&](int end) { return d.sides[axis][end].type == SideType::periodic; };
+    if (is_periodic(0) == is_periodic(1)) continue;
+    const auto name = [&](int end) { return fmt::format("{}_{}", "xyz"[axis], end == 0 ? "lower" : "upper"); };
+    const int given = is_periodic(0) ? 0 : 1;
+    c.report("domain.boundary." + name(given), fmt::format("{} is periodic, so {} must be too", name(given), name(1 - given)));
+  }
+}
+
+void check_domain(const Checker& c, DomainSpec& d, int dimension) {
+  if (c.context.clean("domain.boundary")) check_periodic(c, d);
+  if (dimension == 2) d.lower[2] = d.upper[2] = 0;
+  const auto clean = [&](const char* key) { return c.context.clean(key); };
+  if (!clean("domain.lower") || !clean("domain.upper") || !clean("domain.cell_size") || !c.root.find("domain")) return;
+  const std::size_t before = c.context.problem_count();
+  for (int axis = 0; axis < dimension; ++axis) check_extent(c, d, axis);
+  if (c.context.problem_count() == before) check_cell_count(c, d, dimension);
+}
+
+void check_time(const Checker& c, TimeSpec& t) {
+  constexpr double most_frames = 1e7;
+  if (t.fixed_step && t.max_step && *t.fixed_step > *t.max_step) {
+    c.report("time.fixed_step", fmt::format("time.fixed_step = {} is longer than time.max_step = {}", *t.fixed_step, *t.max_step));
+  }
+  if (t.end * t.frame_rate > most_frames) {
+    c.report("time.frame_rate", fmt::format("{:.3g} frames in all; at most {:.0f} are possible; lower frame_rate or end",
+                                            t.end * t.frame_rate, most_frames));
+  }
+  t.end = std::max(t.end, 0.0);
+}
+
+// Names go into CSV columns as they are.
+void check_name(const Checker& c, const std::string& path, const std::string& name, const TomlNode* given) {
+  if (!given) return;
+  const bool awkward = name.empty() || name.size() > 200 || name.find_first_of(",\"") != std::string::npos;
+  if (awkward) c.report(path, path + " must have 1 to 200 characters, none of them a comma or a double quote");
+}
+
+template <class Item>
+void check_names(const Checker& c, std::vector<Item>& items, const std::string& list) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string path = fmt::format("{}.{}.name", list, i);
+    if (items[i].name.empty()) continue;
+    if (!taken.insert(items[i].name).second) c.report(path, fmt::format("the name \"{}\" of [[{}]] is taken", items[i].name, list));
+  }
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const TomlNode& table = c.root.find(list)->value.items[i];
+    const TomlEntry* given = table.find("name");
+    check_name(c, fmt::format("{}.{}.name", list, i), items[i].name, given ? &given->value : nullptr);
+    if (given) continue;
+    items[i].name = fmt::format("{}{}", list, i + 1);
+    while (!taken.insert(items[i].name).second) items[i].name += '_';
+  }
+}
+
+void check_probes(const Checker& c, const Scene& scene) {
+  Eigen::Index down = 0;
+  scene.gravity.cwiseAbs().maxCoeff(&down);
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const ProbeSpec& probe = scene.probes[i];
+    if (probe.kind == ProbeKind::front || !c.context.clean(fmt::format("probe.{}", i))) continue;
+    for (int axis = 0; axis < scene.dimension; ++axis) {
+      const bool along_column = probe.kind == ProbeKind::surface_height && axis == down;
+      const double x = probe.position[axis], low = scene.domain.lower[axis], high = scene.domain.upper[axis];
+      if (along_column || (x >= low && x <= high)) continue;
+      c.report(fmt::format("probe.{}.position", i), fmt::format("probe \"{}\" lies outside the domain: {} = {} is not within {} "
+                                                                "and {}", probe.name, "xyz"[axis], x, low, high));
+    }
+  }
+}
+
+}  // namespace
+
+void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
+  const Checker c{context, root};
+  if (context.dimension != 0) check_domain(c, scene.domain, context.dimension);
+  if (context.clean("time")) check_time(c, scene.time);
+  if (context.clean("solid")) check_names(c, scene.solids, "solid");
+  if (context.clean("probe")) check_names(c, scene.probes, "probe");
+  if (!context.clean("domain") || context.dimension == 0) return;
+  check_probes(c, scene);
+  if (context.clean("time")) check_motions(context, root, scene);
+}
+
+}  // namespace seiche

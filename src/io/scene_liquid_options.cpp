@@ -1,0 +1,91 @@
+// Keys of [liquid].
+#include <limits>
+
+#include "io/scene_options.h"
+
+namespace seiche {
+namespace {
+
+using T = OptionType;
+
+// A property that this version knows only as zero.
+Key<LiquidSpec> zero_key(Option option, const std::string& reason) {
+  option.fallback = "0.0";
+  Key<LiquidSpec> key{option, {}, {}};
+  key.read = [option, reason](SceneContext& c, const Place& p, LiquidSpec&) {
+    double value = 0;
+    read_value(c, p, option, value);
+    if (value != 0) c.report(p, p.path + ": " + reason);
+  };
+  key.write = [option](const LiquidSpec&, int, const std::string& path, SceneLines& lines) {
+    lines.push_back({join_path(path, option.key), option.key, option.fallback});
+  };
+  return key;
+}
+
+Section<LiquidRegionSpec> region_section() {
+  Section<LiquidRegionSpec> s;
+  s.keys = lift<LiquidRegionSpec>(shape_section(), &LiquidRegionSpec::shape);
+  s.keys.push_back(value_key<LiquidRegionSpec>(
+      {.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt", .unset = "that of [liquid]",
+       .doc = "initial velocity in this region"}, &LiquidRegionSpec::velocity));
+  s.finish = [](SceneContext& c, const Place& p, LiquidRegionSpec& r) { finish_shape(c, p, r.shape); };
+  return s;
+}
+
+// The end of time is written by leaving the key out.
+Key<LiquidSourceSpec> until_key() {
+  const Option option{.key = "until", .unit = "s", .unset = "for ever", .doc = "the source flows while from <= t < until"};
+  Key<LiquidSourceSpec> key{option, {}, {}};
+  key.read = [option](SceneContext& c, const Place& p, LiquidSourceSpec& s) { read_value(c, p, option, s.until); };
+  key.write = [option](const LiquidSourceSpec& s, int dimension, const std::string& path, SceneLines& lines) {
+    if (s.until == std::numeric_limits<double>::infinity()) return;
+    lines.push_back({join_path(path, option.key), option.key, to_toml(s.until, option, dimension)});
+  };
+  return key;
+}
+
+// `from` is a point of cylinders and capsules, so their sources begin at `start`.
+Section<LiquidSourceSpec> source_section() {
+  using S = LiquidSourceSpec;
+  Section<S> s;
+  s.keys = lift<S>(shape_section(), &S::shape);
+  s.keys.push_back(value_key<S>({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt",
+                                 .unset = "zero", .doc = "velocity of the liquid that is added"}, &S::velocity));
+  s.keys.push_back(value_key<S>({.key = "from", .unit = "s",
+                                 .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},
+                                 .unset = "0.0", .doc = "when the source begins"}, &S::from));
+  s.keys.push_back(value_key<S>({.key = "start", .unit = "s", .only_for = {"shape", {"cylinder", "capsule"}}, .unset = "0.0",
+                                 .doc = "when the source begins (the from of these shapes is a point)"}, &S::from));
+  s.keys.push_back(until_key());
+  s.finish = [](SceneContext& c, const Place& p, S& source) {
+    finish_shape(c, p, source.shape);
+    if (c.clean(p.path) && !(source.from < source.until)) c.report(p, "[[liquid.source]] must begin before its until");
+  };
+  return s;
+}
+
+}  // namespace
+
+Section<LiquidSpec> liquid_section() {
+  using S = LiquidSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"}, &S::density),
+      zero_key({.key = "viscosity", .unit = "Pa s", .range = between(0, number_limit), .doc = "only 0 (inviscid) in this version"},
+               "viscous flow is not in this version; leave viscosity out or set it to 0 (inviscid)"),
+      zero_key({.key = "surface_tension", .unit = "N/m", .range = between(0, number_limit), .doc = "only 0 in this version"},
+               "surface tension is not in this version; leave it out or set it to 0"),
+      later_key<S>({.key = "rheology", .type = T::table,
+                    .doc = "non-Newtonian liquids are not in this version; it has inviscid liquid (viscosity = 0)"}),
+      value_key<S>({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt", .unset = "zero",
+                    .doc = "initial velocity (expressions at t = 0)"}, &S::velocity),
+      list_key<S, LiquidRegionSpec>({.key = "region", .unset = "no liquid", .doc = "where liquid is at t = 0: the union of all",
+                                     .most = most_entries}, &S::regions, region_section()),
+      list_key<S, LiquidSourceSpec>({.key = "source", .unset = "none", .doc = "liquid added in a shape for a time",
+                                     .most = most_entries}, &S::sources, source_section()),
+  };
+  return s;
+}
+
+}  // namespace seiche

@@ -1,0 +1,70 @@
+// Keys of [[solid]].
+#include "io/scene_options.h"
+
+namespace seiche {
+namespace {
+
+using T = OptionType;
+
+Section<MotionSpec> motion_rotation_section() {
+  Section<MotionSpec> s;
+  s.keys = {
+      value_key<MotionSpec>({.key = "axis", .type = T::axis, .doc = "axis of rotation; 3D scenes must give it"},
+                            &MotionSpec::axis),
+      value_key<MotionSpec>({.key = "center", .type = T::vector, .unit = "m", .unset = "the origin",
+                             .doc = "a point of the axis"}, &MotionSpec::center),
+      value_key<MotionSpec>({.key = "degrees", .type = T::formula, .unit = "degrees", .variables = "t",
+                             .presence = Presence::required, .doc = "angle as a function of t"}, &MotionSpec::degrees),
+  };
+  s.finish = [](SceneContext& c, const Place& p, MotionSpec& m) { check_axis(c, p, m.axis); };
+  return s;
+}
+
+Section<MotionSpec> motion_section() {
+  Section<MotionSpec> s;
+  const auto itself = [](auto& m) -> auto& { return m; };
+  s.keys = {
+      value_key<MotionSpec>({.key = "translate", .type = T::formula_vector, .unit = "m", .variables = "t", .unset = "zero",
+                             .doc = "displacement from the rest pose as a function of t"}, &MotionSpec::translate),
+      inline_key<MotionSpec>({.key = "rotate", .unset = "no rotation", .doc = "rotation, applied before translate"}, itself,
+                             motion_rotation_section()),
+  };
+  return s;
+}
+
+Key<SolidSpec> kind_key() {
+  const std::string reason = "this version does not move or deform solids by the flow";
+  return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
+      {.key = "kind", .refused = {{"rigid", reason}, {"elastic", reason}}, .doc = "static: at rest; kinematic: moves as prescribed"},
+      &SolidSpec::kind, {{"static", SolidKind::fixed}, {"kinematic", SolidKind::kinematic}});
+}
+
+std::vector<Key<SolidSpec>> later_keys() {
+  std::vector<Key<SolidSpec>> keys;
+  for (const char* name : {"density", "friction", "velocity", "angular_velocity", "fixed", "material", "element_size", "pinned"}) {
+    keys.push_back(later_key<SolidSpec>({.key = name, .only_for = {"kind", {"rigid", "elastic"}},
+                                         .doc = "a property of rigid and elastic solids"}));
+  }
+  return keys;
+}
+
+}  // namespace
+
+Section<SolidSpec> solid_section() {
+  Section<SolidSpec> s;
+  s.keys = {value_key<SolidSpec>({.key = "name", .type = T::text, .unset = "`solid1`, `solid2`, ...", .doc = "unique name"},
+                                 &SolidSpec::name),
+            kind_key()};
+  for (Key<SolidSpec>& key : lift<SolidSpec>(shape_section(), &SolidSpec::shape)) s.keys.push_back(std::move(key));
+  s.keys.push_back(choice_key<SolidSpec, Slip SolidSpec::*, Slip>(
+      {.key = "slip", .doc = "what the liquid feels at the surface"}, &SolidSpec::slip,
+      {{"free_slip", Slip::free_slip}, {"no_slip", Slip::no_slip}}));
+  s.keys.push_back(inline_key<SolidSpec>({.key = "motion", .only_for = {"kind", {"kinematic"}}, .presence = Presence::required,
+                                          .doc = "how it moves: translate and/or rotate as functions of t"},
+                                         &SolidSpec::motion, motion_section()));
+  for (Key<SolidSpec>& key : later_keys()) s.keys.push_back(std::move(key));
+  s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) { finish_shape(c, p, solid.shape); };
+  return s;
+}
+
+}  // namespace seiche
