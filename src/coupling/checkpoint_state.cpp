@@ -1,0 +1,136 @@
+#include "coupling/checkpoint_state.h"
+
+#include "base/error.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+// All levels are stored always; those the run does not have yet as zeros, which the scalar "levels" tells apart.
+constexpr std::array<const char*, 3> level_names{"now", "before", "earlier"};
+
+template <int Dim>
+FieldRecord empty_record(const std::string& name, const Box<Dim>& box) {
+  FieldRecord r;
+  r.name = name;
+  for (int a = 0; a < Dim; ++a) r.lower[a] = box.lower[a], r.upper[a] = box.upper[a];
+  if (Dim == 2) r.upper[2] = box.empty() ? 0 : 1;
+  return r;
+}
+
+template <int Dim, class Array>
+FieldRecord record(const Setup<Dim>& s, const std::string& name, const Box<Dim>& box, const Array& f) {
+  FieldRecord r = empty_record<Dim>(name, box);
+  for_each_index_in_order(s.layout, box, [&](Site c, const IVec<Dim>&) { r.values.push_back(double(f[c])); });
+  return r;
+}
+
+template <int Dim, class Array>
+void restore(const Setup<Dim>& s, const CheckpointData& data, const std::string& name, const Box<Dim>& box, Array& f) {
+  const auto found = std::find_if(data.fields.begin(), data.fields.end(), [&](const auto& r) { return r.name == name; });
+  if (found == data.fields.end() || std::int64_t(found->values.size()) != box.size())
+    throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
+  std::size_t n = 0;
+  for_each_index_in_order(s.layout, box, [&](Site c, const IVec<Dim>&) {
+    f[c] = std::decay_t<decltype(f[c])>(found->values[n++]);
+  });
+}
+
+// visit(name, axis) of the face fields of a level.
+template <int Dim, class Visit>
+void for_each_level_field(const std::string& level, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a)
+    for (const char* field : {"u", "valid", "q"}) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
+}
+
+template <int Dim>
+void save_level(const Setup<Dim>& s, const std::string& name, const Level<Dim>& level, CheckpointData& data) {
+  for_each_level_field<Dim>(name, [&](const std::string& field, char which, int a) {
+    const Box<Dim> box = s.layout.faces(a);
+    if (which == 'u') data.fields.push_back(record<Dim>(s, field, box, level.u[a]));
+    if (which == 'v') data.fields.push_back(record<Dim>(s, field, box, level.valid[a]));
+    if (which == 'q') data.fields.push_back(record<Dim>(s, field, box, level.q[a]));
+  });
+}
+
+template <int Dim>
+std::shared_ptr<const Level<Dim>> load_level(const Setup<Dim>& s, const std::string& name, const CheckpointData& data) {
+  auto level = std::make_shared<Level<Dim>>(
+      Level<Dim>{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)});
+  for_each_level_field<Dim>(name, [&](const std::string& field, char which, int a) {
+    const Box<Dim> box = s.layout.faces(a);
+    if (which == 'u') restore<Dim>(s, data, field, box, level->u[a]);
+    if (which == 'v') restore<Dim>(s, data, field, box, level->valid[a]);
+    if (which == 'q') restore<Dim>(s, data, field, box, level->q[a]);
+  });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, level->u);
+  s.halo.fill_ghosts(level->valid);
+  return level;
+}
+
+}  // namespace
+
+template <int Dim>
+CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
+  CheckpointData data;
+  data.scalars = {{"time", state.time},
+                  {"step", double(state.step)},
+                  {"dt_now", state.dt_now},
+                  {"dt_before", state.dt_before},
+                  {"levels", state.earlier ? 3.0 : state.before ? 2.0 : 1.0},
+                  {"expected_volume", state.expected_volume},
+                  {"corrected_volume", state.corrected_volume}};
+  data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
+  data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
+  const Level<Dim> none{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
+  save_level(s, level_names[0], *state.now, data);
+  save_level(s, level_names[1], state.before ? *state.before : none, data);
+  save_level(s, level_names[2], state.earlier ? *state.earlier : none, data);
+  return data;
+}
+
+template <int Dim>
+State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
+  const auto scalar = [&](const char* name) {
+    const auto found = data.scalars.find(name);
+    if (found == data.scalars.end()) throw Error(ExitCode::bad_checkpoint, std::string("the checkpoint lacks '") + name + "'");
+    return found->second;
+  };
+  State<Dim> state;
+  state.time = scalar("time");
+  state.step = std::int64_t(scalar("step"));
+  state.dt_now = scalar("dt_now");
+  state.dt_before = scalar("dt_before");
+  state.expected_volume = scalar("expected_volume");
+  state.corrected_volume = scalar("corrected_volume");
+  state.phi = CellField<Dim>(s.layout);
+  state.pressure = CellField<Dim>(s.layout);
+  restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);
+  restore<Dim>(s, data, "pressure", s.layout.cells(), state.pressure);
+  fill_level_set_ghosts(s.layout, s.halo, state.phi);
+  s.halo.fill_ghosts(state.pressure);
+  state.now = load_level(s, level_names[0], data);
+  if (scalar("levels") >= 2) state.before = load_level(s, level_names[1], data);
+  if (scalar("levels") >= 3) state.earlier = load_level(s, level_names[2], data);
+  return state;
+}
+
+template <int Dim>
+std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
+  std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()), empty_record<Dim>("pressure", s.layout.cells())};
+  for (const char* level : level_names)
+    for_each_level_field<Dim>(level, [&](const std::string& field, char, int a) {
+      boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
+    });
+  return boxes;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                        \
+  template CheckpointData save_state<D>(const Setup<D>&, const State<D>&);           \
+  template State<D> load_state<D>(const Setup<D>&, const CheckpointData&);           \
+  template std::vector<FieldRecord> state_boxes<D>(const Setup<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

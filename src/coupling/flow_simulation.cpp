@@ -1,0 +1,165 @@
+// The Simulation behind make_simulation: owns setup and state, and climbs the ladder of a step that fails.
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/checkpoint_state.h"
+#include "coupling/measures.h"
+
+namespace seiche {
+namespace {
+
+constexpr int most_halvings = 7;
+
+template <int Dim>
+class FlowSimulation : public Simulation {
+ public:
+  FlowSimulation(const Scene& scene, const Communicator& ranks) : setup_(scene, ranks), state_(initial_state(setup_)) {
+    geometry_ = setup_.solids.measure(0, 0);
+    surfaces_ = rest_surfaces();
+    phases_.warnings = setup_.notes;
+    refresh();
+  }
+
+  void set_fault_hook(FaultHook hook) override { phases_.hook = std::move(hook); }
+  double time() const override { return state_.time; }
+  std::int64_t step_count() const override { return state_.step; }
+  StepStats stats() const override { return stats_; }
+  std::vector<SolidState> solids() const override { return solids_; }
+  double expected_volume() const override { return state_.expected_volume; }
+  ProbeSample probe(std::size_t k) const override { return measure_probe(setup_, state_, setup_.scene.probes.at(k)); }
+  FrameField frame_field(const std::string& name) const override { return make_frame_field(setup_, state_, name); }
+  CheckpointData save() const override { return save_state(setup_, state_); }
+  std::vector<FieldRecord> checkpoint_boxes() const override { return state_boxes(setup_); }
+  const Timers& timers() const override { return phases_.timers; }
+  std::vector<std::string> take_warnings() override { return std::exchange(phases_.warnings, {}); }
+
+  StepStats step(double until) override {
+    const auto start = std::chrono::steady_clock::now();
+    double dt = choose_step(setup_, state_, until);
+    std::string failures;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings, dt /= 2) {
+      Attempt<Dim> a = attempt(dt);
+      if (a.failure.empty()) {
+        accept(std::move(a));
+        stats_.rejected = halvings;
+        stats_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return stats_;
+      }
+      failures = fmt::format("step {} of {:.6g} s at time {:.6g} s: {}", state_.step + 1, dt, state_.time, a.failure);
+      phases_.warnings.push_back(failures + "; trying half the step");
+    }
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("{} (after {} halvings; try a smaller cfl or a looser tolerance)", failures, most_halvings));
+  }
+
+  void load(const CheckpointData& data) override {
+    state_ = load_state(setup_, data);
+    geometry_ = setup_.solids.measure(state_.time - state_.dt_now, state_.time);
+    refresh();
+  }
+
+  SurfaceMesh solid_surface(std::size_t k) const override {
+    SurfaceMesh mesh = surfaces_.at(k);
+    const Pose pose = setup_.bodies[k].pose(state_.time);
+    for (Vec3& x : mesh.points) x = pose.apply(x);
+    return mesh;
+  }
+
+ private:
+  // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
+  Attempt<Dim> attempt(double dt) {
+    if (state_.step > 0 || setup_.scene.time.scheme == TimeScheme::first_order) return attempt_step(setup_, state_, dt, phases_);
+    Attempt<Dim> trial = attempt_step(setup_, state_, dt, phases_);
+    if (!trial.failure.empty()) return trial;
+    Attempt<Dim> informed = attempt_step(setup_, inform(*trial.state.now, dt), dt, phases_);
+    informed.state.earlier = nullptr;
+    informed.state.dt_before = 0;
+    return informed;
+  }
+
+  // The initial state as if a step of dt had led to it: slope of the trial, u(-dt) = 2 u(0) - u(dt).
+  State<Dim> inform(const Level<Dim>& trial, double dt) const {
+    State<Dim> state = state_;
+    auto now = std::make_shared<Level<Dim>>(*state_.now), before = std::make_shared<Level<Dim>>(*state_.now);
+    now->q = trial.q;
+    before->q = trial.q;
+    for (int a = 0; a < Dim; ++a)
+      for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.u[a][f];
+    state.now = now;
+    state.before = before;
+    state.dt_now = dt;
+    return state;
+  }
+
+  void accept(Attempt<Dim> a) {
+    state_ = std::move(a.state);
+    geometry_ = std::move(a.geometry);
+    solve_ = a.solve;
+    divergence_ = a.divergence;
+    for (const std::string& line : a.solve.ladder)
+      phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
+    refresh();
+  }
+
+  // What stats() and solids() answer, of the present state.
+  void refresh() {
+    stats_ = {};
+    stats_.step = state_.step;
+    stats_.time = state_.time;
+    stats_.dt = state_.dt_now;
+    measure_liquid(setup_, state_, geometry_.psi, stats_);
+    stats_.max_divergence = divergence_;
+    stats_.solver_iterations = solve_.iterations;
+    stats_.solver_residual = solve_.residual;
+    solids_ = measure_solids(setup_, state_, geometry_);
+  }
+
+  std::vector<SurfaceMesh> rest_surfaces() const {
+    const DomainSpec& d = setup_.scene.domain;
+    std::vector<SurfaceMesh> surfaces;
+    for (const Body<Dim>& body : setup_.bodies) {
+      Vec<Dim> lower = Vec<Dim>::Constant(1e300), upper = -lower;
+      for (int corner = 0; corner < (1 << Dim); ++corner) {
+        Vec3 x = d.lower;
+        for (int a = 0; a < Dim; ++a) x[a] = (corner >> a) & 1 ? d.upper[a] : d.lower[a];
+        const Vec<Dim> rest = truncate<Dim>(body.pose(0).to_rest(x));
+        lower = lower.cwiseMin(rest);
+        upper = upper.cwiseMax(rest);
+      }
+      surfaces.push_back(shape_surface<Dim>(body.spec().shape, {d.cell_size, nullptr}, lower, upper));
+    }
+    return surfaces;
+  }
+
+  Setup<Dim> setup_;
+  State<Dim> state_;
+  StepGeometry<Dim> geometry_;
+  Phases phases_;
+  std::vector<SurfaceMesh> surfaces_;
+  SolveReport solve_;
+  double divergence_ = 0;
+  StepStats stats_;
+  std::vector<SolidState> solids_;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks) {
+  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks);
+  return std::make_unique<FlowSimulation<3>>(scene, ranks);
+}
+
+// Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there is
+// liquid, the matrix and its hierarchy of grids (about 1 kB a row; half the cells are taken to be liquid).
+Cost estimate_cost(const Scene& scene, int ranks) {
+  const double halo = std::ceil(scene.time.cfl) + 3;
+  double cells = 1, padded = 1;
+  for (int a = 0; a < scene.dimension; ++a) {
+    cells *= scene.domain.cells[a];
+    padded *= scene.domain.cells[a] / std::cbrt(double(ranks)) + 2 * halo;
+  }
+  const double per_site = 8.0 * (12 + 20 * scene.dimension);
+  return {std::int64_t(std::min(cells, 9e18)), padded * ranks * per_site + 0.5 * cells * 1000};
+}
+
+}  // namespace seiche

@@ -1,0 +1,97 @@
+#include "coupling/measures.h"
+
+#include "coupling/transport.h"
+#include "grid/loops.h"
+#include "levelset/fractions.h"
+
+namespace seiche {
+namespace {
+
+// Velocities on the two faces of a cell along an axis, those without liquid left out.
+struct FacePair {
+  double low = 0, high = 0;
+};
+
+template <int Dim>
+FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
+  const Site up = cell + s.layout.stride(axis);
+  return {l.valid.at(axis, cell) ? l.u.at(axis, cell) : 0, l.valid.at(axis, up) ? l.u.at(axis, up) : 0};
+}
+
+}  // namespace
+
+// E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V g.x.
+template <int Dim>
+void measure_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
+  const Level<Dim>& level = *state.now;
+  std::array<double, 7> sums{};  // volume, kinetic, potential, momentum
+  double fastest = 0, cells = 0;
+  const Vec<Dim> g = s.gravity();
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (state.phi[c] > 2 * s.layout.h()) return;
+    const double volume = s.layout.geometry().cell_volume() * liquid_share(s.layout, state.phi, psi, c);
+    const double mass = s.density() * volume;
+    double speed2 = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const FacePair u = solved_faces(s, level, a, c);
+      sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
+      sums[3 + a] += 0.5 * mass * (u.low + u.high);
+      speed2 += std::max(u.low * u.low, u.high * u.high);
+    }
+    sums[0] += volume;
+    sums[2] -= mass * g.dot(s.layout.position(i, cell_offset<Dim>()));
+    if (state.phi[c] < 0) fastest = std::max(fastest, speed2), cells += 1;
+  });
+  s.ranks.global_sum(sums);
+  stats.liquid_volume = sums[0];
+  stats.kinetic_energy = sums[1];
+  stats.potential_energy = sums[2];
+  stats.momentum = {sums[3], sums[4], sums[5]};
+  stats.max_speed = std::sqrt(s.ranks.global_max(fastest));
+  stats.cells_liquid = std::int64_t(s.ranks.global_sum(cells));
+  stats.volume_corrected = state.corrected_volume;
+}
+
+// F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
+template <int Dim>
+std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
+  std::vector<SolidState> solids;
+  std::vector<double> loads(6 * s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const Pose pose = s.bodies[k].pose(state.time);
+    const Eigen::Quaterniond q(pose.rotation);
+    SolidState& out = solids.emplace_back();
+    out.name = s.bodies[k].spec().name;
+    out.position = pose.apply(s.bodies[k].reference_point());
+    out.orientation = {q.w(), q.x(), q.y(), q.z()};
+    out.velocity = g.twists[k].at(out.position);
+    out.angular_velocity = g.twists[k].angular;
+  }
+  const double area = s.layout.geometry().face_area();
+  for (int a = 0; a < Dim && !s.bodies.empty(); ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      const double jump = state.pressure[f - s.layout.stride(a)] - state.pressure[f];
+      if (jump == 0) return;
+      const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
+      for_each_closing_body(s.layout, g, a, f, [&](int k, double share) {
+        Vec3 force = Vec3::Zero();
+        force[a] = share * area * jump;
+        const Vec3 torque = (x - solids[k].position).cross(force);
+        for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
+      });
+    });
+  s.ranks.global_sum(loads);
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    solids[k].force = {loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]};
+    solids[k].torque = {loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]};
+  }
+  return solids;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template void measure_liquid<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);               \
+  template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

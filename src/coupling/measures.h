@@ -1,0 +1,23 @@
+#pragma once
+// What a run reports about a state: energies, momentum, forces on solids, probes, fields for frames.
+#include "coupling/state.h"
+
+namespace seiche {
+
+// Energy, momentum, volume and speed of the liquid. Collective.
+template <int Dim>
+void measure_liquid(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
+
+// Pose, velocity and the liquid's force and torque on every solid. Collective.
+template <int Dim>
+std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry);
+
+// One sample of a probe. Collective; equal on all ranks.
+template <int Dim>
+ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const ProbeSpec& probe);
+
+// A field of the owned cells: surface, vel, pressure, vorticity.
+template <int Dim>
+FrameField make_frame_field(const Setup<Dim>& setup, const State<Dim>& state, const std::string& name);
+
+}  // namespace seiche

@@ -1,0 +1,107 @@
+// Probes: pressure and velocity at a point, surface height above it, front along x.
+#include "coupling/measures.h"
+#include "fluid/advection.h"
+#include "grid/ghosts.h"
+#include "grid/interpolation.h"
+#include "grid/loops.h"
+#include "levelset/extrapolate.h"
+
+namespace seiche {
+namespace {
+
+// The one rank whose owned cells hold x (points on the domain's upper sides belong to the last cells).
+template <int Dim>
+bool holds(const Layout<Dim>& layout, const Vec<Dim>& x) {
+  IVec<Dim> i;
+  for (int a = 0; a < Dim; ++a) {
+    const double g = (x[a] - layout.geometry().lower[a]) / layout.h();
+    i[a] = std::clamp(int(std::floor(g)), 0, layout.geometry().cells[a] - 1);
+  }
+  return layout.cells().contains(i);
+}
+
+template <int Dim>
+double level_set_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
+  return interpolate_linear<Dim>(s.layout, state.phi.data(), index_coordinates<Dim>(s.layout, x, cell_offset<Dim>()));
+}
+
+// Pressure continued straight from the liquid's cells, so that a probe on a wall reads the wall; 0 in the air.
+template <int Dim>
+double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
+  std::vector<double> p(state.pressure.data(), state.pressure.data() + s.layout.size());
+  std::vector<char> known(p.size(), 0);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[c] = state.phi[c] < 0 && p[c] != 0; });
+  extrapolate(s.layout, s.halo, s.layout.cells(), {2, 2}, p, known);
+  extend_beyond_sides<Dim>(s.layout, p.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
+  const bool wet = holds(s.layout, x) && level_set_at(s, state, x) < 0;
+  const Vec<Dim> g = index_coordinates<Dim>(s.layout, x, cell_offset<Dim>());
+  return s.ranks.global_sum(wet ? interpolate_linear<Dim>(s.layout, p.data(), g) : 0.0);
+}
+
+// Farthest liquid along `axis` on the line through x: the last zero of phi on it, or the side where liquid reaches it.
+template <int Dim>
+std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& state, Vec<Dim> x, int axis, int direction) {
+  const Geometry<Dim>& grid = s.layout.geometry();
+  const Box<Dim>& own = s.layout.cells();
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = own.empty() ? 0 : own.lower[axis]; i < (own.empty() ? 0 : own.upper[axis]); ++i) {
+    x[axis] = grid.lower[axis] + grid.h * (i + 0.5);
+    if (!holds(s.layout, x)) continue;
+    const double here = level_set_at(s, state, x);
+    Vec<Dim> ahead = x;
+    ahead[axis] += direction * grid.h;
+    const bool last = direction > 0 ? i == grid.cells[axis] - 1 : i == 0;
+    const double next = last ? here : level_set_at(s, state, ahead);
+    if (here >= 0) continue;
+    const double reach = last ? 0.5 : next >= 0 ? here / (here - next) : 1;
+    best = std::max(best, direction * (x[axis] + direction * reach * grid.h));
+  }
+  best = s.ranks.global_max(best);
+  if (!std::isfinite(best)) return {};
+  return direction * best;
+}
+
+// Axis and sense against gravity; along +y without gravity.
+template <int Dim>
+std::pair<int, int> upwards(const Setup<Dim>& s) {
+  int axis = 1;
+  const Vec<Dim> g = s.gravity();
+  if (g.norm() > 0) g.cwiseAbs().maxCoeff(&axis);
+  return {axis, g[axis] > 0 ? -1 : 1};
+}
+
+}  // namespace
+
+template <int Dim>
+ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
+  ProbeSample out;
+  out.name = probe.name;
+  const Vec<Dim> x = truncate<Dim>(probe.position);
+  const auto line = [&](int axis, int sense) {
+    const auto found = farthest_liquid(s, state, x, axis, sense);
+    out.defined = found.has_value();
+    out.value = found.value_or(0);
+  };
+  switch (probe.kind) {
+    case ProbeKind::pressure:
+      out.value = pressure_at(s, state, x);
+      break;
+    case ProbeKind::velocity:
+      out.is_vector = true;
+      out.vector = holds(s.layout, x) ? extend<Dim>(sample_velocity<Dim>(s.layout, state.now->u, x)) : Vec3(Vec3::Zero());
+      s.ranks.global_sum(std::span<double>(out.vector.data(), 3));
+      break;
+    case ProbeKind::surface_height:
+      line(upwards(s).first, upwards(s).second);
+      break;
+    case ProbeKind::front:
+      line(0, 1);
+      break;
+  }
+  return out;
+}
+
+template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const ProbeSpec&);
+template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const ProbeSpec&);
+
+}  // namespace seiche

@@ -1,0 +1,117 @@
+#include "coupling/restore.h"
+
+#include "grid/loops.h"
+#include "levelset/extrapolate.h"
+
+namespace seiche {
+namespace {
+
+// Mean of the psi of a face's corners, and its gradient there (per cell).
+template <int Dim>
+struct FaceDistance {
+  double psi = 0;
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+};
+
+template <int Dim>
+FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face) {
+  constexpr int corners = 1 << (Dim - 1);
+  FaceDistance<Dim> r;
+  for (int k = 0; k < corners; ++k) {
+    Site node = face;
+    for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
+    r.psi += psi[node] / corners;
+    r.gradient[axis] += (psi[node + layout.stride(axis)] - psi[node - layout.stride(axis)]) / (2 * corners);
+    for (int b = 1; b < Dim; ++b) r.gradient[(axis + b) % Dim] += (((k >> (b - 1)) & 1) ? 1 : -1) * psi[node] * 2 / corners;
+  }
+  return r;
+}
+
+// All components at a face of one axis: its own, and the mean of the four (2D: four) around it of the others.
+template <int Dim>
+Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site f) {
+  Vec<Dim> v;
+  for (int b = 0; b < Dim; ++b) {
+    const Site da = layout.stride(axis), db = layout.stride(b);
+    const auto& c = u[b];
+    v[b] = b == axis ? c[f] : 0.25 * (c[f] + c[f + db] + c[f - da] + c[f + db - da]);
+  }
+  return v;
+}
+
+// In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n.
+template <int Dim>
+void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
+  const FaceField<Dim> old = u;
+  for (int a = 0; a < Dim; ++a)
+    for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!reached.at(a, f) || g.body[f] < 0) return;
+      const FaceDistance<Dim> d = distance_at_face(s.layout, g.psi, a, f);
+      const double norm = d.gradient.norm();
+      if (d.psi >= 0 || norm == 0) return;
+      const Vec<Dim> n = d.gradient / norm;
+      const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
+      const Vec<Dim> v = truncate<Dim>(g.twists[g.body[f]].at(x));
+      u.at(a, f) += (v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
+    });
+}
+
+}  // namespace
+
+template <int Dim>
+void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
+                       FaceField<Dim>& u) {
+  FaceField<Dim, char> reached = valid;
+  for (int a = 0; a < Dim; ++a) {
+    // Inflow feeds the air before it, too.
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (valid.at(a, f)) reached.at(a, f) = 1;
+      if (g.faces.kind_at(a, f) != FaceKind::prescribed) return;
+      u.at(a, f) = g.faces.prescribed.at(a, f);
+      if (u.at(a, f) != 0) reached.at(a, f) = 1;
+    });
+    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 2}, u[a], reached[a]);
+  }
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
+  if (!s.bodies.empty()) {
+    follow_solids(s, g, reached, u);
+    for (int a = 0; a < Dim; ++a)
+      for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+        if (valid.at(a, f)) return;
+        if (g.faces.kind_at(a, f) == FaceKind::prescribed) u.at(a, f) = g.faces.prescribed.at(a, f);
+      });
+    fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
+  }
+}
+
+template <int Dim>
+Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star, const StepGeometry<Dim>& g) {
+  Level<Dim> next{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      const bool wet = rows.row[f] >= 0 || rows.row[f - s.layout.stride(a)] >= 0;
+      if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
+      if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
+        next.valid.at(a, f) = face_prescribed;
+        next.u.at(a, f) = in.faces.prescribed.at(a, f);
+        return;
+      }
+      next.valid.at(a, f) = face_solved;
+      next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
+      next.u.at(a, f) = u_star.at(a, f) - in.dt * next.q.at(a, f);
+    });
+  continue_velocity(s, g, next.valid, next.u);
+  s.halo.fill_ghosts(next.valid);
+  return next;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,        \
+                                     FaceField<D>&);                                                            \
+  template Level<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,     \
+                                        const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

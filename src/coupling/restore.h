@@ -1,0 +1,20 @@
+#pragma once
+// After the solve: velocity and pressure slope on the faces next to liquid, continued beyond it.
+#include "coupling/state.h"
+
+namespace seiche {
+
+// valid codes of Level::valid.
+enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
+
+// u = u* - dt grad p/rho on unknown faces, the given velocity on prescribed ones, q = grad p/rho; then u continued.
+template <int Dim>
+Level<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star, const StepGeometry<Dim>& geometry);
+
+// Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
+template <int Dim>
+void continue_velocity(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid,
+                       FaceField<Dim>& u);
+
+}  // namespace seiche

@@ -1,0 +1,123 @@
+// From a scene to its grid, solids and initial state.
+#include "coupling/restore.h"
+#include "coupling/transport.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+Geometry<Dim> grid_geometry(const DomainSpec& d) {
+  Geometry<Dim> g;
+  g.lower = truncate<Dim>(d.lower);
+  g.h = d.cell_size;
+  for (int a = 0; a < Dim; ++a) {
+    g.cells[a] = d.cells[a];
+    g.periodic[a] = d.sides[a][0].type == SideType::periodic;
+  }
+  return g;
+}
+
+// Cells a step can carry values across, and the reach of the four-point stencils.
+int halo_width(const Scene& scene) { return int(std::ceil(scene.time.cfl)) + 3; }
+
+template <int Dim>
+std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>& notes) {
+  std::vector<Body<Dim>> bodies;
+  for (const SolidSpec& spec : scene.solids) bodies.emplace_back(spec, ShapeOptions{scene.domain.cell_size, &notes});
+  return bodies;
+}
+
+template <int Dim>
+std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::string>& notes) {
+  std::vector<Source<Dim>> sources;
+  for (const LiquidSourceSpec& spec : scene.liquid.sources)
+    sources.push_back({spec, make_shape<Dim>(spec.shape, {scene.domain.cell_size, &notes}), VectorExpression(spec.velocity)});
+  return sources;
+}
+
+// Shapes whose values are no exact distances near their zero.
+bool needs_redistancing(const ShapeSpec& s) { return s.kind == "expression"; }
+
+// Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid.
+template <int Dim>
+FaceField<Dim> initial_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near,
+                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+  FaceField<Dim> u(s.layout);
+  const VectorExpression everywhere(s.scene.liquid.velocity);
+  std::vector<std::optional<VectorExpression>> own;
+  for (const auto& region : s.scene.liquid.regions) {
+    own.emplace_back();
+    if (region.velocity) own.back().emplace(*region.velocity);
+  }
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!near.at(a, f)) return;
+      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      const VectorExpression* v = &everywhere;
+      for (std::size_t k = 0; k < shapes.size(); ++k)
+        if (own[k] && (*shapes[k])(x) < s.layout.h()) v = &*own[k];
+      u.at(a, f) = v->component(a, extend<Dim>(x), 0);
+    });
+  return u;
+}
+
+template <int Dim>
+CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+  CellField<Dim> phi(s.layout, s.band());
+  for (const auto& shape : shapes)
+    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+      const double d = (*shape)(s.layout.position(i, cell_offset<Dim>()));
+      phi[c] = std::clamp(std::min(phi[c], d), -s.band(), s.band());
+    });
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  const auto& regions = s.scene.liquid.regions;
+  if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); }))
+    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40}, phi);
+  return phi;
+}
+
+}  // namespace
+
+template <int Dim>
+Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
+    : scene(sc),
+      ranks(r),
+      layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()], halo_width(sc)),
+      halo(layout, partition(layout.geometry(), r.size()), r),
+      sides(sc.domain),
+      bodies(make_bodies<Dim>(sc, notes)),
+      solids(layout, sides, bodies),
+      sources(make_sources<Dim>(sc, notes)) {}
+
+template <int Dim>
+State<Dim> initial_state(const Setup<Dim>& s) {
+  std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
+  for (const auto& region : s.scene.liquid.regions)
+    shapes.push_back(make_shape<Dim>(region.shape, {s.layout.h(), nullptr}));
+  State<Dim> state;
+  state.phi = initial_surface(s, shapes);
+  state.pressure = CellField<Dim>(s.layout);
+  const StepGeometry<Dim> g = s.solids.measure(0, 0);
+  state.expected_volume = liquid_volume(s, state.phi, g.psi);
+
+  Level<Dim> level{FaceField<Dim>(s.layout), faces_near_liquid(s, state.phi), FaceField<Dim>(s.layout)};
+  level.u = initial_velocity(s, level.valid, shapes);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
+      if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
+    });
+  continue_velocity(s, g, level.valid, level.u);
+  s.halo.fill_ghosts(level.valid);
+  state.now = std::make_shared<Level<Dim>>(std::move(level));
+  return state;
+}
+
+template struct Setup<2>;
+template struct Setup<3>;
+template State<2> initial_state<2>(const Setup<2>&);
+template State<3> initial_state<3>(const Setup<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,92 @@
+#pragma once
+// What a simulation is made of (Setup, fixed) and where it stands (State, replaced by each accepted step).
+#include <memory>
+
+#include "coupling/simulation.h"
+#include "coupling/step_geometry.h"
+#include "fluid/pressure.h"
+
+namespace seiche {
+
+template <int Dim>
+struct Source {
+  LiquidSourceSpec spec;
+  std::unique_ptr<ShapeField<Dim>> shape;
+  VectorExpression velocity;
+};
+
+template <int Dim>
+struct Setup {
+  Scene scene;
+  std::vector<std::string> notes;   // of reading the shapes, for the log
+  Communicator ranks;
+  Layout<Dim> layout;
+  Halo<Dim> halo;
+  Sides<Dim> sides;
+  std::vector<Body<Dim>> bodies;
+  SolidGeometry<Dim> solids;
+  std::vector<Source<Dim>> sources;
+
+  Setup(const Scene& scene, const Communicator& ranks);
+  Vec<Dim> gravity() const { return truncate<Dim>(scene.gravity); }
+  double density() const { return scene.liquid.density; }
+  // Half width of the level-set band, m: what a step can cross, and the reach of the stencils.
+  double band() const { return (std::ceil(scene.time.cfl) + 4) * layout.h(); }
+  // Layers the velocity is continued beyond the liquid.
+  int extrapolated_layers() const { return int(std::ceil(scene.time.cfl)) + 3; }
+};
+
+// One time level of the flow.
+template <int Dim>
+struct Level {
+  FaceField<Dim> u;               // m/s, continued beyond the liquid, ghosts filled
+  FaceField<Dim, char> valid;     // 1 where u was solved for or prescribed next to liquid (owned faces and halo)
+  FaceField<Dim> q;               // grad p / rho of the step that led here, m/s^2, where valid
+};
+
+template <int Dim>
+struct State {
+  double time = 0;
+  std::int64_t step = 0;
+  std::shared_ptr<const Level<Dim>> now, before, earlier;   // before and earlier are null at the start
+  double dt_now = 0, dt_before = 0;                         // steps that led to `now` and to `before`
+  CellField<Dim> phi;                                       // m, ghosts filled
+  CellField<Dim> pressure;                                  // Pa, 0 where the cell has no row
+  double expected_volume = 0;                               // initial + sources + net inflow, m^Dim
+  double corrected_volume = 0;                              // restored by the volume control so far
+};
+
+// How a step went; `state` is only set where it succeeded.
+template <int Dim>
+struct Attempt {
+  std::string failure;           // empty: accepted
+  State<Dim> state;
+  StepGeometry<Dim> geometry;
+  SolveReport solve;
+  double divergence = 0;
+  std::int64_t rows = 0;
+};
+
+// The phases of a step, timed and open to fault injection.
+struct Phases {
+  Timers timers;
+  FaultHook hook;
+  std::vector<std::string> warnings;
+
+  PhaseFault enter(const std::string& name) const { return hook ? hook(name) : PhaseFault::none; }
+};
+
+// The initial state of a scene.
+template <int Dim>
+State<Dim> initial_state(const Setup<Dim>& setup);
+
+// Advances by dt. Collective; the same verdict on all ranks.
+template <int Dim>
+[[nodiscard]] Attempt<Dim> attempt_step(const Setup<Dim>& setup, const State<Dim>& state, double dt, Phases& phases);
+
+// The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that is
+// hopelessly short.
+template <int Dim>
+double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
+
+}  // namespace seiche

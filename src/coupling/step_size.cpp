@@ -1,0 +1,61 @@
+// How long the next step may be.
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/state.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+constexpr double most_steps_a_frame = 1e6;
+
+template <int Dim>
+double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
+  double fastest = 0;
+  for (int a = 0; a < Dim; ++a)
+    fastest = std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) {
+                         return state.now->valid.at(a, f) ? std::abs(state.now->u.at(a, f)) : 0.0;
+                       }));
+  return s.ranks.global_max(fastest);
+}
+
+// The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
+// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2.
+template <int Dim>
+double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state) {
+  const double v = fastest_component(s, state), g = s.gravity().norm(), reach = s.scene.time.cfl * s.layout.h();
+  if (g == 0) return v > 0 ? reach / v : std::numeric_limits<double>::infinity();
+  const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
+  return std::min(flow, 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g)));
+}
+
+// Moving solids go at most one cell a step.
+template <int Dim>
+double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  for (int n = 0; n < 60 && s.solids.largest_displacement(state.time, state.time + dt) > s.layout.h(); ++n) dt /= 2;
+  return dt;
+}
+
+}  // namespace
+
+template <int Dim>
+double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const TimeSpec& spec = s.scene.time;
+  const double remaining = until - state.time;
+  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state);
+  if (spec.max_step) dt = std::min(dt, *spec.max_step);
+  if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
+  if (!(dt * most_steps_a_frame > remaining))
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {:.0g} steps); the flow "
+                            "or a solid is too fast for cells of {:.3g} m",
+                            dt, remaining, most_steps_a_frame, s.layout.h()));
+  if (dt >= remaining * (1 - 1e-9)) return remaining;
+  return 2 * dt > remaining && !spec.fixed_step ? remaining / 2 : dt;
+}
+
+template double choose_step<2>(const Setup<2>&, const State<2>&, double);
+template double choose_step<3>(const Setup<3>&, const State<3>&, double);
+
+}  // namespace seiche

@@ -1,0 +1,168 @@
+#include "coupling/transport.h"
+
+#include "coupling/restore.h"
+#include "fluid/advection.h"
+#include "grid/loops.h"
+#include "levelset/extrapolate.h"
+#include "levelset/fractions.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+bool is_active(const Source<Dim>& source, double t) {
+  return t >= source.spec.from && t < source.spec.until;
+}
+
+// Union of the liquid with the active sources. Returns the volume added.
+template <int Dim>
+double add_sources(const Setup<Dim>& s, double t, CellField<Dim>& phi) {
+  const bool any = std::any_of(s.sources.begin(), s.sources.end(), [&](const auto& x) { return is_active(x, t); });
+  if (!any) return 0;
+  const NodeField<Dim> psi = s.solids.measure(t, t).psi;
+  const double before = liquid_volume(s, phi, psi);
+  for (const Source<Dim>& source : s.sources) {
+    if (!is_active(source, t)) continue;
+    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+      phi[c] = std::min(phi[c], (*source.shape)(s.layout.position(i, cell_offset<Dim>())));
+    });
+  }
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  return liquid_volume(s, phi, psi) - before;
+}
+
+template <int Dim>
+void set_source_velocity(const Setup<Dim>& s, double t, FaceField<Dim>& u) {
+  for (const Source<Dim>& source : s.sources) {
+    if (!is_active(source, t)) continue;
+    for (int a = 0; a < Dim; ++a)
+      for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+        const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+        if ((*source.shape)(x) <= 0) u.at(a, f) = source.velocity.component(a, extend<Dim>(x), t);
+      });
+  }
+}
+
+// Lagrange weights that carry values at t, t - dt1, t - dt1 - dt2 to t + dt/2.
+std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
+  const double tau = dt / 2;
+  if (dt2 == 0) return {1 + tau / dt1, -tau / dt1, 0};
+  return {(tau + dt1) * (tau + dt1 + dt2) / (dt1 * (dt1 + dt2)), -tau * (tau + dt1 + dt2) / (dt1 * dt2),
+          tau * (tau + dt1) / ((dt1 + dt2) * dt2)};
+}
+
+// w = u(t + dt/2), extrapolated from up to three levels where all of them were solved for; elsewhere the present u.
+template <int Dim>
+FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  FaceField<Dim> w = state.now->u;
+  if (!state.before || s.scene.time.scheme == TimeScheme::first_order) return w;
+  const bool three = state.earlier != nullptr;
+  const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
+  const Level<Dim>&l0 = *state.now, &l1 = *state.before, &l2 = three ? *state.earlier : *state.before;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (l0.valid.at(a, f) && l1.valid.at(a, f) && l2.valid.at(a, f))
+        w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, w);
+  return w;
+}
+
+// A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on; continued beyond
+// the liquid. All zero at the start and in first order.
+template <int Dim>
+FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  FaceField<Dim> acc(s.layout);
+  if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
+  const Level<Dim>&l0 = *state.now, &l1 = state.before ? *state.before : *state.now;
+  const double trend = state.before && state.dt_before > 0 ? (dt + state.dt_now) / (state.dt_now + state.dt_before) : 0;
+  const Vec<Dim> g = s.gravity();
+  FaceField<Dim, char> known = l0.valid;
+  for (int a = 0; a < Dim; ++a) {
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (!l0.valid.at(a, f)) return;
+      known.at(a, f) = 1;
+      const double carried = l1.valid.at(a, f) ? trend * (l0.q.at(a, f) - l1.q.at(a, f)) : 0;
+      acc.at(a, f) = l0.valid.at(a, f) == face_prescribed ? 0 : g[a] - l0.q.at(a, f) - carried;
+    });
+    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 0}, acc[a], known[a]);
+  }
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, acc);
+  return acc;
+}
+
+}  // namespace
+
+template <int Dim>
+double liquid_volume(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
+  return s.ranks.global_sum(local_liquid_volume(s.layout, phi, psi));
+}
+
+template <int Dim>
+CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, double dt, double& added) {
+  CellField<Dim> joined = state.phi;
+  if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
+  CellField<Dim> phi(s.layout);
+  advect_level_set(s.layout, state.now->u, dt, s.band(), joined, phi);
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  added = add_sources(s, state.time, phi);
+  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 8}, phi);
+  return phi;
+}
+
+template <int Dim>
+FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& s, const CellField<Dim>& phi) {
+  FaceField<Dim, char> near(s.layout);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) { near.at(a, f) = phi[f] < 0 || phi[f - s.layout.stride(a)] < 0; });
+  return near;
+}
+
+template <int Dim>
+FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
+  const FaceField<Dim> path = path_velocity(s, state, dt), acc = acceleration(s, state, dt);
+  FaceField<Dim> carried = state.now->u;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.padded(), [&](Site f) { carried.at(a, f) += 0.5 * dt * acc.at(a, f); });
+  const FaceField<Dim, char> near = faces_near_liquid(s, phi);
+  FaceField<Dim> u(s.layout);
+  advect_faces(s.layout, path, dt, near, carried, u);
+  const Vec<Dim> g = s.gravity();
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (near.at(a, f)) u.at(a, f) += dt * (g[a] - 0.5 * acc.at(a, f));
+    });
+  set_source_velocity(s, state.time, u);
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
+  return u;
+}
+
+template <int Dim>
+double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double expected, double limit, CellField<Dim>& phi) {
+  const double volume = liquid_volume(s, phi, psi);
+  const double missing = expected - volume, probe = 1e-3 * s.layout.h();
+  CellField<Dim> shifted = phi;
+  const auto shift = [&](double by) {
+    for_each_site(s.layout, s.layout.padded(), [&](Site c) {
+      shifted[c] = std::abs(phi[c]) < s.band() ? phi[c] - by : phi[c];
+    });
+  };
+  shift(probe);
+  const double area = (liquid_volume(s, shifted, psi) - volume) / probe;  // of the free surface
+  if (area <= 0) return 0;
+  shift(std::clamp(missing / area, -limit, limit));
+  phi = shifted;
+  return liquid_volume(s, phi, psi) - volume;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                       \
+  template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);                     \
+  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                            \
+  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double);        \
+  template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,29 @@
+#pragma once
+// Transport: the surface along the flow, the velocity along its path with the acceleration it felt.
+#include "coupling/state.h"
+
+namespace seiche {
+
+// phi at time + dt: transported by the present velocity, joined by inflow and sources, a distance again. `added` is the
+// volume that sources brought. Velocity and surface leapfrog: phi stands half a step ahead of u, which makes gravity
+// waves free of numerical damping (docs/method.md).
+template <int Dim>
+CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, double dt, double& added);
+
+// u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f - q.
+template <int Dim>
+FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi, double dt);
+
+// 1 on the owned faces with liquid (phi < 0) on at least one side.
+template <int Dim>
+FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& setup, const CellField<Dim>& phi);
+
+// Shifts phi so that the liquid has the expected volume, by at most `limit` (m). Returns the volume restored.
+template <int Dim>
+double control_volume(const Setup<Dim>& setup, const NodeField<Dim>& psi, double expected, double limit, CellField<Dim>& phi);
+
+// Liquid volume over all ranks, m^Dim.
+template <int Dim>
+double liquid_volume(const Setup<Dim>& setup, const CellField<Dim>& phi, const NodeField<Dim>& psi);
+
+}  // namespace seiche

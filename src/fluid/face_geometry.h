@@ -1,0 +1,39 @@
+#pragma once
+// What each face of the grid lets through during one step.
+#include "grid/fields.h"
+
+namespace seiche {
+
+// closed: all solid. open: its velocity is an unknown. prescribed: on a wall or inflow side, velocity given.
+// outflow: on a side held at a pressure, velocity unknown.
+enum class FaceKind : char { closed, open, prescribed, outflow };
+
+template <int Dim>
+struct FaceGeometry {
+  FaceField<Dim> open;             // w, open fraction, 0..1
+  FaceField<Dim, char> kind;       // FaceKind
+  FaceField<Dim> closed_flux;      // (1 - w) v_solid: volume that solids push through, per face area, m/s
+  FaceField<Dim> prescribed;       // velocity of prescribed faces, m/s
+  FaceField<Dim> side_pressure;    // Pa, on outflow faces
+
+  FaceGeometry() = default;
+  explicit FaceGeometry(const Layout<Dim>& layout)
+      : open(layout, 1.0), kind(layout, char(FaceKind::open)), closed_flux(layout), prescribed(layout), side_pressure(layout) {}
+
+  FaceKind kind_at(int axis, Site s) const { return FaceKind(kind.at(axis, s)); }
+  bool is_unknown(int axis, Site s) const {
+    return kind_at(axis, s) == FaceKind::open || kind_at(axis, s) == FaceKind::outflow;
+  }
+};
+
+// Calls visit(axis, face, sign, neighbour) for the faces of a cell: sign +1 on the high face; neighbour is the cell across.
+template <int Dim, class Visit>
+void for_each_face_of(const Layout<Dim>& layout, Site cell, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a) {
+    const Site d = layout.stride(a);
+    visit(a, cell, -1, cell - d);
+    visit(a, cell + d, +1, cell + d);
+  }
+}
+
+}  // namespace seiche

@@ -1,0 +1,71 @@
+#pragma once
+// Variational cut-cell pressure projection with a second-order free surface: rows, components, matrix, update.
+#include <string>
+
+#include "fluid/face_geometry.h"
+#include "grid/halo.h"
+#include "linalg/solve.h"
+
+namespace seiche {
+
+// Everything the projection reads. phi and geometry must be valid one cell around the owned ones.
+template <int Dim>
+struct ProjectionInput {
+  const Layout<Dim>& layout;
+  const Halo<Dim>& halo;
+  const Communicator& ranks;
+  const CellField<Dim>& phi;
+  const FaceGeometry<Dim>& faces;
+  double density;   // kg/m^3
+  double dt;        // s
+};
+
+// The unknowns: one row a liquid cell that an open face touches.
+template <int Dim>
+struct PressureRows {
+  CellField<Dim, std::int64_t> row;   // global row or -1, filled one cell around
+  std::vector<Site> cells;            // owned cells with a row, in row order
+  Row first = 0, global = 0;
+  std::int64_t isolated = 0;          // liquid cells without an open face, over all ranks
+};
+
+template <int Dim>
+PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in);
+
+// Connected liquid without a face at a given pressure: its pressure is free up to a constant, and the volume prescribed
+// around it must balance.
+template <int Dim>
+NullSpace find_closed_components(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
+
+// Distance from a liquid cell's centre to the free surface towards an air cell, in cells. Clamped at 1e-8: any clamp large
+// enough to matter breaks hydrostatic rest (docs/decisions/0003).
+double surface_distance(double phi_liquid, double phi_air);
+
+// sum_f w (p_i - p_j)/theta = -(rho h/dt) sum_f +-(w u* + closed flux), p = 0 at the surface (Gibou et al. 2002; Ng, Min,
+// Gibou 2009). Scaled by h^(2-Dim) rho/dt.
+template <int Dim>
+SparseMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
+template <int Dim>
+std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                                        const FaceField<Dim>& u);
+
+// Net volume a closed component is told to gain, and the largest volume moved around it (m^Dim/s each).
+struct VolumeMismatch {
+  double net = 0, scale = 0;
+};
+template <int Dim>
+VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const NullSpace& closed);
+
+// (p_high - p_low)/(theta rho h): the acceleration the pressure gives a face, sign turned. Zero where no row touches.
+template <int Dim>
+double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
+                           int axis, Site face);
+
+template <int Dim>
+RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
+
+// Largest |net flux|/cell volume over the rows, 1/s, over all ranks.
+template <int Dim>
+double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u);
+
+}  // namespace seiche
