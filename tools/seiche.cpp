@@ -1,8 +1,84 @@
-#include <CLI/CLI.hpp>
+#include <clocale>
+#include <iostream>
+#include <new>
 
-#include "base/communicator.h"
+#include "base/emergency_channel.h"
+#include "base/version.h"
+#include "console.h"
+#include "verbs.h"
+
+namespace seiche {
+namespace {
+
+constexpr auto patience = std::chrono::seconds(3);
+
+struct Failure {
+  ExitCode code = ExitCode::bug;
+  std::string message;
+};
+
+Failure current_failure(int rank) {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return {error.code(), error.what()};
+  } catch (const std::bad_alloc&) {
+    return {ExitCode::machine, fmt::format("rank {}: out of memory", rank)};
+  } catch (const std::exception& error) {
+    return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): {}", version(), rank, error.what())};
+  } catch (...) {
+    return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): an unknown exception", version(), rank)};
+  }
+}
+
+// Rank 0 speaks for an error that all ranks met. A rank that is alone with its error ends the whole job.
+int end_with(const Failure& failure, const Communicator& ranks, const EmergencyChannel& emergency) {
+  const auto codes = emergency.meet(int(failure.code), patience);
+  if (!codes) {
+    print_error(failure.message);
+    emergency.abort(int(failure.code));
+  }
+  if (ranks.is_root()) print_error(failure.message);
+  return codes->front();
+}
+
+// The exit code when the command line alone decides it (help, version, mistakes), else -1.
+int parse(CLI::App& program, int argc, char** argv, const Communicator& ranks) {
+  try {
+    program.parse(argc, argv);
+    return -1;
+  } catch (const CLI::ParseError& outcome) {
+    if (outcome.get_exit_code() == 0) {
+      if (ranks.is_root()) program.exit(outcome);
+      return 0;
+    }
+    if (ranks.is_root()) print_error(fmt::format("{}; see `seiche --help`", outcome.what()));
+    return int(ExitCode::bad_input);
+  }
+}
+
+int run_program(int argc, char** argv, const Communicator& ranks, const EmergencyChannel& emergency) {
+  CLI::App program("Seiche: liquid among moving and deforming solids", "seiche");
+  program.set_version_flag("--version", "seiche " + version());
+  program.require_subcommand(1);
+  VerbContext context{ranks, emergency, {}};
+  for (const AddVerb add : verbs()) add(program, context);
+  try {
+    const int parsed = parse(program, argc, argv, ranks);
+    if (parsed >= 0) return parsed;
+    return int(context.action());
+  } catch (...) {
+    return end_with(current_failure(ranks.rank()), ranks, emergency);
+  }
+}
+
+}  // namespace
+}  // namespace seiche
 
 int main(int argc, char** argv) {
+  std::setlocale(LC_ALL, "C");
   const seiche::MpiSession mpi(argc, argv);
-  return 0;
+  const seiche::Communicator ranks;
+  const seiche::EmergencyChannel emergency(ranks);
+  return seiche::run_program(argc, argv, ranks, emergency);
 }

@@ -106,4 +106,10 @@ std::string probes_row(double time, const ProbeSample& sample) {
 std::string not_finite(const StepStats& stats) { return first_not_finite(columns(stats)); }
 std::string not_finite(const SolidState& solid) { return first_not_finite(columns(solid)); }
 
+std::string not_finite(const ProbeSample& sample) {
+  if (!sample.defined) return {};
+  if (!sample.is_vector) return std::isfinite(sample.value) ? "" : "the value";
+  return sample.vector.allFinite() ? "" : "the vector";
+}
+
 }  // namespace seiche

@@ -19,5 +19,6 @@ std::string probes_row(double time, const ProbeSample& sample);
 // The name of the first number of the row that is not finite, or "".
 std::string not_finite(const StepStats& stats);
 std::string not_finite(const SolidState& solid);
+std::string not_finite(const ProbeSample& sample);
 
 }  // namespace seiche

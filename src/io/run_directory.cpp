@@ -12,6 +12,7 @@
 #include <fstream>
 #include <regex>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "io/checked_file.h"

@@ -26,6 +26,10 @@ void RunLog::live(const std::string& text) {
   if (ranks_.is_root() && has_live_line()) console_.live(text);
 }
 
+void RunLog::record(const std::string& text) {
+  if (ranks_.is_root()) keep(text + "\n");
+}
+
 void RunLog::flush() {
   if (file_) file_->flush();
 }

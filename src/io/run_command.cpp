@@ -1,0 +1,116 @@
+#include "io/run_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/checkpoint.h"
+#include "io/run_agree.h"
+#include "io/run_fault.h"
+#include "io/run_loop.h"
+#include "io/run_memory.h"
+#include "io/run_session.h"
+
+namespace seiche {
+namespace fs = std::filesystem;
+namespace {
+
+// A scene as all ranks read it.
+Scene read_together(const fs::path& file, const std::vector<Override>& overrides, const Communicator& ranks) {
+  Scene scene;
+  agree(ranks, "reading the scene", [&] { scene = read_scene(file, overrides); });
+  return scene;
+}
+
+void check_machine(const Scene& scene, const Communicator& ranks) {
+  const int here = ranks_on_this_machine(ranks);
+  agree(ranks, "estimating the memory", [&] {
+    check_memory(estimate_cost(scene, ranks.size()), ranks.size(), here, machine_memory());
+  });
+}
+
+// `--frames N`: the last frame is number N.
+double end_of_frames(int frames, const Scene& scene) { return frames / scene.time.frame_rate; }
+
+fs::path output_folder(const RunOptions& options) { return options.out.value_or(fs::path("out") / options.scene.stem()); }
+
+void refuse_changed_scene(const Scene& scene, const Scene& before, EditPolicy edits, const fs::path& folder) {
+  const std::vector<std::string> keys = forbidden_changes(changed_keys(before, scene), edits);
+  if (keys.empty()) return;
+  const char* remedy = edits == EditPolicy::force ? "start a new run" : "undo that, or give --force where only output, solver or "
+                                                                        "probes changed, or start a new run";
+  throw Error(ExitCode::bad_input, fmt::format("{}: changed since the run was stopped: {}; {}", (folder / "scene.toml").string(),
+                                               fmt::join(keys, ", "), remedy));
+}
+
+void apply_new_end(const ResumeOptions& options, Scene& scene) {
+  if (options.end) scene.time.end = *options.end;
+  if (options.session.frames) scene.time.end = end_of_frames(*options.session.frames, scene);
+}
+
+bool is_finished(const RunState& state, const Scene& scene) {
+  return state.frame >= last_frame(scene.time) && state.time >= scene.time.end * (1 - 1e-12);
+}
+
+// What resume found in the run directory.
+struct Continuation {
+  Scene scene;
+  FoundCheckpoint checkpoint;
+  RunState state;
+};
+
+Continuation read_run(const ResumeOptions& options, const Communicator& ranks, RunLog& log) {
+  const RunPaths paths{options.folder};
+  Continuation run{read_together(paths.scene(), {}, ranks), {}, {}};
+  std::vector<std::string> warnings;
+  run.checkpoint = find_newest_checkpoint(paths.checkpoints(), ranks, warnings);
+  for (const std::string& text : warnings) log.warn(text);
+  agree(ranks, "comparing the scene", [&] {
+    run.state = restore_run_state(run.checkpoint.data);
+    const Scene before = parse_scene(run.state.scene_text, "the checkpoint's scene", paths.folder);
+    if (run.checkpoint.label.scene_hash != scene_hash(run.scene)) {
+      refuse_changed_scene(run.scene, before, options.edits, paths.folder);
+    }
+  });
+  return run;
+}
+
+}  // namespace
+
+ExitCode run_command(const RunOptions& options, const Surroundings& around) {
+  const Communicator& ranks = around.ranks;
+  RunLog log(ranks, around.console, options.session.verbosity);
+  agree(ranks, "reading the options", [&] { parse_injection(options.session.inject); });
+  Scene scene = read_together(options.scene, options.overrides, ranks);
+  if (options.session.frames) scene.time.end = std::min(scene.time.end, end_of_frames(*options.session.frames, scene));
+  check_machine(scene, ranks);
+  const fs::path folder = output_folder(options);
+  const auto directory = open_directory(folder, options.existing, ranks);
+  if (scene.time.end <= 0) log.note(fmt::format("note: the end time {:g} s leaves nothing to simulate", scene.time.end));
+  return run_session({scene, around, options.session, log, RunPaths{fs::absolute(folder).lexically_normal()}}, {});
+}
+
+ExitCode resume_command(const ResumeOptions& options, const Surroundings& around) {
+  const Communicator& ranks = around.ranks;
+  RunLog log(ranks, around.console, options.session.verbosity);
+  agree(ranks, "reading the options", [&] { parse_injection(options.session.inject); });
+  const auto directory = open_directory(options.folder, ExistingOutput::resume, ranks);
+  Continuation run = read_run(options, ranks, log);
+  apply_new_end(options, run.scene);
+  const fs::path folder = fs::absolute(options.folder).lexically_normal();
+  if (is_finished(run.state, run.scene)) {
+    log.note(fmt::format("note: the run in {} is finished (t = {:g} s); give a later --end to extend it", folder.string(),
+                         run.state.time));
+    return ExitCode::done;
+  }
+  check_machine(run.scene, ranks);
+  log.note(fmt::format("resuming at step {}, t = {:g} s{}", run.state.step, run.state.time,
+                       run.checkpoint.ranks == ranks.size() ? "" : fmt::format(" (written by {} ranks)", run.checkpoint.ranks)));
+  const Restore restore = [&](Simulation& simulation) {
+    simulation.load(load_checkpoint(run.checkpoint, simulation.checkpoint_boxes(), ranks));
+    return run.state;
+  };
+  return run_session({run.scene, around, options.session, log, RunPaths{folder}}, restore);
+}
+
+}  // namespace seiche

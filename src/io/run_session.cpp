@@ -1,0 +1,135 @@
+#include "io/run_session.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <filesystem>
+#include <new>
+
+#include "io/run_agree.h"
+#include "io/run_fault.h"
+#include "io/run_loop.h"
+#include "io/run_memory.h"
+#include "io/run_threads.h"
+#include "io/summary.h"
+
+namespace seiche {
+namespace {
+
+std::string end_of(const RunSummary& summary, const RunPaths& paths) {
+  std::string text = fmt::format("{} at t = {:g} s after {} steps and {} frames in {} ({} rank{}, {} thread{} each)\n",
+                                 summary.ended, summary.state.time, summary.state.step, summary.state.frame + 1,
+                                 readable_seconds(summary.state.wall_seconds), summary.ranks, summary.ranks == 1 ? "" : "s",
+                                 summary.threads, summary.threads == 1 ? "" : "s");
+  text += fmt::format("liquid volume {:.6g}, drift {:+.3g} %; worst residual {:.2e}; peak memory {}\n",
+                      summary.state.liquid_volume, 100 * volume_drift(summary.state), summary.state.worst_residual,
+                      readable_bytes(summary.peak_memory));
+  return text + "results in " + paths.folder.string();
+}
+
+std::int64_t cells_of(const Scene& scene) {
+  const auto& n = scene.domain.cells;
+  return std::int64_t(n[0]) * n[1] * n[2];
+}
+
+RunSummary summarise(const Session& session, const Threads& threads, const RunState& state) {
+  RunSummary summary;
+  summary.state = state;
+  summary.end = session.scene.time.end;
+  summary.cells = cells_of(session.scene);
+  summary.peak_memory = session.around.ranks.global_sum(peak_resident_bytes());
+  summary.ranks = session.around.ranks.size();
+  summary.threads = threads.count;
+  summary.omp_num_threads = threads.omp_num_threads;
+  return summary;
+}
+
+void write_summary(const Session& session, const RunSummary& summary) {
+  agree_on_root(session.around.ranks, "writing the summary", [&] {
+    write_file(session.paths.summary(), format_summary(summary));
+    session.log.note(end_of(summary, session.paths));
+    session.log.flush();
+  });
+}
+
+// The summary of a failed run must not replace its error.
+void write_failed_summary(const Session& session, RunSummary summary, const Error& error) {
+  summary.code = error.code();
+  summary.ended = std::string("failed: ") + error.what();
+  try {
+    write_summary(session, summary);
+  } catch (const Error&) {
+  }
+}
+
+void prepare_files(const Session& session) {
+  agree_on_root(session.around.ranks, "preparing the run directory", [&] {
+    make_folder(session.paths.frames());
+    make_folder(session.paths.checkpoints());
+    std::error_code ignored;
+    std::filesystem::remove(session.paths.stop(), ignored);
+    write_file(session.paths.scene(), write_scene(session.scene));
+    session.log.open(session.paths.log());
+  });
+}
+
+void end_hung_run(const Surroundings& around, double limit, const std::string& phase) {
+  around.console.warning(fmt::format("rank {}: no progress for {:g} s in phase '{}'; the watchdog ends the run (exit 124). "
+                                     "`seiche resume` continues from the last checkpoint",
+                                     around.ranks.rank(), limit, phase));
+  around.emergency.abort(int(ExitCode::hung));
+}
+
+ExitCode run_loop_to_end(const Session& session, const Threads& threads, Simulation& simulation, const RunState& start,
+                         Watchdog& watchdog, const StopSignals& signals) {
+  const FaultHook hook = make_fault_hook(parse_injection(session.options.inject), session.around.ranks.rank());
+  RunLoop loop(simulation,
+               {session.scene, session.around.ranks, session.around.emergency, session.paths, session.log, watchdog, signals,
+                hook, session.options.walltime},
+               start);
+  try {
+    const RunEnd end = loop.run();
+    RunSummary summary = summarise(session, threads, loop.state());
+    summary.code = end.code;
+    summary.ended = end.how;
+    watchdog.beat("summary");
+    write_summary(session, summary);
+    return end.code;
+  } catch (const Error& error) {
+    if (session.around.emergency.meet(int(error.code()), std::chrono::seconds(3))) {
+      write_failed_summary(session, summarise(session, threads, loop.state()), error);
+    }
+    throw;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
+                                             const Communicator& ranks) {
+  std::unique_ptr<RunDirectory> directory;
+  agree_on_root(ranks, "opening the run directory", [&] { directory = std::make_unique<RunDirectory>(folder, policy); });
+  return directory;
+}
+
+ExitCode run_session(const Session& session, const Restore& restore) {
+  const Surroundings& around = session.around;
+  const StopSignals signals;
+  const Threads threads = choose_threads(session.options.threads, around.ranks, session.log);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads.count));
+  Watchdog watchdog(std::chrono::duration<double>(session.options.watchdog),
+                    [&](const std::string& phase) { end_hung_run(around, session.options.watchdog, phase); });
+  try {
+    watchdog.beat("setting up");
+    const std::unique_ptr<Simulation> simulation = make_simulation(session.scene, around.ranks);
+    prepare_files(session);
+    watchdog.beat("restoring");
+    const RunState start = restore ? restore(*simulation) : RunState{};
+    for (const std::string& text : simulation->take_warnings()) session.log.warn(text);
+    return run_loop_to_end(session, threads, *simulation, start, watchdog, signals);
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitCode::machine, fmt::format("rank {}: out of memory while in phase '{}'", around.ranks.rank(), watchdog.phase()));
+  }
+}
+
+}  // namespace seiche

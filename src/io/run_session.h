@@ -1,0 +1,33 @@
+#pragma once
+// One session of a run: what is set up around the run loop, and the account that is given at its end.
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "coupling/simulation.h"
+#include "io/run_command.h"
+#include "io/run_directory.h"
+#include "io/run_state.h"
+
+namespace seiche {
+
+struct Session {
+  const Scene& scene;
+  const Surroundings& around;
+  const SessionOptions& options;
+  RunLog& log;
+  RunPaths paths;
+};
+
+// Puts the simulation's state back and returns the run loop's.
+using Restore = std::function<RunState(Simulation&)>;
+
+// Locks the run directory on rank 0; null elsewhere. Collective.
+std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
+                                             const Communicator& ranks);
+
+// Builds the simulation, restores it where `restore` is given, writes scene.toml, runs the loop and writes summary.json.
+// Collective; throws what the loop throws, after the summary is written.
+ExitCode run_session(const Session& session, const Restore& restore);
+
+}  // namespace seiche

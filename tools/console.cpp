@@ -1,0 +1,47 @@
+#include "console.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace seiche {
+namespace {
+
+// Ends a live line before other text follows it.
+void finish_live(bool& live) {
+  if (live) std::fputs("\n", stdout);
+  live = false;
+}
+
+}  // namespace
+
+void print_error(const std::string& message) {
+  std::fflush(stdout);
+  fmt::print(stderr, "seiche: {}\n", message);
+  std::fflush(stderr);
+}
+
+Console terminal_console() {
+  const auto live = std::make_shared<bool>(false);
+  Console console;
+  console.line = [live](const std::string& text) {
+    finish_live(*live);
+    std::fputs((text + "\n").c_str(), stdout);
+    std::fflush(stdout);
+  };
+  console.warning = [live](const std::string& text) {
+    finish_live(*live);
+    std::fflush(stdout);
+    std::fputs((text + "\n").c_str(), stderr);
+  };
+  if (::isatty(STDOUT_FILENO) == 0) return console;
+  console.live = [live](const std::string& text) {
+    *live = true;
+    std::fputs(("\r\033[K" + text).c_str(), stdout);
+    std::fflush(stdout);
+  };
+  return console;
+}
+
+}  // namespace seiche

@@ -1,0 +1,76 @@
+#include "console.h"
+#include "io/run_command.h"
+#include "verbs.h"
+
+namespace seiche {
+namespace {
+
+void add_session_options(CLI::App& verb, SessionOptions& session) {
+  verb.add_option("--frames", session.frames, "Number of the last frame")->check(CLI::NonNegativeNumber);
+  verb.add_option("--threads", session.threads, "Threads a rank; default: the machine's, shared among its ranks")
+      ->check(CLI::Range(1, 4096));
+  verb.add_option("--walltime", session.walltime, "Stop with a checkpoint before so many seconds have passed")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--watchdog", session.watchdog, "End the run after so many seconds without progress")
+      ->envname("SEICHE_WATCHDOG")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb.add_option("--inject", session.inject, "Test only: phase:rank:kind[:nth]")->group("");
+  verb.add_flag_callback("--quiet", [&session] { session.verbosity = Verbosity::quiet; }, "Print warnings and errors only");
+}
+
+void add_set_option(CLI::App& verb, std::vector<Override>& overrides) {
+  verb.add_option_function<std::vector<std::string>>(
+          "--set",
+          [&overrides](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) overrides.push_back(parse_override(text));
+          },
+          "Override a key of the scene: key.path=value (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+Surroundings surroundings(const VerbContext& context) { return {context.ranks, context.emergency, terminal_console()}; }
+
+}  // namespace
+
+void add_run(CLI::App& program, VerbContext& context) {
+  CLI::App* verb = program.add_subcommand("run", "Run a scene");
+  const auto options = std::make_shared<RunOptions>();
+  verb->add_option("scene", options->scene, "Scene file")->required();
+  verb->add_option("--out", options->out, "Run directory; default: out/<scene name>");
+  verb->add_flag_callback(
+      "--overwrite", [options] { options->existing = ExistingOutput::overwrite; },
+      "Replace the run that the directory holds");
+  add_set_option(*verb, options->overrides);
+  add_session_options(*verb, options->session);
+  verb->callback([options, &context] {
+    context.action = [options, &context] { return run_command(*options, surroundings(context)); };
+  });
+}
+
+void add_resume(CLI::App& program, VerbContext& context) {
+  CLI::App* verb = program.add_subcommand("resume", "Continue a stopped, killed or finished run");
+  const auto options = std::make_shared<ResumeOptions>();
+  verb->add_option("directory", options->folder, "Run directory")->required();
+  verb->add_option("--end", options->end, "New end time, s");
+  verb->add_flag_callback(
+      "--force", [options] { options->edits = EditPolicy::force; },
+      "Accept changes of output, solver and probes in scene.toml");
+  add_session_options(*verb, options->session);
+  verb->callback([options, &context] {
+    context.action = [options, &context] { return resume_command(*options, surroundings(context)); };
+  });
+}
+
+void add_check(CLI::App& program, VerbContext& context) {
+  CLI::App* verb = program.add_subcommand("check", "Read and verify a scene, report what it will cost, run nothing");
+  const auto options = std::make_shared<CheckOptions>();
+  verb->add_option("scene", options->scene, "Scene file")->required();
+  add_set_option(*verb, options->overrides);
+  verb->callback([options, &context] {
+    context.action = [options, &context] { return check_command(*options, surroundings(context)); };
+  });
+}
+
+}  // namespace seiche
