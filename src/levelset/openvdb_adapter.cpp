@@ -123,28 +123,9 @@ void for_each_voxel(const Block& block, int width, Visit&& visit) {
   }
 }
 
-// Other programs look for a surface only where there are leaves: those with liquid against the sides of the domain
-// are kept, so that their meshes are closed there.
-void keep_walls(openvdb::FloatTree& tree, const std::array<int, 3>& cells) {
-  constexpr int size = openvdb::FloatTree::LeafNodeType::DIM;
-  const Coord last(cells[0] - 1, cells[1] - 1, cells[2] - 1);
-  Coord ijk;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    for (const int side : {0, last[axis]}) {
-      ijk[axis] = side;
-      for (ijk[b] = 0; ijk[b] <= last[b]; ijk[b] += size) {
-        for (ijk[c] = 0; ijk[c] <= last[c]; ijk[c] += size) {
-          if (tree.getValue(ijk) < 0) tree.touchLeaf(ijk);
-        }
-      }
-    }
-  }
-}
-
 // Beyond the band values become +-background and inactive. Every voxel of the domain gets its sign explicitly, which
 // does what a flood fill does from the active voxels but cannot leak out of the domain or, in 2D, out of its layer.
-FloatGrid::Ptr level_set_grid(const Grid& grid, const std::array<int, 3>& cells) {
+FloatGrid::Ptr level_set_grid(const Grid& grid) {
   const float band = grid.background;
   FloatGrid::Ptr result = FloatGrid::create(band);
   FloatGrid::Accessor accessor = result->getAccessor();
@@ -159,7 +140,6 @@ FloatGrid::Ptr level_set_grid(const Grid& grid, const std::array<int, 3>& cells)
   }
   result->setGridClass(openvdb::GRID_LEVEL_SET);
   openvdb::tools::prune(result->tree());
-  keep_walls(result->tree(), cells);
   return result;
 }
 
@@ -189,9 +169,9 @@ Vec3SGrid::Ptr staggered_grid(const Grid& grid) {
   return result;
 }
 
-openvdb::GridBase::Ptr to_openvdb(const Grid& grid, const std::array<int, 3>& cells) {
+openvdb::GridBase::Ptr to_openvdb(const Grid& grid) {
   switch (grid.kind) {
-    case GridKind::level_set: return level_set_grid(grid, cells);
+    case GridKind::level_set: return level_set_grid(grid);
     case GridKind::staggered_vector: return staggered_grid(grid);
     default: return scalar_grid(grid);
   }
@@ -399,7 +379,7 @@ std::string encode(const Frame& frame) {
       require_block(grid, block);
       require_finite(grid, block);
     }
-    const openvdb::GridBase::Ptr result = to_openvdb(grid, domain_cells(frame));
+    const openvdb::GridBase::Ptr result = to_openvdb(grid);
     result->insertMeta(meta);
     result->setName(grid.name);
     result->setTransform(cell_centre_transform(frame));
