@@ -4,9 +4,15 @@
 
 namespace seiche {
 
-Range any_number() { return {}; }
-Range positive(double high) { return {0, high, Bound::excluded}; }
-Range between(double low, double high) { return {low, high, Bound::included}; }
+Range any_number() {
+  return {};
+}
+Range positive(double high) {
+  return {0, high, Bound::excluded};
+}
+Range between(double low, double high) {
+  return {low, high, Bound::included};
+}
 
 // False for NaN.
 bool contains(const Range& range, double value) {
@@ -16,26 +22,40 @@ bool contains(const Range& range, double value) {
 
 std::string describe(const Range& range) {
   std::string text;
-  if (range.low > -number_limit) text = fmt::format("{} {}", range.low_bound == Bound::included ? ">=" : ">", range.low);
+  if (range.low > -number_limit)
+    text = fmt::format("{} {}", range.low_bound == Bound::included ? ">=" : ">", range.low);
   if (range.high < number_limit) text += fmt::format("{}<= {}", text.empty() ? "" : " and ", range.high);
   return text;
 }
 
 std::string type_name(OptionType type) {
   switch (type) {
-    case OptionType::number: return "a number";
-    case OptionType::integer: return "a whole number";
-    case OptionType::boolean: return "true or false";
-    case OptionType::text: return "a text in quotes";
-    case OptionType::choice: return "a name in quotes";
-    case OptionType::choice_list: return "an array of names in quotes";
-    case OptionType::vector: return "an array of numbers";
-    case OptionType::axis: return "an array of three numbers";
-    case OptionType::formula: return "a number or an expression in quotes";
-    case OptionType::formula_vector: return "an array of numbers or expressions in quotes";
-    case OptionType::file: return "a path in quotes";
-    case OptionType::table: return "a table";
-    case OptionType::table_list: return "an array of tables";
+    case OptionType::number:
+      return "a number";
+    case OptionType::integer:
+      return "a whole number";
+    case OptionType::boolean:
+      return "true or false";
+    case OptionType::text:
+      return "a text in quotes";
+    case OptionType::choice:
+      return "a name in quotes";
+    case OptionType::choice_list:
+      return "an array of names in quotes";
+    case OptionType::vector:
+      return "an array of numbers";
+    case OptionType::axis:
+      return "an array of three numbers";
+    case OptionType::formula:
+      return "a number or an expression in quotes";
+    case OptionType::formula_vector:
+      return "an array of numbers or expressions in quotes";
+    case OptionType::file:
+      return "a path in quotes";
+    case OptionType::table:
+      return "a table";
+    case OptionType::table_list:
+      return "an array of tables";
   }
   return "";
 }

@@ -54,24 +54,24 @@ struct Refusal {
 };
 
 struct Option {
-  std::string key;                          // "radius"
+  std::string key;  // "radius"
   OptionType type = OptionType::number;
-  std::string unit{};                       // "m/s"; empty: none
-  Range range{};                            // of the number, or of each component
+  std::string unit{};  // "m/s"; empty: none
+  Range range{};       // of the number, or of each component
   std::vector<std::string> choices{};
   std::vector<Refusal> refused{};
-  std::string variables{};                  // of a formula: those of x, y, z, t that it may use, "xyzt"
-  Condition only_for{};                     // empty key: always
+  std::string variables{};  // of a formula: those of x, y, z, t that it may use, "xyzt"
+  Condition only_for{};     // empty key: always
   Presence presence = Presence::optional;
   Availability availability = Availability::present;
-  std::string fallback{};                   // default as TOML text; empty: none
-  std::string unset{};                      // what it means when it is not given and has no default value
-  std::string doc{};                        // one line
-  std::size_t most = 0;                     // entries a table_list may have
-  std::string path{};                       // "solid[].rotate.degrees"; filled where options are listed
+  std::string fallback{};  // default as TOML text; empty: none
+  std::string unset{};     // what it means when it is not given and has no default value
+  std::string doc{};       // one line
+  std::size_t most = 0;    // entries a table_list may have
+  std::string path{};      // "solid[].rotate.degrees"; filled where options are listed
 };
 
-std::string type_name(OptionType type);                         // "a number"
+std::string type_name(OptionType type);                          // "a number"
 std::string quoted_list(const std::vector<std::string>& names);  // "a", "b" or "c", in quotes
 
 }  // namespace seiche

@@ -2,6 +2,8 @@
 
 namespace seiche {
 
-std::string version() { return SEICHE_VERSION; }
+std::string version() {
+  return SEICHE_VERSION;
+}
 
 }  // namespace seiche

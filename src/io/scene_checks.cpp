@@ -15,7 +15,9 @@ constexpr double whole_cells = 1e-6;  // relative; below it an extent is taken a
 struct Checker {
   SceneContext& context;
   const TomlNode& root;
-  void report(const std::string& path, const std::string& text) const { context.report(path, line_of(root, path), text); }
+  void report(const std::string& path, const std::string& text) const {
+    context.report(path, line_of(root, path), text);
+  }
 };
 
 // True if the extent along the axis is right; sets cells[axis].
@@ -26,14 +28,18 @@ void check_extent(const Checker& c, DomainSpec& d, int axis) {
     return c.report("domain.upper", fmt::format("the domain must have lower < upper; along {} they are {} and {}", name,
                                                 d.lower[axis], d.upper[axis]));
   }
-  if (cells > INT32_MAX) return c.report("domain.cell_size", fmt::format("{} cells along {}; raise cell_size", cells, name));
+  if (cells > INT32_MAX)
+    return c.report("domain.cell_size", fmt::format("{} cells along {}; raise cell_size", cells, name));
   if (std::abs(cells - whole) > whole_cells * cells) {
-    return c.report("domain.cell_size", fmt::format("the domain is {} m long along {}: {} cells of {} m; it must be a whole "
-                                                    "number of cells (upper {} = {} would be)", extent, name, cells,
-                                                    d.cell_size, name, d.lower[axis] + std::max(2.0, whole) * d.cell_size));
+    return c.report(
+        "domain.cell_size",
+        fmt::format("the domain is {} m long along {}: {} cells of {} m; it must be a whole "
+                    "number of cells (upper {} = {} would be)",
+                    extent, name, cells, d.cell_size, name, d.lower[axis] + std::max(2.0, whole) * d.cell_size));
   }
   if (whole < 2) {
-    return c.report("domain.cell_size", fmt::format("the domain is {} cell(s) wide along {}; it must have at least 2", whole, name));
+    return c.report("domain.cell_size",
+                    fmt::format("the domain is {} cell(s) wide along {}; it must have at least 2", whole, name));
   }
   d.cells[axis] = int(whole);
 }
@@ -46,8 +52,10 @@ void check_cell_count(const Checker& c, const DomainSpec& d, int dimension) {
     product += fmt::format("{}{}", axis ? " x " : "", d.cells[axis]);
   }
   if (cells <= INT32_MAX) return;
-  c.report("domain.cell_size", fmt::format("{} = {:.3g} cells; the linear solvers (hypre) number rows with 32-bit integers, so "
-                                           "at most {} cells are possible; raise cell_size", product, cells, INT32_MAX));
+  c.report("domain.cell_size",
+           fmt::format("{} = {:.3g} cells; the linear solvers (hypre) number rows with 32-bit integers, so "
+                       "at most {} cells are possible; raise cell_size",
+                       product, cells, INT32_MAX));
 }
 
 void check_periodic(const Checker& c, const DomainSpec& d) {
@@ -56,7 +64,8 @@ void check_periodic(const Checker& c, const DomainSpec& d) {
     if (is_periodic(0) == is_periodic(1)) continue;
     const auto name = [&](int end) { return fmt::format("{}_{}", "xyz"[axis], end == 0 ? "lower" : "upper"); };
     const int given = is_periodic(0) ? 0 : 1;
-    c.report("domain.boundary." + name(given), fmt::format("{} is periodic, so {} must be too", name(given), name(1 - given)));
+    c.report("domain.boundary." + name(given),
+             fmt::format("{} is periodic, so {} must be too", name(given), name(1 - given)));
   }
 }
 
@@ -73,11 +82,13 @@ void check_domain(const Checker& c, DomainSpec& d, int dimension) {
 void check_time(const Checker& c, TimeSpec& t) {
   constexpr double most_frames = 1e7;
   if (t.fixed_step && t.max_step && *t.fixed_step > *t.max_step) {
-    c.report("time.fixed_step", fmt::format("time.fixed_step = {} is longer than time.max_step = {}", *t.fixed_step, *t.max_step));
+    c.report("time.fixed_step",
+             fmt::format("time.fixed_step = {} is longer than time.max_step = {}", *t.fixed_step, *t.max_step));
   }
   if (t.end * t.frame_rate > most_frames) {
-    c.report("time.frame_rate", fmt::format("{:.3g} frames in all; at most {:.0f} are possible; lower frame_rate or end",
-                                            t.end * t.frame_rate, most_frames));
+    c.report("time.frame_rate",
+             fmt::format("{:.3g} frames in all; at most {:.0f} are possible; lower frame_rate or end",
+                         t.end * t.frame_rate, most_frames));
   }
   t.end = std::max(t.end, 0.0);
 }
@@ -95,7 +106,8 @@ void check_names(const Checker& c, std::vector<Item>& items, const std::string& 
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::string path = fmt::format("{}.{}.name", list, i);
     if (items[i].name.empty()) continue;
-    if (!taken.insert(items[i].name).second) c.report(path, fmt::format("the name \"{}\" of [[{}]] is taken", items[i].name, list));
+    if (!taken.insert(items[i].name).second)
+      c.report(path, fmt::format("the name \"{}\" of [[{}]] is taken", items[i].name, list));
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
     const TomlNode& table = c.root.find(list)->value.items[i];
@@ -117,8 +129,10 @@ void check_probes(const Checker& c, const Scene& scene) {
       const bool along_column = probe.kind == ProbeKind::surface_height && axis == down;
       const double x = probe.position[axis], low = scene.domain.lower[axis], high = scene.domain.upper[axis];
       if (along_column || (x >= low && x <= high)) continue;
-      c.report(fmt::format("probe.{}.position", i), fmt::format("probe \"{}\" lies outside the domain: {} = {} is not within {} "
-                                                                "and {}", probe.name, "xyz"[axis], x, low, high));
+      c.report(fmt::format("probe.{}.position", i),
+               fmt::format("probe \"{}\" lies outside the domain: {} = {} is not within {} "
+                           "and {}",
+                           probe.name, "xyz"[axis], x, low, high));
     }
   }
 }

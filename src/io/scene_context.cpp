@@ -61,13 +61,15 @@ void SceneContext::throw_problems() const {
   std::stable_sort(sorted.begin(), sorted.end(), [&](auto& a, auto& b) { return rank(a) < rank(b); });
   std::string text;
   for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i) {
-    text += (i ? "\n" : "") + where(sorted[i].line) + ": " + sorted[i].text;
+    text += fmt::format("{}{}: {}", i ? "\n" : "", where(sorted[i].line), sorted[i].text);
   }
   if (count_ > most) text += fmt::format("\n{}: and {} more", name_, count_ - most);
   throw Error(ExitCode::bad_input, text);
 }
 
-std::string join_path(const std::string& path, const std::string& key) { return path.empty() ? key : path + '.' + key; }
+std::string join_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + '.' + key;
+}
 
 std::string section_title(const std::string& path) {
   if (path.empty()) return "the scene";

@@ -34,7 +34,8 @@ std::string type_text(const Option& option) {
   if (!option.choices.empty()) {
     return (option.type == OptionType::choice_list ? "any of " : "") + quoted_list(option.choices);
   }
-  const std::string variables = option.variables.empty() ? "" : " in " + fmt::format("{}", fmt::join(option.variables, ", "));
+  const std::string variables =
+      option.variables.empty() ? "" : " in " + fmt::format("{}", fmt::join(option.variables, ", "));
   return type_name(option.type) + variables;
 }
 
@@ -46,7 +47,8 @@ std::string default_text(const Option& option) {
 
 std::string note_text(const Option& option) {
   std::string text = option.doc;
-  if (!option.only_for.key.empty()) text += fmt::format("; for {} = {}", option.only_for.key, quoted_list(option.only_for.values));
+  if (!option.only_for.key.empty())
+    text += fmt::format("; for {} = {}", option.only_for.key, quoted_list(option.only_for.values));
   std::vector<std::string> refused;
   for (const Refusal& refusal : option.refused) refused.push_back(refusal.value);
   if (!refused.empty()) text += "; not in this version: " + quoted_list(refused);
@@ -83,8 +85,8 @@ std::string scene_reference() {
   std::string text = introduction;
   for (const std::string& table : order) {
     const std::string alike = table == "domain.boundary.x_lower" ? " and the other sides" : "";
-    text += fmt::format("\n## {}{}\n\n| key | value | default | range, unit | meaning |\n|---|---|---|---|---|\n{}", title(table),
-                        alike, rows[table]);
+    text += fmt::format("\n## {}{}\n\n| key | value | default | range, unit | meaning |\n|---|---|---|---|---|\n{}",
+                        title(table), alike, rows[table]);
   }
   return text + "\n## Not in this version\n\n" + later;
 }

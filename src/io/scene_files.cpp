@@ -1,6 +1,6 @@
 // Paths of a scene's meshes and level sets.
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,8 +45,10 @@ void read_value(SceneContext& c, const Place& p, const Option&, fs::path& out) {
   const fs::path file = error ? given : fs::weakly_canonical(folder / given, error);
   if (error) return c.report(p, fmt::format("{}: cannot follow \"{}\": {}", p.path, given.string(), error.message()));
   if (c.access == FileAccess::scene_folder && (given.is_absolute() || !is_inside(file, folder))) {
-    return c.report(p, fmt::format("{}: \"{}\" lies outside the scene's folder; move it there, or set allow_outside_files = "
-                                   "true at the top of the scene", p.path, given.string()));
+    return c.report(
+        p, fmt::format("{}: \"{}\" lies outside the scene's folder; move it there, or set allow_outside_files = "
+                       "true at the top of the scene",
+                       p.path, given.string()));
   }
   const std::string fault = fault_of_file(file);
   if (!fault.empty()) return c.report(p, fmt::format("{}: cannot read \"{}\": {}", p.path, given.string(), fault));

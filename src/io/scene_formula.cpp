@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
@@ -12,8 +12,12 @@
 namespace seiche {
 namespace {
 
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) || c == '.'; }
+bool is_letter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+}
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) || c == '.';
+}
 
 // The end of the number that starts here, its exponent included.
 std::size_t skip_number(const std::string& text, std::size_t at) {
@@ -89,7 +93,8 @@ std::optional<double> plain_number(const std::string& text) {
 
 std::optional<std::string> formula_fault(const std::string& text, const Option& option) {
   constexpr std::size_t longest = 4096;
-  if (text.size() > longest) return fmt::format("an expression has at most {} characters, this one {}", longest, text.size());
+  if (text.size() > longest)
+    return fmt::format("an expression has at most {} characters, this one {}", longest, text.size());
   if (assigns(text)) return "the expression '" + text + "' assigns with '='; compare with '=='";
   if (has_list(text)) return "the expression '" + text + "' is a list; one value is wanted";
   if (const auto word = strange_variable(text, option.variables)) {

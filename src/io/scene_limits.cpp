@@ -15,7 +15,9 @@ struct Scan {
   int line = 1, depth = 0, dots = 0, tokens = 0;
 };
 
-bool starts(const Scan& s, std::string_view what) { return s.text.substr(s.at, what.size()) == what; }
+bool starts(const Scan& s, std::string_view what) {
+  return s.text.substr(s.at, what.size()) == what;
+}
 
 void skip_comment(Scan& s) {
   while (s.at < s.text.size() && s.text[s.at] != '\n') ++s.at;
@@ -53,12 +55,14 @@ void count(Scan& s, char c) {
 
 void check(const Scan& s, const std::string& name) {
   if (s.depth > most_scene_nesting || s.dots > most_scene_nesting) {
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}:{}: nested more than {} deep; no key of a scene needs that", name, s.line, most_scene_nesting));
+    throw Error(ExitCode::bad_input, fmt::format("{}:{}: nested more than {} deep; no key of a scene needs that", name,
+                                                 s.line, most_scene_nesting));
   }
   if (s.tokens > most_scene_tokens) {
-    throw Error(ExitCode::bad_input, fmt::format("{}:{}: more than {} values in one scene; put large geometry into mesh or "
-                                                 "level-set files", name, s.line, most_scene_tokens));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}:{}: more than {} values in one scene; put large geometry into mesh or "
+                            "level-set files",
+                            name, s.line, most_scene_tokens));
   }
 }
 
@@ -66,8 +70,10 @@ void check(const Scan& s, const std::string& name) {
 
 void check_scene_limits(const std::string& text, const std::string& name) {
   if (text.size() > most_scene_bytes) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: {} bytes; a scene has at most {} (large geometry belongs in mesh or "
-                                                 "level-set files)", name, text.size(), most_scene_bytes));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: {} bytes; a scene has at most {} (large geometry belongs in mesh or "
+                            "level-set files)",
+                            name, text.size(), most_scene_bytes));
   }
   Scan s{text};
   while (s.at < s.text.size()) {

@@ -26,16 +26,21 @@ Key<LiquidSpec> zero_key(Option option, const std::string& reason) {
 Section<LiquidRegionSpec> region_section() {
   Section<LiquidRegionSpec> s;
   s.keys = lift<LiquidRegionSpec>(shape_section(), &LiquidRegionSpec::shape);
-  s.keys.push_back(value_key<LiquidRegionSpec>(
-      {.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt", .unset = "that of [liquid]",
-       .doc = "initial velocity in this region"}, &LiquidRegionSpec::velocity));
+  s.keys.push_back(value_key<LiquidRegionSpec>({.key = "velocity",
+                                                .type = T::formula_vector,
+                                                .unit = "m/s",
+                                                .variables = "xyzt",
+                                                .unset = "that of [liquid]",
+                                                .doc = "initial velocity in this region"},
+                                               &LiquidRegionSpec::velocity));
   s.finish = [](SceneContext& c, const Place& p, LiquidRegionSpec& r) { finish_shape(c, p, r.shape); };
   return s;
 }
 
 // The end of time is written by leaving the key out.
 Key<LiquidSourceSpec> until_key() {
-  const Option option{.key = "until", .unit = "s", .unset = "for ever", .doc = "the source flows while from <= t < until"};
+  const Option option{
+      .key = "until", .unit = "s", .unset = "for ever", .doc = "the source flows while from <= t < until"};
   Key<LiquidSourceSpec> key{option, {}, {}};
   key.read = [option](SceneContext& c, const Place& p, LiquidSourceSpec& s) { read_value(c, p, option, s.until); };
   key.write = [option](const LiquidSourceSpec& s, int dimension, const std::string& path, SceneLines& lines) {
@@ -50,13 +55,25 @@ Section<LiquidSourceSpec> source_section() {
   using S = LiquidSourceSpec;
   Section<S> s;
   s.keys = lift<S>(shape_section(), &S::shape);
-  s.keys.push_back(value_key<S>({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt",
-                                 .unset = "zero", .doc = "velocity of the liquid that is added"}, &S::velocity));
-  s.keys.push_back(value_key<S>({.key = "from", .unit = "s",
+  s.keys.push_back(value_key<S>({.key = "velocity",
+                                 .type = T::formula_vector,
+                                 .unit = "m/s",
+                                 .variables = "xyzt",
+                                 .unset = "zero",
+                                 .doc = "velocity of the liquid that is added"},
+                                &S::velocity));
+  s.keys.push_back(value_key<S>({.key = "from",
+                                 .unit = "s",
                                  .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},
-                                 .unset = "0.0", .doc = "when the source begins"}, &S::from));
-  s.keys.push_back(value_key<S>({.key = "start", .unit = "s", .only_for = {"shape", {"cylinder", "capsule"}}, .unset = "0.0",
-                                 .doc = "when the source begins (the from of these shapes is a point)"}, &S::from));
+                                 .unset = "0.0",
+                                 .doc = "when the source begins"},
+                                &S::from));
+  s.keys.push_back(value_key<S>({.key = "start",
+                                 .unit = "s",
+                                 .only_for = {"shape", {"cylinder", "capsule"}},
+                                 .unset = "0.0",
+                                 .doc = "when the source begins (the from of these shapes is a point)"},
+                                &S::from));
   s.keys.push_back(until_key());
   s.finish = [](SceneContext& c, const Place& p, S& source) {
     finish_shape(c, p, source.shape);
@@ -72,18 +89,32 @@ Section<LiquidSpec> liquid_section() {
   Section<S> s;
   s.keys = {
       value_key<S>({.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"}, &S::density),
-      zero_key({.key = "viscosity", .unit = "Pa s", .range = between(0, number_limit), .doc = "only 0 (inviscid) in this version"},
+      zero_key({.key = "viscosity",
+                .unit = "Pa s",
+                .range = between(0, number_limit),
+                .doc = "only 0 (inviscid) in this version"},
                "viscous flow is not in this version; leave viscosity out or set it to 0 (inviscid)"),
-      zero_key({.key = "surface_tension", .unit = "N/m", .range = between(0, number_limit), .doc = "only 0 in this version"},
-               "surface tension is not in this version; leave it out or set it to 0"),
-      later_key<S>({.key = "rheology", .type = T::table,
+      zero_key(
+          {.key = "surface_tension", .unit = "N/m", .range = between(0, number_limit), .doc = "only 0 in this version"},
+          "surface tension is not in this version; leave it out or set it to 0"),
+      later_key<S>({.key = "rheology",
+                    .type = T::table,
                     .doc = "non-Newtonian liquids are not in this version; it has inviscid liquid (viscosity = 0)"}),
-      value_key<S>({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt", .unset = "zero",
-                    .doc = "initial velocity (expressions at t = 0)"}, &S::velocity),
-      list_key<S, LiquidRegionSpec>({.key = "region", .unset = "no liquid", .doc = "where liquid is at t = 0: the union of all",
-                                     .most = most_entries}, &S::regions, region_section()),
-      list_key<S, LiquidSourceSpec>({.key = "source", .unset = "none", .doc = "liquid added in a shape for a time",
-                                     .most = most_entries}, &S::sources, source_section()),
+      value_key<S>({.key = "velocity",
+                    .type = T::formula_vector,
+                    .unit = "m/s",
+                    .variables = "xyzt",
+                    .unset = "zero",
+                    .doc = "initial velocity (expressions at t = 0)"},
+                   &S::velocity),
+      list_key<S, LiquidRegionSpec>({.key = "region",
+                                     .unset = "no liquid",
+                                     .doc = "where liquid is at t = 0: the union of all",
+                                     .most = most_entries},
+                                    &S::regions, region_section()),
+      list_key<S, LiquidSourceSpec>(
+          {.key = "source", .unset = "none", .doc = "liquid added in a shape for a time", .most = most_entries},
+          &S::sources, source_section()),
   };
   return s;
 }

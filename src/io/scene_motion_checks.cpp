@@ -28,10 +28,13 @@ std::string fault_of_motion(const MotionSpec& motion, const Sampling& sampling) 
   for (int i = 0; i <= sampling.count; ++i) {
     const double t = sampling.end * i / sampling.count;
     const Vec3 now = translate(Vec3::Zero(), t);
-    if (!now.allFinite() || !std::isfinite(degrees(Vec3::Zero(), t))) return fmt::format("the motion is not finite at t = {} s", t);
+    if (!now.allFinite() || !std::isfinite(degrees(Vec3::Zero(), t)))
+      return fmt::format("the motion is not finite at t = {} s", t);
     if (i > 0 && (now - last).norm() > sampling.reach) {
-      return fmt::format("the motion jumps by {:.4g} m at t = {:.6g} s, further than the domain is long ({:.4g} m); make it "
-                         "continuous", (now - last).norm(), t, sampling.reach);
+      return fmt::format(
+          "the motion jumps by {:.4g} m at t = {:.6g} s, further than the domain is long ({:.4g} m); make it "
+          "continuous",
+          (now - last).norm(), t, sampling.reach);
     }
     last = now;
   }

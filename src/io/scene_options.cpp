@@ -15,13 +15,28 @@ Section<SideSpec> side_section() {
   s.keys = {
       choice_key<S, SideType S::*, SideType>(
           {.key = "type", .presence = Presence::required, .doc = "what the side does"}, &S::type,
-          {{"free_slip", SideType::free_slip}, {"no_slip", SideType::no_slip}, {"periodic", SideType::periodic},
-           {"inflow", SideType::inflow}, {"outflow", SideType::outflow}, {"moving_wall", SideType::moving_wall}}),
-      value_key<S>({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt",
-                    .only_for = {"type", {"inflow", "moving_wall"}}, .presence = Presence::required,
-                    .doc = "velocity of the liquid or the wall"}, &S::velocity),
-      value_key<S>({.key = "pressure", .type = T::formula, .unit = "Pa", .variables = "xyzt",
-                    .only_for = {"type", {"outflow"}}, .unset = "0.0", .doc = "pressure outside"}, &S::pressure),
+          {{"free_slip", SideType::free_slip},
+           {"no_slip", SideType::no_slip},
+           {"periodic", SideType::periodic},
+           {"inflow", SideType::inflow},
+           {"outflow", SideType::outflow},
+           {"moving_wall", SideType::moving_wall}}),
+      value_key<S>({.key = "velocity",
+                    .type = T::formula_vector,
+                    .unit = "m/s",
+                    .variables = "xyzt",
+                    .only_for = {"type", {"inflow", "moving_wall"}},
+                    .presence = Presence::required,
+                    .doc = "velocity of the liquid or the wall"},
+                   &S::velocity),
+      value_key<S>({.key = "pressure",
+                    .type = T::formula,
+                    .unit = "Pa",
+                    .variables = "xyzt",
+                    .only_for = {"type", {"outflow"}},
+                    .unset = "0.0",
+                    .doc = "pressure outside"},
+                   &S::pressure),
   };
   return s;
 }
@@ -39,7 +54,8 @@ Key<Sides> side_key(int axis, int end) {
   const std::string name = std::string(1, "xyz"[axis]) + (end == 0 ? "_lower" : "_upper");
   const Section<SideSpec> section = side_section();
   const std::vector<Option> options = own_options(section);
-  const Option option{.key = name, .type = T::table, .fallback = "\"free_slip\"", .doc = "a type in quotes, or a table"};
+  const Option option{
+      .key = name, .type = T::table, .fallback = "\"free_slip\"", .doc = "a type in quotes, or a table as below"};
   Key<Sides> key{option, {}, {}, [section] { return all_options(section); }};
   key.read = [=](SceneContext& c, const Place& p, Sides& sides) {
     const TomlNode table = side_table(*p.node);
@@ -62,7 +78,8 @@ Section<Sides> boundary_section() {
   s.finish = [](SceneContext& c, const Place& p, Sides&) {
     for (const TomlEntry& entry : p.node->entries) {
       const bool beyond = c.dimension == 2 && (entry.key == "z_lower" || entry.key == "z_upper");
-      if (beyond) c.report(join_path(p.path, entry.key), entry.line, entry.key + " is for 3D; this scene has dimension = 2");
+      if (beyond)
+        c.report(join_path(p.path, entry.key), entry.line, entry.key + " is for 3D; this scene has dimension = 2");
     }
   };
   return s;
@@ -72,11 +89,17 @@ Section<DomainSpec> domain_section() {
   using S = DomainSpec;
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "lower", .type = T::vector, .unit = "m", .unset = "the origin", .doc = "low corner"}, &S::lower),
-      value_key<S>({.key = "upper", .type = T::vector, .unit = "m", .presence = Presence::required, .doc = "high corner"},
-                   &S::upper),
-      value_key<S>({.key = "cell_size", .unit = "m", .range = positive(), .presence = Presence::required,
-                    .doc = "edge of a cell; each extent must be a whole number of cells, at least 2"}, &S::cell_size),
+      value_key<S>({.key = "lower", .type = T::vector, .unit = "m", .unset = "the origin", .doc = "low corner"},
+                   &S::lower),
+      value_key<S>(
+          {.key = "upper", .type = T::vector, .unit = "m", .presence = Presence::required, .doc = "high corner"},
+          &S::upper),
+      value_key<S>({.key = "cell_size",
+                    .unit = "m",
+                    .range = positive(),
+                    .presence = Presence::required,
+                    .doc = "edge of a cell; each extent must be a whole number of cells, at least 2"},
+                   &S::cell_size),
       block_key<S>({.key = "boundary", .unset = "free_slip on all sides", .doc = "what each side of the domain does"},
                    &S::sides, boundary_section()),
   };
@@ -88,14 +111,20 @@ Section<TimeSpec> time_section() {
   Section<S> s;
   const Range period{shortest_time, number_limit};
   s.keys = {
-      value_key<S>({.key = "end", .unit = "s", .presence = Presence::required, .doc = "end of the run; 0 or less: no steps"},
-                   &S::end),
-      value_key<S>({.key = "frame_rate", .unit = "1/s", .range = between(1e-9, 1e6),
-                    .doc = "frames written a second of simulated time"}, &S::frame_rate),
+      value_key<S>(
+          {.key = "end", .unit = "s", .presence = Presence::required, .doc = "end of the run; 0 or less: no steps"},
+          &S::end),
+      value_key<S>({.key = "frame_rate",
+                    .unit = "1/s",
+                    .range = between(1e-9, 1e6),
+                    .doc = "frames written a second of simulated time"},
+                   &S::frame_rate),
       value_key<S>({.key = "cfl", .range = positive(8), .doc = "cells the fastest flow may cross in a step"}, &S::cfl),
-      value_key<S>({.key = "max_step", .unit = "s", .range = period, .unset = "no limit", .doc = "longest step"}, &S::max_step),
-      value_key<S>({.key = "fixed_step", .unit = "s", .range = period, .unset = "steps follow cfl", .doc = "pins the step"},
-                   &S::fixed_step),
+      value_key<S>({.key = "max_step", .unit = "s", .range = period, .unset = "no limit", .doc = "longest step"},
+                   &S::max_step),
+      value_key<S>(
+          {.key = "fixed_step", .unit = "s", .range = period, .unset = "steps follow cfl", .doc = "pins the step"},
+          &S::fixed_step),
       choice_key<S, TimeScheme S::*, TimeScheme>(
           {.key = "scheme", .doc = "order of the time stepping"}, &S::scheme,
           {{"first_order", TimeScheme::first_order}, {"second_order", TimeScheme::second_order}}),
@@ -107,18 +136,34 @@ Section<ProbeSpec> probe_section() {
   using S = ProbeSpec;
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "name", .type = T::text, .unset = "`probe1`, `probe2`, ...", .doc = "unique name"}, &S::name),
+      value_key<S>({.key = "name", .type = T::text, .unset = "`probe1`, `probe2`, ...", .doc = "unique name"},
+                   &S::name),
       choice_key<S, ProbeKind S::*, ProbeKind>(
-          {.key = "kind", .refused = {{"displacement", "it follows elastic solids, which this version does not have"}},
-           .presence = Presence::required, .doc = "what is measured"}, &S::kind,
-          {{"pressure", ProbeKind::pressure}, {"velocity", ProbeKind::velocity},
-           {"surface_height", ProbeKind::surface_height}, {"front", ProbeKind::front}}),
-      value_key<S>({.key = "position", .type = T::vector, .unit = "m",
-                    .only_for = {"kind", {"pressure", "velocity", "surface_height"}}, .presence = Presence::required,
-                    .doc = "where it is measured"}, &S::position),
-      value_key<S>({.key = "every", .unit = "s", .range = {shortest_time, number_limit}, .unset = "each step",
-                    .doc = "time between samples"}, &S::every),
-      later_key<S>({.key = "solid", .type = T::text, .only_for = {"kind", {"displacement"}},
+          {.key = "kind",
+           .refused = {{"displacement", "it follows elastic solids, which this version does not have"}},
+           .presence = Presence::required,
+           .doc = "what is measured"},
+          &S::kind,
+          {{"pressure", ProbeKind::pressure},
+           {"velocity", ProbeKind::velocity},
+           {"surface_height", ProbeKind::surface_height},
+           {"front", ProbeKind::front}}),
+      value_key<S>({.key = "position",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"kind", {"pressure", "velocity", "surface_height"}},
+                    .presence = Presence::required,
+                    .doc = "where it is measured"},
+                   &S::position),
+      value_key<S>({.key = "every",
+                    .unit = "s",
+                    .range = {shortest_time, number_limit},
+                    .unset = "each step",
+                    .doc = "time between samples"},
+                   &S::every),
+      later_key<S>({.key = "solid",
+                    .type = T::text,
+                    .only_for = {"kind", {"displacement"}},
                     .doc = "the solid that a displacement probe follows"}),
   };
   return s;
@@ -127,9 +172,12 @@ Section<ProbeSpec> probe_section() {
 Section<Scene> tracking_section() {
   const std::string reason = "particles are not in this version";
   Section<Scene> s;
-  s.keys = {value_key<Scene>({.key = "method", .type = T::choice, .choices = {"level_set"},
+  s.keys = {value_key<Scene>({.key = "method",
+                              .type = T::choice,
+                              .choices = {"level_set"},
                               .refused = {{"particle_level_set", reason}, {"apic", reason}},
-                              .doc = "how the liquid surface is followed"}, &Scene::tracking)};
+                              .doc = "how the liquid surface is followed"},
+                             &Scene::tracking)};
   return s;
 }
 
@@ -137,9 +185,13 @@ Section<SolverSpec> solver_section() {
   using S = SolverSpec;
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "tolerance", .range = positive(1e-2), .doc = "relative residual of the pressure solve"}, &S::tolerance),
-      value_key<S>({.key = "preconditioner", .type = T::choice, .choices = {"auto", "boomeramg", "multigrid", "none"},
-                    .doc = "preconditioner of the pressure solve"}, &S::preconditioner),
+      value_key<S>({.key = "tolerance", .range = positive(1e-2), .doc = "relative residual of the pressure solve"},
+                   &S::tolerance),
+      value_key<S>({.key = "preconditioner",
+                    .type = T::choice,
+                    .choices = {"auto", "boomeramg", "multigrid", "none"},
+                    .doc = "preconditioner of the pressure solve"},
+                   &S::preconditioner),
   };
   return s;
 }
@@ -148,14 +200,21 @@ Section<OutputSpec> output_section() {
   using S = OutputSpec;
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "frames", .type = T::choice_list,
+      value_key<S>({.key = "frames",
+                    .type = T::choice_list,
                     .choices = {"surface", "velocity", "pressure", "vorticity", "solids"},
                     .refused = {{"viscosity", "viscous flow is not in this version"}},
-                    .doc = "fields of a frame"}, &S::frames),
-      value_key<S>({.key = "formats", .type = T::choice_list, .choices = {"vdb", "vtk"}, .doc = "file formats of the frames"},
-                   &S::formats),
-      value_key<S>({.key = "checkpoint_every", .type = T::integer, .unit = "frames", .range = between(1, 1e9),
-                    .doc = "frames between checkpoints"}, &S::checkpoint_every),
+                    .doc = "fields of a frame"},
+                   &S::frames),
+      value_key<S>(
+          {.key = "formats", .type = T::choice_list, .choices = {"vdb", "vtk"}, .doc = "file formats of the frames"},
+          &S::formats),
+      value_key<S>({.key = "checkpoint_every",
+                    .type = T::integer,
+                    .unit = "frames",
+                    .range = between(1, 1e9),
+                    .doc = "frames between checkpoints"},
+                   &S::checkpoint_every),
   };
   return s;
 }
@@ -180,7 +239,9 @@ bool has_files(const Scene& scene) {
 
 // A normalised scene names its files by absolute paths, so it asks for the permission if it has any.
 Key<Scene> access_key() {
-  const Option option{.key = "allow_outside_files", .type = T::boolean, .fallback = "false",
+  const Option option{.key = "allow_outside_files",
+                      .type = T::boolean,
+                      .fallback = "false",
                       .doc = "true: files may lie outside the scene's folder"};
   Key<Scene> key{option, {}, {}};
   key.read = [option](SceneContext& c, const Place& p, Scene&) {
@@ -194,28 +255,32 @@ Key<Scene> access_key() {
   return key;
 }
 
-}  // namespace
-
-Section<Scene> scene_section() {
+Section<Scene> build_scene_section() {
   using S = Scene;
-  const auto itself = [](auto& s) -> auto& { return s; };
+  const auto itself = [](auto& s) -> auto& {
+    return s;
+  };
   Section<S> s;
   s.keys = {
       value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
       dimension_key(),
       access_key(),
       value_key<S>({.key = "gravity", .type = T::vector, .unit = "m/s^2", .doc = "acceleration"}, &S::gravity),
-      block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"}, &S::domain,
-                   domain_section()),
-      block_key<S>({.key = "time", .presence = Presence::required, .doc = "how long (end) and in which steps"}, &S::time,
-                   time_section()),
-      block_key<S>({.key = "liquid", .unset = "no liquid", .doc = "the liquid and where it is"}, &S::liquid, liquid_section()),
-      later_key<S>({.key = "gas", .type = T::table, .doc = "two-phase flow is not in this version; without [gas] the liquid "
-                                                           "has a free surface at pressure 0"}),
-      list_key<S, SolidSpec>({.key = "solid", .unset = "none", .doc = "solids in the liquid", .most = most_entries}, &S::solids,
-                             solid_section()),
-      list_key<S, ProbeSpec>({.key = "probe", .unset = "none", .doc = "measurements for probes.csv", .most = most_entries},
-                             &S::probes, probe_section()),
+      block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},
+                   &S::domain, domain_section()),
+      block_key<S>({.key = "time", .presence = Presence::required, .doc = "how long (end) and in which steps"},
+                   &S::time, time_section()),
+      block_key<S>({.key = "liquid", .unset = "no liquid", .doc = "the liquid and where it is"}, &S::liquid,
+                   liquid_section()),
+      later_key<S>({.key = "gas",
+                    .type = T::table,
+                    .doc = "two-phase flow is not in this version; without [gas] the liquid "
+                           "has a free surface at pressure 0"}),
+      list_key<S, SolidSpec>({.key = "solid", .unset = "none", .doc = "solids in the liquid", .most = most_entries},
+                             &S::solids, solid_section()),
+      list_key<S, ProbeSpec>(
+          {.key = "probe", .unset = "none", .doc = "measurements for probes.csv", .most = most_entries}, &S::probes,
+          probe_section()),
       block_key<S>({.key = "tracking", .doc = "the liquid surface"}, itself, tracking_section()),
       block_key<S>({.key = "solver", .doc = "the pressure solve"}, &S::solver, solver_section()),
       block_key<S>({.key = "output", .doc = "what is written"}, &S::output, output_section()),
@@ -223,6 +288,15 @@ Section<Scene> scene_section() {
   return s;
 }
 
-std::vector<Option> scene_options() { return all_options(scene_section()); }
+}  // namespace
+
+const Section<Scene>& scene_section() {
+  static const Section<Scene> section = build_scene_section();  // the table never changes
+  return section;
+}
+
+std::vector<Option> scene_options() {
+  return all_options(scene_section());
+}
 
 }  // namespace seiche

@@ -8,7 +8,7 @@
 namespace seiche {
 
 // The top level; everything else hangs below it.
-Section<Scene> scene_section();
+const Section<Scene>& scene_section();
 Section<ShapeSpec> shape_section();
 Section<LiquidSpec> liquid_section();
 Section<SolidSpec> solid_section();

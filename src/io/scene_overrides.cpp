@@ -38,15 +38,18 @@ std::optional<std::size_t> index_of(const std::string& part) {
   return index;
 }
 
-TomlNode& step_into_array(TomlNode& array, const std::string& part, const std::string& walked, const Override& override) {
+TomlNode& step_into_array(TomlNode& array, const std::string& part, const std::string& walked,
+                          const Override& override) {
   const auto index = index_of(part);
   if (index && *index < array.items.size()) return array.items[*index];
   const std::size_t count = array.items.size();
   fail(override, count == 0 ? fmt::format("{} has no entries", walked)
-                            : fmt::format("{} has {} entries, numbered 0 to {}; there is no '{}'", walked, count, count - 1, part));
+                            : fmt::format("{} has {} entries, numbered 0 to {}; there is no '{}'", walked, count,
+                                          count - 1, part));
 }
 
-TomlNode& step_into(TomlNode& node, const std::string& part, const std::string& walked, const Override& override, int line) {
+TomlNode& step_into(TomlNode& node, const std::string& part, const std::string& walked, const Override& override,
+                    int line) {
   if (node.kind == TomlNode::Kind::array) return step_into_array(node, part, walked, override);
   if (node.kind != TomlNode::Kind::table) fail(override, fmt::format("{} is {}, not a table", walked, describe(node)));
   if (TomlEntry* entry = node.find(part)) return entry->value;

@@ -56,16 +56,17 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   TomlNode root = parse_toml(text, name);
   apply_overrides(root, overrides);
   if (root.entries.empty()) {
-    throw Error(ExitCode::bad_input, name + ": the scene is empty; it needs at least [domain] with upper and cell_size, and "
-                                            "[time] with end");
+    throw Error(ExitCode::bad_input,
+                name +
+                    ": the scene is empty; it needs at least [domain] with upper and cell_size, and "
+                    "[time] with end");
   }
   SceneContext context(name, folder);
   for (const Override& override : overrides) context.override_paths.push_back(override.path);
   const Scene defaults;
   context.dimension = root.find("dimension") ? 0 : defaults.dimension;
-  const Section<Scene> section = scene_section();
   Scene scene;
-  read_section(context, {&root, ""}, section, own_options(section), scene);
+  read_section(context, {&root, ""}, scene_section(), own_options(scene_section()), scene);
   check_scene(context, root, scene);
   context.throw_problems();
   return scene;

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// --set key.path=value: the value is TOML, bare words and formulas are taken as text, entries of arrays are counted from
-// 0 (solid.0.radius).
+// --set key.path=value: the value is TOML, bare words and formulas are taken as text, entries of arrays are counted
+// from 0 (solid.0.radius).
 struct Override {
   std::string path, value;
 };

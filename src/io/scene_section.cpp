@@ -17,7 +17,8 @@ std::string decider_text(const TomlNode& table, const std::string& key, const st
   if (!entry) return option->fallback.size() > 2 ? option->fallback.substr(1, option->fallback.size() - 2) : "";
   if (!is_text(entry->value)) return "";
   const std::string& text = entry->value.text;
-  const bool refused = std::any_of(option->refused.begin(), option->refused.end(), [&](auto& r) { return r.value == text; });
+  const bool refused =
+      std::any_of(option->refused.begin(), option->refused.end(), [&](auto& r) { return r.value == text; });
   const bool known = std::find(option->choices.begin(), option->choices.end(), text) != option->choices.end();
   return refused || known ? text : "";
 }
@@ -55,8 +56,8 @@ std::string misplaced_text(const Place& p, const std::string& key, const std::ve
     decider = option.only_for.key;
     values.insert(values.end(), option.only_for.values.begin(), option.only_for.values.end());
   }
-  return fmt::format("'{}' in {} is only for {} = {}; with {} = \"{}\" it may have: {}", key, section_title(p.path), decider,
-                     quoted_list(values), decider, decider_text(*p.node, decider, options),
+  return fmt::format("'{}' in {} is only for {} = {}; with {} = \"{}\" it may have: {}", key, section_title(p.path),
+                     decider, quoted_list(values), decider, decider_text(*p.node, decider, options),
                      plain_list(allowed_keys(*p.node, options)));
 }
 
@@ -89,8 +90,10 @@ void check_keys(SceneContext& c, const Place& p, const std::vector<Option>& opti
     const bool needed = option.presence == Presence::required && !p.node->find(option.key) &&
                         relevance(*p.node, option, options) == Relevance::relevant;
     if (!needed) continue;
-    const std::string why = option.only_for.key.empty() ? "" : fmt::format(" with {} = \"{}\"", option.only_for.key,
-                                                                         decider_text(*p.node, option.only_for.key, options));
+    const std::string why = option.only_for.key.empty()
+                                ? ""
+                                : fmt::format(" with {} = \"{}\"", option.only_for.key,
+                                              decider_text(*p.node, option.only_for.key, options));
     c.report(join_path(p.path, option.key), p.node->line,
              fmt::format("{} needs '{}'{}: {}", section_title(p.path), option.key, why, option.doc));
   }
@@ -104,7 +107,8 @@ bool check_is_table(SceneContext& c, const Place& p, const Option& option) {
 
 bool check_is_table_list(SceneContext& c, const Place& p, const Option& option) {
   if (p.node->kind != TomlNode::Kind::array) {
-    c.report(p, fmt::format("{} must be an array of tables, written [[{}]], not {}", p.path, p.path, describe(*p.node)));
+    c.report(p,
+             fmt::format("{} must be an array of tables, written [[{}]], not {}", p.path, p.path, describe(*p.node)));
     return false;
   }
   if (p.node->items.size() > option.most) {
@@ -121,7 +125,8 @@ bool check_is_table_list(SceneContext& c, const Place& p, const Option& option) 
 bool applies_to(const Option& option, const SceneLines& lines) {
   const Condition& condition = option.only_for;
   if (condition.key.empty()) return true;
-  const auto line = std::find_if(lines.begin(), lines.end(), [&](const SceneLine& l) { return l.key == condition.key; });
+  const auto line =
+      std::find_if(lines.begin(), lines.end(), [&](const SceneLine& l) { return l.key == condition.key; });
   if (line == lines.end()) return false;
   return std::any_of(condition.values.begin(), condition.values.end(),
                      [&](const std::string& value) { return line->text == quote_toml(value); });

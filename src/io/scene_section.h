@@ -99,7 +99,9 @@ Key<Spec> value_key(Option option, Member member) {
     option.fallback = to_toml(std::invoke(member, std::as_const(*std::make_unique<Spec>())), option, 3);
   }
   Key<Spec> key{option, {}, {}};
-  key.read = [option, member](SceneContext& c, const Place& p, Spec& s) { read_value(c, p, option, std::invoke(member, s)); };
+  key.read = [option, member](SceneContext& c, const Place& p, Spec& s) {
+    read_value(c, p, option, std::invoke(member, s));
+  };
   key.write = [option, member](const Spec& s, int dimension, const std::string& path, SceneLines& lines) {
     const std::string text = to_toml(std::invoke(member, s), option, dimension);
     if (!text.empty()) lines.push_back({join_path(path, option.key), option.key, text});

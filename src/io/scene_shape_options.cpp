@@ -15,10 +15,14 @@ const std::vector<std::string> axial{"cylinder", "capsule"};
 Section<RotationSpec> rotation_section() {
   Section<RotationSpec> s;
   s.keys = {
-      value_key<RotationSpec>({.key = "axis", .type = T::axis, .doc = "axis through the origin; 3D scenes must give it"},
-                              &RotationSpec::axis),
-      value_key<RotationSpec>({.key = "degrees", .unit = "degrees", .presence = Presence::required,
-                               .doc = "angle, counter-clockwise seen against the axis"}, &RotationSpec::degrees),
+      value_key<RotationSpec>(
+          {.key = "axis", .type = T::axis, .doc = "axis through the origin; 3D scenes must give it"},
+          &RotationSpec::axis),
+      value_key<RotationSpec>({.key = "degrees",
+                               .unit = "degrees",
+                               .presence = Presence::required,
+                               .doc = "angle, counter-clockwise seen against the axis"},
+                              &RotationSpec::degrees),
   };
   s.finish = [](SceneContext& c, const Place& p, RotationSpec& r) { check_axis(c, p, r.axis); };
   return s;
@@ -29,26 +33,74 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
   const std::vector<std::string> round{"sphere", "cylinder", "capsule"};
   using S = ShapeSpec;
   return {
-      value_key<S>({.key = "lower", .type = T::vector, .unit = "m", .only_for = {"shape", {"box"}}, .presence = needed,
-                    .doc = "low corner"}, &S::lower),
-      value_key<S>({.key = "upper", .type = T::vector, .unit = "m", .only_for = {"shape", {"box"}}, .presence = needed,
-                    .doc = "high corner"}, &S::upper),
-      value_key<S>({.key = "center", .type = T::vector, .unit = "m", .only_for = {"shape", {"sphere"}}, .presence = needed,
-                    .doc = "centre of the sphere (2D: disc)"}, &S::center),
-      value_key<S>({.key = "from", .type = T::vector, .unit = "m", .only_for = {"shape", axial}, .presence = needed,
-                    .doc = "one end of the axis"}, &S::from),
-      value_key<S>({.key = "to", .type = T::vector, .unit = "m", .only_for = {"shape", axial}, .presence = needed,
-                    .doc = "other end of the axis"}, &S::to),
-      value_key<S>({.key = "radius", .unit = "m", .range = positive(), .only_for = {"shape", round}, .presence = needed,
-                    .doc = "radius"}, &S::radius),
-      value_key<S>({.key = "point", .type = T::vector, .unit = "m", .only_for = {"shape", {"plane"}}, .presence = needed,
-                    .doc = "a point of the plane"}, &S::point),
-      value_key<S>({.key = "normal", .type = T::vector, .only_for = {"shape", {"plane"}}, .presence = needed,
-                    .doc = "points out of the shape; any length"}, &S::normal),
-      value_key<S>({.key = "file", .type = T::file, .only_for = {"shape", {"mesh", "level_set"}}, .presence = needed,
-                    .doc = "mesh: closed triangles (.obj, .ply, .stl); level_set: a frame of ours (.vdb)"}, &S::file),
-      value_key<S>({.key = "phi", .type = T::formula, .variables = "xyz", .only_for = {"shape", {"expression"}},
-                    .presence = needed, .doc = "negative inside; need not be a distance"}, &S::phi),
+      value_key<S>({.key = "lower",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"shape", {"box"}},
+                    .presence = needed,
+                    .doc = "low corner"},
+                   &S::lower),
+      value_key<S>({.key = "upper",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"shape", {"box"}},
+                    .presence = needed,
+                    .doc = "high corner"},
+                   &S::upper),
+      value_key<S>({.key = "center",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"shape", {"sphere"}},
+                    .presence = needed,
+                    .doc = "centre of the sphere (2D: disc)"},
+                   &S::center),
+      value_key<S>({.key = "from",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"shape", axial},
+                    .presence = needed,
+                    .doc = "one end of the axis"},
+                   &S::from),
+      value_key<S>({.key = "to",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"shape", axial},
+                    .presence = needed,
+                    .doc = "other end of the axis"},
+                   &S::to),
+      value_key<S>({.key = "radius",
+                    .unit = "m",
+                    .range = positive(),
+                    .only_for = {"shape", round},
+                    .presence = needed,
+                    .doc = "radius"},
+                   &S::radius),
+      value_key<S>({.key = "point",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = {"shape", {"plane"}},
+                    .presence = needed,
+                    .doc = "a point of the plane"},
+                   &S::point),
+      value_key<S>({.key = "normal",
+                    .type = T::vector,
+                    .only_for = {"shape", {"plane"}},
+                    .presence = needed,
+                    .doc = "points out of the shape; any length"},
+                   &S::normal),
+      value_key<S>({.key = "file",
+                    .type = T::file,
+                    .only_for = {"shape", {"mesh", "level_set"}},
+                    .presence = needed,
+                    .doc = "mesh: closed triangles (.obj, .ply, .stl); level_set: a frame of ours (.vdb)"},
+                   &S::file),
+      value_key<S>({.key = "phi",
+                    .type = T::formula,
+                    .variables = "xyz",
+                    .only_for = {"shape", {"expression"}},
+                    .presence = needed,
+                    .doc = "negative inside; need not be a distance"},
+                   &S::phi),
   };
 }
 
@@ -57,15 +109,19 @@ void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape) {
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char ch) { return std::tolower(ch); });
   const std::string path = join_path(p.path, "file");
   const int line = p.node->find("file")->value.line;
-  const auto is_any = [&](std::vector<std::string> known) { return std::find(known.begin(), known.end(), ending) != known.end(); };
+  const auto is_any = [&](std::vector<std::string> known) {
+    return std::find(known.begin(), known.end(), ending) != known.end();
+  };
   if (shape.kind == "level_set" && !is_any({".vdb"})) {
-    c.report(path, line, fmt::format("{}: a level_set is read from a .vdb file, not '{}'", path, shape.file.filename().string()));
+    c.report(path, line,
+             fmt::format("{}: a level_set is read from a .vdb file, not '{}'", path, shape.file.filename().string()));
   }
   if (shape.kind != "mesh" || is_any({".obj", ".ply", ".stl"})) return;
   const bool volume = is_any({".msh", ".vtu", ".mesh"});
-  c.report(path, line, fmt::format("{}: {}; a mesh is a closed triangle surface in .obj, .ply or .stl", path,
-                                   volume ? "tetrahedra are for elastic solids, which this version does not have"
-                                          : "cannot read a mesh from '" + shape.file.filename().string() + "'"));
+  c.report(path, line,
+           fmt::format("{}: {}; a mesh is a closed triangle surface in .obj, .ply or .stl", path,
+                       volume ? "tetrahedra are for elastic solids, which this version does not have"
+                              : "cannot read a mesh from '" + shape.file.filename().string() + "'"));
 }
 
 void check_extent(SceneContext& c, const Place& p, const ShapeSpec& shape) {
@@ -81,7 +137,8 @@ void check_extent(SceneContext& c, const Place& p, const ShapeSpec& shape) {
 void check_axis(SceneContext& c, const Place& p, const Vec3& axis) {
   const TomlEntry* given = p.node->find("axis");
   const std::string path = join_path(p.path, "axis");
-  if (!given && c.dimension == 3) c.report(path, p.node->line, p.path + " needs an axis in 3D, for instance axis = [0, 1, 0]");
+  if (!given && c.dimension == 3)
+    c.report(path, p.node->line, p.path + " needs an axis in 3D, for instance axis = [0, 1, 0]");
   if (!given || !c.clean(path)) return;
   const Place place{&given->value, path};
   if (axis.norm() == 0) return c.report(place, path + " must not be zero");
@@ -91,36 +148,46 @@ void check_axis(SceneContext& c, const Place& p, const Vec3& axis) {
 void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape) {
   shape.where = c.where(p.node->line);
   if (shape.kind == "mesh" && c.dimension == 2) {
-    c.report(p, section_title(p.path) + ": triangle meshes are for dimension = 3; in 2D use an expression or a level_set");
+    c.report(p,
+             section_title(p.path) + ": triangle meshes are for dimension = 3; in 2D use an expression or a level_set");
   }
   if (!c.clean(p.path) || c.dimension == 0) return;
   if (shape.kind == "box") check_extent(c, p, shape);
   if (shape.kind == "plane" && shape.normal.norm() == 0) c.report(p, join_path(p.path, "normal") + " must not be zero");
   const bool axial_shape = std::find(axial.begin(), axial.end(), shape.kind) != axial.end();
   if (axial_shape && shape.from == shape.to) {
-    c.report(p, fmt::format("the {} of {} has no axis: from and to are the same point", shape.kind, section_title(p.path)));
+    c.report(
+        p, fmt::format("the {} of {} has no axis: from and to are the same point", shape.kind, section_title(p.path)));
   }
   if (shape.kind == "mesh" || shape.kind == "level_set") check_extension(c, p, shape);
 }
 
 Section<ShapeSpec> shape_section() {
   Section<ShapeSpec> s;
-  const auto transform = [](auto& shape) -> auto& { return shape.transform; };
+  const auto transform = [](auto& shape) -> auto& {
+    return shape.transform;
+  };
   s.keys = {value_key<ShapeSpec>(
-      {.key = "shape", .type = T::choice,
+      {.key = "shape",
+       .type = T::choice,
        .choices = {"box", "sphere", "cylinder", "capsule", "plane", "mesh", "expression", "level_set"},
-       .presence = Presence::required, .doc = "kind of shape; it decides which further keys there are"}, &ShapeSpec::kind)};
+       .presence = Presence::required,
+       .doc = "kind of shape; it decides which further keys there are"},
+      &ShapeSpec::kind)};
   for (Key<ShapeSpec>& key : geometry_keys()) s.keys.push_back(std::move(key));
-  s.keys.push_back(value_key<ShapeSpec>({.key = "invert", .type = T::boolean,
+  s.keys.push_back(value_key<ShapeSpec>({.key = "invert",
+                                         .type = T::boolean,
                                          .doc = "true: the outside of the shape (an inverted sphere is a container)"},
                                         &ShapeSpec::invert));
   Section<TransformSpec> t;
-  t.keys = {value_key<TransformSpec>({.key = "scale", .range = positive(), .doc = "factor about the origin, applied first"},
-                                     &TransformSpec::scale),
-            inline_key<TransformSpec>({.key = "rotate", .unset = "no rotation", .doc = "about the origin, after scale"},
-                                      &TransformSpec::rotate, rotation_section()),
-            value_key<TransformSpec>({.key = "translate", .type = T::vector, .unit = "m", .unset = "zero",
-                                      .doc = "applied last"}, &TransformSpec::translate)};
+  t.keys = {
+      value_key<TransformSpec>({.key = "scale", .range = positive(), .doc = "factor about the origin, applied first"},
+                               &TransformSpec::scale),
+      inline_key<TransformSpec>({.key = "rotate", .unset = "no rotation", .doc = "about the origin, after scale"},
+                                &TransformSpec::rotate, rotation_section()),
+      value_key<TransformSpec>(
+          {.key = "translate", .type = T::vector, .unit = "m", .unset = "zero", .doc = "applied last"},
+          &TransformSpec::translate)};
   for (Key<ShapeSpec>& key : lift<ShapeSpec>(t, transform)) s.keys.push_back(std::move(key));
   return s;
 }

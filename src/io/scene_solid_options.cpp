@@ -11,10 +11,16 @@ Section<MotionSpec> motion_rotation_section() {
   s.keys = {
       value_key<MotionSpec>({.key = "axis", .type = T::axis, .doc = "axis of rotation; 3D scenes must give it"},
                             &MotionSpec::axis),
-      value_key<MotionSpec>({.key = "center", .type = T::vector, .unit = "m", .unset = "the origin",
-                             .doc = "a point of the axis"}, &MotionSpec::center),
-      value_key<MotionSpec>({.key = "degrees", .type = T::formula, .unit = "degrees", .variables = "t",
-                             .presence = Presence::required, .doc = "angle as a function of t"}, &MotionSpec::degrees),
+      value_key<MotionSpec>(
+          {.key = "center", .type = T::vector, .unit = "m", .unset = "the origin", .doc = "a point of the axis"},
+          &MotionSpec::center),
+      value_key<MotionSpec>({.key = "degrees",
+                             .type = T::formula,
+                             .unit = "degrees",
+                             .variables = "t",
+                             .presence = Presence::required,
+                             .doc = "angle as a function of t"},
+                            &MotionSpec::degrees),
   };
   s.finish = [](SceneContext& c, const Place& p, MotionSpec& m) { check_axis(c, p, m.axis); };
   return s;
@@ -22,12 +28,19 @@ Section<MotionSpec> motion_rotation_section() {
 
 Section<MotionSpec> motion_section() {
   Section<MotionSpec> s;
-  const auto itself = [](auto& m) -> auto& { return m; };
+  const auto itself = [](auto& m) -> auto& {
+    return m;
+  };
   s.keys = {
-      value_key<MotionSpec>({.key = "translate", .type = T::formula_vector, .unit = "m", .variables = "t", .unset = "zero",
-                             .doc = "displacement from the rest pose as a function of t"}, &MotionSpec::translate),
-      inline_key<MotionSpec>({.key = "rotate", .unset = "no rotation", .doc = "rotation, applied before translate"}, itself,
-                             motion_rotation_section()),
+      value_key<MotionSpec>({.key = "translate",
+                             .type = T::formula_vector,
+                             .unit = "m",
+                             .variables = "t",
+                             .unset = "zero",
+                             .doc = "displacement from the rest pose as a function of t"},
+                            &MotionSpec::translate),
+      inline_key<MotionSpec>({.key = "rotate", .unset = "no rotation", .doc = "rotation, applied before translate"},
+                             itself, motion_rotation_section()),
   };
   return s;
 }
@@ -35,15 +48,18 @@ Section<MotionSpec> motion_section() {
 Key<SolidSpec> kind_key() {
   const std::string reason = "this version does not move or deform solids by the flow";
   return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
-      {.key = "kind", .refused = {{"rigid", reason}, {"elastic", reason}}, .doc = "static: at rest; kinematic: moves as prescribed"},
+      {.key = "kind",
+       .refused = {{"rigid", reason}, {"elastic", reason}},
+       .doc = "static: at rest; kinematic: moves as prescribed"},
       &SolidSpec::kind, {{"static", SolidKind::fixed}, {"kinematic", SolidKind::kinematic}});
 }
 
 std::vector<Key<SolidSpec>> later_keys() {
   std::vector<Key<SolidSpec>> keys;
-  for (const char* name : {"density", "friction", "velocity", "angular_velocity", "fixed", "material", "element_size", "pinned"}) {
-    keys.push_back(later_key<SolidSpec>({.key = name, .only_for = {"kind", {"rigid", "elastic"}},
-                                         .doc = "a property of rigid and elastic solids"}));
+  for (const char* name :
+       {"density", "friction", "velocity", "angular_velocity", "fixed", "material", "element_size", "pinned"}) {
+    keys.push_back(later_key<SolidSpec>(
+        {.key = name, .only_for = {"kind", {"rigid", "elastic"}}, .doc = "a property of rigid and elastic solids"}));
   }
   return keys;
 }
@@ -52,14 +68,17 @@ std::vector<Key<SolidSpec>> later_keys() {
 
 Section<SolidSpec> solid_section() {
   Section<SolidSpec> s;
-  s.keys = {value_key<SolidSpec>({.key = "name", .type = T::text, .unset = "`solid1`, `solid2`, ...", .doc = "unique name"},
-                                 &SolidSpec::name),
-            kind_key()};
+  s.keys = {
+      value_key<SolidSpec>({.key = "name", .type = T::text, .unset = "`solid1`, `solid2`, ...", .doc = "unique name"},
+                           &SolidSpec::name),
+      kind_key()};
   for (Key<SolidSpec>& key : lift<SolidSpec>(shape_section(), &SolidSpec::shape)) s.keys.push_back(std::move(key));
   s.keys.push_back(choice_key<SolidSpec, Slip SolidSpec::*, Slip>(
       {.key = "slip", .doc = "what the liquid feels at the surface"}, &SolidSpec::slip,
       {{"free_slip", Slip::free_slip}, {"no_slip", Slip::no_slip}}));
-  s.keys.push_back(inline_key<SolidSpec>({.key = "motion", .only_for = {"kind", {"kinematic"}}, .presence = Presence::required,
+  s.keys.push_back(inline_key<SolidSpec>({.key = "motion",
+                                          .only_for = {"kind", {"kinematic"}},
+                                          .presence = Presence::required,
                                           .doc = "how it moves: translate and/or rotate as functions of t"},
                                          &SolidSpec::motion, motion_section()));
   for (Key<SolidSpec>& key : later_keys()) s.keys.push_back(std::move(key));

@@ -36,9 +36,15 @@ std::string quote_toml(const std::string& text) {
   return quoted + '"';
 }
 
-std::string to_toml(double value, const Option&, int) { return number_text(value); }
-std::string to_toml(int value, const Option&, int) { return fmt::format("{}", value); }
-std::string to_toml(bool value, const Option&, int) { return value ? "true" : "false"; }
+std::string to_toml(double value, const Option&, int) {
+  return number_text(value);
+}
+std::string to_toml(int value, const Option&, int) {
+  return fmt::format("{}", value);
+}
+std::string to_toml(bool value, const Option&, int) {
+  return value ? "true" : "false";
+}
 
 std::string to_toml(const Vec3& value, const Option& option, int dimension) {
   const std::size_t count = option.type == OptionType::axis ? 3 : std::size_t(dimension);
@@ -57,6 +63,8 @@ std::string to_toml(const std::vector<std::string>& value, const Option&, int) {
   return array_text(value, value.size(), quote_toml);
 }
 
-std::string to_toml(const std::filesystem::path& value, const Option&, int) { return quote_toml(value.string()); }
+std::string to_toml(const std::filesystem::path& value, const Option&, int) {
+  return quote_toml(value.string());
+}
 
 }  // namespace seiche

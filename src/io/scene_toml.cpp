@@ -16,7 +16,9 @@ namespace {
 
 using Kind = TomlNode::Kind;
 
-int line_of(const toml::source_region& region) { return int(region.begin.line); }
+int line_of(const toml::source_region& region) {
+  return int(region.begin.line);
+}
 
 TomlNode convert(const toml::node& from);
 
@@ -92,10 +94,13 @@ TomlEntry* TomlNode::find(const std::string& key) {
 TomlNode parse_toml(const std::string& text, const std::string& name) {
   check_scene_limits(text, name);
   try {
-    return convert(toml::parse(std::string_view(text)));
+    TomlNode root = convert(toml::parse(std::string_view(text)));
+    root.line = 0;
+    return root;
   } catch (const toml::parse_error& e) {
     const toml::source_position at = e.source().begin;
-    throw Error(ExitCode::bad_input, fmt::format("{}:{}:{}: not valid TOML: {}", name, at.line, at.column, e.description()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}:{}:{}: not valid TOML: {}", name, at.line, at.column, e.description()));
   }
 }
 
@@ -109,7 +114,8 @@ TomlNode parse_override_value(const std::string& value, const std::string& path,
     node = convert(*parsed.get("value"));
   } catch (const toml::parse_error& e) {
     if (!may_be_bare(value)) {
-      throw Error(ExitCode::bad_input, fmt::format("--set {}: '{}' is not a TOML value: {}", path, value, e.description()));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("--set {}: '{}' is not a TOML value: {}", path, value, e.description()));
     }
     node.kind = Kind::text;
     node.text = value;
@@ -121,14 +127,21 @@ TomlNode parse_override_value(const std::string& value, const std::string& path,
 std::string describe(const TomlNode& node) {
   constexpr std::size_t short_enough = 40;
   switch (node.kind) {
-    case Kind::table: return "a table";
-    case Kind::array: return fmt::format("an array of {}", node.items.size());
-    case Kind::text: return node.text.size() > short_enough ? "a text" : "the text \"" + node.text + '"';
+    case Kind::table:
+      return "a table";
+    case Kind::array:
+      return fmt::format("an array of {}", node.items.size());
+    case Kind::text:
+      return node.text.size() > short_enough ? "a text" : "the text \"" + node.text + '"';
     case Kind::number:
-    case Kind::integer: return fmt::format("{}", node.number);
-    case Kind::coded_integer: return "a hexadecimal, octal or binary number";
-    case Kind::boolean: return node.boolean ? "true" : "false";
-    case Kind::date: return "a date or time";
+    case Kind::integer:
+      return fmt::format("{}", node.number);
+    case Kind::coded_integer:
+      return "a hexadecimal, octal or binary number";
+    case Kind::boolean:
+      return node.boolean ? "true" : "false";
+    case Kind::date:
+      return "a date or time";
   }
   return "";
 }

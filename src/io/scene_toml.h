@@ -41,8 +41,8 @@ TomlNode parse_override_value(const std::string& value, const std::string& path,
 std::string describe(const TomlNode& node);
 
 inline constexpr std::size_t most_scene_bytes = 16 << 20;
-inline constexpr int most_scene_nesting = 32;         // brackets within brackets, or dots of one key
-inline constexpr int most_scene_tokens = 1'000'000;   // brackets, commas and equal signs
+inline constexpr int most_scene_nesting = 32;        // brackets within brackets, or dots of one key
+inline constexpr int most_scene_tokens = 1'000'000;  // brackets, commas and equal signs
 
 // Throws Error(bad_input) naming name and line if the text is beyond the limits.
 void check_scene_limits(const std::string& text, const std::string& name);

@@ -13,9 +13,13 @@ namespace {
 
 using Kind = TomlNode::Kind;
 
-bool is_number(const TomlNode& node) { return node.kind == Kind::number || node.kind == Kind::integer; }
+bool is_number(const TomlNode& node) {
+  return node.kind == Kind::number || node.kind == Kind::integer;
+}
 
-std::string unit_text(const Option& option) { return option.unit.empty() ? "" : " " + option.unit; }
+std::string unit_text(const Option& option) {
+  return option.unit.empty() ? "" : " " + option.unit;
+}
 
 void report_type(SceneContext& c, const Place& p, const Option& option) {
   const std::string unit = option.unit.empty() ? "" : " (" + option.unit + ")";
@@ -80,19 +84,25 @@ bool check_length(SceneContext& c, const Place& p, const Option& option) {
   return false;
 }
 
-Place item(const Place& p, std::size_t index) { return {&p.node->items[index], fmt::format("{}.{}", p.path, index)}; }
+Place item(const Place& p, std::size_t index) {
+  return {&p.node->items[index], fmt::format("{}.{}", p.path, index)};
+}
 
 void check_plain_text(SceneContext& c, const Place& p) {
   constexpr std::size_t longest = 1000;
   const std::string& text = p.node->text;
   const auto control = [](char ch) { return static_cast<unsigned char>(ch) < 0x20 || ch == 0x7f; };
-  if (text.size() > longest) c.report(p, fmt::format("{} must have at most {} characters, not {}", p.path, longest, text.size()));
-  if (std::any_of(text.begin(), text.end(), control)) c.report(p, p.path + " must be one line without control characters");
+  if (text.size() > longest)
+    c.report(p, fmt::format("{} must have at most {} characters, not {}", p.path, longest, text.size()));
+  if (std::any_of(text.begin(), text.end(), control))
+    c.report(p, p.path + " must be one line without control characters");
 }
 
 }  // namespace
 
-bool is_text(const TomlNode& node) { return node.kind == Kind::text; }
+bool is_text(const TomlNode& node) {
+  return node.kind == Kind::text;
+}
 
 void read_value(SceneContext& c, const Place& p, const Option& option, double& out) {
   if (const auto value = checked_number(c, p, option)) out = *value;
@@ -166,9 +176,11 @@ void read_value(SceneContext& c, const Place& p, const Option& option, std::vect
 
 bool check_choice(SceneContext& c, const Place& p, const Option& option, const std::string& value) {
   if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return true;
-  const auto refused = std::find_if(option.refused.begin(), option.refused.end(), [&](auto& r) { return r.value == value; });
+  const auto refused =
+      std::find_if(option.refused.begin(), option.refused.end(), [&](auto& r) { return r.value == value; });
   if (refused != option.refused.end()) {
-    c.report(p, fmt::format("{} = \"{}\": {}; this version has {}", p.path, value, refused->reason, quoted_list(option.choices)));
+    c.report(p, fmt::format("{} = \"{}\": {}; this version has {}", p.path, value, refused->reason,
+                            quoted_list(option.choices)));
     return false;
   }
   const auto near = suggest(value, option.choices);

@@ -8,7 +8,9 @@
 namespace seiche {
 namespace {
 
-SceneLines lines_of(const Scene& scene) { return write_section(scene_section(), scene, scene.dimension, ""); }
+SceneLines lines_of(const Scene& scene) {
+  return write_section(scene_section(), scene, scene.dimension, "");
+}
 
 std::map<std::string, std::string> by_path(const SceneLines& lines) {
   std::map<std::string, std::string> texts;
@@ -17,7 +19,8 @@ std::map<std::string, std::string> by_path(const SceneLines& lines) {
 }
 
 // Appends the paths of `lines` that `other` lacks or has with another text; of a missing table only its own.
-void compare(const SceneLines& lines, const std::map<std::string, std::string>& other, std::vector<std::string>& changed) {
+void compare(const SceneLines& lines, const std::map<std::string, std::string>& other,
+             std::vector<std::string>& changed) {
   std::string missing_table;
   for (const SceneLine& line : lines) {
     const bool below = !missing_table.empty() && line.path.compare(0, missing_table.size(), missing_table) == 0;

@@ -1,0 +1,100 @@
+#include "io_scene_common.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+
+namespace seiche::testing {
+namespace {
+
+std::string vector_text(int dimension, const std::vector<std::string>& parts) {
+  return fmt::format("[{}]", fmt::join(parts.begin(), parts.begin() + dimension, ", "));
+}
+
+std::string geometry(int dimension, const std::string& shape) {
+  const auto v = [&](const char* x, const char* y, const char* z) { return vector_text(dimension, {x, y, z}); };
+  std::string text = "shape = \"" + shape + "\"\n";
+  if (shape == "box") text += "lower = " + v("0.1", "0.1", "0.1") + "\nupper = " + v("0.4", "0.5", "0.6") + "\n";
+  if (shape == "sphere") text += "center = " + v("0.5", "0.5", "0.5") + "\nradius = 0.25\n";
+  if (shape == "cylinder" || shape == "capsule") {
+    text += "from = " + v("0.2", "0.2", "0.2") + "\nto = " + v("0.8", "0.2", "0.2") + "\nradius = 0.1\n";
+  }
+  if (shape == "plane") text += "point = " + v("0", "0.5", "0") + "\nnormal = " + v("0", "1", "0") + "\n";
+  if (shape == "mesh") text += "file = \"s.obj\"\n";
+  if (shape == "level_set") text += "file = \"s.vdb\"\n";
+  if (shape == "expression") text += "phi = \"sqrt(x*x+y*y)-0.3\"\n";
+  return text;
+}
+
+std::string side_text(int dimension, const std::string& side) {
+  if (side == "outflow") return R"({ type = "outflow", pressure = "10*t" })";
+  if (side == "inflow" || side == "moving_wall") {
+    return fmt::format("{{ type = \"{}\", velocity = {} }}", side, vector_text(dimension, {"\"y*(1-y)\"", "0", "0.5"}));
+  }
+  return '"' + side + '"';
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "seiche_scene_XXXXXX").string();
+  if (!::mkdtemp(pattern.data())) throw std::runtime_error("no scratch folder");
+  path_ = std::filesystem::canonical(pattern);
+}
+
+std::filesystem::path ScratchFolder::write(const std::string& name, const std::string& text) const {
+  std::filesystem::create_directories((path_ / name).parent_path());
+  std::ofstream(path_ / name, std::ios::binary) << text;
+  return path_ / name;
+}
+
+Scene parse(const std::string& text, const Overrides& overrides, const std::filesystem::path& folder) {
+  return parse_scene(text, "scene.toml", folder, overrides);
+}
+
+std::string fault(const std::string& text, const Overrides& overrides, const std::filesystem::path& folder) {
+  try {
+    parse(text, overrides, folder);
+  } catch (const Error& e) {
+    CHECK(e.code() == ExitCode::bad_input);
+    return e.what();
+  }
+  FAIL_CHECK("the scene was accepted");
+  return "";
+}
+
+std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe) {
+  const auto v = [&](const char* x, const char* y, const char* z) { return vector_text(dimension, {x, y, z}); };
+  const std::string form = geometry(dimension, shape);
+  const std::string placed =
+      form +
+      "invert = false\nscale = 1.5\nrotate = { axis = [0, 0, 1], degrees = 10 }\ntranslate = " + v("0.1", "0", "0") +
+      "\n";
+  std::string text =
+      fmt::format("title = \"rich \\\"scene\\\"\"\ndimension = {}\ngravity = {}\n", dimension, v("0", "-9.81", "1"));
+  text += fmt::format("[domain]\nlower = {}\nupper = {}\ncell_size = 0.125\n", v("0", "0", "0"), v("1", "2", "1"));
+  text += fmt::format("[domain.boundary]\nx_lower = {}\nx_upper = {}\ny_lower = \"no_slip\"\n",
+                      side_text(dimension, side), side == "periodic" ? "\"periodic\"" : "{ type = \"outflow\" }");
+  text += "[time]\nend = 2\nframe_rate = 30\ncfl = 2\nmax_step = 0.01\nfixed_step = 0.005\nscheme = \"first_order\"\n";
+  text +=
+      "[liquid]\ndensity = 998.2\nviscosity = 0\nsurface_tension = 0.0\nvelocity = " + v("\"sin(x)\"", "0", "0") + "\n";
+  text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
+  const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
+  text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\nuntil = 1.5\n";
+  text += "[[solid]]\nname = \"still\"\n" + placed + "slip = \"no_slip\"\n";
+  text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
+          ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
+  text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
+  if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
+  text += "[tracking]\nmethod = \"level_set\"\n[solver]\ntolerance = 1e-9\npreconditioner = \"boomeramg\"\n";
+  return text + "[output]\nframes = [\"surface\", \"pressure\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
+}
+
+std::size_t count_lines(const std::string& text) {
+  return std::size_t(std::count(text.begin(), text.end(), '\n')) + 1;
+}
+
+}  // namespace seiche::testing
