@@ -84,6 +84,10 @@ State<Dim> initial_state(const Setup<Dim>& setup);
 template <int Dim>
 [[nodiscard]] Attempt<Dim> attempt_step(const Setup<Dim>& setup, const State<Dim>& state, double dt, Phases& phases);
 
+// Largest |u_a| on the faces next to liquid, m/s, over all ranks.
+template <int Dim>
+double fastest_component(const Setup<Dim>& setup, const State<Dim>& state);
+
 // The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that is
 // hopelessly short.
 template <int Dim>

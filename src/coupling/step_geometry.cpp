@@ -112,7 +112,7 @@ double SolidGeometry<Dim>::largest_displacement(double t0, double t1) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     if (!bodies_[k].moves()) continue;
     const Pose before = bodies_[k].pose(t0), after = bodies_[k].pose(t1);
-    const double turn = (after.rotation - before.rotation).operatorNorm();
+    const double turn = (after.rotation - before.rotation).norm();
     largest = std::max(largest, (after.displacement - before.displacement).norm() + turn * radius_[k]);
   }
   return largest;

@@ -6,9 +6,6 @@
 #include "grid/loops.h"
 
 namespace seiche {
-namespace {
-
-constexpr double most_steps_a_frame = 1e6;
 
 template <int Dim>
 double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
@@ -19,6 +16,10 @@ double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
                        }));
   return s.ranks.global_max(fastest);
 }
+
+namespace {
+
+constexpr double most_steps_a_frame = 1e6;
 
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
 // omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2.
@@ -55,6 +56,8 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   return 2 * dt > remaining && !spec.fixed_step ? remaining / 2 : dt;
 }
 
+template double fastest_component<2>(const Setup<2>&, const State<2>&);
+template double fastest_component<3>(const Setup<3>&, const State<3>&);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);
 template double choose_step<3>(const Setup<3>&, const State<3>&, double);
 
