@@ -1,6 +1,5 @@
 #include "levelset/frame_checks.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,36 +11,6 @@
 #include "base/error.h"
 
 namespace seiche::vdb {
-namespace {
-
-class WithinDomain : public SampledDistance {
- public:
-  WithinDomain(std::unique_ptr<SampledDistance> inner, const Frame& frame, const std::array<int, 3>& cells)
-      : inner_(std::move(inner)), lower_(frame.lower), half_(Vec3::Constant(frame.cell_size / 2)),
-        upper_(lower_ + frame.cell_size * Vec3(cells[0], cells[1], cells[2])), dimension_(frame.dimension) {}
-
-  double operator()(const Vec3& x) const override {
-    const double inside = (*inner_)(x.cwiseMin(upper_ - half_).cwiseMax(lower_ + half_));
-    const double outside = (lower_ - x).cwiseMax(x - upper_).cwiseMax(0.0).head(dimension_).norm();
-    return outside > 0 ? std::max(inside, outside) : inside;
-  }
-
- private:
-  std::unique_ptr<SampledDistance> inner_;
-  Vec3 lower_, half_, upper_;
-  int dimension_;
-};
-
-double area(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 p = mesh.points[t[0]];
-    sum += 0.5 * (mesh.points[t[1]] - p).cross(mesh.points[t[2]] - p).norm();
-  }
-  return sum;
-}
-
-}  // namespace
 
 std::array<int, 3> domain_cells(const Frame& frame) {
   std::array<int, 3> cells{0, 0, 0};
@@ -110,23 +79,6 @@ void require_sane(const std::filesystem::path& file, const Frame& frame, const s
   if (voxels < max_voxels && layer && finite && frame.cell_size > 0 && std::isfinite(frame.cell_size)) return;
   refuse(file, fmt::format("the frame's metadata is corrupt: dimension {}, {} x {} x {} cells of {:g} m",
                            frame.dimension, cells[0], cells[1], cells[2], frame.cell_size));
-}
-
-void require_sampleable(const SurfaceMesh& mesh, double voxel, double half_width) {
-  constexpr double max_voxels = 2e9, max_coordinate = 1e8;
-  double reach = 0;
-  for (const Vec3& p : mesh.points) reach = std::max(reach, p.cwiseAbs().maxCoeff());
-  const double voxels = area(mesh) / (voxel * voxel) * 2 * half_width;
-  if (voxels < max_voxels && reach / voxel < max_coordinate) return;
-  throw Error(ExitCode::bad_input,
-              fmt::format("the mesh is too large for cells of {:g} m: it reaches {:g} m and its band would take {:.2g} "
-                          "voxels; give it a smaller scale",
-                          voxel, reach, voxels));
-}
-
-std::unique_ptr<SampledDistance> within_domain(std::unique_ptr<SampledDistance> distance, const Frame& frame,
-                                               const std::array<int, 3>& cells) {
-  return std::make_unique<WithinDomain>(std::move(distance), frame, cells);
 }
 
 void refuse(const std::filesystem::path& file, const std::string& what) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a frame must satisfy before it is written or after it is read, and how its level set continues outside.
+// What a frame must satisfy before it is written or after it is read.
 #include "levelset/openvdb_adapter.h"
 
 namespace seiche::vdb {
@@ -26,13 +26,6 @@ void require_readable(const std::filesystem::path& file);
 
 // Counts of a file are not trusted: throws Error(bad_input) on a domain that none of our runs could have written.
 void require_sane(const std::filesystem::path& file, const Frame& frame, const std::array<int, 3>& cells);
-
-// Throws Error(bad_input) if the surface is too large for voxels of this size.
-void require_sampleable(const SurfaceMesh& mesh, double voxel, double half_width);
-
-// A frame's level set, constant beyond the outermost cell centres and outside the domain at least the distance to it.
-std::unique_ptr<SampledDistance> within_domain(std::unique_ptr<SampledDistance> distance, const Frame& frame,
-                                               const std::array<int, 3>& cells);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 

@@ -187,8 +187,8 @@ std::vector<int> pieces_by_point(const SurfaceMesh& mesh) {
 }
 
 void require_volume(const SurfaceMesh& mesh, const Piece& piece) {
-  const double scale = (piece.upper - piece.lower).prod();
-  if (std::abs(piece.volume) > 1e-12 * scale && scale > 0) return;
+  const double extent = (piece.upper - piece.lower).maxCoeff();
+  if (std::abs(piece.volume) > 1e-14 * extent * extent * extent) return;
   throw Error(ExitCode::bad_input, "the piece of the surface at " +
                                        place(mesh.points[mesh.triangles[piece.triangles.front()][0]]) +
                                        " encloses no volume");

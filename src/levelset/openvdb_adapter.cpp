@@ -7,6 +7,7 @@
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -16,7 +17,9 @@
 
 #include "base/error.h"
 #include "levelset/frame_checks.h"
+#include "levelset/mesh_distance.h"
 #include "levelset/mesh_topology.h"
+#include "levelset/sampled_distance.h"
 
 namespace seiche::vdb {
 namespace {
@@ -36,8 +39,6 @@ void run_serially(const std::function<void()>& work) {
   arena.execute(work);
 }
 
-// ---- signed distances of meshes -------------------------------------------------------------------------------
-
 struct MeshInIndexSpace {
   const SurfaceMesh& mesh;
   double voxel;
@@ -50,15 +51,15 @@ struct MeshInIndexSpace {
   }
 };
 
-// Samples a grid whose voxel i lies at origin + i * spacing, trilinearly.
+// Samples a grid whose voxel i lies at origin + i * spacing, trilinearly, values limited to +-band.
 class GridDistance : public SampledDistance {
  public:
-  GridDistance(FloatGrid::ConstPtr grid, const Vec3& origin, double spacing)
-      : grid_(std::move(grid)), accessor_(grid_->getConstAccessor()), origin_(origin), spacing_(spacing) {}
+  GridDistance(FloatGrid::ConstPtr grid, const Vec3& origin, double spacing, double band)
+      : grid_(std::move(grid)), accessor_(grid_->getConstAccessor()), origin_(origin), spacing_(spacing), band_(band) {}
 
   double operator()(const Vec3& x) const override {
     const Vec3 index = (x - origin_) / spacing_;
-    if (index.cwiseAbs().maxCoeff() > 1e9) return grid_->background();
+    if (index.cwiseAbs().maxCoeff() > 1e9) return band_;
     const Vec3 floor = index.array().floor();
     const Vec3 t = index - floor;
     const Coord base{int(floor[0]), int(floor[1]), int(floor[2])};
@@ -67,7 +68,7 @@ class GridDistance : public SampledDistance {
       const Coord step{corner & 1, (corner >> 1) & 1, corner >> 2};
       double weight = 1;
       for (int a = 0; a < 3; ++a) weight *= step[a] ? t[a] : 1 - t[a];
-      if (weight > 0) sum += weight * double(accessor_.getValue(base + step));
+      if (weight > 0) sum += weight * std::clamp(double(accessor_.getValue(base + step)), -band_, band_);
     }
     return sum;
   }
@@ -76,40 +77,37 @@ class GridDistance : public SampledDistance {
   FloatGrid::ConstPtr grid_;
   FloatGrid::ConstAccessor accessor_;
   Vec3 origin_;
-  double spacing_;
+  double spacing_, band_;
 };
 
-// OpenVDB fills cavities: it knows outside from inside by whether the far field is reached.
+// OpenVDB decides inside from outside, by what the far field reaches: it fills cavities. Away from the surface its
+// distances are to a triangle near the nearest one; they are replaced by the least.
+void refine(FloatGrid& grid, const SurfaceMesh& mesh, double voxel) {
+  using Leaf = openvdb::FloatTree::LeafNodeType;
+  const mesh::NearestTriangle nearest(mesh);
+  std::vector<Leaf*> leaves;
+  grid.tree().getNodes(leaves);
+  tbb::parallel_for(std::size_t(0), leaves.size(), [&](std::size_t i) {
+    for (auto value = leaves[i]->beginValueOn(); value; ++value) {
+      const Coord ijk = value.getCoord();
+      const double bound = std::abs(*value) * (1 + 1e-5) + 1e-6 * voxel;  // a float of what is found
+      const double distance = nearest.distance(voxel * Vec3(ijk[0], ijk[1], ijk[2]), bound);
+      value.setValue(float(*value < 0 ? -distance : distance));
+    }
+  });
+}
+
 std::unique_ptr<SampledDistance> sample_piece(const SurfaceMesh& mesh, double voxel, double half_width) {
   const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-  const float band = float(half_width);
+  const float band = float(half_width + 1);  // OpenVDB's band is ragged at its ends
   FloatGrid::Ptr grid;
   run_serially([&] {
     grid = openvdb::tools::meshToVolume<FloatGrid>(MeshInIndexSpace{mesh, voxel}, *transform, band, band,
                                                    openvdb::tools::DISABLE_RENORMALIZATION);
   });
-  return std::make_unique<GridDistance>(grid, Vec3::Zero(), voxel);
+  refine(*grid, mesh, voxel);
+  return std::make_unique<GridDistance>(grid, Vec3::Zero(), voxel, half_width * voxel);
 }
-
-// Solids, less their cavities, plus the solids in those, ...
-class NestedDistance : public SampledDistance {
- public:
-  explicit NestedDistance(std::vector<std::unique_ptr<SampledDistance>> levels) : levels_(std::move(levels)) {}
-
-  double operator()(const Vec3& x) const override {
-    double phi = (*levels_.front())(x);
-    for (std::size_t level = 1; level < levels_.size(); ++level) {
-      const double here = (*levels_[level])(x);
-      phi = level % 2 ? std::max(phi, -here) : std::min(phi, here);
-    }
-    return phi;
-  }
-
- private:
-  std::vector<std::unique_ptr<SampledDistance>> levels_;
-};
-
-// ---- frames: writing ------------------------------------------------------------------------------------------
 
 // Calls visit(voxel, values) for each voxel of a block, in its order.
 template <class Visit>
@@ -210,8 +208,6 @@ class StringArchive : public openvdb::io::Archive {
   }
 };
 
-// ---- frames: reading ------------------------------------------------------------------------------------------
-
 struct OpenFrame {
   Frame frame;  // without grids
   std::array<int, 3> cells{0, 0, 0};
@@ -307,8 +303,6 @@ FloatGrid::ConstPtr find_level_set(const OpenFrame& open) {
   return found;
 }
 
-// ---- contouring -----------------------------------------------------------------------------------------------
-
 FloatGrid::Ptr node_grid(const std::vector<float>& values, const std::array<int, 3>& nodes) {
   FloatGrid::Ptr grid = FloatGrid::create(1);
   FloatGrid::Accessor accessor = grid->getAccessor();
@@ -338,8 +332,7 @@ std::unique_ptr<SampledDistance> mesh_to_distance(const SurfaceMesh& mesh, doubl
   require_sampleable(mesh, voxel, half_width);
   std::vector<std::unique_ptr<SampledDistance>> levels;
   for (const SurfaceMesh& level : mesh::nesting_levels(mesh)) levels.push_back(sample_piece(level, voxel, half_width));
-  if (levels.size() == 1) return std::move(levels.front());
-  return std::make_unique<NestedDistance>(std::move(levels));
+  return nest(std::move(levels));
 }
 
 std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file, int dimension) {
@@ -351,7 +344,7 @@ std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file
   if (!grid) refuse(file, "holds no level set; use a frame written with \"surface\"");
   require_within(file, open, *grid);
   const Vec3 first = open.frame.lower + Vec3::Constant(open.frame.cell_size / 2);
-  return within_domain(std::make_unique<GridDistance>(grid, first, open.frame.cell_size), open.frame, open.cells);
+  return within_domain(std::make_unique<GridDistance>(grid, first, open.frame.cell_size, grid->background()), open.frame, open.cells);
 }
 
 SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower, double spacing) {

@@ -12,7 +12,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "levelset/openvdb_adapter.h"
+#include "levelset/mesh_distance.h"
 #include "levelset/shapes.h"
 
 using namespace seiche;
@@ -380,6 +380,30 @@ TEST_CASE("triangles on a line close the surface and are then dropped") {
   CHECK(read_mesh.triangles.size() == 13);
   CHECK(volume(read_mesh) == Approx(1));
   CHECK_THAT(notes.at(0), Catch::Contains("1 triangles without area"));
+}
+
+TEST_CASE("the distance to a triangle is that to its face, edges or corners") {
+  const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+  const double round_off = 1e-15;  // of lengths about 1
+  CHECK(mesh::distance_to_triangle(Vec3(0.2, 0.3, -0.5), a, b, c) == Approx(0.5).margin(round_off));
+  CHECK(mesh::distance_to_triangle(Vec3(0.5, -0.3, 0.4), a, b, c) == Approx(0.5).margin(round_off));
+  CHECK(mesh::distance_to_triangle(Vec3(1, 1, 0), a, b, c) == Approx(std::sqrt(0.5)).margin(round_off));
+  CHECK(mesh::distance_to_triangle(Vec3(3, -1, 2), a, b, c) == Approx(3).margin(4 * round_off));
+  CHECK(mesh::distance_to_triangle(Vec3(0.5, 0.5, 0), a, b, b) == Approx(0.5).margin(round_off));  // no area
+}
+
+TEST_CASE("the nearest of many triangles is the nearest of all one by one") {
+  const SurfaceMesh ball = sphere(Vec3(0.1, 0.2, 0.3), 0.4, 3);
+  const mesh::NearestTriangle nearest(ball);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 x(std::sin(1.3 * i), std::sin(2.1 * i), std::sin(0.7 * i));
+    double least = 10;
+    for (const auto& t : ball.triangles) {
+      least = std::min(least, mesh::distance_to_triangle(x, ball.points[t[0]], ball.points[t[1]], ball.points[t[2]]));
+    }
+    CHECK(nearest.distance(x, 10) == least);
+    CHECK(nearest.distance(x, least / 2) == least / 2);
+  }
 }
 
 TEST_CASE("the distance to a sphere of triangles converges to the sphere's with the square of their size") {
