@@ -3,10 +3,22 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 namespace seiche {
 namespace {
+
+// Whether the user reads stdout on a terminal. mpirun hands each rank a pseudo-terminal whatever its own output is, so
+// there its own decides: the rank's parent.
+bool is_terminal() {
+  if (::isatty(STDOUT_FILENO) == 0) return false;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return true;
+  std::error_code failed;
+  const std::string out = std::filesystem::read_symlink(fmt::format("/proc/{}/fd/1", ::getppid()), failed).string();
+  return !failed && (out.starts_with("/dev/pts/") || out.starts_with("/dev/tty"));
+}
 
 // Ends a live line before other text follows it.
 void finish_live(bool& live) {
@@ -35,7 +47,7 @@ Console terminal_console() {
     std::fflush(stdout);
     std::fputs((text + "\n").c_str(), stderr);
   };
-  if (::isatty(STDOUT_FILENO) == 0) return console;
+  if (!is_terminal()) return console;
   console.live = [live](const std::string& text) {
     *live = true;
     std::fputs(("\r\033[K" + text).c_str(), stdout);
