@@ -1,0 +1,162 @@
+// The meshes of the demo scenes: where they come from, and that they are sound. Each is the zero of a formula,
+// contoured and then moved onto the zero. To write them anew: SEICHE_MESHES=scenes/meshes unit_levelset "[write]".
+#include <catch2/catch.hpp>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+#include "levelset/mesh.h"
+#include "levelset/openvdb_adapter.h"
+
+using namespace seiche;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+struct DemoMesh {
+  std::string name;
+  std::function<double(const Vec3&)> phi;  // a distance to first order near its zero, m
+  Vec3 lower, upper;
+  double spacing;
+};
+
+// A river pebble 0.16 m long: an ellipsoid with soft dents.
+double pebble(const Vec3& x) {
+  const Vec3 axes(0.08, 0.045, 0.06);
+  const double dents = 0.05 * std::sin(38 * x[0] + 1) * std::cos(31 * x[2]) + 0.04 * std::sin(45 * x[1] + 20 * x[0]);
+  return (x.cwiseQuotient(axes).norm() - 1 + dents) * axes.minCoeff();
+}
+
+// min(a, b), rounded over the width k.
+double smooth_min(double a, double b, double k) {
+  const double h = std::max(k - std::abs(a - b), 0.0) / k;
+  return std::min(a, b) - h * h * k / 4;
+}
+
+// One leg of the gyre: a tube that tapers while it winds up and inwards.
+double leg(const Vec3& x, double angle) {
+  constexpr int steps = 160;
+  double least = INFINITY;
+  for (int i = 0; i <= steps; ++i) {
+    const double s = double(i) / steps, turn = angle + 1.25 * pi * s;
+    const double r = 0.15 * std::cos(pi / 2 * s) + 0.012;
+    const Vec3 p(r * std::cos(turn), 0.37 * std::sin(pi / 2 * s) - 0.01, r * std::sin(turn));
+    least = std::min(least, (x - p).norm() - (0.036 - 0.008 * s));
+  }
+  return least;
+}
+
+// Three legs wound into one another, 0.4 m tall, cut flat at y = 0 to stand there.
+double gyre(const Vec3& x) {
+  const double pair = smooth_min(leg(x, 0), leg(x, 2 * pi / 3), 0.03);
+  return std::max(smooth_min(pair, leg(x, 4 * pi / 3), 0.03), -x[1]);
+}
+
+std::vector<DemoMesh> demo_meshes() {
+  return {{"pebble", pebble, Vec3(-0.1, -0.07, -0.08), Vec3(0.1, 0.07, 0.08), 0.005},
+          {"gyre", gyre, Vec3(-0.22, -0.0155, -0.22), Vec3(0.22, 0.42, 0.22), 0.009}};
+}
+
+Vec3 gradient(const DemoMesh& demo, const Vec3& x) {
+  const double e = 1e-5;
+  Vec3 g;
+  for (int a = 0; a < 3; ++a) g[a] = (demo.phi(x + e * Vec3::Unit(a)) - demo.phi(x - e * Vec3::Unit(a))) / (2 * e);
+  return g;
+}
+
+// Newton steps along the gradient, none longer than a quarter of the spacing.
+Vec3 onto_zero(const DemoMesh& demo, Vec3 x) {
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 g = gradient(demo, x);
+    const Vec3 step = demo.phi(x) * g / std::max(g.squaredNorm(), 1e-6);
+    x -= step * std::min(1.0, 0.25 * demo.spacing / std::max(step.norm(), 1e-300));
+  }
+  return x;
+}
+
+SurfaceMesh build(const DemoMesh& demo) {
+  std::array<int, 3> nodes;
+  for (int a = 0; a < 3; ++a) nodes[a] = int((demo.upper[a] - demo.lower[a]) / demo.spacing) + 2;
+  std::vector<float> values;
+  for (int k = 0; k < nodes[2]; ++k) {
+    for (int j = 0; j < nodes[1]; ++j) {
+      for (int i = 0; i < nodes[0]; ++i) values.push_back(float(demo.phi(demo.lower + demo.spacing * Vec3(i, j, k))));
+    }
+  }
+  SurfaceMesh mesh = vdb::contour(values, nodes, demo.lower, demo.spacing);
+  for (Vec3& p : mesh.points) p = onto_zero(demo, p);
+  return mesh;
+}
+
+template <class Number>
+void put(std::string& bytes, Number value) {
+  char raw[sizeof(Number)];
+  std::memcpy(raw, &value, sizeof(Number));
+  bytes.append(raw, sizeof(Number));
+}
+
+std::string ply(const SurfaceMesh& mesh, const std::string& name) {
+  std::string bytes = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment {}, made for Seiche; lengths in m\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\nelement face {}\n"
+      "property list uchar int vertex_indices\nend_header\n",
+      name, mesh.points.size(), mesh.triangles.size());
+  for (const Vec3& p : mesh.points) {
+    for (int a = 0; a < 3; ++a) put(bytes, float(p[a]));
+  }
+  for (const auto& t : mesh.triangles) {
+    put(bytes, char(3));
+    for (const int corner : t) put(bytes, corner);
+  }
+  return bytes;
+}
+
+std::filesystem::path committed(const std::string& name) {
+  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  return root / "scenes" / "meshes" / (name + ".ply");
+}
+
+}  // namespace
+
+TEST_CASE("write the demo meshes", "[.][write]") {
+  const char* folder = std::getenv("SEICHE_MESHES");
+  REQUIRE(folder != nullptr);
+  for (const DemoMesh& demo : demo_meshes()) {
+    std::ofstream out(std::filesystem::path(folder) / (demo.name + ".ply"), std::ios::binary);
+    out << ply(build(demo), demo.name);
+    CHECK(out.good());
+  }
+}
+
+TEST_CASE("the demo meshes are small, closed in one piece and lie on the zeros of their formulas") {
+  for (const DemoMesh& demo : demo_meshes()) {
+    CAPTURE(demo.name);
+    CHECK(std::filesystem::file_size(committed(demo.name)) < 300000);
+    std::vector<std::string> notes;
+    const SurfaceMesh mesh = read_closed_mesh(committed(demo.name), notes);
+    CHECK(notes.empty());
+    const auto far = [&](const Vec3& p) { return std::abs(demo.phi(p)) > 0.02 * demo.spacing; };
+    // At the sharp rim of a foot a point cannot lie on both faces at once.
+    CHECK(std::count_if(mesh.points.begin(), mesh.points.end(), far) <= long(mesh.points.size() / 50));
+  }
+}
+
+TEST_CASE("the gyre stands on y = 0 and is 0.4 m tall") {
+  std::vector<std::string> notes;
+  const SurfaceMesh mesh = read_closed_mesh(committed("gyre"), notes);
+  double low = INFINITY, high = -INFINITY;
+  for (const Vec3& p : mesh.points) {
+    low = std::min(low, p[1]);
+    high = std::max(high, p[1]);
+  }
+  CHECK(low == Approx(0).margin(1e-6));   // float coordinates
+  CHECK(high == Approx(0.4).margin(0.02));  // about
+}
