@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "io/scene_options.h"
 
@@ -28,79 +29,41 @@ Section<RotationSpec> rotation_section() {
   return s;
 }
 
+// A key that the named shapes need and the others must not have.
+template <class Member>
+Key<ShapeSpec> geometry_key(const std::vector<std::string>& shapes, Option option, Member member) {
+  option.only_for = {"shape", shapes};
+  option.presence = Presence::required;
+  return value_key<ShapeSpec>(option, member);
+}
+
+Key<ShapeSpec> point_key(const std::vector<std::string>& shapes, const std::string& name, Vec3 ShapeSpec::*member,
+                         const std::string& doc) {
+  return geometry_key(shapes, {.key = name, .type = T::vector, .unit = "m", .doc = doc}, member);
+}
+
 std::vector<Key<ShapeSpec>> geometry_keys() {
-  const auto needed = Presence::required;
-  const std::vector<std::string> round{"sphere", "cylinder", "capsule"};
   using S = ShapeSpec;
   return {
-      value_key<S>({.key = "lower",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"shape", {"box"}},
-                    .presence = needed,
-                    .doc = "low corner"},
-                   &S::lower),
-      value_key<S>({.key = "upper",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"shape", {"box"}},
-                    .presence = needed,
-                    .doc = "high corner"},
-                   &S::upper),
-      value_key<S>({.key = "center",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"shape", {"sphere"}},
-                    .presence = needed,
-                    .doc = "centre of the sphere (2D: disc)"},
-                   &S::center),
-      value_key<S>({.key = "from",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"shape", axial},
-                    .presence = needed,
-                    .doc = "one end of the axis"},
-                   &S::from),
-      value_key<S>({.key = "to",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"shape", axial},
-                    .presence = needed,
-                    .doc = "other end of the axis"},
-                   &S::to),
-      value_key<S>({.key = "radius",
-                    .unit = "m",
-                    .range = positive(),
-                    .only_for = {"shape", round},
-                    .presence = needed,
-                    .doc = "radius"},
-                   &S::radius),
-      value_key<S>({.key = "point",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"shape", {"plane"}},
-                    .presence = needed,
-                    .doc = "a point of the plane"},
-                   &S::point),
-      value_key<S>({.key = "normal",
-                    .type = T::vector,
-                    .only_for = {"shape", {"plane"}},
-                    .presence = needed,
-                    .doc = "points out of the shape; any length"},
+      point_key({"box"}, "lower", &S::lower, "low corner"),
+      point_key({"box"}, "upper", &S::upper, "high corner"),
+      point_key({"sphere"}, "center", &S::center, "centre of the sphere (2D: disc)"),
+      point_key(axial, "from", &S::from, "one end of the axis"),
+      point_key(axial, "to", &S::to, "other end of the axis"),
+      geometry_key({"sphere", "cylinder", "capsule"},
+                   {.key = "radius", .unit = "m", .range = positive(), .doc = "radius"}, &S::radius),
+      point_key({"plane"}, "point", &S::point, "a point of the plane"),
+      geometry_key({"plane"}, {.key = "normal", .type = T::vector, .doc = "points out of the shape; any length"},
                    &S::normal),
-      value_key<S>({.key = "file",
+      geometry_key({"mesh", "level_set"},
+                   {.key = "file",
                     .type = T::file,
-                    .only_for = {"shape", {"mesh", "level_set"}},
-                    .presence = needed,
                     .doc = "mesh: closed triangles (.obj, .ply, .stl); level_set: a frame of ours (.vdb)"},
                    &S::file),
-      value_key<S>({.key = "phi",
-                    .type = T::formula,
-                    .variables = "xyz",
-                    .only_for = {"shape", {"expression"}},
-                    .presence = needed,
-                    .doc = "negative inside; need not be a distance"},
-                   &S::phi),
+      geometry_key(
+          {"expression"},
+          {.key = "phi", .type = T::formula, .variables = "xyz", .doc = "negative inside; need not be a distance"},
+          &S::phi),
   };
 }
 

@@ -11,6 +11,8 @@
 #include "io/scene_docs.h"
 #include "io/scene_options.h"
 #include "io_scene_common.h"
+#include "levelset/shapes.h"
+#include "linalg/solve.h"
 
 using namespace seiche;
 using namespace seiche::testing;
@@ -125,6 +127,17 @@ TEST_CASE("each misspelt key is refused, and the right one suggested") {
     const std::string message = fault(scene_for(option), {{path, "1"}});
     CHECK_THAT(message, Contains("unknown key"));
     CHECK_THAT(message, Contains("did you mean '" + option.key + "'?"));
+  }
+}
+
+TEST_CASE("shapes and preconditioners of the table are those that exist") {
+  for (const Option& option : scene_options()) {
+    const std::set<std::string> names(option.choices.begin(), option.choices.end());
+    const std::vector<std::string> shapes = shape_names(), preconditioners = preconditioner_names();
+    if (option.key == "shape") CHECK(names == std::set<std::string>(shapes.begin(), shapes.end()));
+    if (option.key == "preconditioner") {
+      CHECK(names == std::set<std::string>(preconditioners.begin(), preconditioners.end()));
+    }
   }
 }
 
