@@ -38,13 +38,16 @@ void add_render(CLI::App& program, VerbContext& context) {
   verb->add_option("--frames", words->options.frames, "all, 0-24, or 0,10,20")->capture_default_str();
   verb->add_option("--size", words->size, "Width and height in pixels")->capture_default_str();
   verb->add_option("--out", words->out, "Folder for the pictures; default: pictures in the directory");
-  verb->add_option("--camera", words->camera, "eye_x,eye_y,eye_z,look_x,look_y,look_z[,degrees]; default: all of the domain");
+  verb->add_option("--camera", words->camera,
+                   "eye_x,eye_y,eye_z,look_x,look_y,look_z[,degrees]; default: all of the domain");
   verb->add_option("--up", words->options.up, "Axis that points up: auto (against gravity), x, y, z")
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
       ->capture_default_str();
-  verb->add_option("--color", words->options.color, "none, speed, or a field of the frames; auto: speed in 2D, none in 3D")
+  verb->add_option("--color", words->options.color,
+                   "none, speed, or a field of the frames; auto: speed in 2D, none in 3D")
       ->capture_default_str();
-  verb->add_option("--contact-sheet", words->sheet, "One picture with up to 12 frames; default: contact_sheet.png in --out")
+  verb->add_option("--contact-sheet", words->sheet,
+                   "One picture with up to 12 frames; default: contact_sheet.png in --out")
       ->expected(0, 1);
   verb->add_option("--animation", words->animation, "Film of the frames, such as film.mp4; needs ffmpeg");
   verb->callback([words, verb, &context] {

@@ -116,11 +116,19 @@ void add_summary(const fs::path& file, Lines& lines) {
   std::ostringstream text;
   text << in.rdbuf();
   const std::string json = text.str();
-  const std::pair<const char*, const char*> rows[] = {{"ended", "ended"}, {"exit_code", "exit code"},
-    {"version", "version"}, {"ranks", "ranks"}, {"steps", "steps"}, {"time", "simulated time, s"},
-    {"cells", "cells"}, {"wall_seconds", "wall seconds"}, {"peak_memory_bytes", "peak memory, bytes"},
-    {"liquid_volume", "liquid volume, m^3"}, {"volume_drift", "volume drift, relative"},
-    {"worst_residual", "worst residual"}, {"worst_divergence", "worst divergence, 1/s"}};
+  const std::pair<const char*, const char*> rows[] = {{"ended", "ended"},
+                                                      {"exit_code", "exit code"},
+                                                      {"version", "version"},
+                                                      {"ranks", "ranks"},
+                                                      {"steps", "steps"},
+                                                      {"time", "simulated time, s"},
+                                                      {"cells", "cells"},
+                                                      {"wall_seconds", "wall seconds"},
+                                                      {"peak_memory_bytes", "peak memory, bytes"},
+                                                      {"liquid_volume", "liquid volume, m^3"},
+                                                      {"volume_drift", "volume drift, relative"},
+                                                      {"worst_residual", "worst residual"},
+                                                      {"worst_divergence", "worst divergence, 1/s"}};
   for (const auto& [key, label] : rows) {
     const std::string value = json_value(json, key);
     if (!value.empty()) lines.push_back(fmt::format("  {}: {}", label, value));
@@ -132,11 +140,12 @@ void add_scene(const fs::path& file, Lines& lines) {
     const Scene scene = read_scene(file, {});
     if (!scene.title.empty()) lines.push_back("  title: " + scene.title);
     const auto& cells = scene.domain.cells;
-    lines.push_back(scene.dimension == 2 ? fmt::format("  2D, {} x {} cells of {:g} m", cells[0], cells[1], scene.domain.cell_size)
-                                         : fmt::format("  3D, {} x {} x {} cells of {:g} m", cells[0], cells[1], cells[2],
-                                                       scene.domain.cell_size));
-    lines.push_back(fmt::format("  {} solid{}, ends at t = {:g} s", scene.solids.size(), scene.solids.size() == 1 ? "" : "s",
-                                scene.time.end));
+    lines.push_back(
+        scene.dimension == 2
+            ? fmt::format("  2D, {} x {} cells of {:g} m", cells[0], cells[1], scene.domain.cell_size)
+            : fmt::format("  3D, {} x {} x {} cells of {:g} m", cells[0], cells[1], cells[2], scene.domain.cell_size));
+    lines.push_back(fmt::format("  {} solid{}, ends at t = {:g} s", scene.solids.size(),
+                                scene.solids.size() == 1 ? "" : "s", scene.time.end));
   } catch (const Error& error) {
     lines.push_back(fmt::format("  the scene cannot be read: {}", error.what()));
   }
@@ -160,14 +169,16 @@ std::string json_value(const std::string& json, const std::string& key) {
     if (json[at] == '}' || json[at] == ']') --depth;
     if (json[at] != '"') continue;
     std::string word;
-    for (++at; at < json.size() && json[at] != '"'; ++at) word += json[at] == '\\' && at + 1 < json.size() ? json[++at] : json[at];
+    for (++at; at < json.size() && json[at] != '"'; ++at)
+      word += json[at] == '\\' && at + 1 < json.size() ? json[++at] : json[at];
     std::size_t next = json.find_first_not_of(" \t\r\n", at + 1);
     if (depth != 1 || word != key || next == std::string::npos || json[next] != ':') continue;
     next = json.find_first_not_of(" \t\r\n", next + 1);
     if (next == std::string::npos) return "";
     if (json[next] != '"') return json.substr(next, json.find_first_of(",}] \t\r\n", next) - next);
     std::string text;
-    for (++next; next < json.size() && json[next] != '"'; ++next) text += json[next] == '\\' && next + 1 < json.size() ? json[++next] : json[next];
+    for (++next; next < json.size() && json[next] != '"'; ++next)
+      text += json[next] == '\\' && next + 1 < json.size() ? json[++next] : json[next];
     return text;
   }
   return "";
@@ -175,8 +186,9 @@ std::string json_value(const std::string& json, const std::string& key) {
 
 Lines describe_frame(const fs::path& file) {
   const vdb::Frame frame = vdb::decode(file);
-  Lines lines{fmt::format("{}: frame {} at t = {:g} s, {}D, dt {:g} s, written by {}", file.string(), frame.number, frame.time,
-                          frame.dimension, frame.dt, frame.creator.empty() ? "an unknown program" : frame.creator)};
+  Lines lines{fmt::format("{}: frame {} at t = {:g} s, {}D, dt {:g} s, written by {}", file.string(), frame.number,
+                          frame.time, frame.dimension, frame.dt,
+                          frame.creator.empty() ? "an unknown program" : frame.creator)};
   for (const vdb::Grid& grid : frame.grids) {
     const auto& upper = grid.blocks.at(0).upper;
     lines.push_back(fmt::format("  {} ({}): {} x {} x {} cells of {:g} m from ({:g}, {:g}, {:g}); {}", grid.name,
@@ -190,8 +202,8 @@ Lines describe_checkpoint(const fs::path& folder) {
   const Verified verified = verify(folder);
   const CheckpointFile& first = verified.first;
   const auto time = first.data.scalars.find("run.time");
-  Lines lines{fmt::format("{}: checkpoint of step {}, {}D, format {}, written by {}", folder.string(), verified.commit.step,
-                          first.dimension, verified.commit.format, first.creator)};
+  Lines lines{fmt::format("{}: checkpoint of step {}, {}D, format {}, written by {}", folder.string(),
+                          verified.commit.step, first.dimension, verified.commit.format, first.creator)};
   if (time != first.data.scalars.end()) lines.push_back(fmt::format("  t = {:g} s", time->second));
   lines.push_back(fmt::format("  {} rank{}, {} bytes, all checksums verified", first.ranks, first.ranks == 1 ? "" : "s",
                               verified.bytes));
@@ -208,7 +220,8 @@ Lines describe_run(const fs::path& folder) {
   add_summary(paths.summary(), lines);
   const auto frames = render::list_frames(paths.frames());
   lines.push_back(frames.empty() ? std::string("  no frames")
-                                 : fmt::format("  {} frames, {} to {}", frames.size(), frames.front(), frames.back()));
+                                 : fmt::format("  {} frame{}, {} to {}", frames.size(), frames.size() == 1 ? "" : "s",
+                                               frames.front(), frames.back()));
   std::istringstream last(last_row_of(paths.stats()));
   std::string step, time;
   if (std::getline(last, step, ',') && std::getline(last, time, ',') && step != "step") {

@@ -18,7 +18,8 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) {
-    throw Error(ExitCode::output_failed, fmt::format("{}: cannot encode the picture: {}", file.string(), header.message));
+    throw Error(ExitCode::output_failed,
+                fmt::format("{}: cannot encode the picture: {}", file.string(), header.message));
   }
   write_file(file, std::string_view(bytes).substr(0, size));
 }

@@ -13,7 +13,9 @@ void include(Box& box, const Vec3f& x) {
   box.upper = box.upper.cwiseMax(x);
 }
 
-Vec3f centroid(const Triangle& t) { return t.corner + (t.edge1 + t.edge2) / 3; }
+Vec3f centroid(const Triangle& t) {
+  return t.corner + (t.edge1 + t.edge2) / 3;
+}
 
 Box bounds(const std::vector<Triangle>& triangles, std::uint32_t begin, std::uint32_t end) {
   Box box{triangles[begin].corner, triangles[begin].corner};
@@ -62,9 +64,8 @@ void Bvh::build(std::uint32_t begin, std::uint32_t end) {
   nodes_[self].box.size().maxCoeff(&axis);
   const std::uint32_t middle = begin + (end - begin) / 2;
   const auto from = triangles_.begin();
-  std::nth_element(from + begin, from + middle, from + end, [axis](const Triangle& a, const Triangle& b) {
-    return centroid(a)[axis] < centroid(b)[axis];
-  });
+  std::nth_element(from + begin, from + middle, from + end,
+                   [axis](const Triangle& a, const Triangle& b) { return centroid(a)[axis] < centroid(b)[axis]; });
   build(begin, middle);
   const auto high = std::uint32_t(nodes_.size());
   build(middle, end);
@@ -133,7 +134,10 @@ std::vector<Triangle> smooth_triangles(const SolidMesh& solids) {
   std::vector<Triangle> triangles;
   for (std::uint32_t i = 0; i < corners.size(); ++i) {
     const Vec3f corner = points[corners[i][0]].cast<float>();
-    Triangle t{corner, points[corners[i][1]].cast<float>() - corner, points[corners[i][2]].cast<float>() - corner, {},
+    Triangle t{corner,
+               points[corners[i][1]].cast<float>() - corner,
+               points[corners[i][2]].cast<float>() - corner,
+               {},
                i < solids.solid.size() ? solids.solid[i] : 0};
     for (int k = 0; k < 3; ++k) {
       Vec3f sum = area[i];

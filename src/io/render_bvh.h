@@ -15,14 +15,14 @@ struct SolidMesh {
 };
 
 struct Triangle {
-  Vec3f corner, edge1, edge2;       // corners: corner, corner + edge1, corner + edge2
-  std::array<Vec3f, 3> normals;     // smoothed over shallow creases
+  Vec3f corner, edge1, edge2;    // corners: corner, corner + edge1, corner + edge2
+  std::array<Vec3f, 3> normals;  // smoothed over shallow creases
   int solid = 0;
 };
 
 struct Hit {
-  float t = -1;                     // negative: none
-  float u = 0, v = 0;               // barycentric weights of edge1 and edge2
+  float t = -1;        // negative: none
+  float u = 0, v = 0;  // barycentric weights of edge1 and edge2
   std::uint32_t triangle = 0;
 };
 

@@ -51,8 +51,7 @@ Vec3f fitting_eye(const Camera& camera, const Box& box, float slope_side, float 
 
 Ray Camera::ray(float x, float y) const {
   const float scale = 2 * slope / float(height);
-  const Vec3f direction =
-      forward + (x - 0.5f * float(width)) * scale * side - (y - 0.5f * float(height)) * scale * up;
+  const Vec3f direction = forward + (x - 0.5f * float(width)) * scale * side - (y - 0.5f * float(height)) * scale * up;
   return {eye, direction.normalized()};
 }
 

@@ -8,7 +8,7 @@ namespace seiche::render {
 
 struct Camera {
   Vec3f eye{0, 0, 1}, forward{0, 0, -1}, side{1, 0, 0}, up{0, 1, 0};  // unit vectors, orthogonal
-  float slope = 0.3f;  // tangent of half the vertical field of view
+  float slope = 0.3f;                                                 // tangent of half the vertical field of view
   int width = 1280, height = 720;
 
   // The ray through pixel coordinates (from the top low corner; pixel centres at + 1/2).

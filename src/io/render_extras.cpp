@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/checked_file.h"
+#include "io/render_font.h"
 
 extern char** environ;
 
@@ -60,6 +61,14 @@ int start(std::vector<std::string> words, int input, int to_close, pid_t& child)
   return failed;
 }
 
+// Copies a picture into a larger one.
+void paste(Image& onto, const Image& picture, int x0, int y0) {
+  for (int y = 0; y < picture.height; ++y) {
+    std::memcpy(&onto.rgb[3 * (std::size_t(y0 + y) * onto.width + x0)],
+                &picture.rgb[3 * std::size_t(y) * picture.width], 3 * std::size_t(picture.width));
+  }
+}
+
 }  // namespace
 
 ContactSheet::ContactSheet(int pictures, int width, int height) : pictures_(pictures), tiles_(std::min(pictures, 12)) {
@@ -71,15 +80,15 @@ ContactSheet::ContactSheet(int pictures, int width, int height) : pictures_(pict
   image_.rgb.assign(std::size_t(image_.width) * image_.height * 3, 255);
 }
 
-void ContactSheet::offer(int index, const Image& picture) {
+void ContactSheet::offer(int index, const Image& picture, const std::string& label) {
   const int wanted = tiles_ > 1 ? int((long(next_) * (pictures_ - 1) + (tiles_ - 1) / 2) / (tiles_ - 1)) : 0;
   if (next_ >= tiles_ || index != wanted) return;
-  const Image tile = shrink(picture, tile_width_, tile_height_);
   const int x0 = gap + next_ % columns_ * (tile_width_ + gap), y0 = gap + next_ / columns_ * (tile_height_ + gap);
-  for (int y = 0; y < tile_height_; ++y) {
-    std::memcpy(&image_.rgb[3 * (std::size_t(y0 + y) * image_.width + x0)], &tile.rgb[3 * std::size_t(y) * tile_width_],
-                3 * std::size_t(tile_width_));
-  }
+  paste(image_, shrink(picture, tile_width_, tile_height_), x0, y0);
+  const int font = tile_width_ >= 400 ? 2 : 1;
+  Canvas tag(std::min(tile_width_, text_width(label, font) + 6 * font), 11 * font, Vec3f::Constant(0.9f));
+  draw_text(tag, 3 * font, 2 * font, label, font, {0.05f, 0.06f, 0.08f});
+  paste(image_, to_image(tag), x0, y0);
   ++next_;
 }
 
@@ -89,10 +98,10 @@ std::string encode_animation(const std::vector<std::filesystem::path>& pictures,
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail(film, std::strerror(errno));
   pid_t child = 0;
-  const int failed = start({"ffmpeg", "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", fmt::format("{}", rate),
-                            "-c:v", "png", "-i", "-", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p",
-                            target.string()},
-                           ends[0], ends[1], child);
+  const int failed =
+      start({"ffmpeg", "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", fmt::format("{}", rate), "-c:v",
+             "png", "-i", "-", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", target.string()},
+            ends[0], ends[1], child);
   close(ends[0]);
   if (failed != 0) close(ends[1]);
   if (failed == ENOENT) return fmt::format("{} was not made: there is no ffmpeg on the PATH", film.string());

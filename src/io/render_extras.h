@@ -12,8 +12,9 @@ namespace seiche::render {
 class ContactSheet {
  public:
   ContactSheet(int pictures, int width, int height);
-  // Takes picture `index` of the series (from zero, ascending) if it is one of the chosen.
-  void offer(int index, const Image& picture);
+  // Takes picture `index` of the series (from zero, ascending) if it is one of the chosen, and prints the label on it
+  // in letters that stay readable.
+  void offer(int index, const Image& picture, const std::string& label);
   const Image& image() const { return image_; }
 
  private:

@@ -21,7 +21,8 @@ ScalarVolume empty_volume(const vdb::Frame& frame, const vdb::Block& block) {
   return volume;
 }
 
-// Lengths of the vectors averaged from the faces of each cell; on the last cell of an axis its low face stands for both.
+// Lengths of the vectors averaged from the faces of each cell; on the last cell of an axis its low face stands for
+// both.
 std::vector<float> lengths(const std::vector<float>& faces, const std::array<int, 3>& cells) {
   const std::array<std::size_t, 3> stride{1, std::size_t(cells[0]), std::size_t(cells[0]) * cells[1]};
   std::vector<float> result(faces.size() / 3);
@@ -85,8 +86,8 @@ ScalarVolume quantity_of(const vdb::Frame& frame, const std::string& quantity) {
     volume.values = vectors ? lengths(block.values, volume.cells) : block.values;
     return volume;
   }
-  throw Error(ExitCode::bad_input, fmt::format("--color: frame {} holds no '{}'; it can show {}", frame.number, quantity,
-                                               grid_names(frame)));
+  throw Error(ExitCode::bad_input, fmt::format("--color: frame {} holds no '{}'; it can show {}", frame.number,
+                                               quantity, grid_names(frame)));
 }
 
 std::string label_of(const std::string& quantity) {
@@ -115,7 +116,8 @@ std::vector<int> list_frames(const std::filesystem::path& frames) {
   for (const auto& entry : std::filesystem::directory_iterator(frames, missing)) {
     const std::string name = entry.path().filename().string();
     const std::string digits = name.size() > 10 ? name.substr(6, name.size() - 10) : "";
-    const bool plain = !digits.empty() && digits.size() < 10 && digits.find_first_not_of("0123456789") == std::string::npos;
+    const bool plain =
+        !digits.empty() && digits.size() < 10 && digits.find_first_not_of("0123456789") == std::string::npos;
     if (plain && frame_file("frame", std::stoi(digits), "vdb") == name) numbers.push_back(std::stoi(digits));
   }
   std::sort(numbers.begin(), numbers.end());

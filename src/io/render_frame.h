@@ -20,8 +20,8 @@ struct LoadedFrame {
   SolidMesh solids;
 };
 
-// Reads frames/frame.NNNN.vdb and, if it is there, frames/solids.NNNN.vtu. `quantity` is "none", "speed", or the name of
-// a grid (vectors give their length). Throws Error(bad_input), for an unknown quantity with the names there are.
+// Reads frames/frame.NNNN.vdb and, if it is there, frames/solids.NNNN.vtu. `quantity` is "none", "speed", or the name
+// of a grid (vectors give their length). Throws Error(bad_input), for an unknown quantity with the names there are.
 LoadedFrame load_frame(const std::filesystem::path& frames, int number, const std::string& quantity);
 
 // The level set of a decoded frame, if any, and a quantity of it at cell centres.

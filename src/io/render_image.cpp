@@ -9,7 +9,9 @@ float encode_srgb(float v) {
   return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
 }
 
-float decode_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+float decode_srgb(float v) {
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
 
 // A table is exact enough for 8 bits: 4096 steps of sqrt(v), which is nearly even in sRGB.
 std::array<std::uint8_t, 4097> srgb_table() {
@@ -53,7 +55,9 @@ Image to_image(const Canvas& canvas) {
   return image;
 }
 
-Vec3f from_srgb(float r, float g, float b) { return {decode_srgb(r), decode_srgb(g), decode_srgb(b)}; }
+Vec3f from_srgb(float r, float g, float b) {
+  return {decode_srgb(r), decode_srgb(g), decode_srgb(b)};
+}
 
 Image shrink(const Image& image, int width, int height) {
   Image small{width, height, std::vector<std::uint8_t>(std::size_t(width) * height * 3)};

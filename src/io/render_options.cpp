@@ -13,8 +13,10 @@ namespace {
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts{""};
   for (const char c : text) {
-    if (c == separator) parts.emplace_back();
-    else if (c != ' ') parts.back() += c;
+    if (c == separator)
+      parts.emplace_back();
+    else if (c != ' ')
+      parts.back() += c;
   }
   return parts;
 }
@@ -55,7 +57,8 @@ std::optional<std::array<int, 2>> read_range(const std::string& part) {
 std::array<int, 2> parse_size(const std::string& text) {
   const auto parts = split(text, 'x');
   const auto width = read_number<int>(parts.front()), height = read_number<int>(parts.back());
-  const bool fits = parts.size() == 2 && width && height && *width >= 160 && *height >= 120 && *width <= 8192 && *height <= 8192;
+  const bool fits =
+      parts.size() == 2 && width && height && *width >= 160 && *height >= 120 && *width <= 8192 && *height <= 8192;
   if (fits) return {*width, *height};
   throw Error(ExitCode::bad_input,
               fmt::format("--size: '{}' is not a size; give one as 1280x720, from 160x120 to 8192x8192", text));
@@ -65,12 +68,16 @@ CameraSpec parse_camera(const std::string& text) {
   std::vector<float> numbers;
   for (const std::string& part : split(text, ',')) {
     const auto number = read_number<float>(part);
-    if (number && std::isfinite(*number)) numbers.push_back(*number);
-    else numbers.resize(100);  // no camera has that many
+    if (number && std::isfinite(*number))
+      numbers.push_back(*number);
+    else
+      numbers.resize(100);  // no camera has that many
   }
   if (numbers.size() != 6 && numbers.size() != 7) {
-    throw Error(ExitCode::bad_input, fmt::format("--camera: '{}' is not a camera; give eye_x,eye_y,eye_z,look_x,look_y,look_z "
-                                                 "in m and, if wanted, the vertical field of view in degrees", text));
+    throw Error(ExitCode::bad_input,
+                fmt::format("--camera: '{}' is not a camera; give eye_x,eye_y,eye_z,look_x,look_y,look_z "
+                            "in m and, if wanted, the vertical field of view in degrees",
+                            text));
   }
   CameraSpec camera{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
   if (numbers.size() == 7) camera.degrees = numbers[6];
@@ -89,7 +96,8 @@ std::vector<int> choose_frames(const std::string& text, const std::vector<int>& 
     }
     for (const int end : *range) {
       if (there.count(end) > 0) continue;
-      throw Error(ExitCode::bad_input, fmt::format("--frames: there is no frame {}; the run has {}", end, describe(available)));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("--frames: there is no frame {}; the run has {}", end, describe(available)));
     }
     chosen.insert(there.lower_bound((*range)[0]), there.upper_bound((*range)[1]));
   }

@@ -24,7 +24,9 @@ float border_place(const Box& box, const Vec2f& x) {
   return -1;
 }
 
-float walk_length(float from, float to) { return to >= from ? to - from : to - from + 4; }
+float walk_length(float from, float to) {
+  return to >= from ? to - from : to - from + 4;
+}
 
 // Appends the corners passed on the way round from one place to another.
 void walk_border(const Box& box, float from, float to, Polygon& polygon) {
@@ -128,7 +130,8 @@ std::vector<float> row_coverage(const std::vector<Polygon>& polygons, int x0, in
     }
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const float from = std::max(crossings[i] - float(x0), 0.0f), to = std::min(crossings[i + 1] - float(x0), float(n));
+      const float from = std::max(crossings[i] - float(x0), 0.0f),
+                  to = std::min(crossings[i + 1] - float(x0), float(n));
       for (int x = int(from); float(x) < to; ++x) {
         cover[x] += (std::min(to, float(x + 1)) - std::max(from, float(x))) / lines;
       }

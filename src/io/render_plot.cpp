@@ -1,10 +1,9 @@
 #include "io/render_plot.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <set>
 
+#include "grid/parallel_range.h"
 #include "io/render_font.h"
 #include "io/render_outline.h"
 
@@ -23,7 +22,8 @@ struct Mapping {
     return {lower.x() + (x - float(rectangle[0])) * pixel.x(), lower.y() + (float(rectangle[3]) - y) * pixel.y(), 0};
   }
   Vec2f picture(const Vec2f& x) const {
-    return {float(rectangle[0]) + (x.x() - lower.x()) / pixel.x(), float(rectangle[3]) - (x.y() - lower.y()) / pixel.y()};
+    return {float(rectangle[0]) + (x.x() - lower.x()) / pixel.x(),
+            float(rectangle[3]) - (x.y() - lower.y()) / pixel.y()};
   }
 };
 
@@ -36,7 +36,7 @@ Mapping map_domain(const Box& domain, int width, int height) {
 
 void paint_liquid(Canvas& canvas, const Plot& plot, const Mapping& map) {
   const Vec3f blue = from_srgb(0.20f, 0.47f, 0.74f);
-  tbb::parallel_for(map.rectangle[1], map.rectangle[3], [&](int y) {
+  parallel_range(map.rectangle[1], map.rectangle[3], [&](int y) {
     for (int x = map.rectangle[0]; x < map.rectangle[2]; ++x) {
       Vec3f at = map.world(float(x) + 0.5f, float(y) + 0.5f);
       at[2] = plot.phi.lower[2] + 0.5f * plot.phi.h;
@@ -65,8 +65,10 @@ void paint_solids(Canvas& canvas, const Plot& plot, const Mapping& map) {
 
 void draw_axes(Canvas& canvas, const Plot& plot, const Mapping& map, int font) {
   const auto [x0, y0, x1, y1] = map.rectangle;
-  for (const auto& side : {std::array<int, 4>{x0 - 1, y0 - 1, x1 + 1, y0}, {x0 - 1, y1, x1 + 1, y1 + 1},
-                           {x0 - 1, y0, x0, y1}, {x1, y0, x1 + 1, y1}}) {
+  for (const auto& side : {std::array<int, 4>{x0 - 1, y0 - 1, x1 + 1, y0},
+                           {x0 - 1, y1, x1 + 1, y1 + 1},
+                           {x0 - 1, y0, x0, y1},
+                           {x1, y0, x1 + 1, y1}}) {
     fill(canvas, side, ink, 1);
   }
   for (int a = 0; a < 2; ++a) {

@@ -8,11 +8,11 @@
 namespace seiche::render {
 
 struct Plot {
-  Box domain;                               // z is not used
-  ScalarVolume phi;                         // level set, one cell thick
-  std::optional<ScalarVolume> quantity;     // unset: plain blue
+  Box domain;                            // z is not used
+  ScalarVolume phi;                      // level set, one cell thick
+  std::optional<ScalarVolume> quantity;  // unset: plain blue
   ColorScale scale;
-  SolidMesh solids;                         // segments
+  SolidMesh solids;  // segments
 };
 
 // The domain as large as fits, to scale, y upwards. The interface is smoothed by the share of each pixel that the level

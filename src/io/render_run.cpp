@@ -99,13 +99,18 @@ Canvas picture_3d(const Job& job, LoadedFrame& frame) {
   return canvas;
 }
 
-Image make_picture(const Job& job, int number) {
+struct LabelledPicture {
+  Image image;
+  std::string label;
+};
+
+LabelledPicture make_picture(const Job& job, int number) {
   LoadedFrame frame = load_frame(job.frames, number, job.quantity);
   Canvas canvas = frame.dimension == 2 ? picture_2d(job, frame) : picture_3d(job, frame);
   const int font = font_scale(canvas.height);
   const std::string label = fmt::format("frame {}   t = {:.3f} s", number, frame.time);
   draw_text(canvas, 6 * font, 6 * font, label, font, {0.05f, 0.06f, 0.08f});
-  return to_image(canvas);
+  return {to_image(canvas), label};
 }
 
 Job prepare(const RenderOptions& options, const Say& say) {
@@ -115,13 +120,16 @@ Job prepare(const RenderOptions& options, const Say& say) {
   job.out = options.out.empty() ? options.run / "pictures" : options.out;
   const std::vector<int> available = list_frames(job.frames);
   if (available.empty()) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: there are no frames (frames/frame.0000.vdb and on) to render; give the "
-                                                 "directory of a run", options.run.string()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: there are no frames (frames/frame.0000.vdb and on) to render; give the "
+                            "directory of a run",
+                            options.run.string()));
   }
   job.chosen = choose_frames(options.frames, available);
   job.scene = scene_of_run(options.run, say);
   const vdb::Frame first = vdb::decode(job.frames / frame_file("frame", job.chosen.front(), "vdb"));
-  const bool has_speed = std::any_of(first.grids.begin(), first.grids.end(), [](const auto& g) { return g.name == "vel"; });
+  const bool has_speed =
+      std::any_of(first.grids.begin(), first.grids.end(), [](const auto& g) { return g.name == "vel"; });
   job.quantity = options.color;
   if (options.color == "auto") job.quantity = first.dimension == 2 && has_speed ? "speed" : "none";
   if (job.quantity != "none") job.scale = measure_scale(job);
@@ -137,10 +145,10 @@ RenderReport render_run(const RenderOptions& options, const Say& say) {
   std::vector<std::filesystem::path> pictures;
   ContactSheet sheet(int(job.chosen.size()), options.width, options.height);
   for (const int number : job.chosen) {
-    const Image image = make_picture(job, number);
+    const LabelledPicture picture = make_picture(job, number);
     pictures.push_back(job.out / frame_file("frame", number, "png"));
-    write_png(pictures.back(), image);
-    sheet.offer(report.pictures++, image);
+    write_png(pictures.back(), picture.image);
+    sheet.offer(report.pictures++, picture.image, picture.label);
     say(pictures.back().string());
   }
   if (options.contact_sheet) {
@@ -151,8 +159,10 @@ RenderReport render_run(const RenderOptions& options, const Say& say) {
   if (options.animation) {
     const double rate = job.scene.time.frame_rate;
     const std::string trouble = encode_animation(pictures, rate <= 60 ? rate : 30, *options.animation);
-    if (trouble.empty()) report.files.push_back(*options.animation);
-    else say(trouble);
+    if (trouble.empty())
+      report.files.push_back(*options.animation);
+    else
+      say(trouble);
   }
   for (const auto& file : report.files) say(file.string());
   return report;

@@ -1,8 +1,8 @@
 #include "io/render_stage.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
+
+#include "grid/parallel_range.h"
 
 namespace seiche::render {
 namespace {
@@ -12,10 +12,24 @@ const Vec3f sun_color{1.0f, 0.96f, 0.88f};
 // Colour of the hazy distance, where ground and sky meet.
 const Vec3f haze{0.80f, 0.85f, 0.90f};
 
+bool is_container(const Stage& stage, int solid) {
+  return std::size_t(solid) < stage.containers.size() && stage.containers[solid];
+}
+
+// Whether a solid that is no container stands in the way.
+bool is_blocked(const Stage& stage, const Ray& ray, float t) {
+  if (!stage.solids.any(ray, t, 1e30f)) return false;
+  Hit hit = stage.solids.closest(ray, t, 1e30f);
+  while (hit.t >= 0 && is_container(stage, stage.solids.triangle(hit.triangle).solid)) {
+    hit = stage.solids.closest(ray, hit.t + 1e-5f * stage.reach, 1e30f);
+  }
+  return hit.t >= 0;
+}
+
 // How much light reaches a point of the ground: none past solids, tinted past liquid.
 Vec3f ground_light(const Stage& stage, const Vec3f& x) {
   const Ray ray{x, stage.to_light};
-  if (stage.solids.any(ray, 1e-4f * stage.reach, 1e30f)) return Vec3f::Zero();
+  if (is_blocked(stage, ray, 1e-4f * stage.reach)) return Vec3f::Zero();
   const Span span = clip(ray, stage.domain);
   if (!stage.liquid || !span.hits()) return Vec3f::Ones();
   float path = 0, t = span.t0;
@@ -53,7 +67,7 @@ void measure_shadow(Stage& stage) {
   shadow.lower = stage.domain.center() - Vec3f::Constant(shadow.extent / 2);
   shadow.lower[stage.up_axis] = stage.ground;
   shadow.light.resize(std::size_t(shadow.size) * shadow.size);
-  tbb::parallel_for(0, shadow.size, [&](int row) {
+  parallel_range(0, shadow.size, [&](int row) {
     for (int column = 0; column < shadow.size; ++column) {
       Vec3f x = shadow.lower;
       x[a] += (float(column) + 0.5f) * shadow.extent / float(shadow.size);
@@ -127,7 +141,7 @@ OpaqueHit find_opaque(const Stage& stage, const Ray& ray, float t0) {
   while (hit.t >= 0) {
     const Triangle& triangle = stage.solids.triangle(hit.triangle);
     const bool behind = triangle.edge1.cross(triangle.edge2).dot(ray.direction) > 0;
-    if (behind && std::size_t(triangle.solid) < stage.containers.size() && stage.containers[triangle.solid]) {
+    if (behind && is_container(stage, triangle.solid)) {
       hit = stage.solids.closest(ray, hit.t + 1e-5f * stage.reach, found.t);
       continue;
     }
@@ -140,7 +154,7 @@ OpaqueHit find_opaque(const Stage& stage, const Ray& ray, float t0) {
 }
 
 float sun_at(const Stage& stage, const Vec3f& x) {
-  return stage.solids.any({x, stage.to_light}, 2e-3f * stage.reach, 1e30f) ? 0.0f : 1.0f;
+  return is_blocked(stage, {x, stage.to_light}, 2e-3f * stage.reach) ? 0.0f : 1.0f;
 }
 
 Vec3f solid_color(int solid) {
@@ -158,7 +172,8 @@ Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
   const float sun = facing > 0 ? facing * sun_at(stage, x + 1e-4f * stage.reach * hit.normal) : 0.0f;
   const float open = 0.5f + 0.5f * hit.normal[stage.up_axis];
   const float height = std::clamp((x[stage.up_axis] - stage.ground) / (0.25f * stage.reach), 0.0f, 1.0f);
-  const Vec3f ambient = (0.24f + 0.10f * height) * (open * Vec3f(0.85f, 0.95f, 1.1f) + (1 - open) * Vec3f(0.62f, 0.6f, 0.56f));
+  const Vec3f from_sky(0.85f, 0.95f, 1.1f), from_ground(0.62f, 0.6f, 0.56f);
+  const Vec3f ambient = (0.24f + 0.10f * height) * (open * from_sky + (1 - open) * from_ground);
   return solid_color(hit.solid).cwiseProduct(ambient + 0.95f * sun * sun_color);
 }
 

@@ -12,21 +12,21 @@ namespace seiche::render {
 // Light that reaches the ground: a map of factors over a rectangle of it, 1 beyond.
 struct GroundShadow {
   int size = 0;
-  Vec3f lower{0, 0, 0};   // of the rectangle
-  float extent = 1;       // of both sides, m
+  Vec3f lower{0, 0, 0};  // of the rectangle
+  float extent = 1;      // of both sides, m
   std::vector<Vec3f> light;
 };
 
 struct Stage {
   Box domain;
   int up_axis = 1;
-  std::unique_ptr<LiquidSurface> liquid;       // empty: no liquid
-  std::optional<ScalarVolume> quantity;        // for false colours
+  std::unique_ptr<LiquidSurface> liquid;  // empty: no liquid
+  std::optional<ScalarVolume> quantity;   // for false colours
   ColorScale scale;
   Bvh solids;
-  std::vector<char> containers;                // by solid: seen from outside, it is left away
-  float ground = 0;                            // its height along the up axis
-  float reach = 1;                             // diagonal of the domain, m
+  std::vector<char> containers;  // by solid: seen from outside, it is left away
+  float ground = 0;              // its height along the up axis
+  float reach = 1;               // diagonal of the domain, m
   Vec3f to_light{0, 1, 0};
   GroundShadow shadow;
 

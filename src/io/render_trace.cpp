@@ -1,8 +1,8 @@
 #include "io/render_trace.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cmath>
+
+#include "grid/parallel_range.h"
 
 namespace seiche::render {
 namespace {
@@ -16,7 +16,9 @@ struct Sample {
   int thing = 0;
 };
 
-Vec3f reflect(const Vec3f& d, const Vec3f& n) { return d - 2 * d.dot(n) * n; }
+Vec3f reflect(const Vec3f& d, const Vec3f& n) {
+  return d - 2 * d.dot(n) * n;
+}
 
 // Snell's law for a ray d against the normal n; eta = index before / index behind. False: total reflection.
 bool refract(const Vec3f& d, const Vec3f& n, float eta, Vec3f& out) {
@@ -27,7 +29,9 @@ bool refract(const Vec3f& d, const Vec3f& n, float eta, Vec3f& out) {
 }
 
 // Schlick's approximation for water.
-float fresnel(float cosine) { return 0.02f + 0.98f * std::pow(1 - std::clamp(cosine, 0.0f, 1.0f), 5.0f); }
+float fresnel(float cosine) {
+  return 0.02f + 0.98f * std::pow(1 - std::clamp(cosine, 0.0f, 1.0f), 5.0f);
+}
 
 Vec3f outside(const Stage& stage, const Ray& ray) {
   return shade_opaque(stage, ray, find_opaque(stage, ray, 1e-4f * stage.reach));
@@ -57,12 +61,14 @@ Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
   Vec3f direction = ray.direction;  // the walls do not refract: what is behind them stays recognisable
   if (!through_wall && !refract(ray.direction, -stage.liquid->normal(x), refraction, direction)) {
     const Vec3f mirrored = reflect(ray.direction, stage.liquid->normal(x)).normalized();
-    const Vec3f beyond = depth < 3 ? through_liquid(stage, {x + 0.02f * h * mirrored, mirrored}, depth + 1)
-                                   : scattered(stage, x);
+    const Vec3f beyond =
+        depth < 3 ? through_liquid(stage, {x + 0.02f * h * mirrored, mirrored}, depth + 1) : scattered(stage, x);
     return left.cwiseProduct(beyond) + glow;
   }
   const Ray onward{x + 0.05f * h * direction, direction};
-  return left.cwiseProduct(depth < 3 && !through_wall ? trace(stage, onward, depth + 1).light : outside(stage, onward)) + glow;
+  return left.cwiseProduct(depth < 3 && !through_wall ? trace(stage, onward, depth + 1).light
+                                                      : outside(stage, onward)) +
+         glow;
 }
 
 // Where the ray meets liquid before `limit`: at its surface or at a wall that it touches; negative t: nowhere.
@@ -172,7 +178,7 @@ void draw_domain(Canvas& canvas, const Stage& stage, const Camera& camera, const
 
 Canvas trace_picture(const Stage& stage, const Camera& camera) {
   std::vector<Sample> samples(std::size_t(camera.width) * camera.height);
-  tbb::parallel_for(0, camera.height, [&](int y) {
+  parallel_range(0, camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       Sample& sample = samples[std::size_t(y) * camera.width + x];
       sample = trace(stage, camera.ray(float(x) + 0.5f, float(y) + 0.5f), 0);
@@ -180,7 +186,7 @@ Canvas trace_picture(const Stage& stage, const Camera& camera) {
     }
   });
   Canvas canvas(camera.width, camera.height, Vec3f::Zero());
-  tbb::parallel_for(0, camera.height, [&](int y) {
+  parallel_range(0, camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       const Sample& sample = samples[std::size_t(y) * camera.width + x];
       canvas.at(x, y) = is_rough(samples, camera, x, y) ? four_rays(stage, camera, x, y) : sample.light;

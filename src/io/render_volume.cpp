@@ -42,10 +42,9 @@ Span clip(const Ray& ray, const Box& box) {
 float ScalarVolume::sample(const Vec3f& x) const {
   const Vec3f index = (x - lower) / h - Vec3f::Constant(0.5f);
   const Weight wx = weigh(index[0], cells[0]), wy = weigh(index[1], cells[1]), wz = weigh(index[2], cells[2]);
-  const std::size_t rows[4] = {(std::size_t(wz.low) * cells[1] + wy.low) * cells[0],
-                               (std::size_t(wz.low) * cells[1] + wy.high) * cells[0],
-                               (std::size_t(wz.high) * cells[1] + wy.low) * cells[0],
-                               (std::size_t(wz.high) * cells[1] + wy.high) * cells[0]};
+  const std::size_t rows[4] = {
+      (std::size_t(wz.low) * cells[1] + wy.low) * cells[0], (std::size_t(wz.low) * cells[1] + wy.high) * cells[0],
+      (std::size_t(wz.high) * cells[1] + wy.low) * cells[0], (std::size_t(wz.high) * cells[1] + wy.high) * cells[0]};
   float along[4];
   for (int r = 0; r < 4; ++r) {
     const float low = values[rows[r] + wx.low], high = values[rows[r] + wx.high];
@@ -72,7 +71,8 @@ LiquidSurface::LiquidSurface(ScalarVolume phi) : phi_(std::move(phi)) {
   for (int a = 0; a < 3; ++a) blocks_[a] = (phi_.cells[a] + block_cells - 1) / block_cells;
   near_.resize(std::size_t(blocks_[0]) * blocks_[1] * blocks_[2]);
   for (std::size_t b = 0; b < near_.size(); ++b) {
-    near_[b] = near_surface({int(b) % blocks_[0], int(b) / blocks_[0] % blocks_[1], int(b) / (blocks_[0] * blocks_[1])});
+    near_[b] =
+        near_surface({int(b) % blocks_[0], int(b) / blocks_[0] % blocks_[1], int(b) / (blocks_[0] * blocks_[1])});
   }
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 constexpr int vtk_line = 3, vtk_triangle = 5;
 
-[[noreturn]] void fail(const std::string& what) { throw Error(ExitCode::bad_input, what); }
+[[noreturn]] void fail(const std::string& what) {
+  throw Error(ExitCode::bad_input, what);
+}
 
 // One element <name key="value" ...>text</name>.
 struct Element {
@@ -108,7 +110,7 @@ struct Document {
   std::string_view xml;       // without appended data
   std::string_view appended;  // after the underscore
   bool appended_raw = false;
-  std::size_t header = 4;     // bytes of the length before each binary array
+  std::size_t header = 4;  // bytes of the length before each binary array
 };
 
 Document open_document(std::string_view bytes) {

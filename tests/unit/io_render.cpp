@@ -270,7 +270,8 @@ TEST_CASE("outlines are filled: closed ones, holes, and those that the border of
 
 TEST_CASE("options of render are understood or refused with the form they should have") {
   CHECK(parse_size("1280x720") == std::array<int, 2>{1280, 720});
-  for (const char* text : {"", "1280", "0x5", "1280x720x2", "1e3x7", "99999x99999"}) CHECK_THROWS_AS(parse_size(text), Error);
+  for (const char* text : {"", "1280", "0x5", "1280x720x2", "1e3x7", "99999x99999"})
+    CHECK_THROWS_AS(parse_size(text), Error);
   const CameraSpec camera = parse_camera("1,2,3, 0.5,0,-1e1, 60");
   CHECK(camera.look == Vec3f(0.5f, 0, -10));
   CHECK(camera.degrees == 60);
@@ -281,6 +282,7 @@ TEST_CASE("options of render are understood or refused with the form they should
   CHECK(choose_frames("all", available) == available);
   CHECK(choose_frames("2-10,0", available) == std::vector<int>{0, 2, 3, 10});
   CHECK(choose_frames("10, 1", available) == std::vector<int>{1, 10});
-  for (const char* text : {"4", "0-12", "3-1", "a", "", "1,,2", "-1"}) CHECK_THROWS_AS(choose_frames(text, available), Error);
+  for (const char* text : {"4", "0-12", "3-1", "a", "", "1,,2", "-1"})
+    CHECK_THROWS_AS(choose_frames(text, available), Error);
   CHECK_THROWS_WITH(choose_frames("7", available), Catch::Contains("the run has 0-3, 10-11"));
 }
