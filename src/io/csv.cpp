@@ -65,15 +65,15 @@ std::string quoted(const std::string& name) {
 }
 
 std::string joined_names(const std::vector<Column>& row) {
-  std::string line;
-  for (const Column& c : row) line += (line.empty() ? "" : ",") + std::string(c.name);
-  return line;
+  std::vector<std::string> names;
+  for (const Column& c : row) names.emplace_back(c.name);
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 std::string joined_values(const std::vector<Column>& row) {
-  std::string line;
-  for (const Column& c : row) line += (line.empty() ? "" : ",") + text_of(c.value);
-  return line;
+  std::vector<std::string> values;
+  for (const Column& c : row) values.push_back(text_of(c.value));
+  return fmt::format("{}", fmt::join(values, ","));
 }
 
 std::string first_not_finite(const std::vector<Column>& row) {

@@ -9,6 +9,7 @@
 #include "io/checkpoint.h"
 #include "io/run_agree.h"
 #include "io/run_scene.h"
+#include "io/scene_writer.h"
 
 namespace seiche {
 namespace {
@@ -48,6 +49,7 @@ RunLoop::RunLoop(Simulation& simulation, const RunContext& context, RunState sta
       last_(simulation.stats()),
       earlier_seconds_(state_.wall_seconds),
       earlier_phases_(state_.phase_seconds) {
+  state_.scene_text = write_scene(context_.scene);
   simulation_.set_fault_hook([this](const std::string& phase) { return visit(phase); });
 }
 

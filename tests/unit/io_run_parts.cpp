@@ -127,7 +127,7 @@ TEST_CASE("VTK files hold every field over the whole domain, velocities averaged
   const float centred[9] = {3, 0, 0, 6, 0, 0, 8, 0, 0};
   std::string bytes(reinterpret_cast<const char*>(&size), sizeof size);
   bytes.append(reinterpret_cast<const char*>(centred), sizeof centred);
-  CHECK(text.find(">" + vtk::base64(bytes) + "<") != std::string::npos);
+  CHECK(text.find(vtk::base64(bytes)) != std::string::npos);
   CHECK(text.find("WholeExtent=\"0 3 0 1 0 1\"") != std::string::npos);
   const std::string surfaces = vtk::surfaces({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, {}}, 1.5);
   CHECK(surfaces.find("NumberOfPoints=\"3\" NumberOfCells=\"1\"") != std::string::npos);

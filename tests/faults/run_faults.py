@@ -1,0 +1,587 @@
+#!/usr/bin/python3
+"""Faults of files, signals, memory, ranks and checkpoints, and awkward domains, driven through the built program.
+
+Usage: run_faults.py PROGRAM GROUP [CASE ...]. The docstring of each case names the fault and what must come of it."""
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import time
+
+from harness import (DAM, Failed, crc32c, expect, frames_are_good, lines_of, newest_checkpoint, rank_processes, recommit,
+                     root_process, run_table, same_frames, same_tables, stats, summary, wait_for, wait_for_steps)
+
+LONG = DAM.replace("end = 0.2", "end = 50.0")   # more than any test waits for
+
+
+def box_scene(cells, liquid, extra="", end=0.05):
+    """A domain of unit cells scaled to 1/16 m; `liquid` is the text of its regions."""
+    h = 0.0625
+    upper = ", ".join(str(n * h) for n in cells)
+    lower = ", ".join(["0.0"] * len(cells))
+    return (f"dimension = {len(cells)}\n[domain]\nlower = [{lower}]\nupper = [{upper}]\ncell_size = {h}\n"
+            f"[time]\nend = {end}\nframe_rate = 20.0\n[liquid]\ndensity = 1000.0\nviscosity = 0.0\n{liquid}\n{extra}\n")
+
+
+def region(shape):
+    return f"[[liquid.region]]\n{shape}\n"
+
+
+EVERYWHERE = region('shape = "expression"\nphi = "-1"')
+
+
+# --- awkward domains -------------------------------------------------------------------------------------------------
+
+def no_liquid_at_all(bench):
+    """No liquid in the domain: the run is empty but whole."""
+    outside = region('shape = "sphere"\ncenter = [9.0, 9.0]\nradius = 0.1')
+    bench.simulate(text=box_scene([16, 16], outside)).needs(0)
+    expect(float(stats(bench.path("out"))[-1]["liquid_volume"]) == 0, "there is liquid")
+
+
+def liquid_drains_away(bench):
+    """All liquid leaves through an open floor."""
+    drop = region('shape = "box"\nlower = [0.3, 0.05]\nupper = [0.6, 0.3]')
+    open_floor = '[domain.boundary]\ny_lower = { type = "outflow", pressure = 0.0 }\n'
+    bench.simulate(text=box_scene([16, 16], drop, open_floor, end=1.0)).needs(0)
+    expect(float(stats(bench.path("out"))[-1]["liquid_volume"]) < 1e-3 * 0.3 * 0.25, "liquid is left")
+
+
+def no_solids_no_container(bench):
+    """A drop in a periodic box."""
+    periodic = '[domain.boundary]\n' + "".join(f'{s} = "periodic"\n' for s in ("x_lower", "x_upper", "y_lower", "y_upper"))
+    bench.simulate(text=box_scene([16, 16], region('shape = "sphere"\ncenter = [0.5, 0.5]\nradius = 0.2'), periodic)).needs(0)
+
+
+def full_closed_container(bench):
+    """Filled to the lid, at rest, on odd and even sizes: stays at rest with no divergence."""
+    for cells in ([16, 16], [24, 20], [33, 17], [17, 13], [17, 13, 11]):
+        out = "out" + "x".join(map(str, cells))
+        bench.simulate(text=box_scene(cells, EVERYWHERE), out=out).needs(0)
+        last = stats(bench.path(out))[-1]
+        # Round-off of g dt = 0.5 m/s, and of that over h.
+        expect(float(last["max_speed"]) < 1e-10, f"{cells}: speed {last['max_speed']}")
+        expect(float(last["max_divergence"]) < 1e-8, f"{cells}: divergence {last['max_divergence']}")
+
+
+def full_container_with_moving_solid(bench):
+    """A solid that moves inside a full container."""
+    mover = ('[[solid]]\nname = "mover"\nkind = "kinematic"\nshape = "sphere"\ncenter = [0.5, 0.5]\nradius = 0.15\n'
+             'motion = { translate = ["0.1*sin(6*t)", "0"] }\n')
+    bench.simulate(text=box_scene([17, 16], EVERYWHERE, mover, end=0.2)).needs(0)
+
+
+def inflow_without_outlet(bench):
+    """A full closed container with an inflow cannot be."""
+    inflow = '[domain.boundary]\nx_lower = { type = "inflow", velocity = ["1", "0"] }\n'
+    result = bench.simulate(text=box_scene([16, 16], EVERYWHERE, inflow))
+    expect(result.code in (2, 3), f"exit code {result.code}")
+    result.needs(result.code)
+
+
+def inflow_balanced_to_round_off(bench):
+    """What flows in on one side flows out on the other but for the last bit."""
+    sides = ('[domain.boundary]\nx_lower = { type = "inflow", velocity = ["0.1+0.2", "0"] }\n'
+             'x_upper = { type = "inflow", velocity = ["0.3", "0"] }\n')
+    bench.simulate(text=box_scene([16, 17], EVERYWHERE, sides)).needs(0)
+
+
+def droplets_and_enclosed_cells(bench):
+    """Droplets of a cell or less, and cells that solids close off entirely."""
+    drops = "".join(region(f'shape = "sphere"\ncenter = [{x}, {y}]\nradius = {r}')
+                    for x, y, r in [(0.2, 0.8, 0.04), (0.5, 0.81, 0.03), (0.7, 0.6, 0.07), (0.22, 0.4, 0.05)])
+    blocks = "".join(f'[[solid]]\nname = "b{n}"\nkind = "static"\nshape = "box"\nlower = [{x}, {y}]\nupper = [{x + 0.2}, {y + 0.2}]\n'
+                     for n, (x, y) in enumerate([(0.1, 0.3), (0.3001, 0.3), (0.6, 0.1)]))
+    bench.simulate(text=box_scene([16, 16], drops, blocks, end=0.2)).needs(0)
+    frames_are_good(bench.path("out"), 5)
+
+
+def odd_and_thin_grids(bench):
+    """Odd, prime and long thin grids."""
+    for cells in ([17, 13], [31, 7], [2, 2], [4, 4, 500], [3, 5, 7]):
+        half = [n * 0.0625 / 2 for n in cells]
+        lower = ", ".join(["-1.0"] * len(cells))
+        pool = region(f'shape = "box"\nlower = [{lower}]\nupper = [{", ".join(map(str, half[:1] + [half[1]] + [99.0] * (len(cells) - 2)))}]')
+        bench.simulate("--frames", "1", text=box_scene(cells, pool), out="out" + "x".join(map(str, cells))).needs(0)
+
+
+def nothing_to_do(bench):
+    """An end at or before the start: a note, headers, and success."""
+    bench.simulate("--set", "time.end=0", out="zero").needs(0, "note")
+    frames_are_good(bench.path("zero"), 1)
+    bench.simulate("--frames", "0", out="none").needs(0)
+    expect(lines_of(bench.path("none") / "stats.csv")[0].startswith("step,time,dt"), "no header")
+
+
+# --- ranks -------------------------------------------------------------------------------------------------------------
+
+def more_ranks_than_cells(bench):
+    """2 x 2 cells on five ranks; some ranks idle."""
+    bench.simulate("--frames", "1", text=box_scene([2, 2], EVERYWHERE.replace("-1", "y-0.07")), ranks=5).needs(0)
+
+
+def more_ranks_than_liquid(bench):
+    """All liquid in one corner: ranks without any of it."""
+    drop = region('shape = "sphere"\ncenter = [0.1, 0.1]\nradius = 0.09')
+    bench.simulate(text=box_scene([24, 24], drop), ranks=7).needs(0)
+
+
+def many_oversubscribed_ranks(bench):
+    """16 ranks on whatever cores there are."""
+    bench.simulate("--frames", "1", ranks=16, limit=120).needs(0)
+
+
+def liquid_moves_between_ranks(bench):
+    """Ranks become empty and are filled again."""
+    drop = region('shape = "box"\nlower = [0.0, 0.8]\nupper = [1.0, 0.95]')
+    bench.simulate(text=box_scene([8, 32], drop, end=0.5).replace("upper = [0.5, 2.0]", "upper = [0.5, 2.0]"), ranks=3).needs(0)
+
+
+def openmp_environment(bench):
+    """OMP_NUM_THREADS absurd: a warning, the same result, and a record of it."""
+    bench.simulate(out="plain").needs(0)
+    bench.simulate(out="many", env={"OMP_NUM_THREADS": "640"}).needs(0, "OMP_NUM_THREADS")
+    bench.simulate("--threads", "3", out="three").needs(0)
+    same_frames(bench.path("plain"), bench.path("many"))
+    same_frames(bench.path("plain"), bench.path("three"))
+    expect(summary(bench.path("many"))["omp_num_threads"] == "640", "not recorded")
+    expect(summary(bench.path("three"))["threads"] == 3, "threads not recorded")
+
+
+def openmp_differs_between_ranks(bench):
+    """OMP_NUM_THREADS different on two ranks: a warning."""
+    scene = bench.scene()
+    script = bench.path("start.sh")
+    script.write_text(f'#!/bin/sh\nOMP_NUM_THREADS=$((OMPI_COMM_WORLD_RANK + 1)) exec {bench.program} "$@"\n')
+    script.chmod(0o755)
+    bench.program = str(script)
+    bench.run("run", scene, "--out", "out", "--frames", "1", ranks=2).needs(0, "OMP_NUM_THREADS")
+
+
+# --- output ------------------------------------------------------------------------------------------------------------
+
+def output_folder_created(bench):
+    """A missing output folder is created with its parents."""
+    bench.simulate("--frames", "1", out="a/b/c").needs(0)
+    frames_are_good(bench.path("a/b/c"), 2)
+
+
+def output_is_a_file(bench):
+    """The output folder is a file, or below one."""
+    bench.path("file").write_text("x")
+    bench.simulate(out="file").needs(4, "file")
+    bench.simulate(out="file/sub").needs(4, "file")
+    expect(bench.path("file").read_text() == "x", "the file was touched")
+
+
+def output_not_writable(bench):
+    """A folder without permission, or on a file system without writing."""
+    bench.simulate(out="/proc/none").needs(4, "/proc/none")
+    locked = bench.path("locked")
+    locked.mkdir()
+    locked.chmod(0o555)
+    if os.access(locked, os.W_OK):
+        return "may write everywhere; only /proc was tried"
+    bench.simulate(out="locked/run").needs(4, "locked")
+
+
+def existing_output_refused(bench):
+    """A folder with a run or other files needs --overwrite, which leaves other people's files alone."""
+    bench.simulate("--frames", "1").needs(0)
+    before = lines_of(bench.path("out/stats.csv"))
+    bench.simulate("--frames", "1").needs(2, "--overwrite")
+    expect(lines_of(bench.path("out/stats.csv")) == before, "the refused run changed the tables")
+    bench.path("out/mine.txt").write_text("mine")
+    bench.simulate("--frames", "2", "--overwrite").needs(0)
+    frames_are_good(bench.path("out"), 3)
+    expect(bench.path("out/mine.txt").exists(), "a stranger's file is gone")
+
+
+def two_jobs_in_one_folder(bench):
+    """The second job in a folder, and resuming a folder in use."""
+    first = bench.start("run", bench.scene(LONG), "--out", "out")
+    wait_for_steps(bench)
+    bench.simulate("--overwrite").needs(4, "in use")
+    bench.run("resume", "out").needs(4, "in use")
+    first.send_signal(signal.SIGTERM)
+    bench.finish(first).needs(75)
+
+
+def file_size_limit(bench):
+    """A limit of file sizes reached by a frame, then by a table: a message with path and free bytes, no shortened file
+    under a final name, the last checkpoint valid. (The limit is set on the running process: MPI's own files need more.)"""
+    for out, cell_size, limit in (("frame", "0.0078125", 20000), ("table", "0.03125", 3000)):
+        text = LONG.replace("0.03125", cell_size).replace("checkpoint_every = 1", "checkpoint_every = 1000")
+        process = bench.start("run", bench.scene(text), "--out", out)
+        wait_for_steps(bench, out)
+        resource.prlimit(root_process(bench, out), resource.RLIMIT_FSIZE, (limit, limit))
+        bench.finish(process).needs(4, "bytes free", f"/{out}/", "File too large")
+        frames_are_good(bench.path(out))
+        bench.run("resume", out, "--end", "0.05").needs(0)
+
+
+def full_device(bench):
+    """/dev/full in place of each growing file, and of the folders that frames and checkpoints go to."""
+    bench.simulate("--frames", "1").needs(0)
+    for name in ("stats.csv", "solids.csv", "probes.csv", "log.txt"):
+        shutil.copytree(bench.path("out"), bench.path("copy"))
+        file = bench.path("copy") / name
+        file.unlink()
+        file.symlink_to("/dev/full")
+        bench.run("resume", "copy", "--frames", "3").needs(4, name, "No space left")
+        file.unlink()
+        bench.run("resume", "copy", "--frames", "3").needs(0)
+        shutil.rmtree(bench.path("copy"))
+
+
+def full_disk(bench):
+    """A small file system fills up during the run."""
+    disk = bench.path("disk")
+    disk.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", str(disk)], capture_output=True).returncode:
+        return "mounting a small file system is not permitted"
+    try:
+        process = bench.start("run", bench.scene(LONG), "--out", "disk/run")
+        wait_for_steps(bench, "disk/run")
+        with open(disk / "ballast", "wb", buffering=0) as ballast:
+            try:
+                while True:
+                    ballast.write(bytes(4096))
+            except OSError:
+                pass
+        bench.finish(process).needs(4, "No space left", "bytes free")
+        frames_are_good(disk / "run")
+        (disk / "ballast").unlink()
+        bench.run("resume", "disk/run", "--end", "0.05").needs(0)
+    finally:
+        subprocess.run(["umount", str(disk)])
+
+
+def few_file_handles(bench):
+    """ulimit -n 16: a failure in words or none at all."""
+    limit = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (16, 16))
+    result = bench.simulate("--frames", "1", limits=limit)
+    expect(result.code != 0 or not frames_are_good(bench.path("out"), 2), "frames are missing")
+    expect(result.code in (0, 4, 5) or "MPI" in result.errors + result.output or "open" in result.errors,
+           f"exit code {result.code}: {result.errors}")
+
+
+# --- memory -----------------------------------------------------------------------------------------------------------
+
+def grid_larger_than_any_machine(bench):
+    """1e5 cells an axis: refused with an estimate before anything is allocated."""
+    text = box_scene([100000, 100000, 100000], region('shape = "plane"\npoint = [0, 1, 0]\nnormal = [0, 1, 0]'))
+    result = bench.simulate(text=text).needs(2)
+    expect(result.seconds < 10, "took long to refuse")
+    expect(not bench.path("out").exists(), "left a folder")
+
+
+def address_space_limit(bench):
+    """ulimit -v below the need."""
+    text = DAM.replace("cell_size = 0.03125", "cell_size = 0.0009765625")
+    limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+    bench.simulate("--frames", "1", text=text, limits=limit).needs(5, "out of memory")
+
+
+def allocation_fails_on_one_rank(bench):
+    """bad_alloc in the middle of a step, on one of three ranks."""
+    bench.simulate("--inject", "solve:1:badalloc:3", ranks=3).needs(5, "out of memory", "rank 1")
+
+
+# --- stopping -------------------------------------------------------------------------------------------------------
+
+def unbroken(bench):
+    bench.simulate(out="whole").needs(0)
+    return bench.path("whole")
+
+
+def resumed_equals(bench, out, whole):
+    bench.run("resume", out).needs(0)
+    same_tables(bench.path(out), whole)
+    same_frames(bench.path(out), whole)
+
+
+def stop_by_signal(bench):
+    """SIGUSR1, SIGINT, SIGTERM: a checkpoint at the next step, and the same bits after resuming."""
+    fine = DAM.replace("cell_size = 0.03125", "cell_size = 0.0078125")
+    bench.simulate(text=fine, out="whole").needs(0)
+    for number in (signal.SIGUSR1, signal.SIGINT, signal.SIGTERM):
+        out = f"out{int(number)}"
+        process = bench.start("run", bench.scene(fine), "--out", out)
+        wait_for_steps(bench, out)
+        process.send_signal(number)
+        bench.finish(process).needs(75, "stopped: " + number.name)
+        expect(summary(bench.path(out))["exit_code"] == 75, "the summary does not say it")
+        resumed_equals(bench, out, bench.path("whole"))
+
+
+def stop_by_file_and_walltime(bench):
+    """A file named stop, and --walltime."""
+    whole = unbroken(bench)
+    bench.simulate("--walltime", "0", out="walltime").needs(75, "wall time")
+    resumed_equals(bench, "walltime", whole)
+    process = bench.start("run", bench.scene(LONG), "--out", "file")
+    wait_for_steps(bench, "file")
+    bench.path("file/stop").write_text("")
+    bench.finish(process).needs(75, "stop file")
+    expect(not bench.path("file/stop").exists(), "the stop file is still there")
+
+
+def stop_under_mpirun(bench):
+    """SIGUSR1 to mpirun is forwarded; SIGTERM to one rank stops all; SIGTERM to mpirun kills, resume continues."""
+    for number, to_rank in ((signal.SIGUSR1, False), (signal.SIGTERM, True)):
+        out = f"out{int(number)}"
+        process = bench.start("run", bench.scene(LONG), "--out", out, ranks=2)
+        wait_for_steps(bench, out)
+        if to_rank:
+            os.kill(rank_processes(process)[-1], number)
+        else:
+            process.send_signal(number)
+        bench.finish(process).needs(75)
+    process = bench.start("run", bench.scene(LONG), "--out", "killed", ranks=2)
+    wait_for_steps(bench, "killed")
+    process.send_signal(signal.SIGTERM)
+    expect(bench.finish(process).code != 0, "mpirun was killed but reports success")
+    bench.run("resume", "killed", "--end", "0.2", ranks=2).needs(0)
+
+
+def hung_rank(bench):
+    """SIGSTOP to one rank, and a hang inside a phase: the watchdog ends the job with 124 and names the phase."""
+    process = bench.start("run", bench.scene(LONG), "--out", "out", "--watchdog", "3", ranks=3)
+    wait_for_steps(bench)
+    os.kill(rank_processes(process)[1], signal.SIGSTOP)
+    bench.finish(process).needs(124, "no progress", "phase")
+    bench.simulate("--inject", "solve:0:hang:2", "--watchdog", "2", out="hang").needs(124, "phase 'solve'")
+    frames_are_good(bench.path("out"))
+
+
+def killed_and_resumed(bench):
+    """SIGKILL of the process in the middle of the run, a few times over, then on to the same bits."""
+    whole = unbroken(bench)
+    bench.simulate("--inject", "solve:0:kill:5")
+    bench.run("resume", "out", "--inject", "checkpoint:0:kill:1")
+    bench.run("resume", "out", "--inject", "frame:0:kill:1")
+    resumed_equals(bench, "out", whole)
+
+
+def resume_of_finished_run(bench):
+    """Nothing to do, unless a later end is asked for; that then equals the run that had it from the start."""
+    bench.simulate("--set", "time.end=0.1").needs(0)
+    bench.run("resume", "out").needs(0, "finished")
+    bench.simulate(out="whole").needs(0)
+    bench.run("resume", "out", "--end", "0.2").needs(0)
+    same_tables(bench.path("out"), bench.path("whole"))
+    same_frames(bench.path("out"), bench.path("whole"))
+    bench.run("resume", "nowhere").needs(2, "nowhere")
+
+
+# --- injected faults -------------------------------------------------------------------------------------------------
+
+PHASES = ("transport", "geometry", "solve", "restore", "frame", "checkpoint", "stats")
+
+
+def exception_in_every_phase(bench):
+    """One rank of three throws: the same code, its message, and the job ends within ten seconds."""
+    for phase in PHASES:
+        result = bench.simulate("--inject", f"{phase}:1:throw:2", out=phase, ranks=3)
+        result.needs(1, f"injected fault in phase {phase}", "rank 1")
+        expect(result.seconds < 10, f"{phase}: took {result.seconds:.0f} s to end")
+        frames_are_good(bench.path(phase))
+
+
+def rank_killed(bench):
+    """One rank of three is killed: the job ends, and resuming goes on."""
+    result = bench.simulate("--inject", "solve:2:kill:6", ranks=3)
+    expect(result.code != 0 and result.seconds < 10, f"exit code {result.code} after {result.seconds:.0f} s")
+    bench.run("resume", "out", ranks=3).needs(0)
+
+
+def nan_once_in_numerics(bench):
+    """A NaN that appears once is caught in the same step, and half the step is tried instead."""
+    for phase in ("transport", "geometry", "solve", "restore"):
+        result = bench.simulate("--inject", f"{phase}:0:nan:3", out=phase)
+        expect(result.code in (0, 3), f"{phase}: exit code {result.code}\n{result.errors}")
+        result.needs(result.code)
+        expect("nan" not in bench.path(f"{phase}/stats.csv").read_text(), "NaN in the table")
+        frames_are_good(bench.path(phase))
+
+
+def nan_that_stays(bench):
+    """A NaN in every attempt ends the run with 3, field and cell, and a checkpoint of the last good step."""
+    for phase in ("transport", "solve", "frame", "checkpoint", "stats"):
+        result = bench.simulate("--inject", f"{phase}:0:nan:4+", out=phase).needs(3)
+        if phase in ("transport", "frame"):
+            expect(re.search(r"cell \(", result.errors), f"{phase}: no cell named\n{result.errors}")
+        expect("nan" not in bench.path(f"{phase}/stats.csv").read_text(), "NaN in the table")
+        frames_are_good(bench.path(phase))
+        bench.run("resume", phase).needs(0)
+
+
+# --- checkpoints ---------------------------------------------------------------------------------------------------
+
+def stopped_run(bench, ranks=0):
+    bench.simulate("--set", "time.end=0.15", ranks=ranks).needs(0)
+    return bench.path("out")
+
+
+def damaged_checkpoints(bench):
+    """Each kind of damage to the newest checkpoint: the one before is used, with a warning, to the same end."""
+    whole = unbroken(bench)
+    stopped_run(bench)
+
+    def flip(offset):
+        def damage(folder):
+            file = folder / "rank.00000"
+            data = bytearray(file.read_bytes())
+            data[offset if offset >= 0 else len(data) + offset] ^= 0x40
+            file.write_bytes(data)
+        return damage
+
+    def cut(share):
+        def damage(folder):
+            file = folder / "rank.00000"
+            data = file.read_bytes()
+            file.write_bytes(data[:int(len(data) * share)])
+        return damage
+
+    def other_step(folder):
+        shutil.copy(min(folder.parent.iterdir()) / "rank.00000", folder / "rank.00000")
+
+    damages = {"magic": flip(0), "version": flip(12), "dimensions": flip(24), "data": flip(5000), "CRC": flip(-1),
+               "cut at 0": cut(0), "cut at 50 %": cut(0.5), "cut at 99 %": cut(0.99), "other step": other_step,
+               "missing file": lambda f: (f / "rank.00000").unlink(), "missing COMMIT": lambda f: (f / "COMMIT").unlink(),
+               "COMMIT": lambda f: (f / "COMMIT").write_text((f / "COMMIT").read_text().replace("step", "stop"))}
+    for name, damage in damages.items():
+        copy = bench.path("copy")
+        shutil.copytree(bench.path("out"), copy)
+        damage(newest_checkpoint(copy))
+        bench.run("resume", "copy", "--end", "0.2").needs(0, "not usable")
+        same_tables(copy, whole)
+        same_frames(copy, whole)
+        shutil.rmtree(copy)
+
+
+def no_checkpoint_left(bench):
+    """All checkpoints damaged or gone: 6."""
+    out = stopped_run(bench)
+    for folder in (out / "checkpoints").iterdir():
+        file = folder / "rank.00000"
+        file.write_bytes(file.read_bytes()[:-1])
+    bench.run("resume", "out", "--end", "0.2").needs(6, "no usable checkpoint")
+    shutil.rmtree(out / "checkpoints")
+    bench.run("resume", "out", "--end", "0.2").needs(6)
+
+
+def extra_file_is_ignored(bench):
+    """A stranger's file in a checkpoint changes nothing."""
+    out = stopped_run(bench)
+    (newest_checkpoint(out) / "rank.00007").write_text("stranger")
+    bench.run("resume", "out", "--end", "0.2").needs(0)
+
+
+def swapped_rank_files(bench):
+    """The files of two ranks exchanged: never loaded as they are."""
+    out = stopped_run(bench, ranks=2)
+    folder = newest_checkpoint(out)
+    a, b = folder / "rank.00000", folder / "rank.00001"
+    one, other = a.read_bytes(), b.read_bytes()
+    a.write_bytes(other)
+    b.write_bytes(one)
+    bench.run("resume", "out", "--end", "0.2", ranks=2).needs(0, "not usable")
+
+
+def foreign_checkpoints(bench):
+    """Another version, byte order or precision, all else intact: 6, both named."""
+    out = stopped_run(bench)
+    for offset, value, words in ((12, 2, ("format 2", "format 1")), (12, 0, ("format 0", "format 1")),
+                                 (8, 0x04030201, ("big-endian", "little-endian")), (16, 4, ("4 bytes", "8"))):
+        copy = bench.path("copy")
+        shutil.copytree(out, copy)
+        folder = newest_checkpoint(copy)
+        file = folder / "rank.00000"
+        data = bytearray(file.read_bytes())
+        struct.pack_into("<I", data, offset, value)
+        struct.pack_into("<I", data, len(data) - 4, crc32c(data[:-4]))
+        file.write_bytes(data)
+        recommit(folder)
+        bench.run("resume", "copy", "--end", "0.2").needs(6, *words)
+        shutil.rmtree(copy)
+
+
+def other_rank_counts(bench):
+    """1 -> 2, 2 -> 1, 2 -> 3 ranks at resume: the same result to the solve's tolerance."""
+    bench.simulate(out="whole").needs(0)
+    reference = stats(bench.path("whole"))[-1]
+    for before, after in ((1, 2), (2, 1), (2, 3)):
+        out = f"out{before}{after}"
+        bench.simulate("--set", "time.end=0.1", out=out, ranks=before).needs(0)
+        bench.run("resume", out, "--end", "0.2", ranks=after).needs(0, f"written by {before} rank")
+        last = stats(bench.path(out))[-1]
+        for column in ("liquid_volume", "kinetic_energy", "potential_energy"):
+            a, b = float(last[column]), float(reference[column])
+            # Solves agree to 1e-8 each; some twenty steps of a splashing flow add up.
+            expect(abs(a - b) <= 1e-5 * abs(b), f"{before}->{after}: {column} {a} instead of {b}")
+
+
+def edited_scene(bench):
+    """A scene edited between stop and resume: refused with the keys; --force lets output, solver and probes pass."""
+    out = stopped_run(bench)
+    scene = out / "scene.toml"
+    original = scene.read_text()
+
+    def edit(key, pattern, replacement):
+        text = re.sub(pattern, replacement, original, count=1, flags=re.M)
+        expect(text != original, f"{key}: nothing to edit in\n{original}")
+        scene.write_text(text)
+
+    edit("density", r"^(density *= *).*", r"\g<1>900.0")
+    bench.run("resume", "out", "--end", "0.2").needs(2, "density")
+    bench.run("resume", "out", "--end", "0.2", "--force").needs(2, "density")
+    edit("tolerance", r"^(tolerance *= *).*", r"\g<1>1e-9")
+    bench.run("resume", "out", "--end", "0.2").needs(2, "tolerance", "--force")
+    bench.run("resume", "out", "--end", "0.2", "--force").needs(0)
+    edit("broken", r"^\[domain\]", "[domian]")
+    bench.run("resume", "out", "--end", "0.3").needs(2)
+
+
+# --- the command line ------------------------------------------------------------------------------------------------
+
+def command_line(bench):
+    """Help and version succeed everywhere; mistakes are 2 in one message, on any number of ranks."""
+    for verb in ([], ["run"], ["resume"], ["check"]):
+        bench.run(*verb, "--help").needs(0)
+    bench.run("--version").needs(0, "seiche ")
+    scene = bench.scene()
+    for mistake in ([], ["sail"], ["run"], ["run", scene, "--frames", "-1"], ["run", scene, "--set", "nonsense"],
+                    ["run", scene, "--threads", "0"], ["run", scene, "--inject", "x"], ["run", "none.toml"]):
+        bench.run(*mistake).needs(2)
+    bench.run("run", "none.toml", ranks=3).needs(2, "none.toml")
+    bench.run("check", scene).needs(0, "cells", "memory", "frames")
+    bench.run("run", scene, "--quiet", "--frames", "1").needs(0)
+    expect(bench.path("out/scene/stats.csv").exists(), "the default folder is not out/<scene name>")
+
+
+TABLES = {
+    "domains": [no_liquid_at_all, liquid_drains_away, no_solids_no_container, full_closed_container,
+                full_container_with_moving_solid, inflow_without_outlet, inflow_balanced_to_round_off,
+                droplets_and_enclosed_cells, odd_and_thin_grids, nothing_to_do],
+    "ranks": [more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
+              openmp_environment, openmp_differs_between_ranks],
+    "output": [output_folder_created, output_is_a_file, output_not_writable, existing_output_refused,
+               two_jobs_in_one_folder, file_size_limit, full_device, full_disk, few_file_handles],
+    "memory": [grid_larger_than_any_machine, address_space_limit, allocation_fails_on_one_rank],
+    "stopping": [stop_by_signal, stop_by_file_and_walltime, stop_under_mpirun, hung_rank, killed_and_resumed,
+                 resume_of_finished_run],
+    "injection": [exception_in_every_phase, rank_killed, nan_once_in_numerics, nan_that_stays],
+    "checkpoints": [damaged_checkpoints, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
+                    foreign_checkpoints, other_rank_counts, edited_scene],
+    "command_line": [command_line],
+}
+
+if __name__ == "__main__":
+    sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)
