@@ -28,15 +28,17 @@ std::size_t voxel_count(const std::array<int, 3>& lower, const std::array<int, 3
   return n;
 }
 
-int components(GridKind kind) { return kind == GridKind::staggered_vector ? 3 : 1; }
+int components(GridKind kind) {
+  return kind == GridKind::staggered_vector ? 3 : 1;
+}
 
 void require_block(const Grid& grid, const Block& block) {
   const std::size_t n = voxel_count(block.lower, block.upper) * components(grid.kind);
   const bool outside = *std::min_element(block.lower.begin(), block.lower.end()) < 0;
   if (block.values.size() == n && !outside) return;
-  throw Error(ExitCode::bug, fmt::format("frame grid '{}': a block from ({}, {}, {}) of {} values where its box takes {}",
-                                         grid.name, block.lower[0], block.lower[1], block.lower[2],
-                                         block.values.size(), n));
+  throw Error(ExitCode::bug,
+              fmt::format("frame grid '{}': a block from ({}, {}, {}) of {} values where its box takes {}", grid.name,
+                          block.lower[0], block.lower[1], block.lower[2], block.values.size(), n));
 }
 
 void require_finite(const Grid& grid, const Block& block) {

@@ -23,8 +23,8 @@ struct Format {
   const char* extension;
   SurfaceMesh (*parse)(const Source&);
 };
-constexpr std::array<Format, 3> formats{{{"OBJ", ".obj", parse_obj}, {"PLY", ".ply", parse_ply},
-                                         {"STL", ".stl", parse_stl}}};
+constexpr std::array<Format, 3> formats{
+    {{"OBJ", ".obj", parse_obj}, {"PLY", ".ply", parse_ply}, {"STL", ".stl", parse_stl}}};
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
   throw Error(ExitCode::bad_input, file.string() + ": " + message);
@@ -51,7 +51,9 @@ const Format& format_of_extension(const std::filesystem::path& file) {
   fail(file, "the extension '" + extension + "' is not a mesh of triangles; use .obj, .ply or .stl");
 }
 
-bool is_text(std::string_view bytes) { return bytes.substr(0, 1024).find('\0') == std::string_view::npos; }
+bool is_text(std::string_view bytes) {
+  return bytes.substr(0, 1024).find('\0') == std::string_view::npos;
+}
 
 // What the content says, if it says so clearly.
 const char* sniff(std::string_view bytes) {
@@ -70,8 +72,8 @@ void require_content(const Source& source, const Format& format) {
   const bool is_ply = found == "PLY";
   if ((found.empty() || found == expected) && (expected != "PLY" || is_ply)) return;
   const std::string content = found.empty() ? "not PLY (it does not begin with 'ply')" : "of a " + found + " file";
-  fail(source.file, fmt::format("the extension says {}, but the content is {}; rename or export it anew", expected,
-                                content));
+  fail(source.file,
+       fmt::format("the extension says {}, but the content is {}; rename or export it anew", expected, content));
 }
 
 SurfaceMesh parse(const std::filesystem::path& file) {

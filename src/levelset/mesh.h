@@ -9,9 +9,9 @@
 namespace seiche {
 
 struct SurfaceMesh {
-  std::vector<Vec3> points;                      // m
-  std::vector<std::array<int, 3>> triangles;     // 3D; counter-clockwise seen from outside
-  std::vector<std::array<int, 2>> segments;      // 2D; the inside lies to the left
+  std::vector<Vec3> points;                   // m
+  std::vector<std::array<int, 3>> triangles;  // 3D; counter-clockwise seen from outside
+  std::vector<std::array<int, 2>> segments;   // 2D; the inside lies to the left
 };
 
 // Reads a closed triangle mesh (OBJ, PLY, STL; text or binary), welds equal points, drops degenerate and duplicate

@@ -102,7 +102,8 @@ double NearestTriangle::distance(const Vec3& x, double bound) const {
     const Node& node = nodes_[stack[--depth]];
     if (squared_distance_to_box(x, node.lower, node.upper) >= least) continue;
     if (node.low == 0) {
-      for (int i = node.first; i < node.last; ++i) least = std::min(least, squared_distance(x, corners_of(mesh_, order_[i])));
+      for (int i = node.first; i < node.last; ++i)
+        least = std::min(least, squared_distance(x, corners_of(mesh_, order_[i])));
       continue;
     }
     const Node &low = nodes_[node.low], &high = nodes_[node.low + 1];

@@ -10,7 +10,7 @@
 namespace seiche::mesh {
 namespace {
 
-constexpr std::array<std::string_view, 13> ignored{"vn", "vt", "vp", "g", "o", "s", "mg",
+constexpr std::array<std::string_view, 13> ignored{"vn",     "vt",     "vp",     "g",      "o", "s", "mg",
                                                    "usemtl", "mtllib", "usemap", "maplib", "l", "p"};
 
 struct Reader {
@@ -66,9 +66,9 @@ void read_line(Reader& reader, std::string_view text) {
   if (key == "v") return read_point(reader, words);
   if (key == "f") return read_face(reader, words);
   if (key.empty() || std::find(ignored.begin(), ignored.end(), key) != ignored.end()) return;
-  fail_at_line(reader.source, reader.line,
-               fmt::format("'{}' is not a statement of OBJ polygons (v, f, vn, vt, g, o, s, usemtl, ...)",
-                           key.substr(0, 20)));
+  fail_at_line(
+      reader.source, reader.line,
+      fmt::format("'{}' is not a statement of OBJ polygons (v, f, vn, vt, g, o, s, usemtl, ...)", key.substr(0, 20)));
 }
 
 void require_known_points(const Reader& reader) {
@@ -76,9 +76,9 @@ void require_known_points(const Reader& reader) {
     const auto& corners = reader.mesh.triangles[t];
     const int worst = *std::max_element(corners.begin(), corners.end());
     if (worst < int(reader.mesh.points.size())) continue;
-    fail_at_line(reader.source, reader.lines[t],
-                 fmt::format("the face uses point {}, but the file has {} points", worst + 1LL,
-                             reader.mesh.points.size()));
+    fail_at_line(
+        reader.source, reader.lines[t],
+        fmt::format("the face uses point {}, but the file has {} points", worst + 1LL, reader.mesh.points.size()));
   }
 }
 

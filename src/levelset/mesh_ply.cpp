@@ -20,11 +20,22 @@ struct TypeName {
   std::string_view name;
   Type type;
 };
-constexpr std::array<TypeName, 16> type_names{{{"char", Type::int8}, {"int8", Type::int8},
-    {"uchar", Type::uint8}, {"uint8", Type::uint8}, {"short", Type::int16}, {"int16", Type::int16},
-    {"ushort", Type::uint16}, {"uint16", Type::uint16}, {"int", Type::int32}, {"int32", Type::int32},
-    {"uint", Type::uint32}, {"uint32", Type::uint32}, {"float", Type::float32}, {"float32", Type::float32},
-    {"double", Type::float64}, {"float64", Type::float64}}};
+constexpr std::array<TypeName, 16> type_names{{{"char", Type::int8},
+                                               {"int8", Type::int8},
+                                               {"uchar", Type::uint8},
+                                               {"uint8", Type::uint8},
+                                               {"short", Type::int16},
+                                               {"int16", Type::int16},
+                                               {"ushort", Type::uint16},
+                                               {"uint16", Type::uint16},
+                                               {"int", Type::int32},
+                                               {"int32", Type::int32},
+                                               {"uint", Type::uint32},
+                                               {"uint32", Type::uint32},
+                                               {"float", Type::float32},
+                                               {"float32", Type::float32},
+                                               {"double", Type::float64},
+                                               {"float64", Type::float64}}};
 
 constexpr std::size_t size_of(Type type) {
   constexpr std::array<std::size_t, 8> sizes{1, 1, 2, 2, 4, 4, 4, 8};
@@ -54,7 +65,8 @@ Type read_type(const Source& source, std::size_t line, std::string_view word) {
   for (const TypeName& t : type_names) {
     if (word == t.name) return t.type;
   }
-  fail_at_line(source, line, fmt::format("'{}' is not a PLY type (int, uchar, float, double, ...)", word.substr(0, 20)));
+  fail_at_line(source, line,
+               fmt::format("'{}' is not a PLY type (int, uchar, float, double, ...)", word.substr(0, 20)));
 }
 
 Encoding read_encoding(const Source& source, std::size_t line, std::string_view word) {
@@ -123,7 +135,9 @@ Header read_header(const Source& source) {
 class Body {
  public:
   Body(const Source& source, const Header& header)
-      : source_(source), encoding_(*header.encoding), at_(header.bytes),
+      : source_(source),
+        encoding_(*header.encoding),
+        at_(header.bytes),
         words_(std::string_view(source.bytes).substr(header.bytes), header.lines) {}
 
   double next(Type type) { return encoding_ == Encoding::text ? next_word() : next_bytes(type); }
@@ -164,12 +178,18 @@ class Body {
 
   static double value_of(Type type, std::uint64_t bits) {
     switch (type) {
-      case Type::int8: return std::int8_t(bits);
-      case Type::int16: return std::int16_t(bits);
-      case Type::int32: return std::int32_t(bits);
-      case Type::float32: return std::bit_cast<float>(std::uint32_t(bits));
-      case Type::float64: return std::bit_cast<double>(bits);
-      default: return double(bits);
+      case Type::int8:
+        return std::int8_t(bits);
+      case Type::int16:
+        return std::int16_t(bits);
+      case Type::int32:
+        return std::int32_t(bits);
+      case Type::float32:
+        return std::bit_cast<float>(std::uint32_t(bits));
+      case Type::float64:
+        return std::bit_cast<double>(bits);
+      default:
+        return double(bits);
     }
   }
 

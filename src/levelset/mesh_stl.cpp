@@ -32,8 +32,9 @@ SurfaceMesh parse_binary(const Source& source) {
   const std::uint64_t count = little_endian(source.bytes.data() + 80);
   const std::uint64_t needed = header_size + count * record_size;
   if (needed > size) {
-    fail_at_byte(source, 80, fmt::format("{} triangles take {} bytes, but the file has {}; it is truncated or damaged",
-                                         count, needed, size));
+    fail_at_byte(source, 80,
+                 fmt::format("{} triangles take {} bytes, but the file has {}; it is truncated or damaged", count,
+                             needed, size));
   }
   if (count * 3 > max_points) fail_at_byte(source, 80, "more than 2^31-1 points");
   SurfaceMesh mesh;

@@ -7,7 +7,9 @@
 namespace seiche::mesh {
 namespace {
 
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
 
 // std::from_chars takes no plus sign.
 std::string_view without_plus(std::string_view token) {
@@ -34,8 +36,12 @@ void fail_at_byte(const Source& source, std::size_t byte, const std::string& mes
   throw Error(ExitCode::bad_input, source.file.string() + ": byte " + std::to_string(byte) + ": " + message);
 }
 
-std::optional<double> to_double(std::string_view token) { return to_number<double>(token); }
-std::optional<long long> to_integer(std::string_view token) { return to_number<long long>(token); }
+std::optional<double> to_double(std::string_view token) {
+  return to_number<double>(token);
+}
+std::optional<long long> to_integer(std::string_view token) {
+  return to_number<long long>(token);
+}
 
 std::string_view Tokens::next() {
   while (!rest_.empty() && is_space(rest_.front())) {

@@ -1,7 +1,7 @@
 #include "levelset/mesh_topology.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,9 @@ std::vector<std::array<Neighbour, 3>> neighbours(const SurfaceMesh& mesh) {
   return result;
 }
 
-std::string place(const Vec3& p) { return fmt::format("({:g}, {:g}, {:g})", p[0], p[1], p[2]); }
+std::string place(const Vec3& p) {
+  return fmt::format("({:g}, {:g}, {:g})", p[0], p[1], p[2]);
+}
 
 // "12 <what>, the first from (..) to (..), from (..) to (..)"
 std::string describe(const SurfaceMesh& mesh, const std::vector<Side>& edges, std::string_view what) {
@@ -82,13 +84,15 @@ double doubled_area(const SurfaceMesh& mesh, const Triangle& t) {
   return (mesh.points[t[1]] - a).cross(mesh.points[t[2]] - a).norm();
 }
 
-void turn(Triangle& t) { std::swap(t[1], t[2]); }
+void turn(Triangle& t) {
+  std::swap(t[1], t[2]);
+}
 
 // Visits a piece from its first triangle on, turning triangles to agree with the one they were reached from.
 struct Flood {
   SurfaceMesh& mesh;
   const std::vector<std::array<Neighbour, 3>>& across;
-  std::vector<int>& piece;     // -1: not visited
+  std::vector<int>& piece;  // -1: not visited
   std::vector<char> turned{};
 
   void visit(int seed, int number) {
@@ -148,7 +152,8 @@ double winding(const SurfaceMesh& mesh, const Piece& piece, const Vec3& x) {
 }
 
 bool encloses(const SurfaceMesh& mesh, const Piece& outer, const Piece& inner) {
-  const bool within = (outer.lower.array() < inner.lower.array()).all() && (inner.upper.array() < outer.upper.array()).all();
+  const bool within =
+      (outer.lower.array() < inner.lower.array()).all() && (inner.upper.array() < outer.upper.array()).all();
   if (!within) return false;
   constexpr std::size_t samples = 200;  // pieces that cross each other are joined, not nested
   const std::size_t stride = 1 + inner.triangles.size() / samples;
@@ -202,7 +207,9 @@ void drop_triangles(SurfaceMesh& mesh, Drop&& drop, const char* what, std::vecto
   if (dropped > 0) notes.push_back(fmt::format("dropped {} {}", dropped, what));
 }
 
-bool repeats_corner(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+bool repeats_corner(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
 
 void drop_duplicates(SurfaceMesh& mesh, std::vector<std::string>& notes) {
   std::vector<std::pair<Triangle, int>> keys;
@@ -215,7 +222,8 @@ void drop_duplicates(SurfaceMesh& mesh, std::vector<std::string>& notes) {
   std::vector<char> duplicate(mesh.triangles.size(), 0);
   for (std::size_t i = 1; i < keys.size(); ++i) duplicate[keys[i].second] = keys[i].first == keys[i - 1].first;
   std::size_t index = 0;
-  drop_triangles(mesh, [&](const Triangle&) { return duplicate[index++] != 0; }, "duplicate triangles", notes);
+  drop_triangles(
+      mesh, [&](const Triangle&) { return duplicate[index++] != 0; }, "duplicate triangles", notes);
 }
 
 }  // namespace
@@ -271,9 +279,9 @@ void require_closed(const SurfaceMesh& mesh) {
                                          "; fill its holes and export it again");
   }
   if (!crowded.empty()) {
-    throw Error(ExitCode::bad_input,
-                "the surface is not manifold, it has " + describe(mesh, crowded, "edges with more than two triangles") +
-                    "; separate or remove the parts that meet there");
+    throw Error(ExitCode::bad_input, "the surface is not manifold, it has " +
+                                         describe(mesh, crowded, "edges with more than two triangles") +
+                                         "; separate or remove the parts that meet there");
   }
 }
 
@@ -303,7 +311,8 @@ void orient(SurfaceMesh& mesh, std::vector<std::string>& notes) {
 }
 
 void drop_slivers(SurfaceMesh& mesh, std::vector<std::string>& notes) {
-  drop_triangles(mesh, [&](const Triangle& t) { return doubled_area(mesh, t) == 0; }, "triangles without area", notes);
+  drop_triangles(
+      mesh, [&](const Triangle& t) { return doubled_area(mesh, t) == 0; }, "triangles without area", notes);
 }
 
 std::vector<SurfaceMesh> nesting_levels(const SurfaceMesh& mesh) {

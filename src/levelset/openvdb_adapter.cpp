@@ -7,15 +7,14 @@
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 
 #include "base/error.h"
+#include "grid/parallel_range.h"
+#include "grid/serial.h"
 #include "levelset/frame_checks.h"
 #include "levelset/mesh_distance.h"
 #include "levelset/mesh_topology.h"
@@ -31,12 +30,6 @@ using openvdb::Vec3SGrid;
 void initialize() {
   static const bool once = (openvdb::initialize(), true);
   (void)once;
-}
-
-// Runs on one thread: where two triangles are equally near, OpenVDB's choice depends on how work is split.
-void run_serially(const std::function<void()>& work) {
-  tbb::task_arena arena(1);
-  arena.execute(work);
 }
 
 struct MeshInIndexSpace {
@@ -80,14 +73,13 @@ class GridDistance : public SampledDistance {
   double spacing_, band_;
 };
 
-// OpenVDB decides inside from outside, by what the far field reaches: it fills cavities. Away from the surface its
-// distances are to a triangle near the nearest one; they are replaced by the least.
+// Away from the surface OpenVDB's distances are to a triangle near the nearest one; they are replaced by the least.
 void refine(FloatGrid& grid, const SurfaceMesh& mesh, double voxel) {
   using Leaf = openvdb::FloatTree::LeafNodeType;
   const mesh::NearestTriangle nearest(mesh);
   std::vector<Leaf*> leaves;
   grid.tree().getNodes(leaves);
-  tbb::parallel_for(std::size_t(0), leaves.size(), [&](std::size_t i) {
+  parallel_range(0, int(leaves.size()), [&](int i) {
     for (auto value = leaves[i]->beginValueOn(); value; ++value) {
       const Coord ijk = value.getCoord();
       const double bound = std::abs(*value) * (1 + 1e-5) + 1e-6 * voxel;  // a float of what is found
@@ -97,6 +89,8 @@ void refine(FloatGrid& grid, const SurfaceMesh& mesh, double voxel) {
   });
 }
 
+// OpenVDB decides inside from outside by what the far field reaches, which fills cavities. On one thread: where
+// triangles are equally near, its choice of one depends on how its work is split.
 std::unique_ptr<SampledDistance> sample_piece(const SurfaceMesh& mesh, double voxel, double half_width) {
   const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
   const float band = float(half_width + 1);  // OpenVDB's band is ragged at its ends
@@ -169,9 +163,12 @@ Vec3SGrid::Ptr staggered_grid(const Grid& grid) {
 
 openvdb::GridBase::Ptr to_openvdb(const Grid& grid) {
   switch (grid.kind) {
-    case GridKind::level_set: return level_set_grid(grid);
-    case GridKind::staggered_vector: return staggered_grid(grid);
-    default: return scalar_grid(grid);
+    case GridKind::level_set:
+      return level_set_grid(grid);
+    case GridKind::staggered_vector:
+      return staggered_grid(grid);
+    default:
+      return scalar_grid(grid);
   }
 }
 
@@ -344,10 +341,12 @@ std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file
   if (!grid) refuse(file, "holds no level set; use a frame written with \"surface\"");
   require_within(file, open, *grid);
   const Vec3 first = open.frame.lower + Vec3::Constant(open.frame.cell_size / 2);
-  return within_domain(std::make_unique<GridDistance>(grid, first, open.frame.cell_size, grid->background()), open.frame, open.cells);
+  return within_domain(std::make_unique<GridDistance>(grid, first, open.frame.cell_size, grid->background()),
+                       open.frame, open.cells);
 }
 
-SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower, double spacing) {
+SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower,
+                    double spacing) {
   initialize();
   std::vector<openvdb::Vec3s> points;  // in index space
   std::vector<openvdb::Vec4I> quads;

@@ -27,7 +27,8 @@ std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file
 
 // The zero contour of values given at the nodes lower + i*spacing, i < nodes, first axis fastest (3D). Triangles face
 // the positive side; where the negative side reaches the outermost nodes the surface is left open.
-SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower, double spacing);
+SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower,
+                    double spacing);
 
 enum class GridKind { level_set, scalar, staggered_vector };
 
@@ -40,13 +41,13 @@ struct Block {
 struct Grid {
   std::string name;
   GridKind kind = GridKind::scalar;
-  float background = 0;           // level sets: 3 h; voxels with |value| >= background are inactive
-  std::vector<Block> blocks;      // pieces from ranks; disjoint
+  float background = 0;       // level sets: 3 h; voxels with |value| >= background are inactive
+  std::vector<Block> blocks;  // pieces from ranks; disjoint
 };
 
 struct Frame {
-  int dimension = 3;              // 2D frames are one voxel thick at k = 0
-  Vec3 lower{0, 0, 0};            // low corner of voxel (0,0,0), m
+  int dimension = 3;    // 2D frames are one voxel thick at k = 0
+  Vec3 lower{0, 0, 0};  // low corner of voxel (0,0,0), m
   double cell_size = 0;
   double time = 0, dt = 0;
   int number = 0;

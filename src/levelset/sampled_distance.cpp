@@ -1,7 +1,7 @@
 #include "levelset/sampled_distance.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,11 @@ namespace {
 class WithinDomain : public SampledDistance {
  public:
   WithinDomain(std::unique_ptr<SampledDistance> inner, const Frame& frame, const std::array<int, 3>& cells)
-      : inner_(std::move(inner)), lower_(frame.lower), half_(Vec3::Constant(frame.cell_size / 2)),
-        upper_(lower_ + frame.cell_size * Vec3(cells[0], cells[1], cells[2])), dimension_(frame.dimension) {}
+      : inner_(std::move(inner)),
+        lower_(frame.lower),
+        half_(Vec3::Constant(frame.cell_size / 2)),
+        upper_(lower_ + frame.cell_size * Vec3(cells[0], cells[1], cells[2])),
+        dimension_(frame.dimension) {}
 
   double operator()(const Vec3& x) const override {
     const double inside = (*inner_)(x.cwiseMin(upper_ - half_).cwiseMax(lower_ + half_));

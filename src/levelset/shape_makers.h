@@ -1,6 +1,7 @@
 #pragma once
 // The makers behind the shape table. Each builds one kind from its spec in the shape's own frame unless said otherwise
-// and throws Error(bad_input), without place, on impossible sizes; make_shape() adds the place, transform and inversion.
+// and throws Error(bad_input), without place, on impossible sizes; make_shape() adds the place, transform and
+// inversion.
 #include <memory>
 #include <string>
 

@@ -129,7 +129,7 @@ Field<Dim> make_plane(const ShapeSpec& spec, const ShapeOptions&) {
   return plane;
 }
 
-#define SEICHE_INSTANTIATE(make)                                          \
+#define SEICHE_INSTANTIATE(make)                                         \
   template Field<2> make<2>(const ShapeSpec& spec, const ShapeOptions&); \
   template Field<3> make<3>(const ShapeSpec& spec, const ShapeOptions&);
 SEICHE_INSTANTIATE(make_box)

@@ -14,9 +14,9 @@
 namespace seiche::shape {
 namespace {
 
-constexpr double mesh_band = 5;          // voxels to each side: nodes within a band of redistancing see true distances
-constexpr double steps_per_cell = 16;    // central differences of phi; a power of two keeps linear phi exact
-constexpr double reach_in_cells = 1e6;   // bound of phi / |grad phi| where the gradient vanishes
+constexpr double mesh_band = 5;         // voxels to each side: nodes within a band of redistancing see true distances
+constexpr double steps_per_cell = 16;   // central differences of phi; a power of two keeps linear phi exact
+constexpr double reach_in_cells = 1e6;  // bound of phi / |grad phi| where the gradient vanishes
 
 // phi / |grad phi|, a distance to first order near phi = 0 and exactly where phi is linear.
 template <int Dim>

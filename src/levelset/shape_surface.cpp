@@ -27,7 +27,8 @@ Nodes<Dim> cover(const Vec<Dim>& lower, const Vec<Dim>& upper, double spacing) {
     throw Error(ExitCode::bad_input, "a surface needs a positive spacing and a box that is not empty");
   }
   Nodes<Dim> nodes{lower - Vec<Dim>::Constant(margin * spacing), spacing, {1, 1, 1}};
-  for (int a = 0; a < Dim; ++a) nodes.count[a] = int(std::ceil((upper[a] - lower[a]) / spacing - 1e-6)) + 1 + 2 * margin;
+  for (int a = 0; a < Dim; ++a)
+    nodes.count[a] = int(std::ceil((upper[a] - lower[a]) / spacing - 1e-6)) + 1 + 2 * margin;
   return nodes;
 }
 

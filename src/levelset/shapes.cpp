@@ -112,7 +112,9 @@ std::pair<double, double> cos_sin(double degrees) {
 
 }  // namespace
 
-void refuse(const std::string& message) { throw Error(ExitCode::bad_input, message); }
+void refuse(const std::string& message) {
+  throw Error(ExitCode::bad_input, message);
+}
 
 template <>
 Eigen::Matrix2d rotation<2>(const RotationSpec& rotate) {

@@ -19,7 +19,7 @@ class ShapeField {
 };
 
 struct ShapeOptions {
-  double cell_size = 0;                    // voxel size of sampled shapes (mesh, level_set), m
+  double cell_size = 0;                       // voxel size of sampled shapes (mesh, level_set), m
   std::vector<std::string>* notes = nullptr;  // what was mended in files, for the log
 };
 
@@ -33,6 +33,7 @@ std::vector<std::string> shape_names();
 // The surface of a shape as a mesh, for pictures and .vtu frames: the file's own triangles for "mesh", otherwise
 // contoured on a grid of the given spacing within [lower, upper]. 2D gives segments.
 template <int Dim>
-SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
+SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
+                          const Vec<Dim>& upper);
 
 }  // namespace seiche

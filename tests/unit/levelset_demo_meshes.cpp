@@ -2,8 +2,8 @@
 // contoured and then moved onto the zero. To write them anew: SEICHE_MESHES=scenes/meshes unit_levelset "[write]".
 #include <catch2/catch.hpp>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +157,6 @@ TEST_CASE("the gyre stands on y = 0 and is 0.4 m tall") {
     low = std::min(low, p[1]);
     high = std::max(high, p[1]);
   }
-  CHECK(low == Approx(0).margin(1e-6));   // float coordinates
+  CHECK(low == Approx(0).margin(1e-6));     // float coordinates
   CHECK(high == Approx(0.4).margin(0.02));  // about
 }

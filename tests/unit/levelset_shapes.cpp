@@ -40,7 +40,12 @@ ShapeSpec spec_of(const std::string& kind) {
   spec.point = Vec3(0.1, 0.2, 0.3);
   spec.normal = Vec3(1, 2, 3);
   spec.radius = 0.35;
-  spec.phi = "sqrt(x*x+y*y)-0.3";
+  return spec;
+}
+
+ShapeSpec expression_spec(const Formula& phi) {
+  ShapeSpec spec = spec_of("expression");
+  spec.phi = phi;
   return spec;
 }
 
@@ -65,7 +70,8 @@ void check_unit_gradient(const ShapeField<Dim>& phi) {
   const auto points = random_points<Dim>(300);
   for (const auto& x : points) {
     Vec<Dim> gradient;
-    for (int a = 0; a < Dim; ++a) gradient[a] = (phi(x + e * Vec<Dim>::Unit(a)) - phi(x - e * Vec<Dim>::Unit(a))) / (2 * e);
+    for (int a = 0; a < Dim; ++a)
+      gradient[a] = (phi(x + e * Vec<Dim>::Unit(a)) - phi(x - e * Vec<Dim>::Unit(a))) / (2 * e);
     regular += std::abs(gradient.norm() - 1) < 1e-4;  // second differences: e / distance to a kink
     CHECK(gradient.norm() < 1 + 1e-4);                // never more than a distance
   }
@@ -101,9 +107,9 @@ std::string refusal(const ShapeSpec& spec, const ShapeOptions& with = options) {
 
 TEST_CASE("a box is the exact distance to its faces, edges and corners") {
   const auto box = make_shape<3>(spec_of("box"), options);
-  CHECK((*box)(Vec3(0, 0, 0)) == -0.25);                  // the nearest face, x = 0.25; exact in binary
+  CHECK((*box)(Vec3(0, 0, 0)) == -0.25);  // the nearest face, x = 0.25; exact in binary
   CHECK((*box)(Vec3(0, 1.5, 0)) == 1.0);
-  CHECK((*box)(Vec3(0.25, 0.1, 0.1)) == 0);               // on the face
+  CHECK((*box)(Vec3(0.25, 0.1, 0.1)) == 0);  // on the face
   CHECK((*box)(Vec3(0.55, 0.9, 0)) == Approx(0.5).margin(round_off));
   CHECK((*box)(Vec3(0.45, 0.8, 1.1)) == Approx(0.7).margin(round_off));  // corner: 0.2, 0.3, 0.6
 }
@@ -213,8 +219,7 @@ TEST_CASE("an inverted shape is its outside") {
 }
 
 TEST_CASE("a linear expression is an exact distance, whatever its slope and transform") {
-  ShapeSpec spec = spec_of("expression");
-  spec.phi = "40*(x - 2*y + 2*z - 0.7)";
+  ShapeSpec spec = expression_spec("40*(x - 2*y + 2*z - 0.7)");
   const auto phi = make_shape<3>(spec, options);
   spec.transform.scale = 0.1;
   spec.transform.translate = Vec3(0.2, 0, 0);
@@ -227,8 +232,7 @@ TEST_CASE("a linear expression is an exact distance, whatever its slope and tran
 }
 
 TEST_CASE("an expression is a distance to first order near its zero") {
-  ShapeSpec spec = spec_of("expression");
-  spec.phi = "x*x + y*y - 0.25";
+  ShapeSpec spec = expression_spec("x*x + y*y - 0.25");
   const auto phi = make_shape<2>(spec, options);
   for (const double d : {-0.02, -0.01, 0.0, 0.01, 0.02}) {
     const double r = 0.5 + d;
@@ -237,21 +241,20 @@ TEST_CASE("an expression is a distance to first order near its zero") {
 }
 
 TEST_CASE("an expression stays finite and keeps its sign where its gradient vanishes") {
-  ShapeSpec spec = spec_of("expression");
-  spec.phi = "x*x + y*y - 0.25";
+  ShapeSpec spec = expression_spec("x*x + y*y - 0.25");
   CHECK((*make_shape<2>(spec, options))(Vec<2>(0, 0)) < 0);
   CHECK(std::isfinite((*make_shape<2>(spec, options))(Vec<2>(0, 0))));
-  spec.phi = "-1";
+  spec = expression_spec("-1");
   CHECK((*make_shape<2>(spec, options))(Vec<2>(0.3, 0.4)) < 0);
-  spec.phi = "1";
+  spec = expression_spec("1");
   CHECK((*make_shape<2>(spec, options))(Vec<2>(0.3, 0.4)) > 0);
-  spec.phi = "0";
+  spec = expression_spec("0");
   CHECK((*make_shape<2>(spec, options))(Vec<2>(0.3, 0.4)) == 0);
 }
 
 TEST_CASE("shapes that make no sense are refused with place and remedy") {
-  CHECK_THAT(refusal(spec_of("cone")), Catch::StartsWith("scene.toml:14: ") && Catch::Contains("'cone'") &&
-                                           Catch::Contains("capsule"));
+  CHECK_THAT(refusal(spec_of("cone")),
+             Catch::StartsWith("scene.toml:14: ") && Catch::Contains("'cone'") && Catch::Contains("capsule"));
   ShapeSpec spec = spec_of("box");
   spec.upper[1] = spec.lower[1];
   CHECK_THAT(refusal(spec), Catch::StartsWith("scene.toml:14: ") && Catch::Contains("lower"));
@@ -275,14 +278,12 @@ TEST_CASE("shapes that make no sense are refused with place and remedy") {
   spec = spec_of("sphere");
   spec.transform.rotate = {Vec3(0, 0, 0), 10};
   CHECK_THAT(refusal(spec), Catch::Contains("axis"));
-  spec = spec_of("expression");
-  spec.phi = "x +* y";
+  spec = expression_spec("x +* y");
   CHECK_THAT(refusal(spec), Catch::StartsWith("scene.toml:14: ") && Catch::Contains("x +* y"));
 }
 
 TEST_CASE("an expression that is not a number somewhere says where") {
-  ShapeSpec spec = spec_of("expression");
-  spec.phi = "sqrt(x)-0.3";
+  ShapeSpec spec = expression_spec("sqrt(x)-0.3");
   const auto phi = make_shape<3>(spec, options);
   CHECK((*phi)(Vec3(0.5, 0, 0)) == Approx((std::sqrt(0.5) - 0.3) * 2 * std::sqrt(0.5)).epsilon(1e-3));
   CHECK_THROWS_WITH((*phi)(Vec3(-1, 0, 0)), Catch::Contains("not a number at (-1, 0, 0)"));
@@ -323,8 +324,8 @@ TEST_CASE("the contour of a disc has its inside to the left and its area to seco
 }
 
 TEST_CASE("a polyline is closed: each point starts one segment and ends one, saddles too") {
-  ShapeSpec spec = spec_of("expression");
-  spec.phi = GENERATE("(x-0.013)*(y+0.007)-0.001 + 10*max(0,x*x+y*y-0.3)", "0.001-x*y + 10*max(0,x*x+y*y-0.3)");
+  const ShapeSpec spec = expression_spec(
+      GENERATE("(x-0.013)*(y+0.007)-0.001 + 10*max(0,x*x+y*y-0.3)", "0.001-x*y + 10*max(0,x*x+y*y-0.3)"));
   const SurfaceMesh mesh = shape_surface<2>(spec, {0.05, nullptr}, Vec<2>(-1, -1), Vec<2>(1, 1));
   std::vector<int> starts(mesh.points.size(), 0), ends(mesh.points.size(), 0);
   for (const auto& s : mesh.segments) ++starts[s[0]], ++ends[s[1]];

@@ -115,9 +115,13 @@ const vdb::Grid& find(const vdb::Frame& frame, const std::string& name) {
   return *found;
 }
 
-int run(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()); }
+int run(const std::string& command) {
+  return std::system((command + " > /dev/null 2>&1").c_str());
+}
 
-bool installed(const std::string& test) { return run(test) == 0; }
+bool installed(const std::string& test) {
+  return run(test) == 0;
+}
 
 std::string refusal(const std::filesystem::path& file) {
   try {
@@ -134,8 +138,8 @@ vdb::Frame tank_frame() {
   vdb::Frame frame = empty_frame(3);
   const double level = frame.lower[1] + 0.4;
   const auto phi = [=](const Vec3& x) { return std::array{x[1] - level}; };
-  frame.grids.push_back({"surface", vdb::GridKind::level_set, float(3 * frame.cell_size),
-                         {sample(frame, {0, 0, 0}, extent3, phi)}});
+  frame.grids.push_back(
+      {"surface", vdb::GridKind::level_set, float(3 * frame.cell_size), {sample(frame, {0, 0, 0}, extent3, phi)}});
   return frame;
 }
 
@@ -167,7 +171,9 @@ TEST_CASE("a frame without any liquid and one of nothing but liquid are read bac
   const TemporaryFolder folder;
   const double sign = GENERATE(-1.0, 1.0);
   vdb::Frame frame = empty_frame(3);
-  frame.grids.push_back({"surface", vdb::GridKind::level_set, 0.1f,
+  frame.grids.push_back({"surface",
+                         vdb::GridKind::level_set,
+                         0.1f,
                          {sample(frame, {0, 0, 0}, extent3, [=](const Vec3&) { return std::array{sign}; })}});
   const vdb::Frame read = vdb::decode(write(folder, "frame.vdb", vdb::encode(frame)));
   require_equal_voxels(frame.grids[0], read.grids.at(0));
@@ -237,8 +243,8 @@ TEST_CASE("the level set of a frame serves as a shape") {
   for (const double r : {0.2, 0.25, 0.3}) {
     CHECK(distance(Vec3(center + r * Vec3(0.6, 0.8, 0))) == Approx(r - 0.25).margin(1.5e-3));
   }
-  CHECK(distance(center) == Approx(-3 * h).epsilon(1e-6));                     // the band's end, in float
-  CHECK(distance(Vec3(center + Vec3(20, 0, 0))) > 15);                         // far outside: distance to the domain
+  CHECK(distance(center) == Approx(-3 * h).epsilon(1e-6));  // the band's end, in float
+  CHECK(distance(Vec3(center + Vec3(20, 0, 0))) > 15);      // far outside: distance to the domain
 }
 
 TEST_CASE("a frame of the other dimension is no shape of the scene") {
@@ -247,6 +253,6 @@ TEST_CASE("a frame of the other dimension is no shape of the scene") {
   spec.kind = "level_set";
   spec.where = "scene.toml:7";
   spec.file = write(folder, "disc.vdb", vdb::encode(ball_frame(2)));
-  CHECK_THROWS_WITH(make_shape<3>(spec, {0.1, nullptr}), Catch::StartsWith("scene.toml:7: ") &&
-                                                             Catch::Contains("2 dimensions"));
+  CHECK_THROWS_WITH(make_shape<3>(spec, {0.1, nullptr}),
+                    Catch::StartsWith("scene.toml:7: ") && Catch::Contains("2 dimensions"));
 }
