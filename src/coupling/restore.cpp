@@ -56,6 +56,16 @@ void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceFi
     });
 }
 
+// The given velocity on walls and inflow, wet or dry. Fills ghosts.
+template <int Dim>
+void keep_prescribed(const Setup<Dim>& s, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::prescribed) u.at(a, f) = g.faces.prescribed.at(a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -72,16 +82,10 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
     });
     extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 2}, u[a], reached[a]);
   }
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
-  if (!s.bodies.empty()) {
-    follow_solids(s, g, reached, u);
-    for (int a = 0; a < Dim; ++a)
-      for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-        if (valid.at(a, f)) return;
-        if (g.faces.kind_at(a, f) == FaceKind::prescribed) u.at(a, f) = g.faces.prescribed.at(a, f);
-      });
-    fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
-  }
+  keep_prescribed(s, g, u);
+  if (s.bodies.empty()) return;
+  follow_solids(s, g, reached, u);
+  keep_prescribed(s, g, u);
 }
 
 template <int Dim>

@@ -105,7 +105,9 @@ FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double 
 }
 
 // A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on; continued beyond
-// the liquid. All zero at the start and in first order.
+// the liquid. All zero at the start and in first order. Impacts change velocity at once whatever dt is, so that their A
+// says nothing of the next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of order
+// h there).
 template <int Dim>
 FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   FaceField<Dim> acc(s.layout);
@@ -113,10 +115,12 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double
   const FaceField<Dim> trend = slope_trend(s, state, dt);
   const Level<Dim>& level = *state.now;
   const Vec<Dim> g = s.gravity();
+  const double limit = 0.25 * s.layout.h() / (dt * dt);
   FaceField<Dim, char> known = level.valid;
   for (int a = 0; a < Dim; ++a) {
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (level.valid.at(a, f) == face_solved) acc.at(a, f) = g[a] - level.q.at(a, f) - trend.at(a, f);
+      if (level.valid.at(a, f) == face_solved)
+        acc.at(a, f) = std::clamp(g[a] - level.q.at(a, f) - trend.at(a, f), -limit, limit);
       if (level.valid.at(a, f)) known.at(a, f) = 1;
     });
     extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 0}, acc[a], known[a]);
@@ -140,7 +144,8 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, d
   advect_level_set(s.layout, state.now->u, dt, s.band(), joined, phi);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state.time, phi);
-  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 8}, phi);
+  const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
+  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved}, phi);
   return phi;
 }
 

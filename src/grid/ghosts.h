@@ -4,7 +4,8 @@
 
 namespace seiche {
 
-// constant: the value at the side; linear: continued in a straight line (planes stay planes); mirror: even about the
+// constant: the value at the side; linear: continued in a straight line (planes stay
+// planes), no steeper than `steepest` a cell; mirror: even about the
 // side for values half a cell from it, odd about the side's own value for values that sit on it (a solid wall's flow).
 enum class Extension { constant, linear, mirror };
 template <int Dim>
@@ -19,6 +20,7 @@ Extensions<Dim> all_sides(Extension e) {
 
 // Fills every stored site beyond a non-periodic side. Needs the halo inside the domain to be up to date; local.
 template <int Dim>
-void extend_beyond_sides(const Layout<Dim>& layout, double* f, const Vec<Dim>& offset, const Extensions<Dim>& rules);
+void extend_beyond_sides(const Layout<Dim>& layout, double* f, const Vec<Dim>& offset, const Extensions<Dim>& rules,
+                         double steepest = 1e300);
 
 }  // namespace seiche

@@ -5,29 +5,49 @@
 namespace seiche {
 namespace {
 
-// Mean over the neighbours known from earlier layers of the value they predict here.
+double minmod(double a, double b) { return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b); }
+
+// What the sites known from earlier layers predict here.
 template <int Dim>
-bool predict(const Layout<Dim>& layout, const IVec<Dim>& index, Site s, const std::vector<double>& f,
-             const std::vector<char>& known, char layer, int linear_layers, double& value) {
-  double sum = 0;
-  int count = 0;
-  const auto earlier = [&](const IVec<Dim>& i, Site at) {
+struct Predictor {
+  const Layout<Dim>& layout;
+  const std::vector<double>& f;
+  const std::vector<char>& known;
+  int linear_layers;
+
+  bool earlier(const IVec<Dim>& i, Site at, char layer) const {
     return layout.padded().contains(i) && known[at] > 0 && known[at] < layer;
-  };
-  for (int a = 0; a < Dim; ++a)
-    for (int side = -1; side <= 1; side += 2) {
-      IVec<Dim> i = index;
-      i[a] += side;
-      const Site d = side * layout.stride(a);
-      if (!earlier(i, s + d)) continue;
-      i[a] += side;
-      const bool straight = layer - 2 < linear_layers && earlier(i, s + 2 * d);
-      sum += straight ? 2 * f[s + d] - f[s + 2 * d] : f[s + d];
-      ++count;
-    }
-  if (count > 0) value = sum / count;
-  return count > 0;
-}
+  }
+
+  // The nearest value along a line, plus the smaller of the two slopes behind it where both are known: continued straight
+  // in smooth flow, constant from drops and sheets too thin to have a slope.
+  double along(const IVec<Dim>& near, Site s, int axis, int side, char layer) const {
+    const Site d = side * layout.stride(axis);
+    if (layer - 2 >= linear_layers) return f[s];
+    IVec<Dim> second = near, third = near;
+    second[axis] += side;
+    third[axis] += 2 * side;
+    if (!earlier(second, s + d, layer) || !earlier(third, s + 2 * d, layer)) return f[s];
+    return f[s] + minmod(f[s] - f[s + d], f[s + d] - f[s + 2 * d]);
+  }
+
+  // Mean over the known neighbours.
+  bool predict(const IVec<Dim>& index, Site s, char layer, double& value) const {
+    double sum = 0;
+    int count = 0;
+    for (int a = 0; a < Dim; ++a)
+      for (int side = -1; side <= 1; side += 2) {
+        IVec<Dim> near = index;
+        near[a] += side;
+        const Site at = s + side * layout.stride(a);
+        if (!earlier(near, at, layer)) continue;
+        sum += along(near, at, a, side, layer);
+        ++count;
+      }
+    if (count > 0) value = sum / count;
+    return count > 0;
+  }
+};
 
 }  // namespace
 
@@ -36,11 +56,12 @@ void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
                  std::vector<double>& f, std::vector<char>& known) {
   halo.fill_ghosts({f.data()});
   halo.fill_ghosts({known.data()});
+  const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
   for (int n = 0; n < options.layers; ++n) {
     const char layer = char(n + 2);
     for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
       double value;
-      if (known[s] != 0 || !predict(layout, i, s, f, known, layer, options.linear_layers, value)) return;
+      if (known[s] != 0 || !predictor.predict(i, s, layer, value)) return;
       f[s] = value;
       known[s] = layer;
     });

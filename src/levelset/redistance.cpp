@@ -8,6 +8,13 @@ namespace {
 
 double minmod(double a, double b) { return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b); }
 
+// `cell` is the cell size in the units of phi: no distance changes faster.
+template <int Dim>
+void fill_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, double cell, CellField<Dim>& phi) {
+  halo.fill_ghosts(phi);
+  extend_beyond_sides<Dim>(layout, phi.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear), cell);
+}
+
 // Second difference along d, unscaled.
 double second(const double* f, Site d) { return f[-d] - 2 * f[0] + f[d]; }
 
@@ -35,7 +42,7 @@ template <int Dim>
 class Relaxation {
  public:
   Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi)
-      : layout_(layout), halo_(halo), limit_(options.band), phi_(phi), start_(phi) {
+      : layout_(layout), halo_(halo), limit_(options.band), entering_(std::min(options.entering, layout.halo())), phi_(phi), start_(phi) {
     collect();
   }
 
@@ -50,16 +57,32 @@ class Relaxation {
         double& p = phi_[cells_[k].site];
         p = 0.5 * (before[k] + p);
       }
-      fill_level_set_ghosts(layout_, halo_, phi_);
+      fill_ghosts(layout_, halo_, 1.0, phi_);
     }
   }
 
  private:
   void collect() {
     for_each_index_in_order(layout_, layout_.cells(), [&](Site s, const IVec<Dim>&) {
-      if (std::abs(start_[s]) < limit_ && start_[s] != 0) cells_.push_back(describe(s));
+      if (start_[s] != 0 && near_band(s)) cells_.push_back(describe(s));
     });
     change_.resize(cells_.size());
+  }
+
+  // In the band, or close enough for the interface to have brought the band here.
+  bool near_band(Site s) const {
+    if (std::abs(start_[s]) < limit_) return true;
+    for (int a = 0; a < Dim; ++a)
+      for (int n = 1; n <= entering_; ++n)
+        if (std::min(std::abs(start_[s - n * layout_.stride(a)]), std::abs(start_[s + n * layout_.stride(a)])) < limit_)
+          return true;
+    return false;
+  }
+
+  // Beyond a side of the domain there is no interface to stop at, whatever sign the continued values take.
+  bool at_side(Site s, int axis, int side) const {
+    const Geometry<Dim>& g = layout_.geometry();
+    return !g.periodic[axis] && layout_.index(s)[axis] == (side == 0 ? 0 : g.cells[axis] - 1);
   }
 
   BandCell<Dim> describe(Site s) const {
@@ -67,8 +90,8 @@ class Relaxation {
     for (int a = 0; a < Dim; ++a)
       for (int side = 0; side < 2; ++side) {
         const Site d = side == 0 ? -layout_.stride(a) : layout_.stride(a);
-        const bool crosses = start_[s] * start_[s + d] < 0;
-        c.reach[a][side] = crosses ? std::max(crossing(start_.data() + s, d), 1e-6) : 1;
+        const double reach = at_side(s, a, side) || start_[s] * start_[s + d] >= 0 ? 1 : crossing(start_.data() + s, d);
+        c.reach[a][side] = std::max(reach, 1e-6);
         c.step = std::min(c.step, c.reach[a][side]);
       }
     c.step *= 0.45;
@@ -80,8 +103,7 @@ class Relaxation {
     const Site d = side == 0 ? -layout_.stride(axis) : layout_.stride(axis);
     const double* f = phi_.data() + c.site;
     const double reach = c.reach[axis][side];
-    const bool crosses = start_[c.site] * start_[c.site + d] < 0;
-    const double rise = crosses ? -f[0] : f[d] - f[0];
+    const double rise = reach < 1 ? -f[0] : f[d] - f[0];
     return rise / reach - 0.5 * reach * minmod(second(f, d), second(f + d, d));
   }
 
@@ -105,12 +127,13 @@ class Relaxation {
       double& p = phi_[cells_[k].site];
       p = std::clamp(p + change_[k], -limit_, limit_);
     }
-    fill_level_set_ghosts(layout_, halo_, phi_);
+    fill_ghosts(layout_, halo_, 1.0, phi_);
   }
 
   const Layout<Dim>& layout_;
   const Halo<Dim>& halo_;
   double limit_;
+  int entering_;
   CellField<Dim>& phi_;
   CellField<Dim> start_;
   std::vector<BandCell<Dim>> cells_;
@@ -121,15 +144,14 @@ class Relaxation {
 
 template <int Dim>
 void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& phi) {
-  halo.fill_ghosts(phi);
-  extend_beyond_sides<Dim>(layout, phi.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
+  fill_ghosts(layout, halo, layout.h(), phi);
 }
 
 template <int Dim>
 void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi) {
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
-  fill_level_set_ghosts(layout, halo, phi);
+  fill_ghosts(layout, halo, 1.0, phi);
   Relaxation<Dim>(layout, halo, options, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }
