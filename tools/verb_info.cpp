@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "io/info.h"
+#include "io/run_agree.h"
 #include "verbs.h"
 
 namespace seiche {
@@ -11,8 +12,9 @@ void add_info(CLI::App& program, VerbContext& context) {
   verb->add_option("path", *path, "A .vdb frame, a folder of checkpoints/, or a run directory")->required();
   verb->callback([path, &context] {
     context.action = [path, &context] {
-      if (!context.ranks.is_root()) return ExitCode::done;
-      for (const std::string& line : describe_path(*path)) fmt::print("{}\n", line);
+      agree_on_root(context.ranks, "reading " + *path, [&] {
+        for (const std::string& line : describe_path(*path)) fmt::print("{}\n", line);
+      });
       return ExitCode::done;
     };
   });

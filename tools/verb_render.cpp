@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "io/render_run.h"
+#include "io/run_agree.h"
 #include "verbs.h"
 
 namespace seiche {
@@ -12,7 +13,7 @@ struct RenderWords {
   render::RenderOptions options;
 };
 
-ExitCode render_pictures(RenderWords words, const CLI::App& verb) {
+void render_pictures(RenderWords words, const CLI::App& verb) {
   render::RenderOptions& options = words.options;
   options.run = words.run;
   options.out = words.out;
@@ -26,7 +27,6 @@ ExitCode render_pictures(RenderWords words, const CLI::App& verb) {
     fmt::print("{}\n", line);
     std::fflush(stdout);
   });
-  return ExitCode::done;
 }
 
 }  // namespace
@@ -52,7 +52,8 @@ void add_render(CLI::App& program, VerbContext& context) {
   verb->add_option("--animation", words->animation, "Film of the frames, such as film.mp4; needs ffmpeg");
   verb->callback([words, verb, &context] {
     context.action = [words, verb, &context] {
-      return context.ranks.is_root() ? render_pictures(*words, *verb) : ExitCode::done;
+      agree_on_root(context.ranks, "rendering " + words->run, [&] { render_pictures(*words, *verb); });
+      return ExitCode::done;
     };
   });
 }
