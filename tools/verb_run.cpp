@@ -16,7 +16,8 @@ void add_session_options(CLI::App& verb, SessionOptions& session) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb.add_option("--inject", session.inject, "Test only: phase:rank:kind[:nth]")->group("");
-  verb.add_flag_callback("--quiet", [&session] { session.verbosity = Verbosity::quiet; }, "Print warnings and errors only");
+  verb.add_flag_callback(
+      "--quiet", [&session] { session.verbosity = Verbosity::quiet; }, "Print warnings and errors only");
 }
 
 void add_set_option(CLI::App& verb, std::vector<Override>& overrides) {
@@ -30,7 +31,9 @@ void add_set_option(CLI::App& verb, std::vector<Override>& overrides) {
       ->type_name("KEY=VALUE");
 }
 
-Surroundings surroundings(const VerbContext& context) { return {context.ranks, context.emergency, terminal_console()}; }
+Surroundings surroundings(const VerbContext& context) {
+  return {context.ranks, context.emergency, terminal_console()};
+}
 
 }  // namespace
 

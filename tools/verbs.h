@@ -1,6 +1,6 @@
 #pragma once
-// The verbs of the command line. A verb is one file tools/verb_<name>.cpp with an add_<name> function, declared here and
-// listed in the table of tools/verbs.cpp. It adds its subcommand and options to the program's parser and, in the
+// The verbs of the command line. A verb is one file tools/verb_<name>.cpp with an add_<name> function, declared here
+// and listed in the table of tools/verbs.cpp. It adds its subcommand and options to the program's parser and, in the
 // subcommand's callback, hands over what to do: `context.action = [options, &context] { return ...; };`.
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -16,8 +16,8 @@ namespace seiche {
 struct VerbContext {
   const Communicator& ranks;
   const EmergencyChannel& emergency;
-  // Set by the verb that was chosen. Runs on every rank; returns the exit code or throws Error (the main program prints it
-  // once and ends all ranks with its code).
+  // Set by the verb that was chosen. Runs on every rank; returns the exit code or throws Error (the main program prints
+  // it once and ends all ranks with its code).
   std::function<ExitCode()> action;
 };
 

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-
 #include "base/error.h"
 #include "base/version.h"
 #include "io/checked_file.h"
@@ -12,6 +9,7 @@
 #include "io/checkpoint_commit.h"
 #include "io/checkpoint_crc.h"
 #include "io/checkpoint_file.h"
+#include "io/checkpoint_folders.h"
 #include "io/run_agree.h"
 
 namespace seiche {
@@ -20,36 +18,6 @@ namespace {
 
 constexpr std::size_t checkpoints_kept = 2;
 constexpr const char* writing = "writing a checkpoint";
-
-// Names of the checkpoint folders, newest first.
-std::vector<std::string> folders_newest_first(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_step = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
-    if (is_step && entry.is_directory(error)) names.push_back(name);
-  }
-  const auto newer = [](const std::string& a, const std::string& b) {
-    return a.size() != b.size() ? a.size() > b.size() : a > b;
-  };
-  std::sort(names.begin(), names.end(), newer);
-  return names;
-}
-
-// Removal is tidying: what cannot be removed does no harm.
-void remove_folder(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
-}
-
-void remove_old(const fs::path& folder) {
-  std::size_t committed = 0;
-  for (const std::string& name : folders_newest_first(folder)) {
-    const bool complete = fs::exists(folder / name / "COMMIT");
-    if (!complete || ++committed > checkpoints_kept) remove_folder(folder / name);
-  }
-}
 
 // Every rank's line of the COMMIT file, by rank.
 std::vector<CommittedFile> exchange(const CommittedFile& mine, const Communicator& ranks) {
@@ -68,98 +36,20 @@ void check_finite(const CheckpointData& data, const Communicator& ranks) {
   agree(ranks, writing, [&] {
     const std::string where = first_not_finite(data.fields);
     if (where.empty()) return;
-    throw Error(ExitCode::cannot_continue, fmt::format("the state holds a value that is not a number: {}; the checkpoint "
-                                                       "before it still stands",
-                                                       where));
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("the state holds a value that is not a number: {}; the checkpoint "
+                            "before it still stands",
+                            where));
   });
 }
 
 CommittedFile write_own_file(const fs::path& folder, const CheckpointLabel& label, const CheckpointData& data,
                              const Communicator& ranks) {
-  const std::string bytes = encode_checkpoint_file({label.dimension, ranks.rank(), ranks.size(), label.step,
-                                                    label.scene_hash, "seiche " + version(), data});
+  const std::string bytes = encode_checkpoint_file(
+      {label.dimension, ranks.rank(), ranks.size(), label.step, label.scene_hash, "seiche " + version(), data});
   const std::string name = checkpoint_rank_file(ranks.rank());
   write_file(folder / name, bytes);
   return {name, bytes.size(), crc32c(bytes)};
-}
-
-std::optional<Commit> read_commit(const fs::path& folder) {
-  try {
-    return parse_commit(read_whole_file(folder / "COMMIT"));
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
-CheckpointDefect damaged(const std::string& text) { return {CheckpointDefect::Kind::damaged, text}; }
-
-CheckpointDefect examine_file(const fs::path& folder, const CommittedFile& expected, std::int64_t step, int rank) {
-  try {
-    const std::string bytes = read_whole_file(folder / expected.name);
-    CheckpointDefect defect = examine_checkpoint_file(bytes);
-    if (defect.kind == CheckpointDefect::Kind::none) {
-      const CheckpointFile file = decode_checkpoint_file(bytes);
-      if (bytes.size() != expected.bytes || crc32c(bytes) != expected.checksum || file.rank != rank || file.step != step) {
-        defect = damaged("it is not the file that COMMIT lists");
-      }
-    }
-    if (!defect.text.empty()) defect.text = expected.name + ": " + defect.text;
-    return defect;
-  } catch (const Error& error) {
-    return damaged(expected.name + ": " + error.what());
-  }
-}
-
-// This rank's share of the files of one checkpoint.
-CheckpointDefect examine_share(const fs::path& folder, const Communicator& ranks) {
-  const std::optional<Commit> commit = read_commit(folder);
-  if (!commit) return damaged("its COMMIT file is missing or damaged");
-  if (commit->format != checkpoint_format_version) {
-    return {CheckpointDefect::Kind::foreign, fmt::format("it has checkpoint format {} and this program reads format {}",
-                                                         commit->format, checkpoint_format_version)};
-  }
-  for (int rank = ranks.rank(); rank < int(commit->files.size()); rank += ranks.size()) {
-    CheckpointDefect defect = examine_file(folder, commit->files[std::size_t(rank)], commit->step, rank);
-    if (defect.kind != CheckpointDefect::Kind::none) return defect;
-  }
-  return {};
-}
-
-// The worst of all ranks' findings, the same on all of them.
-CheckpointDefect examine(const fs::path& folder, const Communicator& ranks) {
-  std::string mine;
-  agree(ranks, "verifying a checkpoint", [&] {
-    const CheckpointDefect defect = examine_share(folder, ranks);
-    mine = fmt::format("{}{}", int(defect.kind), defect.text);
-  });
-  CheckpointDefect worst;
-  for (const std::string& text : ranks.all_gather(mine)) {
-    const auto kind = CheckpointDefect::Kind(text[0] - '0');
-    if (kind > worst.kind) worst = {kind, text.substr(1)};
-  }
-  return worst;
-}
-
-std::vector<std::string> broadcast_names(const fs::path& folder, const Communicator& ranks) {
-  std::string joined;
-  if (ranks.is_root()) joined = fmt::format("{}", fmt::join(folders_newest_first(folder), "\n"));
-  joined = ranks.broadcast(joined);
-  std::vector<std::string> names;
-  for (std::size_t start = 0; start < joined.size();) {
-    const std::size_t end = std::min(joined.find('\n', start), joined.size());
-    names.push_back(joined.substr(start, end - start));
-    start = end + 1;
-  }
-  return names;
-}
-
-CheckpointFile read_rank_file(const fs::path& folder, int rank) {
-  const fs::path path = folder / checkpoint_rank_file(rank);
-  try {
-    return decode_checkpoint_file(read_whole_file(path));
-  } catch (const Error& error) {
-    throw Error(ExitCode::bad_checkpoint, fmt::format("{}: {}", path.string(), error.what()));
-  }
 }
 
 }  // namespace
@@ -173,8 +63,8 @@ void write_checkpoint(const fs::path& folder, const CheckpointLabel& label, cons
   const auto on_root = [&](const std::function<void()>& work) { agree_on_root(ranks, writing, work); };
   try {
     on_root([&] {
-      remove_folder(temporary);
-      remove_folder(final);
+      remove_checkpoint(temporary);
+      remove_checkpoint(final);
       make_folder(temporary);
     });
     CommittedFile mine;
@@ -184,64 +74,15 @@ void write_checkpoint(const fs::path& folder, const CheckpointLabel& label, cons
       sync_folder(temporary);
       rename_durably(temporary, final);
       write_file(final / "COMMIT", format_commit(commit));
-      remove_old(folder);
+      remove_old_checkpoints(folder, checkpoints_kept);
     });
   } catch (const Error&) {
     if (ranks.is_root()) {
-      remove_folder(temporary);
-      if (!fs::exists(final / "COMMIT")) remove_folder(final);
+      remove_checkpoint(temporary);
+      if (!fs::exists(final / "COMMIT")) remove_checkpoint(final);
     }
     throw;
   }
-}
-
-FoundCheckpoint find_newest_checkpoint(const fs::path& folder, const Communicator& ranks,
-                                       std::vector<std::string>& warnings) {
-  std::vector<fs::path> unusable;
-  for (const std::string& name : broadcast_names(folder, ranks)) {
-    const CheckpointDefect defect = examine(folder / name, ranks);
-    if (defect.kind == CheckpointDefect::Kind::foreign) {
-      throw Error(ExitCode::bad_checkpoint, fmt::format("{} cannot be used: {}", (folder / name).string(), defect.text));
-    }
-    if (defect.kind == CheckpointDefect::Kind::damaged) {
-      warnings.push_back(fmt::format("checkpoint {} is not usable, trying the one before: {}", name, defect.text));
-      unusable.push_back(folder / name);
-      continue;
-    }
-    FoundCheckpoint found;
-    found.folder = folder / name;
-    agree(ranks, "reading a checkpoint", [&] {
-      CheckpointFile first = read_rank_file(found.folder, 0);
-      found.label = {first.step, first.dimension, first.scene_hash};
-      found.ranks = first.ranks;
-      found.data = std::move(first.data);
-    });
-    if (ranks.is_root()) std::for_each(unusable.begin(), unusable.end(), remove_folder);
-    ranks.barrier();
-    return found;
-  }
-  throw Error(ExitCode::bad_checkpoint,
-              fmt::format("{} holds no usable checkpoint{}; start the run again with --overwrite", folder.string(),
-                          warnings.empty() ? "" : " (" + warnings.front() + ")"));
-}
-
-CheckpointData load_checkpoint(const FoundCheckpoint& found, const std::vector<FieldRecord>& boxes,
-                               const Communicator& ranks) {
-  CheckpointData data{found.data.scalars, found.data.texts, {}};
-  agree(ranks, "loading a checkpoint", [&] {
-    BoxFiller filler(boxes);
-    // With the same ranks as before, the first file already holds everything.
-    for (int n = 0; n < found.ranks && (n == 0 || !filler.complete()); ++n) {
-      const CheckpointFile file = read_rank_file(found.folder, (ranks.rank() + n) % found.ranks);
-      for (const FieldRecord& field : file.data.fields) filler.take(field);
-    }
-    if (!filler.complete()) {
-      throw Error(ExitCode::bad_checkpoint, fmt::format("{} does not hold all of the field {} of this grid",
-                                                        found.folder.string(), filler.first_incomplete()));
-    }
-    data.fields = std::move(filler).result();
-  });
-  return data;
 }
 
 }  // namespace seiche

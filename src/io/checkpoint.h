@@ -1,6 +1,6 @@
 #pragma once
-// The checkpoints of a run: checkpoints/NNNNNNNN/ (the step) with one file a rank and a COMMIT file that lists their sizes
-// and checksums. All functions are collective.
+// The checkpoints of a run: checkpoints/NNNNNNNN/ (the step) with one file a rank and a COMMIT file that lists their
+// sizes and checksums. All functions are collective.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -27,13 +27,13 @@ void write_checkpoint(const std::filesystem::path& folder, const CheckpointLabel
 struct FoundCheckpoint {
   std::filesystem::path folder;
   CheckpointLabel label;
-  int ranks = 1;             // of the run that wrote it
-  CheckpointData data;       // of its rank 0; scalars and texts hold for all
+  int ranks = 1;        // of the run that wrote it
+  CheckpointData data;  // of its rank 0; scalars and texts hold for all
 };
 
 // The newest checkpoint whose files all verify; older ones are tried with a warning for each damaged one, and the
-// damaged ones are removed. Throws Error(bad_checkpoint) when none is left, or when the newest intact one was written by
-// another version or on another kind of machine.
+// damaged ones are removed. Throws Error(bad_checkpoint) when none is left, or when the newest intact one was written
+// by another version or on another kind of machine.
 FoundCheckpoint find_newest_checkpoint(const std::filesystem::path& folder, const Communicator& ranks,
                                        std::vector<std::string>& warnings);
 

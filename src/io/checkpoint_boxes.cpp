@@ -64,7 +64,9 @@ void BoxFiller::take(const FieldRecord& source) {
   }
 }
 
-bool BoxFiller::complete() const { return first_incomplete().empty(); }
+bool BoxFiller::complete() const {
+  return first_incomplete().empty();
+}
 
 std::string BoxFiller::first_incomplete() const {
   for (std::size_t n = 0; n < fields_.size(); ++n) {
@@ -75,10 +77,12 @@ std::string BoxFiller::first_incomplete() const {
 
 std::string first_not_finite(const std::vector<FieldRecord>& fields) {
   for (const FieldRecord& field : fields) {
-    const auto bad = std::find_if_not(field.values.begin(), field.values.end(), [](double v) { return std::isfinite(v); });
+    const auto bad =
+        std::find_if_not(field.values.begin(), field.values.end(), [](double v) { return std::isfinite(v); });
     if (bad == field.values.end()) continue;
     const std::int64_t n = bad - field.values.begin();
-    const std::int64_t nx = std::max(1, field.upper[0] - field.lower[0]), ny = std::max(1, field.upper[1] - field.lower[1]);
+    const std::int64_t nx = std::max(1, field.upper[0] - field.lower[0]),
+                       ny = std::max(1, field.upper[1] - field.lower[1]);
     return fmt::format("{} at ({}, {}, {})", field.name, field.lower[0] + n % nx, field.lower[1] + n / nx % ny,
                        field.lower[2] + n / (nx * ny));
   }

@@ -8,8 +8,12 @@
 
 namespace seiche {
 
-std::string checkpoint_rank_file(int rank) { return fmt::format("rank.{:05d}", rank); }
-std::string checkpoint_folder_name(std::int64_t step) { return fmt::format("{:08d}", step); }
+std::string checkpoint_rank_file(int rank) {
+  return fmt::format("rank.{:05d}", rank);
+}
+std::string checkpoint_folder_name(std::int64_t step) {
+  return fmt::format("{:08d}", step);
+}
 
 std::string format_commit(const Commit& commit) {
   std::string text = fmt::format("seiche-checkpoint {}\nstep {}\n", commit.format, commit.step);

@@ -19,7 +19,7 @@ struct Commit {
   std::vector<CommittedFile> files;  // by rank
 };
 
-std::string checkpoint_rank_file(int rank);       // "rank.00003"
+std::string checkpoint_rank_file(int rank);             // "rank.00003"
 std::string checkpoint_folder_name(std::int64_t step);  // "00000120"
 
 std::string format_commit(const Commit& commit);

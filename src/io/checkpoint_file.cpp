@@ -135,8 +135,12 @@ Header header_of(const std::string& bytes) {
   return header;
 }
 
-CheckpointDefect foreign(const std::string& text) { return {CheckpointDefect::Kind::foreign, text}; }
-CheckpointDefect damaged(const std::string& text) { return {CheckpointDefect::Kind::damaged, text}; }
+CheckpointDefect foreign(const std::string& text) {
+  return {CheckpointDefect::Kind::foreign, text};
+}
+CheckpointDefect damaged(const std::string& text) {
+  return {CheckpointDefect::Kind::damaged, text};
+}
 
 }  // namespace
 
@@ -158,7 +162,8 @@ std::string encode_checkpoint_file(const CheckpointFile& file) {
 
 CheckpointDefect examine_checkpoint_file(const std::string& bytes) {
   if (bytes.size() < sizeof(Header) + 4) return damaged("it is too short");
-  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0) return damaged("it does not begin like a checkpoint of Seiche");
+  if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
+    return damaged("it does not begin like a checkpoint of Seiche");
   const std::string_view covered(bytes.data(), bytes.size() - 4);
   unsigned char stored[4];
   std::memcpy(stored, bytes.data() + covered.size(), 4);

@@ -1,6 +1,6 @@
 #pragma once
-// One rank's file of a checkpoint as bytes: a fixed header (magic, endianness, format version, precision), the named data,
-// and a CRC-32C over all of it at the end.
+// One rank's file of a checkpoint as bytes: a fixed header (magic, endianness, format version, precision), the named
+// data, and a CRC-32C over all of it at the end.
 #include <cstdint>
 #include <string>
 

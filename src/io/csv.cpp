@@ -42,12 +42,24 @@ std::vector<Column> columns(const StepStats& s) {
 }
 
 std::vector<Column> columns(const SolidState& s) {
-  return {{"x", s.position[0]},          {"y", s.position[1]},          {"z", s.position[2]},
-          {"qw", s.orientation[0]},      {"qx", s.orientation[1]},      {"qy", s.orientation[2]},
-          {"qz", s.orientation[3]},      {"vx", s.velocity[0]},         {"vy", s.velocity[1]},
-          {"vz", s.velocity[2]},         {"wx", s.angular_velocity[0]}, {"wy", s.angular_velocity[1]},
-          {"wz", s.angular_velocity[2]}, {"fx", s.force[0]},            {"fy", s.force[1]},
-          {"fz", s.force[2]},            {"tx", s.torque[0]},           {"ty", s.torque[1]},
+  return {{"x", s.position[0]},
+          {"y", s.position[1]},
+          {"z", s.position[2]},
+          {"qw", s.orientation[0]},
+          {"qx", s.orientation[1]},
+          {"qy", s.orientation[2]},
+          {"qz", s.orientation[3]},
+          {"vx", s.velocity[0]},
+          {"vy", s.velocity[1]},
+          {"vz", s.velocity[2]},
+          {"wx", s.angular_velocity[0]},
+          {"wy", s.angular_velocity[1]},
+          {"wz", s.angular_velocity[2]},
+          {"fx", s.force[0]},
+          {"fy", s.force[1]},
+          {"fz", s.force[2]},
+          {"tx", s.torque[0]},
+          {"ty", s.torque[1]},
           {"tz", s.torque[2]}};
 }
 
@@ -86,15 +98,23 @@ std::string first_not_finite(const std::vector<Column>& row) {
 
 }  // namespace
 
-std::string stats_header() { return joined_names(columns(StepStats{})) + "\n"; }
-std::string stats_row(const StepStats& stats) { return joined_values(columns(stats)) + "\n"; }
-std::string solids_header() { return "time,name," + joined_names(columns(SolidState{})) + "\n"; }
+std::string stats_header() {
+  return joined_names(columns(StepStats{})) + "\n";
+}
+std::string stats_row(const StepStats& stats) {
+  return joined_values(columns(stats)) + "\n";
+}
+std::string solids_header() {
+  return "time,name," + joined_names(columns(SolidState{})) + "\n";
+}
 
 std::string solids_row(double time, const SolidState& solid) {
   return fmt::format("{:.17g},{},{}\n", time, quoted(solid.name), joined_values(columns(solid)));
 }
 
-std::string probes_header() { return "time,name,value,x,y,z\n"; }
+std::string probes_header() {
+  return "time,name,value,x,y,z\n";
+}
 
 std::string probes_row(double time, const ProbeSample& sample) {
   const std::string start = fmt::format("{:.17g},{},", time, quoted(sample.name));
@@ -103,8 +123,12 @@ std::string probes_row(double time, const ProbeSample& sample) {
   return start + fmt::format(",{:.17g},{:.17g},{:.17g}\n", sample.vector[0], sample.vector[1], sample.vector[2]);
 }
 
-std::string not_finite(const StepStats& stats) { return first_not_finite(columns(stats)); }
-std::string not_finite(const SolidState& solid) { return first_not_finite(columns(solid)); }
+std::string not_finite(const StepStats& stats) {
+  return first_not_finite(columns(stats));
+}
+std::string not_finite(const SolidState& solid) {
+  return first_not_finite(columns(solid));
+}
 
 std::string not_finite(const ProbeSample& sample) {
   if (!sample.defined) return {};

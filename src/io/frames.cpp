@@ -65,8 +65,8 @@ void check_finite(const FrameField& field, const FrameLabel& label, const Commun
     const std::string where = first_not_finite(field);
     if (where.empty()) return;
     throw Error(ExitCode::cannot_continue,
-                fmt::format("frame {} at t = {:g} s: {} is not a number; the frame was not written", label.number, label.time,
-                            where));
+                fmt::format("frame {} at t = {:g} s: {} is not a number; the frame was not written", label.number,
+                            label.time, where));
   });
 }
 
@@ -86,7 +86,8 @@ std::string first_not_finite(const FrameField& field) {
   if (bad == field.values.end()) return {};
   const int components = field.kind == FrameField::Kind::staggered_vector ? 3 : 1;
   const std::int64_t n = (bad - field.values.begin()) / components;
-  const std::int64_t nx = std::max(1, field.upper[0] - field.lower[0]), ny = std::max(1, field.upper[1] - field.lower[1]);
+  const std::int64_t nx = std::max(1, field.upper[0] - field.lower[0]),
+                     ny = std::max(1, field.upper[1] - field.lower[1]);
   return fmt::format("{} at cell ({}, {}, {})", field.name, field.lower[0] + n % nx, field.lower[1] + n / nx % ny,
                      field.lower[2] + n / (nx * ny));
 }

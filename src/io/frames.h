@@ -1,6 +1,6 @@
 #pragma once
-// Frames of a run: the fields of all ranks gathered on rank 0 and written as one OpenVDB file, with solid surfaces and, on
-// request, fluid fields for ParaView.
+// Frames of a run: the fields of all ranks gathered on rank 0 and written as one OpenVDB file, with solid surfaces and,
+// on request, fluid fields for ParaView.
 #include <filesystem>
 #include <string>
 #include <vector>

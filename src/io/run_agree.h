@@ -8,8 +8,8 @@
 namespace seiche {
 
 // Runs `work`, which must not communicate, on every rank and then agrees on the outcome: if it threw anywhere, the
-// exception of the lowest failing rank is thrown on all of them as the same Error. A rank above 0 is named in the message.
-// Running out of memory becomes Error(machine, "out of memory while <doing>"). Collective.
+// exception of the lowest failing rank is thrown on all of them as the same Error. A rank above 0 is named in the
+// message. Running out of memory becomes Error(machine, "out of memory while <doing>"). Collective.
 void agree(const Communicator& ranks, const std::string& doing, const std::function<void()>& work);
 
 // The same for work that only rank 0 does.

@@ -24,23 +24,27 @@ Scene read_together(const fs::path& file, const std::vector<Override>& overrides
 
 void check_machine(const Scene& scene, const Communicator& ranks) {
   const int here = ranks_on_this_machine(ranks);
-  agree(ranks, "estimating the memory", [&] {
-    check_memory(estimate_cost(scene, ranks.size()), ranks.size(), here, machine_memory());
-  });
+  agree(ranks, "estimating the memory",
+        [&] { check_memory(estimate_cost(scene, ranks.size()), ranks.size(), here, machine_memory()); });
 }
 
 // `--frames N`: the last frame is number N.
-double end_of_frames(int frames, const Scene& scene) { return frames / scene.time.frame_rate; }
+double end_of_frames(int frames, const Scene& scene) {
+  return frames / scene.time.frame_rate;
+}
 
-fs::path output_folder(const RunOptions& options) { return options.out.value_or(fs::path("out") / options.scene.stem()); }
+fs::path output_folder(const RunOptions& options) {
+  return options.out.value_or(fs::path("out") / options.scene.stem());
+}
 
 void refuse_changed_scene(const Scene& scene, const Scene& before, EditPolicy edits, const fs::path& folder) {
   const std::vector<std::string> keys = forbidden_changes(changed_keys(before, scene), edits);
   if (keys.empty()) return;
-  const char* remedy = edits == EditPolicy::force ? "start a new run" : "undo that, or give --force where only output, solver or "
-                                                                        "probes changed, or start a new run";
-  throw Error(ExitCode::bad_input, fmt::format("{}: changed since the run was stopped: {}; {}", (folder / "scene.toml").string(),
-                                               fmt::join(keys, ", "), remedy));
+  const char* remedy = edits == EditPolicy::force ? "start a new run"
+                                                  : "undo that, or give --force where only output, solver or "
+                                                    "probes changed, or start a new run";
+  throw Error(ExitCode::bad_input, fmt::format("{}: changed since the run was stopped: {}; {}",
+                                               (folder / "scene.toml").string(), fmt::join(keys, ", "), remedy));
 }
 
 void apply_new_end(const ResumeOptions& options, Scene& scene) {
@@ -86,7 +90,8 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   check_machine(scene, ranks);
   const fs::path folder = output_folder(options);
   const auto directory = open_directory(folder, options.existing, ranks);
-  if (scene.time.end <= 0) log.note(fmt::format("note: the end time {:g} s leaves nothing to simulate", scene.time.end));
+  if (scene.time.end <= 0)
+    log.note(fmt::format("note: the end time {:g} s leaves nothing to simulate", scene.time.end));
   return run_session({scene, around, options.session, log, RunPaths{fs::absolute(folder).lexically_normal()}}, {});
 }
 
@@ -99,13 +104,14 @@ ExitCode resume_command(const ResumeOptions& options, const Surroundings& around
   apply_new_end(options, run.scene);
   const fs::path folder = fs::absolute(options.folder).lexically_normal();
   if (is_finished(run.state, run.scene)) {
-    log.note(fmt::format("note: the run in {} is finished (t = {:g} s); give a later --end to extend it", folder.string(),
-                         run.state.time));
+    log.note(fmt::format("note: the run in {} is finished (t = {:g} s); give a later --end to extend it",
+                         folder.string(), run.state.time));
     return ExitCode::done;
   }
   check_machine(run.scene, ranks);
-  log.note(fmt::format("resuming at step {}, t = {:g} s{}", run.state.step, run.state.time,
-                       run.checkpoint.ranks == ranks.size() ? "" : fmt::format(" (written by {} ranks)", run.checkpoint.ranks)));
+  log.note(fmt::format(
+      "resuming at step {}, t = {:g} s{}", run.state.step, run.state.time,
+      run.checkpoint.ranks == ranks.size() ? "" : fmt::format(" (written by {} ranks)", run.checkpoint.ranks)));
   const Restore restore = [&](Simulation& simulation) {
     simulation.load(load_checkpoint(run.checkpoint, simulation.checkpoint_boxes(), ranks));
     return run.state;

@@ -17,11 +17,11 @@ namespace seiche {
 
 // Options that run and resume share.
 struct SessionOptions {
-  std::optional<int> frames;        // number of the last frame
-  std::optional<int> threads;       // of this rank; unset: the machine's, shared among its ranks
-  std::optional<double> walltime;   // s
-  double watchdog = 600;            // s without progress after which the run is ended
-  std::string inject;               // see run_fault.h
+  std::optional<int> frames;       // number of the last frame
+  std::optional<int> threads;      // of this rank; unset: the machine's, shared among its ranks
+  std::optional<double> walltime;  // s
+  double watchdog = 600;           // s without progress after which the run is ended
+  std::string inject;              // see run_fault.h
   Verbosity verbosity = Verbosity::normal;
 };
 
@@ -35,7 +35,7 @@ struct RunOptions {
 
 struct ResumeOptions {
   std::filesystem::path folder;
-  std::optional<double> end;        // s
+  std::optional<double> end;  // s
   EditPolicy edits = EditPolicy::refuse;
   SessionOptions session;
 };

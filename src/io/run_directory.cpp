@@ -68,7 +68,8 @@ std::string first_line(const fs::path& file) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(const fs::path& folder, ExistingOutput policy) : paths_{fs::absolute(folder).lexically_normal()} {
+RunDirectory::RunDirectory(const fs::path& folder, ExistingOutput policy)
+    : paths_{fs::absolute(folder).lexically_normal()} {
   std::error_code ignored;
   if (policy == ExistingOutput::resume && !fs::exists(paths_.folder, ignored)) {
     throw Error(ExitCode::bad_input, fmt::format("{}: there is no such run directory to resume", folder.string()));
@@ -86,12 +87,15 @@ RunDirectory::RunDirectory(const fs::path& folder, ExistingOutput policy) : path
   }
 }
 
-RunDirectory::~RunDirectory() { drop_lock(); }
+RunDirectory::~RunDirectory() {
+  drop_lock();
+}
 
 void RunDirectory::create_folder() {
   std::error_code ignored;
   std::vector<fs::path> missing;
-  for (fs::path p = paths_.folder; !p.empty() && !fs::exists(p, ignored) && p.has_relative_path(); p = p.parent_path()) {
+  for (fs::path p = paths_.folder; !p.empty() && !fs::exists(p, ignored) && p.has_relative_path();
+       p = p.parent_path()) {
     missing.push_back(p);
   }
   make_folder(paths_.folder);
@@ -100,7 +104,8 @@ void RunDirectory::create_folder() {
 
 void RunDirectory::take_lock() {
   const fs::path file = paths_.lock();
-  struct stat held {}, named {};
+  struct stat held {
+  }, named{};
   do {  // again when another job removed the file between opening and locking it
     if (lock_ >= 0) ::close(lock_);
     lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -109,9 +114,10 @@ void RunDirectory::take_lock() {
       const std::string owner = first_line(file);
       ::close(std::exchange(lock_, -1));
       created_.clear();
-      throw Error(ExitCode::output_failed, fmt::format("{} is in use by another job (process {}); wait for it or choose "
-                                                       "another folder with --out",
-                                                       paths_.folder.string(), owner));
+      throw Error(ExitCode::output_failed,
+                  fmt::format("{} is in use by another job (process {}); wait for it or choose "
+                              "another folder with --out",
+                              paths_.folder.string(), owner));
     }
   } while (::fstat(lock_, &held) != 0 || ::stat(file.c_str(), &named) != 0 || held.st_ino != named.st_ino);
   const std::string owner = std::to_string(::getpid()) + "\n";
@@ -130,7 +136,8 @@ void RunDirectory::drop_lock() {
 void RunDirectory::look_at_contents(ExistingOutput policy) {
   const bool is_run = fs::exists(paths_.scene());
   if (policy == ExistingOutput::resume && !is_run) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: not a run directory (it holds no scene.toml)", paths_.folder.string()));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: not a run directory (it holds no scene.toml)", paths_.folder.string()));
   }
   if (policy == ExistingOutput::refuse && holds_output(paths_.folder)) {
     throw Error(ExitCode::bad_input,

@@ -22,8 +22,8 @@ struct RunPaths {
 
 enum class ExistingOutput { refuse, overwrite, resume };
 
-// Holds the folder for the life of the object (an flock on `lock`, which also holds the process id). Rank 0 owns the only
-// one of a run.
+// Holds the folder for the life of the object (an flock on `lock`, which also holds the process id). Rank 0 owns the
+// only one of a run.
 class RunDirectory {
  public:
   // Creates the folder where missing and locks it. Throws Error(output_failed) when it cannot be written or another job

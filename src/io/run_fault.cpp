@@ -48,9 +48,10 @@ Injection parse_injection(const std::string& text) {
   static const std::regex pattern("([a-z]+):([0-9]{1,6}):([a-z]+)(:([0-9]{1,6})(\\+?))?");
   std::smatch parts;
   if (!std::regex_match(text, parts, pattern) || kinds().count(parts[3]) == 0) {
-    throw Error(ExitCode::bad_input, fmt::format("--inject {}: expected phase:rank:kind or phase:rank:kind:nth, kind one of "
-                                                 "throw, nan, badalloc, hang, kill",
-                                                 text));
+    throw Error(ExitCode::bad_input,
+                fmt::format("--inject {}: expected phase:rank:kind or phase:rank:kind:nth, kind one of "
+                            "throw, nan, badalloc, hang, kill",
+                            text));
   }
   Injection injection{kinds().at(parts[3]), parts[1], std::stoi(parts[2]), 1, false};
   if (parts[4].matched) injection.first = std::stoi(parts[5]);

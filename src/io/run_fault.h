@@ -12,7 +12,7 @@ struct Injection {
   FaultKind kind = FaultKind::none;
   std::string phase;  // transport, geometry, solve, restore, frame, checkpoint, stats
   int rank = 0;
-  int first = 1;      // the visit of the phase that is hit, counted from 1
+  int first = 1;        // the visit of the phase that is hit, counted from 1
   bool always = false;  // and every one after it
 };
 
@@ -20,8 +20,8 @@ struct Injection {
 // Throws Error(bad_input).
 Injection parse_injection(const std::string& text);
 
-// Counts the visits of the phase on this rank and strikes when its time has come: throws, kills or hangs the process, or
-// answers PhaseFault::poison.
+// Counts the visits of the phase on this rank and strikes when its time has come: throws, kills or hangs the process,
+// or answers PhaseFault::poison.
 FaultHook make_fault_hook(const Injection& injection, int rank);
 
 }  // namespace seiche

@@ -29,7 +29,7 @@ class RunLog {
   void warn(const std::string& text);
   void live(const std::string& text);
   void record(const std::string& text);  // to the file only
-  void flush();  // throws Error(output_failed) on rank 0
+  void flush();                          // throws Error(output_failed) on rank 0
   bool has_live_line() const { return bool(console_.live) && verbosity_ == Verbosity::normal; }
 
  private:

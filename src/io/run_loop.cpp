@@ -62,7 +62,9 @@ PhaseFault RunLoop::visit(const std::string& phase) {
   return context_.hook ? context_.hook(phase) : PhaseFault::none;
 }
 
-double RunLoop::session_seconds() const { return seconds_since(context_.began); }
+double RunLoop::session_seconds() const {
+  return seconds_since(context_.began);
+}
 
 RunEnd RunLoop::run() {
   try {
@@ -119,10 +121,12 @@ std::string RunLoop::advance_to(double target) {
   const double rounding = 1e-10 / context_.scene.time.frame_rate;
   for (int steps = 0; simulation_.time() < target - rounding; ++steps) {
     if (steps == most_steps_a_frame) {
-      throw Error(ExitCode::cannot_continue,
-                  fmt::format("{} steps did not reach frame {} (t = {:g} s of {:g} s, last step {:g} s): the flow is too fast for "
-                              "this cell size and frame rate",
-                              steps, state_.frame + 1, simulation_.time(), target, last_.dt));
+      throw Error(
+          ExitCode::cannot_continue,
+          fmt::format(
+              "{} steps did not reach frame {} (t = {:g} s of {:g} s, last step {:g} s): the flow is too fast for "
+              "this cell size and frame rate",
+              steps, state_.frame + 1, simulation_.time(), target, last_.dt));
     }
     one_step(target);
     const std::string stop = stop_request();

@@ -78,7 +78,7 @@ class RunLoop {
   FrameWriter frames_;
   Progress progress_;
   StepStats last_;
-  double earlier_seconds_ = 0;             // of wall time, in earlier sessions
+  double earlier_seconds_ = 0;  // of wall time, in earlier sessions
   std::map<std::string, double> earlier_phases_;
   Timers own_timers_;
   double longest_step_ = 0, longest_checkpoint_ = 0;  // s of wall time, to stop in good time

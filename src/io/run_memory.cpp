@@ -63,19 +63,21 @@ std::string readable_bytes(double bytes) {
 
 void check_memory(const Cost& cost, int ranks, int ranks_here, const MachineMemory& memory) {
   const double share = cost.bytes / ranks, here = share * ranks_here;
-  const std::string need = fmt::format("the grid has {} cells and needs about {} on this machine", cost.cells,
-                                       readable_bytes(here));
+  const std::string need =
+      fmt::format("the grid has {} cells and needs about {} on this machine", cost.cells, readable_bytes(here));
   const char* remedy = "choose a larger cell_size or more machines";
   if (here > memory.total) {
     throw Error(ExitCode::bad_input, fmt::format("{}, which has {}; {}", need, readable_bytes(memory.total), remedy));
   }
   if (here > memory.available) {
-    throw Error(ExitCode::machine, fmt::format("{}, where {} are free now; {}", need, readable_bytes(memory.available), remedy));
+    throw Error(ExitCode::machine,
+                fmt::format("{}, where {} are free now; {}", need, readable_bytes(memory.available), remedy));
   }
   if (share > memory.address_limit) {
-    throw Error(ExitCode::machine, fmt::format("out of memory while reserving the grid: it has {} cells and needs about {} in "
-                                               "this process, whose limit leaves {} (ulimit -v)",
-                                               cost.cells, readable_bytes(share), readable_bytes(memory.address_limit)));
+    throw Error(ExitCode::machine,
+                fmt::format("out of memory while reserving the grid: it has {} cells and needs about {} in "
+                            "this process, whose limit leaves {} (ulimit -v)",
+                            cost.cells, readable_bytes(share), readable_bytes(memory.address_limit)));
   }
 }
 

@@ -21,7 +21,8 @@ double peak_resident_bytes();  // of this process
 std::string readable_bytes(double bytes);
 
 // Throws Error(bad_input) when this rank's share of the estimate, times the ranks on this machine, cannot ever fit the
-// machine, Error(machine) when it does not fit what is free now or this process's limit. `ranks` is the number of ranks.
+// machine, Error(machine) when it does not fit what is free now or this process's limit. `ranks` is the number of
+// ranks.
 void check_memory(const Cost& cost, int ranks, int ranks_here, const MachineMemory& memory);
 
 }  // namespace seiche

@@ -18,7 +18,9 @@ std::uint64_t fingerprint(const std::string& text) {
   return h;
 }
 
-bool always_free(const std::string& key) { return key == "time.end" || key == "output.checkpoint_every"; }
+bool always_free(const std::string& key) {
+  return key == "time.end" || key == "output.checkpoint_every";
+}
 
 bool may_be_forced(const std::string& key) {
   static constexpr std::array<const char*, 3> tables{"output", "solver", "probe"};

@@ -1,11 +1,11 @@
 #include "io/run_session.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <filesystem>
 #include <new>
 
+#include "grid/thread_limit.h"
 #include "io/run_agree.h"
 #include "io/run_fault.h"
 #include "io/run_loop.h"
@@ -17,10 +17,12 @@ namespace seiche {
 namespace {
 
 std::string end_of(const RunSummary& summary, const RunPaths& paths) {
+  // A failure's message is the program's last word, not repeated here.
+  const std::string ended = summary.ended.starts_with("failed") ? "failed" : summary.ended;
   std::string text = fmt::format("{} at t = {:g} s after {} steps and {} frames in {} ({} rank{}, {} thread{} each)\n",
-                                 summary.ended, summary.state.time, summary.state.step, summary.state.frame + 1,
-                                 readable_seconds(summary.state.wall_seconds), summary.ranks, summary.ranks == 1 ? "" : "s",
-                                 summary.threads, summary.threads == 1 ? "" : "s");
+                                 ended, summary.state.time, summary.state.step, summary.state.frame + 1,
+                                 readable_seconds(summary.state.wall_seconds), summary.ranks,
+                                 summary.ranks == 1 ? "" : "s", summary.threads, summary.threads == 1 ? "" : "s");
   text += fmt::format("liquid volume {:.6g}, drift {:+.3g} %; worst residual {:.2e}; peak memory {}\n",
                       summary.state.liquid_volume, 100 * volume_drift(summary.state), summary.state.worst_residual,
                       readable_bytes(summary.peak_memory));
@@ -57,6 +59,7 @@ void write_failed_summary(const Session& session, RunSummary summary, const Erro
   summary.code = error.code();
   summary.ended = std::string("failed: ") + error.what();
   try {
+    session.log.record(std::string("error: ") + error.what());
     write_summary(session, summary);
   } catch (const Error&) {
   }
@@ -74,9 +77,10 @@ void prepare_files(const Session& session) {
 }
 
 void end_hung_run(const Surroundings& around, double limit, const std::string& phase) {
-  around.console.warning(fmt::format("rank {}: no progress for {:g} s in phase '{}'; the watchdog ends the run (exit 124). "
-                                     "`seiche resume` continues from the last checkpoint",
-                                     around.ranks.rank(), limit, phase));
+  around.console.warning(
+      fmt::format("rank {}: no progress for {:g} s in phase '{}'; the watchdog ends the run (exit 124). "
+                  "`seiche resume` continues from the last checkpoint",
+                  around.ranks.rank(), limit, phase));
   around.emergency.abort(int(ExitCode::hung));
 }
 
@@ -84,8 +88,8 @@ ExitCode run_loop_to_end(const Session& session, const Threads& threads, Simulat
                          Watchdog& watchdog, const StopSignals& signals) {
   const FaultHook hook = make_fault_hook(parse_injection(session.options.inject), session.around.ranks.rank());
   RunLoop loop(simulation,
-               {session.scene, session.around.ranks, session.around.emergency, session.paths, session.log, watchdog, signals,
-                hook, session.options.walltime},
+               {session.scene, session.around.ranks, session.around.emergency, session.paths, session.log, watchdog,
+                signals, hook, session.options.walltime},
                start);
   try {
     const RunEnd end = loop.run();
@@ -108,7 +112,8 @@ ExitCode run_loop_to_end(const Session& session, const Threads& threads, Simulat
 std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
                                              const Communicator& ranks) {
   std::unique_ptr<RunDirectory> directory;
-  agree_on_root(ranks, "opening the run directory", [&] { directory = std::make_unique<RunDirectory>(folder, policy); });
+  agree_on_root(ranks, "opening the run directory",
+                [&] { directory = std::make_unique<RunDirectory>(folder, policy); });
   return directory;
 }
 
@@ -116,7 +121,7 @@ ExitCode run_session(const Session& session, const Restore& restore) {
   const Surroundings& around = session.around;
   const StopSignals signals;
   const Threads threads = choose_threads(session.options.threads, around.ranks, session.log);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads.count));
+  const ThreadLimit limit(threads.count);
   Watchdog watchdog(std::chrono::duration<double>(session.options.watchdog),
                     [&](const std::string& phase) { end_hung_run(around, session.options.watchdog, phase); });
   try {
@@ -128,7 +133,8 @@ ExitCode run_session(const Session& session, const Restore& restore) {
     for (const std::string& text : simulation->take_warnings()) session.log.warn(text);
     return run_loop_to_end(session, threads, *simulation, start, watchdog, signals);
   } catch (const std::bad_alloc&) {
-    throw Error(ExitCode::machine, fmt::format("rank {}: out of memory while in phase '{}'", around.ranks.rank(), watchdog.phase()));
+    throw Error(ExitCode::machine,
+                fmt::format("rank {}: out of memory while in phase '{}'", around.ranks.rank(), watchdog.phase()));
   }
 }
 

@@ -11,16 +11,16 @@ namespace seiche {
 
 struct RunState {
   std::int64_t step = 0;
-  double time = 0;                          // s
-  int frame = -1;                           // the last one written
+  double time = 0;                                                    // s
+  int frame = -1;                                                     // the last one written
   std::uint64_t stats_bytes = 0, solids_bytes = 0, probes_bytes = 0;  // sizes of the CSV files
-  std::map<std::string, double> probe_due;  // by name, s: the next sample
+  std::map<std::string, double> probe_due;                            // by name, s: the next sample
   std::map<std::string, double> phase_seconds;
   double wall_seconds = 0;
   double initial_volume = 0, liquid_volume = 0, expected_volume = 0, volume_corrected = 0;  // m^3
   double worst_residual = 0, worst_divergence = 0;
   double rejected_steps = 0, cells_liquid = 0;
-  std::string scene_text;                   // the normalised scene
+  std::string scene_text;  // the normalised scene
 };
 
 void store(const RunState& state, CheckpointData& data);

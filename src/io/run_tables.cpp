@@ -11,7 +11,8 @@
 namespace seiche {
 namespace {
 
-std::unique_ptr<AppendFile> open_table(const std::filesystem::path& path, std::uint64_t keep, const std::string& header) {
+std::unique_ptr<AppendFile> open_table(const std::filesystem::path& path, std::uint64_t keep,
+                                       const std::string& header) {
   auto file = std::make_unique<AppendFile>(path, keep);
   if (file->size() == 0) file->append(header);
   file->flush();
@@ -20,13 +21,16 @@ std::unique_ptr<AppendFile> open_table(const std::filesystem::path& path, std::u
 
 void check_finite(const std::string& culprit, const std::string& owner, const StepStats& stats) {
   if (culprit.empty()) return;
-  throw Error(ExitCode::cannot_continue, fmt::format("step {} at t = {:g} s: {} of {} is not a number; nothing of that step was "
-                                                     "written",
-                                                     stats.step, stats.time, culprit, owner));
+  throw Error(ExitCode::cannot_continue,
+              fmt::format("step {} at t = {:g} s: {} of {} is not a number; nothing of that step was "
+                          "written",
+                          stats.step, stats.time, culprit, owner));
 }
 
 // A sample is due at the first step end at or after its time; times that rounding splits from it still count.
-bool is_due(double due, double time, double every) { return time >= due - 1e-9 * every; }
+bool is_due(double due, double time, double every) {
+  return time >= due - 1e-9 * every;
+}
 
 }  // namespace
 

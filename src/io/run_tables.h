@@ -16,14 +16,15 @@ class RunTables {
   // Opens the tables on rank 0, cut to the sizes in `state`, and begins new ones with their headers. Collective.
   RunTables(const Scene& scene, const RunPaths& paths, const Communicator& ranks, RunState& state);
 
-  // Appends the rows of one step and of the probes that are due. Collective. Throws on all ranks: Error(output_failed), or
-  // Error(cannot_continue) naming the number that is not finite; no row is then written.
+  // Appends the rows of one step and of the probes that are due. Collective. Throws on all ranks: Error(output_failed),
+  // or Error(cannot_continue) naming the number that is not finite; no row is then written.
   void add(const StepStats& stats, const Simulation& simulation, RunState& state);
   void sync();  // to the disk; collective
 
  private:
   std::vector<ProbeSample> due_samples(double time, const Simulation& simulation, RunState& state) const;
-  void write_rows(const StepStats& stats, const std::vector<SolidState>& solids, const std::vector<ProbeSample>& samples);
+  void write_rows(const StepStats& stats, const std::vector<SolidState>& solids,
+                  const std::vector<ProbeSample>& samples);
 
   const Scene& scene_;
   const Communicator& ranks_;

@@ -18,14 +18,16 @@ std::string environment(const char* name) {
 }
 
 // The first number of a list such as "4,2"; 0 for what is none.
-long leading_number(const std::string& text) { return std::strtol(text.c_str(), nullptr, 10); }
+long leading_number(const std::string& text) {
+  return std::strtol(text.c_str(), nullptr, 10);
+}
 
 void warn_about_openmp(const std::string& mine, int hardware, const Communicator& ranks, RunLog& log) {
   const std::vector<std::string> all = ranks.all_gather(mine);
   for (std::size_t rank = 1; rank < all.size(); ++rank) {
     if (all[rank] == all[0]) continue;
-    log.warn(fmt::format("OMP_NUM_THREADS is '{}' on rank 0 and '{}' on rank {}; libraries may run unevenly", all[0], all[rank],
-                         rank));
+    log.warn(fmt::format("OMP_NUM_THREADS is '{}' on rank 0 and '{}' on rank {}; libraries may run unevenly", all[0],
+                         all[rank], rank));
     break;
   }
   if (all[0].empty()) return;

@@ -8,7 +8,9 @@ namespace {
 // A signal handler can reach nothing but a variable of this kind.
 volatile std::sig_atomic_t received_signal = 0;
 
-extern "C" void note_signal(int number) { received_signal = number; }
+extern "C" void note_signal(int number) {
+  received_signal = number;
+}
 
 void handle(int number, void (*handler)(int), int flags) {
   struct sigaction action {};
@@ -34,7 +36,9 @@ StopSignals::~StopSignals() {
   handle(SIGTERM, SIG_DFL, 0);
 }
 
-int StopSignals::received() const { return received_signal; }
+int StopSignals::received() const {
+  return received_signal;
+}
 
 std::string signal_name(int number) {
   switch (number) {

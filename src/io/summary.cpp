@@ -11,7 +11,9 @@ namespace seiche {
 namespace {
 
 // JSON has no word for infinities.
-std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }
+std::string json_number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
+}
 
 std::string phases(const RunState& state) {
   std::string text;

@@ -9,12 +9,12 @@ namespace seiche {
 
 struct RunSummary {
   ExitCode code = ExitCode::done;
-  std::string ended;           // "finished", "stopped: SIGUSR1", "failed: <message>"
+  std::string ended;  // "finished", "stopped: SIGUSR1", "failed: <message>"
   RunState state;
-  double end = 0;              // s, as asked for
-  std::int64_t cells = 0;      // of the domain
-  double peak_memory = 0;      // bytes, over all ranks
-  int ranks = 1, threads = 1;  // threads a rank
+  double end = 0;               // s, as asked for
+  std::int64_t cells = 0;       // of the domain
+  double peak_memory = 0;       // bytes, over all ranks
+  int ranks = 1, threads = 1;   // threads a rank
   std::string omp_num_threads;  // "" where unset
 };
 

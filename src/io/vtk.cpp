@@ -13,15 +13,25 @@ constexpr int vtk_line = 3, vtk_triangle = 5;
 template <class T>
 constexpr const char* type_name();
 template <>
-constexpr const char* type_name<float>() { return "Float32"; }
+constexpr const char* type_name<float>() {
+  return "Float32";
+}
 template <>
-constexpr const char* type_name<double>() { return "Float64"; }
+constexpr const char* type_name<double>() {
+  return "Float64";
+}
 template <>
-constexpr const char* type_name<std::int32_t>() { return "Int32"; }
+constexpr const char* type_name<std::int32_t>() {
+  return "Int32";
+}
 template <>
-constexpr const char* type_name<std::int64_t>() { return "Int64"; }
+constexpr const char* type_name<std::int64_t>() {
+  return "Int64";
+}
 template <>
-constexpr const char* type_name<std::uint8_t>() { return "UInt8"; }
+constexpr const char* type_name<std::uint8_t>() {
+  return "UInt8";
+}
 
 template <class T>
 std::string array(const std::string& name, const std::vector<T>& values, int components = 1) {
@@ -34,9 +44,10 @@ std::string array(const std::string& name, const std::vector<T>& values, int com
 }
 
 std::string file(const std::string& type, const std::string& body) {
-  return fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                     "header_type=\"UInt64\">\n{}</VTKFile>\n",
-                     type, body);
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n{}</VTKFile>\n",
+      type, body);
 }
 
 using Cells = std::array<int, 3>;
@@ -70,7 +81,8 @@ std::vector<float> centred(const std::vector<float>& faces, const Cells& cells, 
         const Cells at{i, j, k};
         const std::size_t c = flat(cells, i, j, k);
         for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis) {
-          if (at[axis] + 1 < cells[axis]) result[3 * c + axis] = 0.5f * (faces[3 * c + axis] + faces[3 * (c + stride[axis]) + axis]);
+          if (at[axis] + 1 < cells[axis])
+            result[3 * c + axis] = 0.5f * (faces[3 * c + axis] + faces[3 * (c + stride[axis]) + axis]);
         }
       }
     }
@@ -91,7 +103,8 @@ struct Elements {
 };
 
 template <std::size_t N>
-void add(Elements& all, const std::vector<std::array<int, N>>& elements, std::int64_t first_point, int type, int solid) {
+void add(Elements& all, const std::vector<std::array<int, N>>& elements, std::int64_t first_point, int type,
+         int solid) {
   for (const auto& element : elements) {
     for (const int point : element) all.connectivity.push_back(first_point + point);
     all.offsets.push_back(std::int64_t(all.connectivity.size()));
@@ -129,11 +142,13 @@ std::string base64(const std::string& bytes) {
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", cells[0], cells[1], cells[2]);
   const double h = frame.cell_size;
-  std::string body = fmt::format("<ImageData WholeExtent=\"{}\" Origin=\"{:.17g} {:.17g} {:.17g}\" Spacing=\"{:.17g} {:.17g} "
-                                 "{:.17g}\">\n<FieldData>\n",
-                                 extent, frame.lower[0], frame.lower[1], frame.lower[2], h, h, h);
-  body += fmt::format("<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n",
-                      frame.time);
+  std::string body = fmt::format(
+      "<ImageData WholeExtent=\"{}\" Origin=\"{:.17g} {:.17g} {:.17g}\" Spacing=\"{:.17g} {:.17g} "
+      "{:.17g}\">\n<FieldData>\n",
+      extent, frame.lower[0], frame.lower[1], frame.lower[2], h, h, h);
+  body += fmt::format(
+      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n",
+      frame.time);
   body += fmt::format("</FieldData>\n<Piece Extent=\"{}\">\n<CellData>\n", extent);
   for (const vdb::Grid& grid : frame.grids) body += cell_array(grid, cells, frame.dimension);
   return file("ImageData", body + "</CellData>\n</Piece>\n</ImageData>\n");
@@ -141,12 +156,14 @@ std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
 
 std::string surfaces(const std::vector<SurfaceMesh>& solids, double time) {
   const Elements all = collect(solids);
-  std::string body = fmt::format("<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-                                 "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n</FieldData>\n",
-                                 time);
+  std::string body = fmt::format(
+      "<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
+      "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n</FieldData>\n",
+      time);
   body += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<CellData>\n", all.points.size() / 3,
                       all.offsets.size());
-  body += array("solid", all.solid) + "</CellData>\n<Points>\n" + array("Points", all.points, 3) + "</Points>\n<Cells>\n";
+  body +=
+      array("solid", all.solid) + "</CellData>\n<Points>\n" + array("Points", all.points, 3) + "</Points>\n<Cells>\n";
   body += array("connectivity", all.connectivity) + array("offsets", all.offsets) + array("types", all.types);
   return file("UnstructuredGrid", body + "</Cells>\n</Piece>\n</UnstructuredGrid>\n");
 }

@@ -9,8 +9,8 @@
 
 namespace seiche::vtk {
 
-// A .vti with every grid of the frame as cell data over the whole domain; staggered vectors are averaged to cell centres
-// (on the last cell of an axis, where the high face is not stored, the low face stands for both).
+// A .vti with every grid of the frame as cell data over the whole domain; staggered vectors are averaged to cell
+// centres (on the last cell of an axis, where the high face is not stored, the low face stands for both).
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells);
 
 // A .vtu with the surfaces of all solids; the cell array `solid` counts them from 0.

@@ -18,7 +18,7 @@ class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
     getrlimit(RLIMIT_FSIZE, &before_);
-    const struct rlimit limit {bytes, before_.rlim_max};
+    const struct rlimit limit { bytes, before_.rlim_max };
     setrlimit(RLIMIT_FSIZE, &limit);
   }
   ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }

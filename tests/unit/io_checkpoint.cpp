@@ -17,7 +17,9 @@ using namespace seiche;
 
 namespace {
 
-double value_at(int i, int j, int k) { return i + 100.0 * j + 10000.0 * k; }
+double value_at(int i, int j, int k) {
+  return i + 100.0 * j + 10000.0 * k;
+}
 
 FieldRecord field(const std::string& name, std::array<int, 3> lower, std::array<int, 3> upper) {
   FieldRecord f{name, lower, upper, {}};
@@ -33,13 +35,15 @@ CheckpointData sample() {
   CheckpointData data;
   data.scalars = {{"time", 0.1}, {"tiny", 5e-324}, {"minus zero", -0.0}, {"third", 1.0 / 3}};
   data.texts = {{"note", "a\nb"}, {"empty", ""}};
-  data.fields = {field("p", {0, 0, 0}, {4, 3, 2}), field("u", {-1, 0, 0}, {4, 3, 2}), field("none", {2, 2, 2}, {2, 2, 2})};
+  data.fields = {field("p", {0, 0, 0}, {4, 3, 2}), field("u", {-1, 0, 0}, {4, 3, 2}),
+                 field("none", {2, 2, 2}, {2, 2, 2})};
   return data;
 }
 
 bool equal(const CheckpointData& a, const CheckpointData& b) {
   bool same = a.scalars.size() == b.scalars.size() && a.texts == b.texts && a.fields.size() == b.fields.size();
-  for (const auto& [name, value] : a.scalars) same = same && std::memcmp(&value, &b.scalars.at(name), sizeof value) == 0;
+  for (const auto& [name, value] : a.scalars)
+    same = same && std::memcmp(&value, &b.scalars.at(name), sizeof value) == 0;
   for (std::size_t n = 0; same && n < a.fields.size(); ++n) {
     const FieldRecord &f = a.fields[n], &g = b.fields[n];
     same = f.name == g.name && f.lower == g.lower && f.upper == g.upper && f.values == g.values;
@@ -66,9 +70,9 @@ std::string patched(std::string bytes, std::size_t at, std::uint32_t value) {
 }  // namespace
 
 TEST_CASE("CRC-32C gives the published check values") {
-  CHECK(crc32c("123456789") == 0xe3069283u);                // the check value of the Castagnoli polynomial
-  CHECK(crc32c(std::string(32, '\0')) == 0x8a9136aau);      // RFC 3720, B.4
-  CHECK(crc32c(std::string(32, '\xff')) == 0x62a8ab43u);    // RFC 3720, B.4
+  CHECK(crc32c("123456789") == 0xe3069283u);              // the check value of the Castagnoli polynomial
+  CHECK(crc32c(std::string(32, '\0')) == 0x8a9136aau);    // RFC 3720, B.4
+  CHECK(crc32c(std::string(32, '\xff')) == 0x62a8ab43u);  // RFC 3720, B.4
   CHECK(crc32c("") == 0);
 }
 
@@ -96,7 +100,9 @@ TEST_CASE("every flipped byte and every shortening of a checkpoint file is notic
 
 TEST_CASE("an intact checkpoint of another version, byte order or precision is foreign, with both named") {
   const std::string bytes = encode_checkpoint_file({3, 0, 1, 5, "hash", "creator", sample()});
-  const auto defect = [&](std::size_t at, std::uint32_t value) { return examine_checkpoint_file(patched(bytes, at, value)); };
+  const auto defect = [&](std::size_t at, std::uint32_t value) {
+    return examine_checkpoint_file(patched(bytes, at, value));
+  };
   CHECK(defect(8, 0x04030201).kind == CheckpointDefect::Kind::foreign);
   CHECK(defect(12, 99).kind == CheckpointDefect::Kind::foreign);
   CHECK(defect(12, 99).text.find("format 99") != std::string::npos);
@@ -160,7 +166,8 @@ TEST_CASE("extra files in a checkpoint change nothing") {
   write_checkpoint(folder.path(), {10, 3, "h"}, sample(), ranks);
   put(folder.path() / "00000010/rank.00001", "stranger");
   std::vector<std::string> warnings;
-  CHECK(equal(load_checkpoint(find_newest_checkpoint(folder.path(), ranks, warnings), sample().fields, ranks), sample()));
+  CHECK(
+      equal(load_checkpoint(find_newest_checkpoint(folder.path(), ranks, warnings), sample().fields, ranks), sample()));
 }
 
 TEST_CASE("a checkpoint with a value that is not a number is not written") {

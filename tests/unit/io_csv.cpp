@@ -1,7 +1,7 @@
 #include "io/csv.h"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <limits>
 
@@ -9,7 +9,8 @@ using namespace seiche;
 
 TEST_CASE("stats.csv has the contract's columns first, in its order") {
   const std::string contract =
-      "step,time,dt,liquid_volume,kinetic_energy,potential_energy,elastic_energy,momentum_x,momentum_y,momentum_z,max_speed,"
+      "step,time,dt,liquid_volume,kinetic_energy,potential_energy,elastic_energy,momentum_x,momentum_y,momentum_z,max_"
+      "speed,"
       "max_divergence,solver_iterations,solver_residual,newton_iterations,contacts,cells_liquid,wall_seconds";
   CHECK(stats_header().rfind(contract, 0) == 0);
   CHECK(solids_header() == "time,name,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,fx,fy,fz,tx,ty,tz\n");

@@ -11,8 +11,8 @@ namespace seiche {
 
 class FakeSimulation : public Simulation {
  public:
-  std::int64_t fails_at = -1;    // this step cannot be done
-  double largest_step = 0.03;    // s
+  std::int64_t fails_at = -1;  // this step cannot be done
+  double largest_step = 0.03;  // s
 
   void set_fault_hook(FaultHook hook) override { hook_ = std::move(hook); }
   double time() const override { return time_; }

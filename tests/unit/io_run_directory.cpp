@@ -1,7 +1,7 @@
 #include "io/run_directory.h"
 
-#include <sys/file.h>
 #include <fcntl.h>
+#include <sys/file.h>
 
 #include <catch2/catch.hpp>
 #include <optional>
@@ -55,8 +55,9 @@ TEST_CASE("overwriting removes the files of a run and nothing else") {
   for (const char* folder : {"frames", "checkpoints/00000010", "checkpoints/00000012.tmp", "mine"}) {
     fs::create_directories(scratch / folder);
   }
-  for (const char* file : {"scene.toml", "stats.csv", "frames/frame.0001.vdb", "frames/solids.pvd", "frames/fluid.0003.vti.tmp",
-                           "checkpoints/00000010/COMMIT", "checkpoints/00000012.tmp/rank.00000", "notes.txt", "mine/stats.csv"}) {
+  for (const char* file :
+       {"scene.toml", "stats.csv", "frames/frame.0001.vdb", "frames/solids.pvd", "frames/fluid.0003.vti.tmp",
+        "checkpoints/00000010/COMMIT", "checkpoints/00000012.tmp/rank.00000", "notes.txt", "mine/stats.csv"}) {
     put(scratch / file, "x");
   }
   CHECK(code_of_opening(scratch.path(), ExistingOutput::overwrite) == ExitCode::done);

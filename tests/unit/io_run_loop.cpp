@@ -76,10 +76,12 @@ class Bench {
 
  private:
   RunEnd go(RunState start) {
-    RunLog log(ranks, {[&](const std::string& t) { said += t + "\n"; }, [](const std::string&) {}, {}}, Verbosity::normal);
+    RunLog log(ranks, {[&](const std::string& t) { said += t + "\n"; }, [](const std::string&) {}, {}},
+               Verbosity::normal);
     Watchdog watchdog(std::chrono::seconds(600), [](const std::string&) {});
     const StopSignals signals;
-    RunLoop loop(simulation, {scene, ranks, emergency, paths, log, watchdog, signals, hook, walltime}, std::move(start));
+    RunLoop loop(simulation, {scene, ranks, emergency, paths, log, watchdog, signals, hook, walltime},
+                 std::move(start));
     struct Keep {
       RunState& to;
       const RunLoop& from;

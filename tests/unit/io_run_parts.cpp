@@ -1,5 +1,5 @@
-#include <catch2/catch.hpp>
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <csignal>
 #include <limits>
 #include <thread>
@@ -95,8 +95,8 @@ TEST_CASE("a grid that never fits is the scene's fault, one that does not fit no
 }
 
 TEST_CASE("edits of a scene between stop and resume pass or stand in the way as documented") {
-  const std::vector<std::string> keys{"time.end", "liquid.density", "output.frames", "solver.tolerance", "probe.0.every",
-                                      "output.checkpoint_every", "time.cfl"};
+  const std::vector<std::string> keys{"time.end",      "liquid.density",          "output.frames", "solver.tolerance",
+                                      "probe.0.every", "output.checkpoint_every", "time.cfl"};
   CHECK(forbidden_changes(keys, EditPolicy::force) == std::vector<std::string>{"liquid.density", "time.cfl"});
   CHECK(forbidden_changes(keys, EditPolicy::refuse).size() == 5);
 }
@@ -120,7 +120,9 @@ TEST_CASE("VTK files hold every field over the whole domain, velocities averaged
   frame.dimension = 2;
   frame.cell_size = 0.5;
   // Two ranks' pieces of 3 x 1 cells; u = 2, 4, 8 on the low faces.
-  frame.grids.push_back({"vel", vdb::GridKind::staggered_vector, 0,
+  frame.grids.push_back({"vel",
+                         vdb::GridKind::staggered_vector,
+                         0,
                          {{{0, 0, 0}, {2, 1, 1}, {2, 0, 0, 4, 0, 0}}, {{2, 0, 0}, {3, 1, 1}, {8, 0, 0}}}});
   const std::string text = vtk::image(frame, {3, 1, 1});
   const std::uint64_t size = 9 * sizeof(float);

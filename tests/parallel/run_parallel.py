@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+"""The same scene on different numbers of ranks, and runs that are killed at random moments and resumed.
+
+Usage: run_parallel.py PROGRAM GROUP [CASE ...]"""
+import os
+import pathlib
+import random
+import signal
+import sys
+import time
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "faults"))
+from harness import (DAM, expect, frame_files, frame_voxels, frames_are_good, rank_processes,  # noqa: E402
+                     run_table, same_frames, same_tables, stats)
+
+TOLERANCE = 1e-10   # of each solve
+# Twenty steps, each of which may pass on and enlarge the difference that two solves leave: a factor of 1e3.
+AFTER_TWENTY_STEPS = 1e-7
+
+TWENTY_STEPS = DAM.replace("end = 0.2", "end = 0.1\nfixed_step = 0.005").replace("frame_rate = 20.0", "frame_rate = 10.0")
+TWENTY_STEPS += f'formats = ["vdb"]\nframes = ["surface", "velocity", "pressure"]\n[solver]\ntolerance = {TOLERANCE}\n'
+
+SPLASH = f"""\
+dimension = 3
+[domain]
+lower = [0.0, 0.0, 0.0]
+upper = [1.0, 0.75, 0.6875]
+cell_size = 0.0625
+[time]
+end = 0.2
+frame_rate = 5.0
+fixed_step = 0.01
+[liquid]
+density = 1000.0
+viscosity = 0.0
+[[liquid.region]]
+shape = "box"
+lower = [0.0, 0.0, 0.0]
+upper = [0.5, 0.4, 0.6875]
+[[liquid.region]]
+shape = "sphere"
+center = [0.7, 0.5, 0.35]
+radius = 0.12
+[[solid]]
+name = "paddle"
+kind = "kinematic"
+shape = "sphere"
+center = [0.6, 0.2, 0.3]
+radius = 0.12
+motion = {{ translate = ["0.1*sin(6*t)", "0", "0"] }}
+[[probe]]
+name = "h"
+kind = "surface_height"
+position = [0.2, 0.0, 0.3]
+[output]
+frames = ["surface", "velocity"]
+[solver]
+tolerance = {TOLERANCE}
+"""
+
+COMPARED = ("time", "liquid_volume", "kinetic_energy", "potential_energy", "momentum_x", "momentum_y", "momentum_z",
+            "max_speed")
+
+
+def largest(rows, column):
+    return max(abs(float(row[column])) for row in rows)
+
+
+def scale_of(rows, column):
+    """What a difference of this column is measured by: momenta by the largest of the three."""
+    if column.startswith("momentum"):
+        return max(largest(rows, f"momentum_{axis}") for axis in "xyz")
+    return largest(rows, column)
+
+
+def same_to_tolerance(one, other, what):
+    a, b = stats(one), stats(other)
+    expect(len(a) == len(b), f"{what}: {len(b)} rows, not {len(a)}")
+    for column in COMPARED:
+        bound = AFTER_TWENTY_STEPS * scale_of(a, column)
+        worst = max(abs(float(x[column]) - float(y[column])) for x, y in zip(a, b))
+        expect(worst <= bound, f"{what}: {column} differs by {worst}, bound {bound}")
+    for file in frame_files(one):
+        voxels, others = frame_voxels(file), frame_voxels(pathlib.Path(other) / "frames" / file.name)
+        for name, array in voxels.items():
+            worst, top = numpy.abs(array - others[name]).max(), numpy.abs(array).max()
+            # Frames are in single precision: its round-off comes on top.
+            expect(worst <= (AFTER_TWENTY_STEPS + 2e-7) * top, f"{what}, {file.name}: {name} differs by {worst} of {top}")
+
+
+def ranks_agree(bench, text):
+    bench.simulate(text=text, out="one").needs(0)
+    frames_are_good(bench.path("one"), 2)
+    for ranks in (2, 3, 4):
+        out = f"ranks{ranks}"
+        bench.simulate(text=text, out=out, ranks=ranks).needs(0)
+        same_to_tolerance(bench.path("one"), bench.path(out), f"{ranks} ranks")
+
+
+def ranks_agree_2d(bench):
+    """A dam break over a step on 1, 2, 3, 4 ranks."""
+    ranks_agree(bench, TWENTY_STEPS)
+
+
+def ranks_agree_3d(bench):
+    """A splash around a moving sphere on 1, 2, 3, 4 ranks."""
+    ranks_agree(bench, SPLASH)
+
+
+def same_ranks_same_bits(bench):
+    """Two runs on three ranks."""
+    for out in ("one", "two"):
+        bench.simulate(text=SPLASH, out=out, ranks=3).needs(0)
+    same_tables(bench.path("one"), bench.path("two"))
+    same_frames(bench.path("one"), bench.path("two"))
+
+
+def killed_at_random(bench, ranks, kills):
+    """SIGKILL of a random rank at random moments; what comes out in the end is what an unbroken run gives."""
+    seed = random.SystemRandom().randrange(10**6)
+    rng = random.Random(seed)
+    text = DAM.replace("0.03125", "0.015625").replace("end = 0.2", "end = 0.4")
+    started = time.monotonic()
+    bench.simulate(text=text, out="whole", ranks=ranks).needs(0)
+    duration = time.monotonic() - started
+    scene = bench.scene(text)
+    for _ in range(kills):
+        begun = (bench.path("out") / "scene.toml").exists() and any((bench.path("out") / "checkpoints").glob("*/COMMIT"))
+        verb = ["resume", "out"] if begun else ["run", scene, "--out", "out", "--overwrite"]
+        process = bench.start(*verb, ranks=ranks)
+        time.sleep(rng.uniform(0.2, 1.0) * duration)
+        if process.poll() is None:
+            victims = rank_processes(process)
+            if victims:
+                os.kill(rng.choice(victims), signal.SIGKILL)
+        bench.finish(process, limit=10 + duration)
+        frames_are_good(bench.path("out"))
+    bench.run("resume", "out", ranks=ranks).needs(0)
+    try:
+        same_tables(bench.path("out"), bench.path("whole"))
+        same_frames(bench.path("out"), bench.path("whole"))
+    except Exception:
+        print(f"seed {seed}")
+        raise
+
+
+def one_rank_killed_at_random(bench):
+    """kill -9 of the only rank."""
+    killed_at_random(bench, 1, 4)
+
+
+def two_ranks_killed_at_random(bench):
+    """kill -9 of one of two ranks."""
+    killed_at_random(bench, 2, 4)
+
+
+TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, same_ranks_same_bits],
+          "killing": [one_rank_killed_at_random, two_ranks_killed_at_random]}
+
+if __name__ == "__main__":
+    sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)
