@@ -54,7 +54,8 @@ Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
   const bool through_wall = leave < 0;
   if (through_wall) leave = std::max(span.t1, 0.0f);
   const float path = std::min(leave, opaque.t);
-  const Vec3f left = transmitted(stage, path);
+  const float film = depth == 0 ? 0.03f * stage.reach : 0.0f;  // a least tint, so that thin sheets are seen
+  const Vec3f left = transmitted(stage, path + film);
   const Vec3f glow = (Vec3f::Ones() - left).cwiseProduct(scattered(stage, ray.at(0.5f * path)));
   if (opaque.t <= leave) return left.cwiseProduct(shade_opaque(stage, ray, opaque)) + glow;
   const Vec3f x = ray.at(leave);
