@@ -1,0 +1,93 @@
+// Liquid at rest stays at rest, whatever holds it.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "scenes.h"
+
+using namespace seiche;
+
+namespace {
+
+SolidSpec container(const std::string& kind) {
+  SolidSpec s;
+  s.name = "container";
+  s.shape.kind = kind;
+  s.shape.invert = true;
+  s.shape.where = "test";
+  return s;
+}
+
+// Largest speed over 100 steps.
+double largest_speed(Scene s) {
+  s.solver.tolerance = 1e-13;  // the bar is a speed; gravity times a step times the default 1e-8 would be above it
+  s.time.max_step = 0.01;
+  const auto sim = make_simulation(s, Communicator());
+  double largest = 0;
+  for (int n = 0; n < 100; ++n) largest = std::max(largest, sim->step(sim->time() + 1).max_speed);
+  return largest;
+}
+
+// Gravity at an angle to every axis, and the half space below a plane across it as liquid.
+void fill_half(Scene& s, Vec3 down) {
+  if (s.dimension == 2) down[2] = 0;
+  s.gravity = 9.81 * down.normalized();
+  LiquidRegionSpec r;
+  r.shape.kind = "plane";
+  r.shape.point = {0.513, 0.492, s.dimension == 3 ? 0.507 : 0.0};
+  r.shape.normal = -down.normalized();
+  r.shape.where = "test";
+  s.liquid.regions.push_back(r);
+}
+
+}  // namespace
+
+TEST_CASE("liquid rests in a tilted box") {
+  for (int dim : {2, 3}) {
+    Scene s = test::box_scene(dim, dim == 2 ? 48 : 24);
+    fill_half(s, {0.31, -1, 0.17});
+    SolidSpec box = container("box");
+    box.shape.lower = {-0.31, -0.33, -0.3};
+    box.shape.upper = {0.31, 0.33, 0.3};
+    if (dim == 2) box.shape.lower[2] = box.shape.upper[2] = 0;
+    box.shape.transform.rotate = {dim == 2 ? Vec3(0, 0, 1) : Vec3(1, 2, 3), 25};
+    box.shape.transform.translate = {0.5, 0.5, dim == 3 ? 0.5 : 0.0};
+    s.solids.push_back(box);
+    const double speed = largest_speed(s);
+    WARN("tilted box " << dim << "D: " << speed << " m/s");
+    CHECK(speed <= 1e-10);
+  }
+}
+
+TEST_CASE("liquid rests in a sphere") {
+  for (int dim : {2, 3}) {
+    Scene s = test::box_scene(dim, dim == 2 ? 48 : 24);
+    fill_half(s, {0.1, -1, 0.2});
+    SolidSpec sphere = container("sphere");
+    sphere.shape.center = {0.5, 0.5, dim == 3 ? 0.5 : 0.0};
+    sphere.shape.radius = 0.43;
+    s.solids.push_back(sphere);
+    const double speed = largest_speed(s);
+    WARN("sphere " << dim << "D: " << speed << " m/s");
+    CHECK(speed <= 1e-10);
+  }
+}
+
+TEST_CASE("liquid rests among 20 random spheres") {
+  for (int dim : {2, 3}) {
+    Scene s = test::box_scene(dim, dim == 2 ? 48 : 24);
+    fill_half(s, {0, -1, 0});
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(0.05, 0.95), size(0.04, 0.11);
+    for (int k = 0; k < 20; ++k) {
+      SolidSpec ball = container("sphere");
+      ball.name = fmt::format("ball{}", k);
+      ball.shape.invert = false;
+      ball.shape.center = {place(random), place(random), dim == 3 ? place(random) : 0.0};
+      ball.shape.radius = size(random);
+      s.solids.push_back(ball);
+    }
+    const double speed = largest_speed(s);
+    WARN("20 spheres " << dim << "D: " << speed << " m/s");
+    CHECK(speed <= 1e-10);
+  }
+}
