@@ -45,7 +45,7 @@ void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceFi
   const FaceField<Dim> old = u;
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (!reached.at(a, f) || g.body[f] < 0) return;
+      if (!reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
       const FaceDistance<Dim> d = distance_at_face(s.layout, g.psi, a, f);
       const double norm = d.gradient.norm();
       if (d.psi >= 0 || norm == 0) return;

@@ -31,14 +31,16 @@ double surface_radius(const Layout<Dim>& layout, const Body<Dim>& body) {
 template <int Dim>
 SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides, const std::vector<Body<Dim>>& bodies)
     : layout_(layout), sides_(sides), bodies_(bodies) {
-  StepGeometry<Dim> g;
-  g.psi = NodeField<Dim>(layout, far_away);
-  g.body = NodeField<Dim, std::int16_t>(layout, -1);
-  for (std::size_t k = 0; k < bodies.size(); ++k)
-    if (!bodies[k].moves()) measure_distances(bodies[k], std::int16_t(k), Pose{}, g);
-  for (const Body<Dim>& body : bodies) radius_.push_back(body.moves() ? surface_radius(layout, body) : 0);
-  static_psi_ = g.psi;
-  static_body_ = g.body;
+  still_.psi = NodeField<Dim>(layout, far_away);
+  still_.body = NodeField<Dim, std::int16_t>(layout, -1);
+  still_.faces = FaceGeometry<Dim>(layout);
+  still_.twists.resize(bodies.size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    any_moves_ = any_moves_ || bodies[k].moves();
+    radius_.push_back(bodies[k].moves() ? surface_radius(layout, bodies[k]) : 0);
+    if (!bodies[k].moves()) measure_distances(bodies[k], std::int16_t(k), Pose{}, still_);
+  }
+  if (!bodies.empty()) close_faces(still_);
 }
 
 template <int Dim>
@@ -54,17 +56,13 @@ void SolidGeometry<Dim>::measure_distances(const Body<Dim>& body, std::int16_t i
 
 template <int Dim>
 StepGeometry<Dim> SolidGeometry<Dim>::measure(double t0, double t1) const {
-  StepGeometry<Dim> g{static_psi_, static_body_, FaceGeometry<Dim>(layout_), {}};
+  StepGeometry<Dim> g = still_;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    g.twists.push_back(bodies_[k].twist(t0, t1));
-    if (bodies_[k].moves()) measure_distances(bodies_[k], std::int16_t(k), bodies_[k].pose(t1), g);
+    if (!bodies_[k].moves()) continue;
+    g.twists[k] = bodies_[k].twist(t0, t1);
+    measure_distances(bodies_[k], std::int16_t(k), bodies_[k].pose(t1), g);
   }
-  if (!bodies_.empty()) {
-    for_each_site(layout_, layout_.padded(), [&](Site s) {
-      if (std::abs(g.psi[s]) < snap * layout_.h()) g.psi[s] = 0;
-    });
-    close_faces(g);
-  }
+  if (any_moves_) close_faces(g);
   set_sides(t1, g);
   return g;
 }
@@ -72,12 +70,16 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(double t0, double t1) const {
 // closed flux = sum_k s_k v_k(face centre) . e, s_k the share of the face that body k closes.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(StepGeometry<Dim>& g) const {
+  for_each_site(layout_, layout_.padded(), [&](Site s) {
+    if (std::abs(g.psi[s]) < snap * layout_.h()) g.psi[s] = 0;
+  });
   open_fractions(layout_, g.psi, g.faces.open);
   for (int a = 0; a < Dim; ++a) {
     Box<Dim> box = layout_.grown(2);
     for (int b = 0; b < Dim; ++b) box.upper[b] = std::min(box.upper[b], layout_.padded().upper[b] - 1);
     for_each_index(layout_, box, [&](Site s, const IVec<Dim>& i) {
-      if (g.faces.open.at(a, s) == 0) g.faces.kind.at(a, s) = char(FaceKind::closed);
+      g.faces.kind.at(a, s) = char(g.faces.open.at(a, s) == 0 ? FaceKind::closed : FaceKind::open);
+      if (g.faces.open.at(a, s) == 1) return;
       const Vec3 x = extend<Dim>(layout_.position(i, face_offset<Dim>(a)));
       double flux = 0;
       for_each_closing_body(layout_, g, a, s, [&](int k, double share) { flux += share * g.twists[k].at(x)[a]; });

@@ -35,8 +35,8 @@ class SolidGeometry {
   const Layout<Dim>& layout_;
   const Sides<Dim>& sides_;
   const std::vector<Body<Dim>>& bodies_;
-  NodeField<Dim> static_psi_;
-  NodeField<Dim, std::int16_t> static_body_;
+  StepGeometry<Dim> still_;          // of the static bodies
+  bool any_moves_ = false;
   std::vector<double> radius_;   // of the moving bodies about their pivots, m
 };
 

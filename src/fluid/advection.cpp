@@ -13,20 +13,34 @@ Vec<Dim> sample_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, con
   return v;
 }
 
-// x_d = x - dt u(x - dt/2 u(x)).
+namespace {
+
+// Mean of the faces around a cell or face centre: second order, enough for the first half of a midpoint step.
 template <int Dim>
-Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x, double dt) {
-  const Vec<Dim> middle = x - 0.5 * dt * sample_velocity(layout, u, x);
-  return x - dt * sample_velocity(layout, u, middle);
+Vec<Dim> mean_at_cell(const Layout<Dim>& layout, const FaceField<Dim>& u, Site c) {
+  Vec<Dim> v;
+  for (int a = 0; a < Dim; ++a) v[a] = 0.5 * (u.at(a, c) + u.at(a, c + layout.stride(a)));
+  return v;
 }
 
-// Ralston 1962: k1 = u(x), k2 = u(x - dt/2 k1), k3 = u(x - 3/4 dt k2); x_d = x - dt (2 k1 + 3 k2 + 4 k3)/9.
 template <int Dim>
-Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x, double dt) {
-  const Vec<Dim> k1 = sample_velocity(layout, u, x);
-  const Vec<Dim> k2 = sample_velocity<Dim>(layout, u, x - 0.5 * dt * k1);
-  const Vec<Dim> k3 = sample_velocity<Dim>(layout, u, x - 0.75 * dt * k2);
-  return x - dt / 9 * (2 * k1 + 3 * k2 + 4 * k3);
+Vec<Dim> mean_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site f) {
+  Vec<Dim> v;
+  const Site d = layout.stride(axis);
+  for (int a = 0; a < Dim; ++a) {
+    const Site up = layout.stride(a);
+    v[a] = a == axis ? u.at(a, f) : 0.25 * (u.at(a, f) + u.at(a, f + up) + u.at(a, f - d) + u.at(a, f + up - d));
+  }
+  return v;
+}
+
+}  // namespace
+
+// x_d = x - dt u(x - dt/2 u(x)).
+template <int Dim>
+Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
+                        double dt) {
+  return x - dt * sample_velocity<Dim>(layout, u, x - 0.5 * dt * at_x);
 }
 
 template <int Dim>
@@ -35,7 +49,8 @@ void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
     moved[s] = phi[s];
     if (std::abs(phi[s]) >= band) return;
-    const Vec<Dim> from = trace_third_order<Dim>(layout, u, layout.position(i, cell_offset<Dim>()), dt);
+    const Vec<Dim> from = 
+        trace_midpoint<Dim>(layout, u, mean_at_cell(layout, u, s), layout.position(i, cell_offset<Dim>()), dt);
     moved[s] = interpolate_cubic<Dim>(layout, phi.data(), index_coordinates<Dim>(layout, from, cell_offset<Dim>()));
   });
 }
@@ -46,7 +61,8 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   for (int a = 0; a < Dim; ++a)
     for_each_index(layout, layout.faces(a), [&](Site s, const IVec<Dim>& i) {
       if (!near.at(a, s)) return;
-      const Vec<Dim> from = trace_midpoint<Dim>(layout, path, layout.position(i, face_offset<Dim>(a)), dt);
+      const Vec<Dim> from = 
+          trace_midpoint<Dim>(layout, path, mean_at_face(layout, path, a, s), layout.position(i, face_offset<Dim>(a)), dt);
       result.at(a, s) =
           interpolate_cubic<Dim>(layout, carried[a].data(), index_coordinates<Dim>(layout, from, face_offset<Dim>(a)));
     });
@@ -54,8 +70,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \
   template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                         \
-  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, double);                  \
-  template Vec<D> trace_third_order<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, double);               \
+  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);  \
   template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,     \
                                     CellField<D>&);                                                                 \
   template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,           \

@@ -8,13 +8,10 @@ namespace seiche {
 template <int Dim>
 Vec<Dim> sample_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x);
 
-// Departure point of x under the frozen field u: explicit midpoint rule, second order.
+// Departure point of x under the frozen field u by the explicit midpoint rule, from the velocity at x.
 template <int Dim>
-Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x, double dt);
-
-// The same by Ralston's third-order Runge-Kutta rule.
-template <int Dim>
-Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x, double dt);
+Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
+                        double dt);
 
 // phi(x) <- phi(departure point) at the owned cells with |phi| < band; the others keep their value. Ghosts of phi and u
 // must be filled.

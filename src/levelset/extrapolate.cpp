@@ -7,7 +7,7 @@ namespace {
 
 double minmod(double a, double b) { return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b); }
 
-// What the sites known from earlier layers predict here.
+// What the sites known from earlier layers predict. Sites are at least four from the end of the stored ones.
 template <int Dim>
 struct Predictor {
   const Layout<Dim>& layout;
@@ -15,33 +15,23 @@ struct Predictor {
   const std::vector<char>& known;
   int linear_layers;
 
-  bool earlier(const IVec<Dim>& i, Site at, char layer) const {
-    return layout.padded().contains(i) && known[at] > 0 && known[at] < layer;
-  }
+  bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
 
   // The nearest value along a line, plus the smaller of the two slopes behind it where both are known: continued straight
   // in smooth flow, constant from drops and sheets too thin to have a slope.
-  double along(const IVec<Dim>& near, Site s, int axis, int side, char layer) const {
-    const Site d = side * layout.stride(axis);
-    if (layer - 2 >= linear_layers) return f[s];
-    IVec<Dim> second = near, third = near;
-    second[axis] += side;
-    third[axis] += 2 * side;
-    if (!earlier(second, s + d, layer) || !earlier(third, s + 2 * d, layer)) return f[s];
+  double along(Site s, Site d, char layer) const {
+    if (layer - 2 >= linear_layers || !earlier(s + d, layer) || !earlier(s + 2 * d, layer)) return f[s];
     return f[s] + minmod(f[s] - f[s + d], f[s + d] - f[s + 2 * d]);
   }
 
   // Mean over the known neighbours.
-  bool predict(const IVec<Dim>& index, Site s, char layer, double& value) const {
+  bool predict(Site s, char layer, double& value) const {
     double sum = 0;
     int count = 0;
     for (int a = 0; a < Dim; ++a)
-      for (int side = -1; side <= 1; side += 2) {
-        IVec<Dim> near = index;
-        near[a] += side;
-        const Site at = s + side * layout.stride(a);
-        if (!earlier(near, at, layer)) continue;
-        sum += along(near, at, a, side, layer);
+      for (const Site d : {-layout.stride(a), layout.stride(a)}) {
+        if (!earlier(s + d, layer)) continue;
+        sum += along(s + d, d, layer);
         ++count;
       }
     if (count > 0) value = sum / count;
@@ -59,9 +49,9 @@ void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
   const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
   for (int n = 0; n < options.layers; ++n) {
     const char layer = char(n + 2);
-    for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
+    for_each_site(layout, box, [&](Site s) {
       double value;
-      if (known[s] != 0 || !predictor.predict(i, s, layer, value)) return;
+      if (known[s] != 0 || !predictor.predict(s, layer, value)) return;
       f[s] = value;
       known[s] = layer;
     });

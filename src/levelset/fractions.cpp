@@ -128,6 +128,9 @@ void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceFi
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
   constexpr int corners = 1 << Dim;
+  const double far = 2 * layout.h();  // farther than any corner of the cell
+  if (phi[cell] > far) return 0;
+  if (phi[cell] < -far && psi[cell] > far) return 1;
   Cube<Dim> c;
   for (int k = 0; k < corners; ++k) {
     Site node = cell;
@@ -150,11 +153,8 @@ double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const 
 
 template <int Dim>
 double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
-  const double far = 2 * layout.h();  // farther than any corner of the cell
-  return layout.geometry().cell_volume() * local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) {
-           if (phi[s] > far) return 0.0;
-           return liquid_share(layout, phi, psi, s);
-         });
+  return layout.geometry().cell_volume() *
+         local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) { return liquid_share(layout, phi, psi, s); });
 }
 
 template double negative_measure<1>(const CutSimplex<1>&);
