@@ -18,14 +18,13 @@ void fill_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, double cell, 
 // Second difference along d, unscaled.
 double second(const double* f, Site d) { return f[-d] - 2 * f[0] + f[d]; }
 
-// Share of the way from f[0] to f[d] at which the ENO parabola crosses zero; signs of f[0], f[d] differ.
+// Share t of the way from f[0] to f[d] at which the ENO parabola a + B t + c/2 t^2 crosses zero; signs of f[0], f[d] differ.
+// Written so that nothing cancels as c goes to zero.
 double crossing(const double* f, Site d) {
   const double c = minmod(second(f, d), second(f + d, d)), a = f[0], b = f[d];
-  const double straight = a / (a - b);
-  if (std::abs(c) < 1e-10 * std::abs(a - b)) return straight;
-  const double root = std::sqrt(std::max(0.0, (c / 2 - a - b) * (c / 2 - a - b) - 4 * a * b));
-  const double theta = 0.5 + (a - b - std::copysign(root, a - b)) / c;
-  return theta > 0 && theta < 1 ? theta : straight;
+  const double B = b - a - c / 2;
+  const double theta = -2 * a / (B + std::copysign(std::sqrt(std::max(0.0, B * B - 2 * a * c)), B));
+  return theta > 0 && theta < 1 ? theta : a / (a - b);
 }
 
 // What the relaxation needs of a band cell's initial values: for each neighbour, the distance in cells to the zero
