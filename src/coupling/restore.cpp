@@ -39,13 +39,14 @@ Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, in
   return v;
 }
 
-// In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n.
+// In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n. Solved faces keep theirs.
 template <int Dim>
-void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
+void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
+                   const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
   const FaceField<Dim> old = u;
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (!reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
+      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
       const FaceDistance<Dim> d = distance_at_face(s.layout, g.psi, a, f);
       const double norm = d.gradient.norm();
       if (d.psi >= 0 || norm == 0) return;
@@ -84,7 +85,7 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
   }
   keep_prescribed(s, g, u);
   if (s.bodies.empty()) return;
-  follow_solids(s, g, reached, u);
+  follow_solids(s, g, valid, reached, u);
   keep_prescribed(s, g, u);
 }
 
