@@ -178,6 +178,7 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
 
 template <int Dim>
 double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double expected, double limit, CellField<Dim>& phi) {
+  fill_level_set_ghosts(s.layout, s.halo, phi);
   const double volume = liquid_volume(s, phi, psi);
   const double missing = expected - volume, probe = 1e-3 * s.layout.h();
   CellField<Dim> shifted = phi;
@@ -191,6 +192,7 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   if (area <= 0) return 0;
   shift(std::clamp(missing / area, -limit, limit));
   phi = shifted;
+  fill_level_set_ghosts(s.layout, s.halo, phi);
   return liquid_volume(s, phi, psi) - volume;
 }
 
