@@ -29,6 +29,7 @@ const std::vector<AddVerb>& verbs();
 void add_run(CLI::App& program, VerbContext& context);
 void add_resume(CLI::App& program, VerbContext& context);
 void add_check(CLI::App& program, VerbContext& context);
+void add_validate(CLI::App& program, VerbContext& context);
 void add_info(CLI::App& program, VerbContext& context);
 void add_render(CLI::App& program, VerbContext& context);
 

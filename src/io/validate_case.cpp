@@ -1,0 +1,216 @@
+#include "io/validate_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+#include "io/scene_section.h"
+#include "io/suggest.h"
+#include "io/validate_measures.h"
+
+namespace seiche {
+namespace fs = std::filesystem;
+namespace {
+
+using T = OptionType;
+const Option error_bar{.key = "max_error", .range = positive(), .unset = "no bar", .doc = "largest error that passes"};
+
+// Becomes a folder's name.
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), plain);
+}
+
+// The texts of an array; reports entries that are none.
+std::vector<std::string> texts_of(SceneContext& c, const Place& p) {
+  std::vector<std::string> texts;
+  const auto good = [](const TomlNode& node) { return is_text(node); };
+  if (p.node->kind != TomlNode::Kind::array || !std::all_of(p.node->items.begin(), p.node->items.end(), good)) {
+    c.report(p, fmt::format("{} must be an array of texts in quotes, not {}", p.path, describe(*p.node)));
+    return texts;
+  }
+  for (const TomlNode& item : p.node->items) texts.push_back(item.text);
+  return texts;
+}
+
+Key<CaseSpec> tags_key() {
+  Key<CaseSpec> key;
+  key.option = {.key = "tags", .type = T::text, .doc = "words to select cases by"};
+  key.read = [](SceneContext& c, const Place& p, CaseSpec& s) { s.tags = texts_of(c, p); };
+  return key;
+}
+
+Key<ResolutionSpec> overrides_key() {
+  Key<ResolutionSpec> key;
+  key.option = {.key = "set", .type = T::text, .doc = "keys of the scene to set, each as \"key.path=value\""};
+  key.read = [](SceneContext& c, const Place& p, ResolutionSpec& s) {
+    for (const std::string& text : texts_of(c, p)) {
+      try {
+        s.overrides.push_back(parse_override(text));
+      } catch (const Error& error) {
+        c.report(p, error.what());
+      }
+    }
+  };
+  return key;
+}
+
+Section<ResolutionSpec> resolution_section() {
+  using S = ResolutionSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "name", .type = T::text, .presence = Presence::required, .doc = "names its run"}, &S::name),
+      value_key<S>({.key = "scene", .type = T::file, .unset = "the case's", .doc = "scene file"}, &S::scene),
+      value_key<S>({.key = "levels", .type = T::choice_list, .choices = {"quick", "full"}, .doc = "when it is run"},
+                   &S::levels),
+      overrides_key(),
+      value_key<S>(error_bar, &S::max_error),
+      value_key<S>({.key = "others", .type = T::text, .doc = "what others report here"}, &S::others),
+  };
+  s.finish = [](SceneContext& c, const Place& p, S& spec) {
+    if (!is_plain_name(spec.name)) c.report(p, "name must be made of letters, digits, '_' and '-'");
+  };
+  return s;
+}
+
+void check_case(SceneContext& c, const Place& p, const CaseSpec& spec) {
+  std::vector<std::string> names;
+  for (const ResolutionSpec& resolution : spec.resolutions) {
+    if (std::count(names.begin(), names.end(), resolution.name) > 0) {
+      c.report(p, fmt::format("two resolutions are named '{}'", resolution.name));
+    }
+    names.push_back(resolution.name);
+    if (!max_error_of(spec, resolution)) c.report(p, fmt::format("resolution '{}' has no max_error", resolution.name));
+    if (!resolution.scene && spec.scene.empty())
+      c.report(p, fmt::format("resolution '{}' has no scene", resolution.name));
+  }
+  if (names.empty()) c.report(p, "the case needs at least one [[resolution]]");
+}
+
+Section<CaseSpec> case_section() {
+  using S = CaseSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "title", .type = T::text, .presence = Presence::required, .doc = "for people"}, &S::title),
+      tags_key(),
+      value_key<S>({.key = "scene", .type = T::file, .unset = "each resolution's", .doc = "scene file"}, &S::scene),
+      value_key<S>({.key = "others", .type = T::text, .doc = "what others report"}, &S::others),
+      value_key<S>(error_bar, &S::max_error),
+      value_key<S>({.key = "min_order", .range = positive(), .unset = "no bar", .doc = "least order of convergence"},
+                   &S::min_order),
+      block_key<S>({.key = "measure", .presence = Presence::required, .doc = "what is measured"}, &S::measure,
+                   measure_section()),
+      list_key<S>({.key = "resolution", .presence = Presence::required, .doc = "runs, coarse to fine", .most = 100},
+                  &S::resolutions, resolution_section()),
+  };
+  s.finish = [](SceneContext& c, const Place& p, S& spec) { check_case(c, p, spec); };
+  return s;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) throw Error(ExitCode::bad_input, fmt::format("cannot read the case '{}'", file.string()));
+  return text;
+}
+
+bool is_case(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / "case.toml", ignored);
+}
+
+// Folders of cases directly below, by name.
+std::vector<fs::path> case_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code failed;
+  for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
+    if (is_case(it->path())) folders.push_back(it->path());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+bool fits(const CaseSpec& one, const std::string& word) {
+  return one.name == word || std::count(one.tags.begin(), one.tags.end(), word) > 0;
+}
+
+void refuse_unknown(const std::vector<CaseSpec>& cases, const std::string& word) {
+  if (std::any_of(cases.begin(), cases.end(), [&](const CaseSpec& one) { return fits(one, word); })) return;
+  std::vector<std::string> known;
+  for (const CaseSpec& one : cases) {
+    known.push_back(one.name);
+    known.insert(known.end(), one.tags.begin(), one.tags.end());
+  }
+  const auto near = suggest(word, known);
+  throw Error(ExitCode::bad_input,
+              fmt::format("there is no validation case or tag '{}'; {}", word,
+                          near ? fmt::format("did you mean '{}'?", *near) : "`seiche validate --list` shows all"));
+}
+
+}  // namespace
+
+CaseSpec read_case(const fs::path& folder) {
+  const fs::path file = folder / "case.toml";
+  const TomlNode root = parse_toml(read_text(file), file.string());
+  SceneContext context(file.string(), folder);
+  context.access = FileAccess::anywhere;
+  CaseSpec spec;
+  spec.folder = folder;
+  spec.name = fs::absolute(folder).lexically_normal().filename().string();
+  const Section<CaseSpec> section = case_section();
+  read_section(context, {&root, ""}, section, own_options(section), spec);
+  context.throw_problems();
+  return spec;
+}
+
+std::vector<CaseSpec> read_cases(const fs::path& folder) {
+  std::vector<CaseSpec> cases;
+  for (const fs::path& one : case_folders(folder)) cases.push_back(read_case(one));
+  if (cases.empty()) {
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: holds no validation case (a folder with a case.toml)", folder.string()));
+  }
+  return cases;
+}
+
+std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std::vector<std::string>& words) {
+  for (const std::string& word : words) refuse_unknown(cases, word);
+  std::vector<CaseSpec> chosen;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen), [&](const CaseSpec& one) {
+    return words.empty() || std::any_of(words.begin(), words.end(), [&](const auto& word) { return fits(one, word); });
+  });
+  return chosen;
+}
+
+bool belongs_to(const ResolutionSpec& resolution, const std::string& level) {
+  return std::count(resolution.levels.begin(), resolution.levels.end(), level) > 0;
+}
+
+const fs::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution) {
+  return resolution.scene ? *resolution.scene : one.scene;
+}
+
+std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution) {
+  return resolution.max_error ? resolution.max_error : one.max_error;
+}
+
+fs::path find_cases_folder(const fs::path& here, const fs::path& program) {
+  const fs::path beside = program.parent_path();
+  const fs::path places[] = {here / "validation", (beside / "../share/seiche/validation").lexically_normal(),
+                             (beside / "../../validation").lexically_normal()};
+  for (const fs::path& place : places) {
+    if (!case_folders(place).empty()) return place;
+  }
+  throw Error(ExitCode::bad_input, fmt::format("no validation cases in {}, {} or {}; give their folder with --cases",
+                                               places[0].string(), places[1].string(), places[2].string()));
+}
+
+fs::path program_file() {
+  std::error_code failed;
+  return fs::read_symlink("/proc/self/exe", failed);
+}
+
+}  // namespace seiche

@@ -1,0 +1,65 @@
+#pragma once
+// Validation cases: a folder with a case.toml, its scenes and its reference data. docs/validating.md tells the keys.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/scene.h"
+#include "io/scene_reader.h"
+
+namespace seiche {
+
+// What is measured on a finished run, by a name of the table in validate_measures.cpp. Each kind uses some of these.
+struct MeasureSpec {
+  std::string kind;
+  VectorFormula velocity{"0", "0", "0"};       // exact, in x, y, z, t, m/s
+  std::string probe, column;                   // names
+  Formula level = "0", reference = "0";        // constants
+  Formula time_unit = "1", length_unit = "1";  // constants, s and m: what makes times and lengths dimensionless
+  double from = 0, to = 0;                     // dimensionless lengths
+  std::filesystem::path data;                  // CSV, header and two columns
+};
+
+struct ResolutionSpec {
+  std::string name;
+  std::optional<std::filesystem::path> scene;  // unset: the case's
+  std::vector<std::string> levels{"quick", "full"};
+  std::vector<Override> overrides;
+  std::optional<double> max_error;  // unset: the case's
+  std::string others;               // what others report at this resolution
+};
+
+struct CaseSpec {
+  std::string name;  // of its folder
+  std::filesystem::path folder;
+  std::string title, others;
+  std::vector<std::string> tags;
+  std::filesystem::path scene;
+  MeasureSpec measure;
+  std::optional<double> max_error, min_order;
+  std::vector<ResolutionSpec> resolutions;
+};
+
+// Reads folder/case.toml. Throws Error(bad_input) with a line for each problem.
+CaseSpec read_case(const std::filesystem::path& folder);
+
+// All cases below a folder, by name. Throws Error(bad_input).
+std::vector<CaseSpec> read_cases(const std::filesystem::path& folder);
+
+// Those with one of these names or tags, in the order of `cases`; all where no word is given. Throws Error(bad_input)
+// naming words that fit none, with the nearest name.
+std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std::vector<std::string>& words);
+
+bool belongs_to(const ResolutionSpec& resolution, const std::string& level);
+const std::filesystem::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution);
+std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution);
+
+// Where the cases are when the user does not say: `here`/validation, else share/seiche/validation beside the folder
+// of the program, else the source tree around build/<preset>/. Throws Error(bad_input) naming the places looked at.
+std::filesystem::path find_cases_folder(const std::filesystem::path& here, const std::filesystem::path& program);
+
+// The running program's file.
+std::filesystem::path program_file();
+
+}  // namespace seiche

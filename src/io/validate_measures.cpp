@@ -1,0 +1,169 @@
+#include "io/validate_measures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/expression.h"
+#include "io/checked_file.h"
+#include "io/frames.h"
+#include "io/info.h"
+#include "levelset/openvdb_adapter.h"
+
+namespace seiche {
+namespace fs = std::filesystem;
+namespace {
+
+using T = OptionType;
+
+double constant(const Formula& formula) {
+  return Expression(formula)(Vec3(0, 0, 0), 0);
+}
+
+Measurement against(double value, double reference) {
+  return {value, reference, std::abs(value / reference - 1)};
+}
+
+fs::path last_frame_file(const RunPaths& run) {
+  fs::path last;
+  for (const auto& entry : fs::directory_iterator(run.frames())) {
+    if (entry.path().extension() == ".vdb") last = std::max(last, entry.path());
+  }
+  return last;
+}
+
+// Sum over all faces of the squared difference to the exact face velocity.
+double squared_difference(const vdb::Frame& frame, const vdb::Block& block, const VectorExpression& exact) {
+  const double h = frame.cell_size;
+  double sum = 0;
+  const float* value = block.values.data();
+  for (int k = block.lower[2]; k < block.upper[2]; ++k) {
+    for (int j = block.lower[1]; j < block.upper[1]; ++j) {
+      for (int i = block.lower[0]; i < block.upper[0]; ++i, value += 3) {
+        for (int axis = 0; axis < frame.dimension; ++axis) {
+          Vec3 x = frame.lower + h * Vec3(i + 0.5, j + 0.5, k + 0.5);
+          x[axis] -= 0.5 * h;
+          const double difference = value[axis] - exact.component(axis, x, frame.time);
+          sum += difference * difference;
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+// Root of the mean over the cells of |u - exact|^2, on the faces of the last frame.
+Measurement vector_l2(const MeasureSpec& spec, const RunPaths& run) {
+  const vdb::Frame frame = vdb::decode(last_frame_file(run));
+  const auto found =
+      std::find_if(frame.grids.begin(), frame.grids.end(), [](const vdb::Grid& grid) { return grid.name == "vel"; });
+  if (found == frame.grids.end()) throw Error(ExitCode::cannot_continue, "the last frame holds no velocity");
+  const VectorExpression exact(spec.velocity);
+  double sum = 0, cells = 0;
+  for (const vdb::Block& block : found->blocks) {
+    sum += squared_difference(frame, block, exact);
+    cells += double(block.values.size()) / 3;
+  }
+  const double error = std::sqrt(sum / cells);
+  return {error, {}, error};
+}
+
+Measurement period_of_probe(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = probe_points(read_whole_file(run.probes()), spec.probe);
+  return against(mean_period(points, constant(spec.level)), constant(spec.reference));
+}
+
+Measurement front_slope(const MeasureSpec& spec, const RunPaths& run) {
+  Points points = probe_points(read_whole_file(run.probes()), spec.probe);
+  const double time_unit = constant(spec.time_unit), length_unit = constant(spec.length_unit);
+  for (auto& [time, length] : points) time /= time_unit, length /= length_unit;
+  return against(slope_between(points, spec.from, spec.to),
+                 slope_between(csv_points(read_whole_file(spec.data)), spec.from, spec.to));
+}
+
+Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
+  const std::vector<double> values = csv_column(read_whole_file(run.stats()), spec.column);
+  if (values.empty()) throw Error(ExitCode::cannot_continue, "stats.csv has no rows");
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return {largest, {}, largest};
+}
+
+Measurement volume_drift_of_run(const MeasureSpec&, const RunPaths& run) {
+  const std::string text = json_value(read_whole_file(run.summary()), "volume_drift");
+  char* end = nullptr;
+  const double drift = std::strtod(text.c_str(), &end);
+  if (end == text.c_str()) throw Error(ExitCode::cannot_continue, "summary.json holds no volume_drift");
+  return {drift, {}, std::abs(drift)};
+}
+
+struct MeasureKind {
+  const char* name;
+  std::vector<const char*> keys;  // of [measure], all required
+  Measurement (*measure)(const MeasureSpec&, const RunPaths&);
+};
+
+const std::vector<MeasureKind>& kinds() {
+  static const std::vector<MeasureKind> table{
+      {"vector_l2", {"velocity"}, vector_l2},
+      {"period_of_probe", {"probe", "level", "reference"}, period_of_probe},
+      {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope},
+      {"max_of_column", {"column"}, max_of_column},
+      {"volume_drift", {}, volume_drift_of_run},
+  };
+  return table;
+}
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const MeasureKind& kind : kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+// Binds a key to the kinds that the table gives it.
+template <class Member>
+Key<MeasureSpec> parameter(Option option, Member member) {
+  option.only_for.key = "kind";
+  option.presence = Presence::required;
+  for (const MeasureKind& kind : kinds()) {
+    const auto uses = [&](const char* key) { return option.key == key; };
+    if (std::any_of(kind.keys.begin(), kind.keys.end(), uses)) option.only_for.values.emplace_back(kind.name);
+  }
+  return value_key<MeasureSpec>(option, member);
+}
+
+}  // namespace
+
+Section<MeasureSpec> measure_section() {
+  using S = MeasureSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "kind", .type = T::choice, .choices = kind_names(), .presence = Presence::required},
+                   &S::kind),
+      parameter({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt"}, &S::velocity),
+      parameter({.key = "probe", .type = T::text}, &S::probe),
+      parameter({.key = "column", .type = T::text}, &S::column),
+      parameter({.key = "level", .type = T::formula}, &S::level),
+      parameter({.key = "reference", .type = T::formula}, &S::reference),
+      parameter({.key = "time_unit", .type = T::formula, .unit = "s", .range = positive()}, &S::time_unit),
+      parameter({.key = "length_unit", .type = T::formula, .unit = "m", .range = positive()}, &S::length_unit),
+      parameter({.key = "from"}, &S::from),
+      parameter({.key = "to"}, &S::to),
+      parameter({.key = "data", .type = T::file}, &S::data),
+  };
+  return s;
+}
+
+Measurement measure(const MeasureSpec& spec, const RunPaths& run) {
+  for (const MeasureKind& kind : kinds()) {
+    if (kind.name != spec.kind) continue;
+    const Measurement result = kind.measure(spec, run);
+    if (std::isfinite(result.error)) return result;
+    throw Error(ExitCode::cannot_continue, fmt::format("{} is not a number", spec.kind));
+  }
+  throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
+}
+
+}  // namespace seiche

@@ -1,0 +1,47 @@
+#pragma once
+// What can be measured on the run of a validation case. A further measure is a row of the table in
+// validate_measures.cpp.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/run_directory.h"
+#include "io/scene_section.h"
+#include "io/validate_case.h"
+
+namespace seiche {
+
+struct Measurement {
+  double value = 0;                 // in the measure's own unit
+  std::optional<double> reference;  // unset: the value itself is the error
+  double error = 0;                 // what the bar is about, never negative
+};
+
+// Reads what the run left in its directory. Throws Error(cannot_continue) when that does not hold what is measured.
+Measurement measure(const MeasureSpec& spec, const RunPaths& run);
+
+// The keys of [measure].
+Section<MeasureSpec> measure_section();
+
+// The parts that measures are made of.
+
+using Points = std::vector<std::pair<double, double>>;
+
+// Least-squares slope of y(x) over the points with low <= y <= high. Throws Error(cannot_continue) for under two.
+double slope_between(const Points& points, double low, double high);
+
+// Mean period of y(x) about `level`: whole periods between the first crossing and the last that closes one, by
+// straight lines between points. Throws Error(cannot_continue) for less than one period.
+double mean_period(const Points& points, double level);
+
+// A column of CSV text by its header's name; empty fields become NaN. Throws Error(cannot_continue) without it.
+std::vector<double> csv_column(const std::string& text, const std::string& name);
+
+// The first two columns of CSV text, below its header; lines that begin with '#' are skipped.
+Points csv_points(const std::string& text);
+
+// time and value of a probe, from the text of probes.csv, without undefined samples.
+Points probe_points(const std::string& text, const std::string& probe);
+
+}  // namespace seiche

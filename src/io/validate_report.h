@@ -1,0 +1,36 @@
+#pragma once
+// The table and validation.json of a validation.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/validate_run.h"
+
+namespace seiche {
+
+struct ReportedResult {
+  CaseSpec one;
+  ResolutionSpec resolution;
+  CaseResult result;
+};
+
+struct Report {
+  std::string level;
+  int ranks = 1;
+  std::vector<ReportedResult> results;  // those of one case beside each other
+};
+
+std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED"
+
+// Widths of the first two columns.
+struct TableWidths {
+  std::size_t name = 4, resolution = 10;
+};
+
+std::string table_header(const TableWidths& widths);
+std::string table_row(const TableWidths& widths, const ReportedResult& row);
+std::string table_summary(const Report& report);  // "12 pass, 1 MISS"
+
+std::string format_report(const Report& report);  // JSON
+
+}  // namespace seiche

@@ -1,0 +1,45 @@
+#include "console.h"
+#include "io/validate_run.h"
+#include "verbs.h"
+
+namespace seiche {
+namespace {
+
+enum class Task { run, list };
+
+struct ValidateWords {
+  ValidateOptions options;
+  Task task = Task::run;
+};
+
+}  // namespace
+
+void add_validate(CLI::App& program, VerbContext& context) {
+  CLI::App* verb = program.add_subcommand("validate", "Run analytic flows and benchmarks and compare with references");
+  const auto words = std::make_shared<ValidateWords>();
+  ValidateOptions& options = words->options;
+  verb->add_option("case", options.words, "Names or tags of cases; default: all");
+  verb->add_option("--level", options.level, "quick: coarse, minutes; full: all resolutions")
+      ->check(CLI::IsMember({"quick", "full"}))
+      ->capture_default_str();
+  verb->add_flag_callback(
+      "--list", [words] { words->task = Task::list; }, "Show the cases and run nothing");
+  verb->add_option("--out", options.out, "Folder for the runs and validation.json; runs there are replaced")
+      ->capture_default_str();
+  verb->add_option("--cases", options.cases,
+                   "Folder of the cases; default: ./validation, else the one that came with the program");
+  verb->add_option("--threads", options.threads, "Threads a rank; default: the machine's, shared among its ranks")
+      ->check(CLI::Range(1, 4096));
+  verb->footer(
+      "Exit codes: 0 all cases passed; 1 a case missed its bar (a fault of ours: the table and validation.json say "
+      "which); 2 wrong command line, case or scene, nothing was run; 3 a case could not be run to its end or measured; "
+      "others as for `seiche run`.");
+  verb->callback([words, &context] {
+    context.action = [words, &context] {
+      const Surroundings around{context.ranks, context.emergency, terminal_console()};
+      return words->task == Task::list ? list_cases(words->options, around) : validate_command(words->options, around);
+    };
+  });
+}
+
+}  // namespace seiche
