@@ -34,6 +34,7 @@ struct BandCell {
   Site site;
   double sign;
   double step;
+  unsigned sides;   // bit 2 axis + side: no cell of the domain beyond
   std::array<std::array<double, 2>, Dim> reach;
 };
 
@@ -85,10 +86,11 @@ class Relaxation {
   }
 
   BandCell<Dim> describe(Site s) const {
-    BandCell<Dim> c{s, start_[s] < 0 ? -1.0 : 1.0, 1.0, {}};
+    BandCell<Dim> c{s, start_[s] < 0 ? -1.0 : 1.0, 1.0, 0, {}};
     for (int a = 0; a < Dim; ++a)
       for (int side = 0; side < 2; ++side) {
         const Site d = side == 0 ? -layout_.stride(a) : layout_.stride(a);
+        if (at_side(s, a, side)) c.sides |= 1u << (2 * a + side);
         const double reach = at_side(s, a, side) || start_[s] * start_[s + d] >= 0 ? 1 : crossing(start_.data() + s, d);
         c.reach[a][side] = std::max(reach, 1e-6);
         c.step = std::min(c.step, c.reach[a][side]);
@@ -106,21 +108,34 @@ class Relaxation {
     return rise / reach - 0.5 * reach * minmod(second(f, d), second(f + d, d));
   }
 
-  // Godunov's |grad phi| for a front moving away from the interface.
-  double gradient_norm(const BandCell<Dim>& c) const {
-    double sum = 0;
+  // Godunov's |grad phi| for a front moving away from the interface, and whether part of it enters through a side.
+  struct Gradient {
+    double norm = 0;
+    bool enters = false;
+  };
+  Gradient gradient(const BandCell<Dim>& c) const {
+    Gradient g;
     for (int a = 0; a < Dim; ++a) {
       const double backward = -slope(c, a, 0) * c.sign, forward = slope(c, a, 1) * c.sign;
-      const double g = std::max({backward, -forward, 0.0});
-      sum += g * g;
+      const double steepest = std::max({backward, -forward, 0.0});
+      g.norm += steepest * steepest;
+      g.enters = g.enters || (steepest > 0 && (c.sides >> (2 * a + (steepest == backward ? 0 : 1)) & 1u));
     }
-    return std::sqrt(sum);
+    g.norm = std::sqrt(g.norm);
+    return g;
+  }
+
+  // Beyond a side phi only continues what is inside: a distance must not shrink on its word, or it would shrink without end
+  // (a lower phi at the wall makes the continued slope steeper). It may grow.
+  double rate(const BandCell<Dim>& c) const {
+    const Gradient g = gradient(c);
+    return g.enters && g.norm > 1 ? 0 : 1 - g.norm;
   }
 
   void forward_step() {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells_.size(), 1024), [&](const auto& range) {
       for (std::size_t k = range.begin(); k != range.end(); ++k)
-        change_[k] = -cells_[k].step * cells_[k].sign * (gradient_norm(cells_[k]) - 1);
+        change_[k] = cells_[k].step * cells_[k].sign * rate(cells_[k]);
     });
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       double& p = phi_[cells_[k].site];
