@@ -91,7 +91,8 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
 
 template <int Dim>
 Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star, const StepGeometry<Dim>& g) {
+                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star, const StepGeometry<Dim>& g,
+                            double& divergence) {
   Level<Dim> next{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -102,10 +103,12 @@ Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in,
         next.u.at(a, f) = in.faces.prescribed.at(a, f);
         return;
       }
-      next.valid.at(a, f) = face_solved;
+      if (in.faces.open.at(a, f) >= least_open) next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
       next.u.at(a, f) = u_star.at(a, f) - in.dt * next.q.at(a, f);
     });
+  s.halo.fill_ghosts(next.u);
+  divergence = max_divergence(in, rows, next.u);
   continue_velocity(s, g, next.valid, next.u);
   s.halo.fill_ghosts(next.valid);
   return next;
@@ -115,7 +118,8 @@ Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in,
   template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,        \
                                      FaceField<D>&);                                                            \
   template Level<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,     \
-                                        const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
+                                        const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&,     \
+                                        double&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -157,10 +157,10 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double d
   fault = phases.enter("restore");
   {
     const auto timed = phases.timers.measure("restore");
-    auto level = std::make_shared<Level<Dim>>(restore_velocity(s, in, solution.rows, next.pressure, u_star, out.geometry));
+    auto level = std::make_shared<Level<Dim>>(
+        restore_velocity(s, in, solution.rows, next.pressure, u_star, out.geometry, out.divergence));
     inject(s, fault, level->u[0].data());
     out.failure = find_non_finite(s, "u", level->u);
-    out.divergence = max_divergence(in, solution.rows, level->u);
     next.expected_volume += dt * net_inflow(s, out.geometry, next.phi, level->u);
     next.now = level;
   }
