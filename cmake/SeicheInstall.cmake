@@ -19,4 +19,5 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/SeicheConfigVersion
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfigVersion.cmake
   cmake/SeicheDependencies.cmake DESTINATION ${seiche_config_folder})
+install(DIRECTORY validation scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche)  # as `seiche validate` looks for them
 install(FILES LICENSE NOTICE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -157,13 +157,18 @@ Section<MeasureSpec> measure_section() {
 }
 
 Measurement measure(const MeasureSpec& spec, const RunPaths& run) {
-  for (const MeasureKind& kind : kinds()) {
-    if (kind.name != spec.kind) continue;
-    const Measurement result = kind.measure(spec, run);
+  const auto kind =
+      std::find_if(kinds().begin(), kinds().end(), [&](const MeasureKind& row) { return row.name == spec.kind; });
+  if (kind == kinds().end()) throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
+  try {
+    const Measurement result = kind->measure(spec, run);
     if (std::isfinite(result.error)) return result;
-    throw Error(ExitCode::cannot_continue, fmt::format("{} is not a number", spec.kind));
+  } catch (const Error& error) {  // whatever was missing or unreadable, the run is not measured
+    throw Error(ExitCode::cannot_continue, error.what());
+  } catch (const fs::filesystem_error& error) {
+    throw Error(ExitCode::cannot_continue, error.what());
   }
-  throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
+  throw Error(ExitCode::cannot_continue, fmt::format("{} is not a number", spec.kind));
 }
 
 }  // namespace seiche

@@ -120,7 +120,7 @@ std::string table_row(const TableWidths& w, const ReportedResult& row) {
                      number(r.measured.reference), measured ? number(r.measured.error) : "-",
                      number(max_error_of(row.one, row.resolution)), short_number(r.order),
                      r.order ? short_number(row.one.min_order) : "-", verdict_name(r.verdict), r.wall_seconds,
-                     measured ? row.resolution.others : r.message);
+                     measured ? row.resolution.others : r.message.substr(0, r.message.find('\n')));
 }
 
 std::string table_summary(const Report& report) {
@@ -132,10 +132,12 @@ std::string table_summary(const Report& report) {
 }
 
 std::string format_report(const Report& report) {
-  const bool passed = count(report, Verdict::passed) == std::ptrdiff_t(report.results.size());
+  const bool complete = report.results.size() == report.planned;
+  const bool passed = count(report, Verdict::passed) == std::ptrdiff_t(report.planned);
   return object({{"version", json_string(version())},
                  {"level", json_string(report.level)},
                  {"ranks", std::to_string(report.ranks)},
+                 {"complete", complete ? "true" : "false"},
                  {"passed", passed ? "true" : "false"},
                  {"cases", array(json_cases(report), "  ")}},
                 "") +

@@ -17,6 +17,7 @@ struct ReportedResult {
 struct Report {
   std::string level;
   int ranks = 1;
+  std::size_t planned = 0;              // runs to be made in all
   std::vector<ReportedResult> results;  // those of one case beside each other
 };
 

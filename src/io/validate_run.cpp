@@ -203,11 +203,15 @@ ExitCode validate_command(const ValidateOptions& options, const Surroundings& ar
     throw Error(ExitCode::bad_input,
                 fmt::format("the chosen cases have no resolution of level '{}'; give --level full", options.level));
   }
-  Report report{options.level, around.ranks.size(), {}};
+  Report report{options.level, around.ranks.size(), runs.size(), {}};
+  write_report(report, options, around.ranks);
   say(table_header(widths));
   for (const Planned& run : runs) {
     const ExitCode code = run_one(run, options, around, report);
-    if (code != ExitCode::done) return code;
+    if (code != ExitCode::done) {
+      say(fmt::format("stopped in {} {}; validate again to run it anew", run.one->name, run.resolution->name));
+      return code;
+    }
     say(table_row(widths, report.results.back()));
     write_report(report, options, around.ranks);
   }

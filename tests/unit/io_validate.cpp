@@ -1,0 +1,187 @@
+// Case folders: read, chosen, run and judged.
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "io/info.h"
+#include "io/validate_report.h"
+#include "io/validate_run.h"
+#include "io_scratch.h"
+
+using namespace seiche;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Liquid that moves with 1 m/s through a periodic box.
+const char* const scene_text = R"(dimension = 2
+gravity = [0.0, 0.0]
+[domain]
+upper = [1.0, 1.0]
+cell_size = 0.125
+[domain.boundary]
+x_lower = "periodic"
+x_upper = "periodic"
+y_lower = "periodic"
+y_upper = "periodic"
+[time]
+end = 0.2
+frame_rate = 5.0
+[liquid]
+velocity = [1.0, 0.0]
+[[liquid.region]]
+shape = "expression"
+phi = "-1"
+)";
+
+std::string case_text(const std::string& column, double bar) {
+  return "title = \"t\"\ntags = [\"one\"]\nscene = \"scene.toml\"\nmax_error = " + std::to_string(bar) +
+         "\n[measure]\nkind = \"max_of_column\"\ncolumn = \"" + column +
+         "\"\n[[resolution]]\nname = \"8\"\n[[resolution]]\nname = \"16\"\nlevels = [\"full\"]\nset = "
+         "[\"domain.cell_size=0.0625\"]\n";
+}
+
+void put_case(const ScratchFolder& folder, const std::string& name, const std::string& text) {
+  fs::create_directories(folder / "cases" / name);
+  put(folder / "cases" / name / "case.toml", text);
+  put(folder / "cases" / name / "scene.toml", scene_text);
+}
+
+struct Outcome {
+  ExitCode code;
+  std::string table, json;
+};
+
+Outcome validate(const ScratchFolder& folder, const std::vector<std::string>& words, const std::string& level) {
+  const Communicator ranks;
+  const EmergencyChannel emergency(ranks);
+  Outcome outcome;
+  Console console;
+  console.line = [&](const std::string& text) { outcome.table += text + "\n"; };
+  console.warning = [](const std::string&) {};
+  ValidateOptions options;
+  options.words = words;
+  options.level = level;
+  options.cases = folder / "cases";
+  options.out = folder / "out";
+  options.threads = 1;
+  outcome.code = validate_command(options, {ranks, emergency, console});
+  outcome.json = contents(folder / "out" / "validation.json");
+  return outcome;
+}
+
+CaseResult result_of(double h, double error) {
+  CaseResult result;
+  result.cell_size = h;
+  result.measured.error = error;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a case is read with its defaults, and its mistakes are all reported") {
+  const ScratchFolder folder;
+  put_case(folder, "good", case_text("max_speed", 2));
+  const CaseSpec one = read_case(folder / "cases" / "good");
+  CHECK(one.name == "good");
+  CHECK(one.tags == std::vector<std::string>{"one"});
+  REQUIRE(one.resolutions.size() == 2);
+  CHECK(belongs_to(one.resolutions[0], "quick"));
+  CHECK_FALSE(belongs_to(one.resolutions[1], "quick"));
+  CHECK(one.resolutions[1].overrides[0].path == "domain.cell_size");
+  CHECK(max_error_of(one, one.resolutions[1]) == 2.0);
+
+  put_case(folder, "bad",
+           "title = \"t\"\nscene = \"none.toml\"\n[measure]\nkind = \"max_of_colum\"\n"
+           "[[resolution]]\nname = \"a/b\"\nmax_eror = 1.0\n");
+  CHECK_THROWS_WITH(read_case(folder / "cases" / "bad"),
+                    Catch::Contains("case.toml:2") && Catch::Contains("did you mean \"max_of_column\"") &&
+                        Catch::Contains("did you mean 'max_error'") && Catch::Contains("letters, digits"));
+}
+
+TEST_CASE("a measure takes only its own parameters, and all of them") {
+  const ScratchFolder folder;
+  put_case(folder, "one",
+           "title = \"t\"\nscene = \"scene.toml\"\nmax_error = 1\n[measure]\nkind = \"period_of_probe\"\n"
+           "probe = \"p\"\nlevel = \"x\"\ncolumn = \"c\"\n[[resolution]]\nname = \"a\"\n");
+  CHECK_THROWS_WITH(read_case(folder / "cases" / "one"),
+                    Catch::Contains("reference") && Catch::Contains("column") && Catch::Contains("level"));
+}
+
+TEST_CASE("cases are chosen by name and tag, and a slip gets a suggestion") {
+  std::vector<CaseSpec> cases(3);
+  cases[0].name = "alpha", cases[0].tags = {"waves"};
+  cases[1].name = "beta", cases[1].tags = {"rest"};
+  cases[2].name = "gamma", cases[2].tags = {"waves"};
+  CHECK(select_cases(cases, {}).size() == 3);
+  CHECK(select_cases(cases, {"waves", "beta"}).size() == 3);
+  REQUIRE(select_cases(cases, {"waves"}).size() == 2);
+  CHECK(select_cases(cases, {"waves"})[1].name == "gamma");
+  CHECK_THROWS_WITH(select_cases(cases, {"bta"}), Catch::Contains("did you mean 'beta'"));
+  CHECK_THROWS_WITH(select_cases(cases, {"zzzzzz"}), Catch::Contains("--list"));
+}
+
+TEST_CASE("the cases folder is found here, beside an installed program, and around a build") {
+  const ScratchFolder folder;
+  const fs::path here = folder / "here", prefix = folder / "prefix", tree = folder / "tree";
+  const auto add = [](const fs::path& at) {
+    fs::create_directories(at / "c");
+    put(at / "c" / "case.toml", "");
+  };
+  CHECK_THROWS_WITH(find_cases_folder(here, prefix / "bin/seiche"), Catch::Contains("--cases"));
+  add(prefix / "share/seiche/validation");
+  add(tree / "validation");
+  CHECK(find_cases_folder(here, prefix / "bin/seiche") == prefix / "share/seiche/validation");
+  CHECK(find_cases_folder(here, tree / "build/release/seiche") == tree / "validation");
+  fs::create_directories(here / "validation");  // someone else's, without cases
+  CHECK(find_cases_folder(here, tree / "build/release/seiche") == tree / "validation");
+  add(here / "validation");
+  CHECK(find_cases_folder(here, tree / "build/release/seiche") == here / "validation");
+}
+
+TEST_CASE("both bars decide, and the order is that of the errors") {
+  CaseSpec one;
+  one.max_error = 1;
+  one.min_order = 1.8;
+  CaseResult fine = result_of(0.1, 0.25);
+  fine.order = observed_order(result_of(0.2, 1), fine);
+  CHECK(*fine.order == Approx(2).epsilon(1e-12));  // rounding of two logarithms
+  CHECK(judge(one, {}, fine) == Verdict::passed);
+  one.min_order = 2.2;
+  CHECK(judge(one, {}, fine) == Verdict::missed);
+  one.min_order.reset();
+  one.max_error = 0.2;
+  CHECK(judge(one, {}, fine) == Verdict::missed);
+  CHECK_FALSE(observed_order(result_of(0.1, 1), fine));
+  CHECK_FALSE(observed_order(result_of(0.2, 1), result_of(0.1, 0)));
+}
+
+TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and stand in the report") {
+  const ScratchFolder folder;
+  put_case(folder, "pass", case_text("max_speed", 1.5));
+  put_case(folder, "short", case_text("max_speed", 0.5));
+  put_case(folder, "unmeasured", case_text("no_such_column", 1));
+  const Outcome good = validate(folder, {"pass"}, "full");
+  CHECK(good.code == ExitCode::done);
+  CHECK(json_value(good.json, "passed") == "true");
+  CHECK(good.json.find("\"resolution\": \"16\"") != std::string::npos);
+  CHECK(fs::exists(folder / "out" / "pass" / "16" / "stats.csv"));
+
+  const Outcome miss = validate(folder, {"pass", "short"}, "quick");
+  CHECK(miss.code == ExitCode::bug);
+  CHECK(miss.table.find("1 pass, 1 MISS") != std::string::npos);
+  CHECK(json_value(miss.json, "passed") == "false");
+  CHECK(json_value(miss.json, "complete") == "true");
+
+  const Outcome failed = validate(folder, {"one"}, "quick");  // by tag: all three
+  CHECK(failed.code == ExitCode::cannot_continue);
+  CHECK(failed.table.find("no_such_column") != std::string::npos);
+}
+
+TEST_CASE("a wrong scene is refused before any case is run") {
+  const ScratchFolder folder;
+  put_case(folder, "a", case_text("max_speed", 1.5));
+  put_case(folder, "b", case_text("max_speed", 1.5));
+  put(folder / "cases" / "b" / "scene.toml", "dimension = 7\n");
+  CHECK_THROWS_AS(validate(folder, {}, "quick"), Error);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}

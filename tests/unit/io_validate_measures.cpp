@@ -1,0 +1,108 @@
+// The arithmetic behind the measures of `seiche validate`, on data whose answer is known.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/validate_measures.h"
+#include "io_scratch.h"
+#include "levelset/openvdb_adapter.h"
+
+using namespace seiche;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// A frame of 8 x 4 cells whose faces hold (x + t, 2 y) plus `offset` along x.
+vdb::Frame linear_frame(double offset) {
+  vdb::Frame frame;
+  frame.dimension = 2;
+  frame.lower = {1, 2, 0};
+  frame.cell_size = 0.25;
+  frame.time = 0.5;
+  vdb::Block block{{0, 0, 0}, {8, 4, 1}, {}};
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 8; ++i) {
+      block.values.push_back(float(1 + 0.25 * i + 0.5 + offset));
+      block.values.push_back(float(2 * (2 + 0.25 * j)));
+      block.values.push_back(0);
+    }
+  }
+  frame.grids.push_back({"vel", vdb::GridKind::staggered_vector, 0, {block}});
+  return frame;
+}
+
+double l2_of(const vdb::Frame& frame) {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::filesystem::create_directories(run.frames());
+  put(run.frames() / "frame.0000.vdb", "an older frame, not to be read");
+  put(run.frames() / "frame.0001.vdb", vdb::encode(frame));
+  MeasureSpec spec;
+  spec.kind = "vector_l2";
+  spec.velocity = {"x+t", "2*y", "0"};
+  return measure(spec, run).error;
+}
+
+}  // namespace
+
+TEST_CASE("a least-squares slope sees only the points between its bounds") {
+  const Points points{{0, 9}, {1, 2}, {2, 2.5}, {3, 3}, {4, 4.5}};
+  CHECK(slope_between(points, 2, 4) == Approx(0.5).epsilon(1e-14));  // three points on a line: rounding only
+  CHECK(slope_between({{0, 0}, {1, 2}, {2, 1}}, 0, 5) == Approx(0.5).epsilon(1e-14));
+  CHECK_THROWS_AS(slope_between(points, 4, 4.6), Error);
+  CHECK_THROWS_AS(slope_between({{1, 1}, {1, 2}}, 0, 5), Error);
+}
+
+TEST_CASE("the mean period of a sampled wave is that of the wave") {
+  Points points;
+  for (int n = 0; n <= 1000; ++n) points.emplace_back(0.01 * n, 3 + std::cos(2 * pi * 0.01 * n / 1.7));
+  CHECK(mean_period(points, 3) == Approx(1.7).epsilon(1e-4));  // straight lines: (pi dt / T)^2 of a sample at most
+  CHECK_THROWS_AS(mean_period(points, 5), Error);
+  points.resize(100);  // 1 s: under one period
+  CHECK_THROWS_AS(mean_period(points, 3), Error);
+}
+
+TEST_CASE("columns and points are read from CSV text with comments and gaps") {
+  const std::string text = "# where from\na,b,c\n1,2,3\r\n4,,6\n";
+  CHECK(csv_column(text, "c") == std::vector<double>{3, 6});
+  CHECK(std::isnan(csv_column(text, "b")[1]));
+  CHECK(csv_points(text)[0] == std::pair(1.0, 2.0));
+  CHECK_THROWS_WITH(csv_column(text, "d"), Catch::Contains("'d'") && Catch::Contains("a, b, c"));
+}
+
+TEST_CASE("samples of one probe are picked from probes.csv, undefined ones left out") {
+  const std::string text = "time,name,value,x,y,z\n0,p,1,,,\n0,q,7,,,\n1,p,,,,\n2,p,3,,,\n";
+  CHECK(probe_points(text, "p") == Points{{0, 1}, {2, 3}});
+  CHECK_THROWS_AS(probe_points(text, "r"), Error);
+}
+
+TEST_CASE("vector_l2 compares face velocities of the last frame at the faces' own places") {
+  CHECK(l2_of(linear_frame(0)) < 1e-7);                            // frames are 32-bit: rounding of numbers up to 8
+  CHECK(l2_of(linear_frame(0.25)) == Approx(0.25).epsilon(1e-6));  // the same
+}
+
+TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  for (const char* kind : {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "volume_drift"}) {
+    MeasureSpec spec;
+    spec.kind = kind;
+    try {
+      measure(spec, run);
+      FAIL(kind);
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::cannot_continue);
+    }
+  }
+  put(run.stats(), "step,max_speed\n");
+  MeasureSpec spec;
+  spec.kind = "max_of_column";
+  spec.column = "max_speed";
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no rows"));  // and not an error of 0
+  put(run.stats(), "step,max_speed\n0,1\n1,-2\n");
+  CHECK(measure(spec, run).error == 2);
+  put(run.summary(), "{\n  \"volume_drift\": -0.25\n}\n");
+  spec.kind = "volume_drift";
+  CHECK(measure(spec, run).error == 0.25);
+}
