@@ -43,18 +43,30 @@ MpiSession::MpiSession(int& argc, char**& argv) {
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
 }
 
-MpiSession::~MpiSession() { MPI_Finalize(); }
+MpiSession::~MpiSession() {
+  MPI_Finalize();
+}
 
 Communicator::Communicator(MPI_Comm handle) : handle_(handle) {
   MPI_Comm_rank(handle, &rank_);
   MPI_Comm_size(handle, &size_);
 }
 
-double Communicator::global_sum(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_SUM); }
-double Communicator::global_max(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_MAX); }
-double Communicator::global_min(double value) const { return reduce(handle_, value, MPI_DOUBLE, MPI_MIN); }
-std::int64_t Communicator::global_sum(std::int64_t value) const { return reduce(handle_, value, MPI_INT64_T, MPI_SUM); }
-std::int64_t Communicator::global_max(std::int64_t value) const { return reduce(handle_, value, MPI_INT64_T, MPI_MAX); }
+double Communicator::global_sum(double value) const {
+  return reduce(handle_, value, MPI_DOUBLE, MPI_SUM);
+}
+double Communicator::global_max(double value) const {
+  return reduce(handle_, value, MPI_DOUBLE, MPI_MAX);
+}
+double Communicator::global_min(double value) const {
+  return reduce(handle_, value, MPI_DOUBLE, MPI_MIN);
+}
+std::int64_t Communicator::global_sum(std::int64_t value) const {
+  return reduce(handle_, value, MPI_INT64_T, MPI_SUM);
+}
+std::int64_t Communicator::global_max(std::int64_t value) const {
+  return reduce(handle_, value, MPI_INT64_T, MPI_MAX);
+}
 
 void Communicator::global_sum(std::span<double> values) const {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
@@ -66,7 +78,9 @@ std::int64_t Communicator::exclusive_prefix_sum(std::int64_t value) const {
   return rank_ == 0 ? 0 : before;
 }
 
-void Communicator::barrier() const { MPI_Barrier(handle_); }
+void Communicator::barrier() const {
+  MPI_Barrier(handle_);
+}
 
 std::string Communicator::broadcast(const std::string& text) const {
   std::int64_t size = std::int64_t(text.size());

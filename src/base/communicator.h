@@ -37,9 +37,9 @@ class Communicator {
   std::int64_t exclusive_prefix_sum(std::int64_t value) const;
 
   void barrier() const;
-  std::string broadcast(const std::string& text) const;                       // rank 0's text
-  std::vector<std::string> gather(const std::string& bytes) const;            // on rank 0, by rank; else empty
-  std::vector<std::string> all_gather(const std::string& bytes) const;        // on every rank, by rank
+  std::string broadcast(const std::string& text) const;                 // rank 0's text
+  std::vector<std::string> gather(const std::string& bytes) const;      // on rank 0, by rank; else empty
+  std::vector<std::string> all_gather(const std::string& bytes) const;  // on every rank, by rank
 
  private:
   MPI_Comm handle_;

@@ -7,14 +7,14 @@ namespace seiche {
 
 enum class ExitCode : int {
   done = 0,
-  bug = 1,               // a fault of ours
-  bad_input = 2,         // command line, scene or input file; nothing was run
-  cannot_continue = 3,   // the numerics gave up; the last good step is checkpointed
-  output_failed = 4,     // a file could not be written
-  machine = 5,           // memory, rows, MPI
-  bad_checkpoint = 6,    // a checkpoint cannot be used
-  stopped = 75,          // stopped on request, resume continues
-  hung = 124             // a rank hung and the watchdog ended the run
+  bug = 1,              // a fault of ours
+  bad_input = 2,        // command line, scene or input file; nothing was run
+  cannot_continue = 3,  // the numerics gave up; the last good step is checkpointed
+  output_failed = 4,    // a file could not be written
+  machine = 5,          // memory, rows, MPI
+  bad_checkpoint = 6,   // a checkpoint cannot be used
+  stopped = 75,         // stopped on request, resume continues
+  hung = 124            // a rank hung and the watchdog ended the run
 };
 
 // what() is one or two lines: where, what is wrong, what would be right.

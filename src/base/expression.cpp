@@ -42,7 +42,9 @@ double Expression::operator()(const Vec3& x, double t) const {
   return impl_->parser.Eval();
 }
 
-bool Expression::is_constant() const { return impl_->constant; }
+bool Expression::is_constant() const {
+  return impl_->constant;
+}
 
 VectorExpression::VectorExpression(const VectorFormula& text)
     : parts_{Expression(text[0]), Expression(text[1]), Expression(text[2])} {}

@@ -39,7 +39,7 @@ struct ShapeSpec {
   Formula phi;                 // negative inside
   bool invert = false;
   TransformSpec transform;
-  std::string where;           // "scene.toml:14" for messages
+  std::string where;  // "scene.toml:14" for messages
 };
 
 enum class SideType { free_slip, no_slip, periodic, inflow, outflow, moving_wall };
@@ -53,8 +53,8 @@ struct SideSpec {
 struct DomainSpec {
   Vec3 lower{0, 0, 0}, upper{1, 1, 1};
   double cell_size = 0;
-  std::array<int, 3> cells{1, 1, 1};                 // 1 along z in 2D
-  std::array<std::array<SideSpec, 2>, 3> sides;      // [axis][0 = lower, 1 = upper]
+  std::array<int, 3> cells{1, 1, 1};             // 1 along z in 2D
+  std::array<std::array<SideSpec, 2>, 3> sides;  // [axis][0 = lower, 1 = upper]
 };
 
 enum class TimeScheme { first_order, second_order };

@@ -28,13 +28,13 @@ FieldRecord record(const Setup<Dim>& s, const std::string& name, const Box<Dim>&
 
 template <int Dim, class Array>
 void restore(const Setup<Dim>& s, const CheckpointData& data, const std::string& name, const Box<Dim>& box, Array& f) {
-  const auto found = std::find_if(data.fields.begin(), data.fields.end(), [&](const auto& r) { return r.name == name; });
+  const auto found =
+      std::find_if(data.fields.begin(), data.fields.end(), [&](const auto& r) { return r.name == name; });
   if (found == data.fields.end() || std::int64_t(found->values.size()) != box.size())
     throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
   std::size_t n = 0;
-  for_each_index_in_order(s.layout, box, [&](Site c, const IVec<Dim>&) {
-    f[c] = std::decay_t<decltype(f[c])>(found->values[n++]);
-  });
+  for_each_index_in_order(s.layout, box,
+                          [&](Site c, const IVec<Dim>&) { f[c] = std::decay_t<decltype(f[c])>(found->values[n++]); });
 }
 
 // visit(name, axis) of the face fields of a level.
@@ -78,7 +78,9 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
                   {"step", double(state.step)},
                   {"dt_now", state.dt_now},
                   {"dt_before", state.dt_before},
-                  {"levels", state.earlier ? 3.0 : state.before ? 2.0 : 1.0},
+                  {"levels", state.earlier  ? 3.0
+                             : state.before ? 2.0
+                                            : 1.0},
                   {"expected_volume", state.expected_volume},
                   {"corrected_volume", state.corrected_volume}};
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
@@ -94,7 +96,8 @@ template <int Dim>
 State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   const auto scalar = [&](const char* name) {
     const auto found = data.scalars.find(name);
-    if (found == data.scalars.end()) throw Error(ExitCode::bad_checkpoint, std::string("the checkpoint lacks '") + name + "'");
+    if (found == data.scalars.end())
+      throw Error(ExitCode::bad_checkpoint, std::string("the checkpoint lacks '") + name + "'");
     return found->second;
   };
   State<Dim> state;
@@ -118,7 +121,8 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
 
 template <int Dim>
 std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
-  std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()), empty_record<Dim>("pressure", s.layout.cells())};
+  std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
+                                 empty_record<Dim>("pressure", s.layout.cells())};
   for (const char* level : level_names)
     for_each_level_field<Dim>(level, [&](const std::string& field, char, int a) {
       boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
@@ -126,9 +130,9 @@ std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
   return boxes;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                        \
-  template CheckpointData save_state<D>(const Setup<D>&, const State<D>&);           \
-  template State<D> load_state<D>(const Setup<D>&, const CheckpointData&);           \
+#define SEICHE_INSTANTIATE(D)                                              \
+  template CheckpointData save_state<D>(const Setup<D>&, const State<D>&); \
+  template State<D> load_state<D>(const Setup<D>&, const CheckpointData&); \
   template std::vector<FieldRecord> state_boxes<D>(const Setup<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -48,8 +48,9 @@ class FlowSimulation : public Simulation {
       failures = fmt::format("step {} of {:.6g} s at time {:.6g} s: {}", state_.step + 1, dt, state_.time, a.failure);
       phases_.warnings.push_back(failures + "; trying half the step");
     }
-    throw Error(ExitCode::cannot_continue,
-                fmt::format("{} (after {} halvings; try a smaller cfl or a looser tolerance)", failures, most_halvings));
+    throw Error(
+        ExitCode::cannot_continue,
+        fmt::format("{} (after {} halvings; try a smaller cfl or a looser tolerance)", failures, most_halvings));
   }
 
   void load(const CheckpointData& data) override {
@@ -68,7 +69,8 @@ class FlowSimulation : public Simulation {
  private:
   // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
   Attempt<Dim> attempt(double dt) {
-    if (state_.step > 0 || setup_.scene.time.scheme == TimeScheme::first_order) return attempt_step(setup_, state_, dt, phases_);
+    if (state_.step > 0 || setup_.scene.time.scheme == TimeScheme::first_order)
+      return attempt_step(setup_, state_, dt, phases_);
     Attempt<Dim> trial = attempt_step(setup_, state_, dt, phases_);
     if (!trial.failure.empty()) return trial;
     Attempt<Dim> informed = attempt_step(setup_, inform(*trial.state.now, dt), dt, phases_);
@@ -149,8 +151,8 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicat
   return std::make_unique<FlowSimulation<3>>(scene, ranks);
 }
 
-// Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there is
-// liquid, the matrix and its hierarchy of grids (about 1 kB a row; half the cells are taken to be liquid).
+// Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there
+// is liquid, the matrix and its hierarchy of grids (about 1 kB a row; half the cells are taken to be liquid).
 Cost estimate_cost(const Scene& scene, int ranks) {
   const double halo = std::ceil(scene.time.cfl) + 3;
   double cells = 1, padded = 1;

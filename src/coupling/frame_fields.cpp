@@ -42,7 +42,8 @@ FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const 
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
   else if (name == "vel")
     fill(FrameField::Kind::staggered_vector, [&](Site c) {
-      for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(state.now->u.at(std::min(a, Dim - 1), c)) : 0.0f);
+      for (int a = 0; a < 3; ++a)
+        out.values.push_back(a < Dim ? float(state.now->u.at(std::min(a, Dim - 1), c)) : 0.0f);
     });
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });

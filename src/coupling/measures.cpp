@@ -20,7 +20,8 @@ FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site c
 
 }  // namespace
 
-// E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V g.x.
+// E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
+// g.x.
 template <int Dim>
 void measure_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
   const Level<Dim>& level = *state.now;
@@ -88,8 +89,8 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
   return solids;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template void measure_liquid<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);               \
+#define SEICHE_INSTANTIATE(D)                                                                         \
+  template void measure_liquid<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

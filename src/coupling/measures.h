@@ -10,7 +10,8 @@ void measure_liquid(const Setup<Dim>& setup, const State<Dim>& state, const Node
 
 // Pose, velocity and the liquid's force and torque on every solid. Collective.
 template <int Dim>
-std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry);
+std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state,
+                                       const StepGeometry<Dim>& geometry);
 
 // One sample of a probe. Collective; equal on all ranks.
 template <int Dim>

@@ -40,7 +40,8 @@ double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>&
 
 // Farthest liquid along `axis` on the line through x: the last zero of phi on it, or the side where liquid reaches it.
 template <int Dim>
-std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& state, Vec<Dim> x, int axis, int direction) {
+std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& state, Vec<Dim> x, int axis,
+                                      int direction) {
   const Geometry<Dim>& grid = s.layout.geometry();
   const Box<Dim>& own = s.layout.cells();
   double best = -std::numeric_limits<double>::infinity();
@@ -88,7 +89,8 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
       break;
     case ProbeKind::velocity:
       out.is_vector = true;
-      out.vector = holds(s.layout, x) ? extend<Dim>(sample_velocity<Dim>(s.layout, state.now->u, x)) : Vec3(Vec3::Zero());
+      out.vector =
+          holds(s.layout, x) ? extend<Dim>(sample_velocity<Dim>(s.layout, state.now->u, x)) : Vec3(Vec3::Zero());
       s.ranks.global_sum(std::span<double>(out.vector.data(), 3));
       break;
     case ProbeKind::surface_height:

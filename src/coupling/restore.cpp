@@ -22,7 +22,8 @@ FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Di
     for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
     r.psi += psi[node] / corners;
     r.gradient[axis] += (psi[node + layout.stride(axis)] - psi[node - layout.stride(axis)]) / (2 * corners);
-    for (int b = 1; b < Dim; ++b) r.gradient[(axis + b) % Dim] += (((k >> (b - 1)) & 1) ? 1 : -1) * psi[node] * 2 / corners;
+    for (int b = 1; b < Dim; ++b)
+      r.gradient[(axis + b) % Dim] += (((k >> (b - 1)) & 1) ? 1 : -1) * psi[node] * 2 / corners;
   }
   return r;
 }
@@ -114,12 +115,11 @@ Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in,
   return next;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,        \
-                                     FaceField<D>&);                                                            \
-  template Level<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,     \
-                                        const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&,     \
-                                        double&);
+#define SEICHE_INSTANTIATE(D)                                                                               \
+  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,    \
+                                     FaceField<D>&);                                                        \
+  template Level<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&, \
+                                        const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&, double&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -15,8 +15,8 @@ constexpr double least_open = 0.2;
 // `divergence` is the largest |net flux|/volume of a cell with a row, 1/s.
 template <int Dim>
 Level<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star, const StepGeometry<Dim>& geometry,
-                            double& divergence);
+                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                            const StepGeometry<Dim>& geometry, double& divergence);
 
 // Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
 template <int Dim>

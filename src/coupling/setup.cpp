@@ -20,7 +20,9 @@ Geometry<Dim> grid_geometry(const DomainSpec& d) {
 }
 
 // Cells a step can carry values across, and the reach of the four-point stencils.
-int halo_width(const Scene& scene) { return int(std::ceil(scene.time.cfl)) + 3; }
+int halo_width(const Scene& scene) {
+  return int(std::ceil(scene.time.cfl)) + 3;
+}
 
 template <int Dim>
 std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>& notes) {
@@ -33,12 +35,15 @@ template <int Dim>
 std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::string>& notes) {
   std::vector<Source<Dim>> sources;
   for (const LiquidSourceSpec& spec : scene.liquid.sources)
-    sources.push_back({spec, make_shape<Dim>(spec.shape, {scene.domain.cell_size, &notes}), VectorExpression(spec.velocity)});
+    sources.push_back(
+        {spec, make_shape<Dim>(spec.shape, {scene.domain.cell_size, &notes}), VectorExpression(spec.velocity)});
   return sources;
 }
 
 // Shapes whose values are no exact distances near their zero.
-bool needs_redistancing(const ShapeSpec& s) { return s.kind == "expression"; }
+bool needs_redistancing(const ShapeSpec& s) {
+  return s.kind == "expression";
+}
 
 // Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid.
 template <int Dim>
@@ -84,7 +89,8 @@ template <int Dim>
 Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
     : scene(sc),
       ranks(r),
-      layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()], halo_width(sc)),
+      layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],
+             halo_width(sc)),
       halo(layout, partition(layout.geometry(), r.size()), r),
       sides(sc.domain),
       bodies(make_bodies<Dim>(sc, notes)),

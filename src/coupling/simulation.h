@@ -33,23 +33,23 @@ struct StepStats {
 // One row of solids.csv.
 struct SolidState {
   std::string name;
-  Vec3 position{0, 0, 0};                       // displaced shape reference point, m
+  Vec3 position{0, 0, 0};                         // displaced shape reference point, m
   std::array<double, 4> orientation{1, 0, 0, 0};  // quaternion w, x, y, z
   Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
-  Vec3 force{0, 0, 0}, torque{0, 0, 0};         // from the fluid, N and N m about position
+  Vec3 force{0, 0, 0}, torque{0, 0, 0};  // from the fluid, N and N m about position
 };
 
 struct ProbeSample {
   std::string name;
   bool is_vector = false;
-  bool defined = true;    // false: nothing to measure (a pressure probe in the air, no liquid in the column)
+  bool defined = true;  // false: nothing to measure (a pressure probe in the air, no liquid in the column)
   double value = 0;
   Vec3 vector{0, 0, 0};
 };
 
 // A field for a frame: this rank's owned cells, first axis fastest; vectors (staggered, low faces) as triples.
 struct FrameField {
-  std::string name;                  // surface, vel, pressure, vorticity
+  std::string name;  // surface, vel, pressure, vorticity
   enum class Kind { level_set, scalar, staggered_vector } kind = Kind::scalar;
   std::array<int, 3> lower{0, 0, 0}, upper{0, 0, 0};
   std::vector<float> values;
@@ -58,7 +58,7 @@ struct FrameField {
 // Facts known before the first step.
 struct Cost {
   std::int64_t cells = 0;
-  double bytes = 0;      // over all ranks
+  double bytes = 0;  // over all ranks
 };
 
 // Called at the start of each named phase of a step (transport, geometry, solve, restore) on every rank: tells the
@@ -76,19 +76,19 @@ class Simulation {
   // Advances by one step that ends at or before `until`. Throws Error(cannot_continue) after the ladder is exhausted,
   // with the state as before the step. All ranks call it together.
   virtual StepStats step(double until) = 0;
-  virtual StepStats stats() const = 0;                      // of the present state
-  virtual std::vector<SolidState> solids() const = 0;       // equal on all ranks
+  virtual StepStats stats() const = 0;                             // of the present state
+  virtual std::vector<SolidState> solids() const = 0;              // equal on all ranks
   virtual SurfaceMesh solid_surface(std::size_t index) const = 0;  // at the present time
-  virtual ProbeSample probe(std::size_t index) const = 0;   // collective; equal on all ranks
+  virtual ProbeSample probe(std::size_t index) const = 0;          // collective; equal on all ranks
   virtual FrameField frame_field(const std::string& name) const = 0;
-  virtual double expected_volume() const = 0;               // initial + sources + net inflow, m^3
+  virtual double expected_volume() const = 0;  // initial + sources + net inflow, m^3
   virtual CheckpointData save() const = 0;
   // Takes the state back. `data.fields` hold this rank's boxes, as `save()` of this rank count would give them.
   virtual void load(const CheckpointData& data) = 0;
   // The boxes (name, lower, upper; values empty) that load() wants on this rank.
   virtual std::vector<FieldRecord> checkpoint_boxes() const = 0;
   virtual const Timers& timers() const = 0;
-  virtual std::vector<std::string> take_warnings() = 0;     // since the last call, for the log; equal on all ranks
+  virtual std::vector<std::string> take_warnings() = 0;  // since the last call, for the log; equal on all ranks
 };
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks);

@@ -18,7 +18,7 @@ struct Source {
 template <int Dim>
 struct Setup {
   Scene scene;
-  std::vector<std::string> notes;   // of reading the shapes, for the log
+  std::vector<std::string> notes;  // of reading the shapes, for the log
   Communicator ranks;
   Layout<Dim> layout;
   Halo<Dim> halo;
@@ -39,27 +39,27 @@ struct Setup {
 // One time level of the flow.
 template <int Dim>
 struct Level {
-  FaceField<Dim> u;               // m/s, continued beyond the liquid, ghosts filled
-  FaceField<Dim, char> valid;     // 1 where u was solved for or prescribed next to liquid (owned faces and halo)
-  FaceField<Dim> q;               // grad p / rho of the step that led here, m/s^2, where valid
+  FaceField<Dim> u;            // m/s, continued beyond the liquid, ghosts filled
+  FaceField<Dim, char> valid;  // 1 where u was solved for or prescribed next to liquid (owned faces and halo)
+  FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
 };
 
 template <int Dim>
 struct State {
   double time = 0;
   std::int64_t step = 0;
-  std::shared_ptr<const Level<Dim>> now, before, earlier;   // before and earlier are null at the start
-  double dt_now = 0, dt_before = 0;                         // steps that led to `now` and to `before`
-  CellField<Dim> phi;                                       // m, ghosts filled
-  CellField<Dim> pressure;                                  // Pa, 0 where the cell has no row
-  double expected_volume = 0;                               // initial + sources + net inflow, m^Dim
-  double corrected_volume = 0;                              // restored by the volume control so far
+  std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
+  double dt_now = 0, dt_before = 0;                        // steps that led to `now` and to `before`
+  CellField<Dim> phi;                                      // m, ghosts filled
+  CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
+  double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
+  double corrected_volume = 0;                             // restored by the volume control so far
 };
 
 // How a step went; `state` is only set where it succeeded.
 template <int Dim>
 struct Attempt {
-  std::string failure;           // empty: accepted
+  std::string failure;  // empty: accepted
   State<Dim> state;
   StepGeometry<Dim> geometry;
   SolveReport solve;
@@ -88,8 +88,8 @@ template <int Dim>
 template <int Dim>
 double fastest_component(const Setup<Dim>& setup, const State<Dim>& state);
 
-// The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that is
-// hopelessly short.
+// The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that
+// is hopelessly short.
 template <int Dim>
 double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
 

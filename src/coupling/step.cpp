@@ -30,7 +30,8 @@ std::string find_non_finite(const Setup<Dim>& s, const std::string& name, const 
 template <int Dim>
 std::string find_non_finite(const Setup<Dim>& s, const std::string& name, const FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    if (auto text = find_non_finite(s, name + "[" + "xyz"[a] + "]", s.layout.faces(a), u[a].data()); !text.empty()) return text;
+    if (auto text = find_non_finite(s, name + "[" + "xyz"[a] + "]", s.layout.faces(a), u[a].data()); !text.empty())
+      return text;
   return {};
 }
 
@@ -67,9 +68,10 @@ std::string find_impossible_motion(const Setup<Dim>& s, const StepGeometry<Dim>&
   std::string who;
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (!g.twists[k].at_rest()) who += (who.empty() ? " by '" : ", '") + s.bodies[k].spec().name + "'";
-  return fmt::format("incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free surface, "
-                     "an outflow side, or a motion that keeps the volume",
-                     -m.net, Dim, who);
+  return fmt::format(
+      "incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free surface, "
+      "an outflow side, or a motion that keeps the volume",
+      -m.net, Dim, who);
 }
 
 template <int Dim>
@@ -86,7 +88,8 @@ Solution<Dim> solve_pressure(const Setup<Dim>& s, const ProjectionInput<Dim>& in
                              const CellField<Dim>& guess, const FaceField<Dim>& u_star, PhaseFault fault) {
   Solution<Dim> r{number_rows(in), CellField<Dim>(s.layout), {}, {}};
   const NullSpace closed = find_closed_components(in, r.rows);
-  const std::string impossible = closed.count == 0 ? "" : find_impossible_motion(s, g, worst_mismatch(in, r.rows, closed));
+  const std::string impossible =
+      closed.count == 0 ? "" : find_impossible_motion(s, g, worst_mismatch(in, r.rows, closed));
   if (!impossible.empty()) throw Error(ExitCode::cannot_continue, impossible);
   std::vector<double> b = pressure_right_side(in, r.rows, u_star), x;
   if (fault == PhaseFault::poison && !b.empty()) b[0] = poison;
@@ -107,64 +110,89 @@ std::string verify(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceFie
   return text.empty() ? find_non_finite(s, "u", u_star) : text;
 }
 
+// A step between its phases. Each phase tells the hook and the timers, and leaves what the next ones need.
+template <int Dim>
+struct StepInProgress {
+  const Setup<Dim>& s;
+  const State<Dim>& before;
+  double dt;
+  Phases& phases;
+  Attempt<Dim> out;
+  FaceField<Dim> u_star;
+  Solution<Dim> solution;
+
+  StepInProgress(const Setup<Dim>& setup, const State<Dim>& state, double step, Phases& p)
+      : s(setup), before(state), dt(step), phases(p) {
+    State<Dim>& next = out.state = state;
+    next.time = state.time + dt;
+    next.step = state.step + 1;
+    next.earlier = state.before;
+    next.before = state.now;
+    next.dt_before = state.dt_now;
+    next.dt_now = dt;
+  }
+
+  void transport_surface() {
+    const PhaseFault fault = phases.enter("transport");
+    const auto timed = phases.timers.measure("surface");
+    double added = 0;
+    out.state.phi = seiche::transport_surface(s, before, dt, added);
+    out.state.expected_volume += added;
+    inject(s, fault, out.state.phi.data());
+  }
+
+  void measure_geometry() {
+    const PhaseFault fault = phases.enter("geometry");
+    const auto timed = phases.timers.measure("geometry");
+    out.geometry = s.solids.measure(before.time, out.state.time);
+    inject(s, fault, out.geometry.faces.closed_flux[0].data());
+    out.state.corrected_volume +=
+        control_volume(s, out.geometry.psi, out.state.expected_volume, 0.05 * s.layout.h(), out.state.phi);
+  }
+
+  bool transport_velocity() {
+    const auto timed = phases.timers.measure("velocity");
+    u_star = seiche::transport_velocity(s, before, out.state.phi, dt);
+    out.failure = verify(s, out.state.phi, u_star);
+    return out.failure.empty();
+  }
+
+  ProjectionInput<Dim> input() const {
+    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt};
+  }
+
+  bool solve() {
+    const PhaseFault fault = phases.enter("solve");
+    const auto timed = phases.timers.measure("solve");
+    solution = solve_pressure(s, input(), out.geometry, before.pressure, u_star, fault);
+    out.solve = solution.report;
+    out.rows = solution.rows.global;
+    out.failure = solution.failure;
+    out.state.pressure = solution.pressure;
+    return out.failure.empty();
+  }
+
+  void restore() {
+    const PhaseFault fault = phases.enter("restore");
+    const auto timed = phases.timers.measure("restore");
+    auto level = std::make_shared<Level<Dim>>(
+        restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry, out.divergence));
+    inject(s, fault, level->u[0].data());
+    out.failure = find_non_finite(s, "u", level->u);
+    out.state.expected_volume += dt * net_inflow(s, out.geometry, out.state.phi, level->u);
+    out.state.now = level;
+  }
+};
+
 }  // namespace
 
 template <int Dim>
 Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double dt, Phases& phases) {
-  Attempt<Dim> out;
-  State<Dim>& next = out.state = state;
-  next.time = state.time + dt;
-  next.step = state.step + 1;
-  next.earlier = state.before;
-  next.before = state.now;
-  next.dt_before = state.dt_now;
-  next.dt_now = dt;
-
-  PhaseFault fault = phases.enter("transport");
-  {
-    const auto timed = phases.timers.measure("surface");
-    double added = 0;
-    next.phi = transport_surface(s, state, dt, added);
-    next.expected_volume += added;
-    inject(s, fault, next.phi.data());
-  }
-  fault = phases.enter("geometry");
-  {
-    const auto timed = phases.timers.measure("geometry");
-    out.geometry = s.solids.measure(state.time, next.time);
-    inject(s, fault, out.geometry.faces.closed_flux[0].data());
-    next.corrected_volume += control_volume(s, out.geometry.psi, next.expected_volume, 0.05 * s.layout.h(), next.phi);
-  }
-  FaceField<Dim> u_star;
-  {
-    const auto timed = phases.timers.measure("velocity");
-    u_star = transport_velocity(s, state, next.phi, dt);
-    out.failure = verify(s, next.phi, u_star);
-    if (!out.failure.empty()) return out;
-  }
-  fault = phases.enter("solve");
-  const ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, next.phi, out.geometry.faces, s.density(), dt};
-  Solution<Dim> solution;
-  {
-    const auto timed = phases.timers.measure("solve");
-    solution = solve_pressure(s, in, out.geometry, state.pressure, u_star, fault);
-    out.solve = solution.report;
-    out.rows = solution.rows.global;
-    out.failure = solution.failure;
-    if (!out.failure.empty()) return out;
-    next.pressure = solution.pressure;
-  }
-  fault = phases.enter("restore");
-  {
-    const auto timed = phases.timers.measure("restore");
-    auto level = std::make_shared<Level<Dim>>(
-        restore_velocity(s, in, solution.rows, next.pressure, u_star, out.geometry, out.divergence));
-    inject(s, fault, level->u[0].data());
-    out.failure = find_non_finite(s, "u", level->u);
-    next.expected_volume += dt * net_inflow(s, out.geometry, next.phi, level->u);
-    next.now = level;
-  }
-  return out;
+  StepInProgress<Dim> step(s, state, dt, phases);
+  step.transport_surface();
+  step.measure_geometry();
+  if (step.transport_velocity() && step.solve()) step.restore();
+  return std::move(step.out);
 }
 
 template Attempt<2> attempt_step<2>(const Setup<2>&, const State<2>&, double, Phases&);

@@ -29,7 +29,8 @@ double surface_radius(const Layout<Dim>& layout, const Body<Dim>& body) {
 }  // namespace
 
 template <int Dim>
-SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides, const std::vector<Body<Dim>>& bodies)
+SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides,
+                                  const std::vector<Body<Dim>>& bodies)
     : layout_(layout), sides_(sides), bodies_(bodies) {
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);

@@ -10,10 +10,10 @@ namespace seiche {
 
 template <int Dim>
 struct StepGeometry {
-  NodeField<Dim> psi;                  // distance to the nearest solid, m, negative inside
-  NodeField<Dim, std::int16_t> body;   // index of that solid, -1 without solids
+  NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
+  NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
   FaceGeometry<Dim> faces;
-  std::vector<Twist> twists;           // of all bodies over the step
+  std::vector<Twist> twists;  // of all bodies over the step
 };
 
 template <int Dim>
@@ -35,15 +35,16 @@ class SolidGeometry {
   const Layout<Dim>& layout_;
   const Sides<Dim>& sides_;
   const std::vector<Body<Dim>>& bodies_;
-  StepGeometry<Dim> still_;          // of the static bodies
+  StepGeometry<Dim> still_;  // of the static bodies
   bool any_moves_ = false;
-  std::vector<double> radius_;   // of the moving bodies about their pivots, m
+  std::vector<double> radius_;  // of the moving bodies about their pivots, m
 };
 
 // Share of a face that body k closes: the face's closed part s = 1 - w split by how deep its corners lie in each body.
 // Calls visit(body, share).
 template <int Dim, class Visit>
-void for_each_closing_body(const Layout<Dim>& layout, const StepGeometry<Dim>& g, int axis, Site face, const Visit& visit);
+void for_each_closing_body(const Layout<Dim>& layout, const StepGeometry<Dim>& g, int axis, Site face,
+                           const Visit& visit);
 
 }  // namespace seiche
 

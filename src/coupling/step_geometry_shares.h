@@ -4,7 +4,8 @@
 namespace seiche {
 
 template <int Dim, class Visit>
-void for_each_closing_body(const Layout<Dim>& layout, const StepGeometry<Dim>& g, int axis, Site face, const Visit& visit) {
+void for_each_closing_body(const Layout<Dim>& layout, const StepGeometry<Dim>& g, int axis, Site face,
+                           const Visit& visit) {
   const double closed = 1 - g.faces.open.at(axis, face);
   if (closed == 0) return;
   constexpr int corners = 1 << (Dim - 1);

@@ -48,10 +48,11 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
   if (!(dt * most_steps_a_frame > remaining))
-    throw Error(ExitCode::cannot_continue,
-                fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {:.0g} steps); the flow "
-                            "or a solid is too fast for cells of {:.3g} m",
-                            dt, remaining, most_steps_a_frame, s.layout.h()));
+    throw Error(
+        ExitCode::cannot_continue,
+        fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {:.0g} steps); the flow "
+                    "or a solid is too fast for cells of {:.3g} m",
+                    dt, remaining, most_steps_a_frame, s.layout.h()));
   if (dt >= remaining * (1 - 1e-9)) return remaining;
   return 2 * dt > remaining && !spec.fixed_step ? remaining / 2 : dt;
 }

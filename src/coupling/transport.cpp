@@ -76,16 +76,16 @@ void smooth(const Setup<Dim>& s, FaceField<Dim>& f) {
     const FaceField<Dim> old = f;
     const Site d = s.layout.stride(axis);
     for (int a = 0; a < Dim; ++a)
-      for_each_site(s.layout, s.layout.faces(a), [&](Site c) {
-        f.at(a, c) = 0.25 * (old.at(a, c - d) + 2 * old.at(a, c) + old.at(a, c + d));
-      });
+      for_each_site(s.layout, s.layout.faces(a),
+                    [&](Site c) { f.at(a, c) = 0.25 * (old.at(a, c - d) + 2 * old.at(a, c) + old.at(a, c + d)); });
     fill_velocity_ghosts(s.layout, s.halo, s.sides, f);
   }
 }
 
-// Trend of the pressure slope from t - dt_now/2 to t + dt/2. Carrying it on as it stands grows waves that the flow takes
-// more than about an eighth of their length a step: errors follow r^2 = c ((1 + F) r - F), c = (1 - exp(-i theta))/2, F the
-// filter's response. 2 c^2 passes keep |r| <= 1 up to Courant number c = 2; beyond it the trend is left out.
+// Trend of the pressure slope from t - dt_now/2 to t + dt/2. Carrying it on as it stands grows waves that the flow
+// takes more than about an eighth of their length a step: errors follow r^2 = c ((1 + F) r - F), c = (1 - exp(-i
+// theta))/2, F the filter's response. 2 c^2 passes keep |r| <= 1 up to Courant number c = 2; beyond it the trend is
+// left out.
 template <int Dim>
 FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   FaceField<Dim> trend(s.layout);
@@ -104,10 +104,10 @@ FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double 
   return trend;
 }
 
-// A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on; continued beyond
-// the liquid. All zero at the start and in first order. Impacts change velocity at once whatever dt is, so that their A
-// says nothing of the next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of order
-// h there).
+// A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on; continued
+// beyond the liquid. All zero at the start and in first order. Impacts change velocity at once whatever dt is, so that
+// their A says nothing of the next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of
+// order h there).
 template <int Dim>
 FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   FaceField<Dim> acc(s.layout);
@@ -153,7 +153,8 @@ template <int Dim>
 FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& s, const CellField<Dim>& phi) {
   FaceField<Dim, char> near(s.layout);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) { near.at(a, f) = phi[f] < 0 || phi[f - s.layout.stride(a)] < 0; });
+    for_each_site(s.layout, s.layout.faces(a),
+                  [&](Site f) { near.at(a, f) = phi[f] < 0 || phi[f - s.layout.stride(a)] < 0; });
   return near;
 }
 
@@ -177,15 +178,15 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
 }
 
 template <int Dim>
-double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double expected, double limit, CellField<Dim>& phi) {
+double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double expected, double limit,
+                      CellField<Dim>& phi) {
   fill_level_set_ghosts(s.layout, s.halo, phi);
   const double volume = liquid_volume(s, phi, psi);
   const double missing = expected - volume, probe = 1e-3 * s.layout.h();
   CellField<Dim> shifted = phi;
   const auto shift = [&](double by) {
-    for_each_site(s.layout, s.layout.padded(), [&](Site c) {
-      shifted[c] = std::abs(phi[c]) < s.band() ? phi[c] - by : phi[c];
-    });
+    for_each_site(s.layout, s.layout.padded(),
+                  [&](Site c) { shifted[c] = std::abs(phi[c]) < s.band() ? phi[c] - by : phi[c]; });
   };
   shift(probe);
   const double area = (liquid_volume(s, shifted, psi) - volume) / probe;  // of the free surface
@@ -196,11 +197,11 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   return liquid_volume(s, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                       \
-  template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);                     \
-  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                            \
-  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double);        \
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                \
+  template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);              \
+  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                     \
+  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double); \
   template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -10,9 +10,11 @@ namespace seiche {
 template <int Dim>
 CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, double dt, double& added);
 
-// u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f - q.
+// u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
+// - q.
 template <int Dim>
-FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi, double dt);
+FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
+                                  double dt);
 
 // 1 on the owned faces with liquid (phi < 0) on at least one side.
 template <int Dim>
@@ -20,7 +22,8 @@ FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& setup, const CellField<
 
 // Shifts phi so that the liquid has the expected volume, by at most `limit` (m). Returns the volume restored.
 template <int Dim>
-double control_volume(const Setup<Dim>& setup, const NodeField<Dim>& psi, double expected, double limit, CellField<Dim>& phi);
+double control_volume(const Setup<Dim>& setup, const NodeField<Dim>& psi, double expected, double limit,
+                      CellField<Dim>& phi);
 
 // Liquid volume over all ranks, m^Dim.
 template <int Dim>

@@ -44,12 +44,12 @@ Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, cons
 }
 
 template <int Dim>
-void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band, const CellField<Dim>& phi,
-                      CellField<Dim>& moved) {
+void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
+                      const CellField<Dim>& phi, CellField<Dim>& moved) {
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
     moved[s] = phi[s];
     if (std::abs(phi[s]) >= band) return;
-    const Vec<Dim> from = 
+    const Vec<Dim> from =
         trace_midpoint<Dim>(layout, u, mean_at_cell(layout, u, s), layout.position(i, cell_offset<Dim>()), dt);
     moved[s] = interpolate_cubic<Dim>(layout, phi.data(), index_coordinates<Dim>(layout, from, cell_offset<Dim>()));
   });
@@ -61,19 +61,19 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   for (int a = 0; a < Dim; ++a)
     for_each_index(layout, layout.faces(a), [&](Site s, const IVec<Dim>& i) {
       if (!near.at(a, s)) return;
-      const Vec<Dim> from = 
-          trace_midpoint<Dim>(layout, path, mean_at_face(layout, path, a, s), layout.position(i, face_offset<Dim>(a)), dt);
+      const Vec<Dim> from = trace_midpoint<Dim>(layout, path, mean_at_face(layout, path, a, s),
+                                                layout.position(i, face_offset<Dim>(a)), dt);
       result.at(a, s) =
           interpolate_cubic<Dim>(layout, carried[a].data(), index_coordinates<Dim>(layout, from, face_offset<Dim>(a)));
     });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                         \
-  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);  \
-  template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,     \
-                                    CellField<D>&);                                                                 \
-  template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,           \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                       \
+  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double); \
+  template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,   \
+                                    CellField<D>&);                                                               \
+  template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,         \
                                 const FaceField<D>&, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

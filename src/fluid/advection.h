@@ -16,8 +16,8 @@ Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, cons
 // phi(x) <- phi(departure point) at the owned cells with |phi| < band; the others keep their value. Ghosts of phi and u
 // must be filled.
 template <int Dim>
-void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band, const CellField<Dim>& phi,
-                      CellField<Dim>& moved);
+void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
+                      const CellField<Dim>& phi, CellField<Dim>& moved);
 
 // result(f) <- carried(departure point) at the owned faces where near[f] is set; the others keep their value.
 template <int Dim>

@@ -10,15 +10,19 @@ enum class FaceKind : char { closed, open, prescribed, outflow };
 
 template <int Dim>
 struct FaceGeometry {
-  FaceField<Dim> open;             // w, open fraction, 0..1
-  FaceField<Dim, char> kind;       // FaceKind
-  FaceField<Dim> closed_flux;      // (1 - w) v_solid: volume that solids push through, per face area, m/s
-  FaceField<Dim> prescribed;       // velocity of prescribed faces, m/s
-  FaceField<Dim> side_pressure;    // Pa, on outflow faces
+  FaceField<Dim> open;           // w, open fraction, 0..1
+  FaceField<Dim, char> kind;     // FaceKind
+  FaceField<Dim> closed_flux;    // (1 - w) v_solid: volume that solids push through, per face area, m/s
+  FaceField<Dim> prescribed;     // velocity of prescribed faces, m/s
+  FaceField<Dim> side_pressure;  // Pa, on outflow faces
 
   FaceGeometry() = default;
   explicit FaceGeometry(const Layout<Dim>& layout)
-      : open(layout, 1.0), kind(layout, char(FaceKind::open)), closed_flux(layout), prescribed(layout), side_pressure(layout) {}
+      : open(layout, 1.0),
+        kind(layout, char(FaceKind::open)),
+        closed_flux(layout),
+        prescribed(layout),
+        side_pressure(layout) {}
 
   FaceKind kind_at(int axis, Site s) const { return FaceKind(kind.at(axis, s)); }
   bool is_unknown(int axis, Site s) const {
@@ -26,7 +30,8 @@ struct FaceGeometry {
   }
 };
 
-// Calls visit(axis, face, sign, neighbour) for the faces of a cell: sign +1 on the high face; neighbour is the cell across.
+// Calls visit(axis, face, sign, neighbour) for the faces of a cell: sign +1 on the high face; neighbour is the cell
+// across.
 template <int Dim, class Visit>
 void for_each_face_of(const Layout<Dim>& layout, Site cell, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {

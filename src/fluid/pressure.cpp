@@ -24,7 +24,8 @@ struct Link {
 };
 
 template <int Dim>
-Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, int axis, Site face, Site cell, Site across) {
+Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, int axis, Site face, Site cell,
+                 Site across) {
   const double w = in.faces.open.at(axis, face);
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) return {w / 0.5, true};
   if (rows.row[across] >= 0) return {w, false};
@@ -107,8 +108,8 @@ std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const Pr
 }
 
 template <int Dim>
-double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                           int axis, Site face) {
+double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                           const CellField<Dim>& pressure, int axis, Site face) {
   const Site low = face - in.layout.stride(axis), high = face;
   const double scale = 1 / (in.density * in.layout.h());
   const bool has_low = rows.row[low] >= 0, has_high = rows.row[high] >= 0;
@@ -168,15 +169,15 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
   return {worst.net * area, worst.scale * area};
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template PressureRows<D> number_rows<D>(const ProjectionInput<D>&);                                                  \
-  template SparseMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);                \
-  template std::vector<double> pressure_right_side<D>(const ProjectionInput<D>&, const PressureRows<D>&,               \
-                                                      const FaceField<D>&);                                            \
-  template double face_pressure_slope<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, int,  \
-                                         Site);                                                                        \
-  template RowGrid row_grid<D>(const ProjectionInput<D>&, const PressureRows<D>&);                                     \
-  template double max_divergence<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&);           \
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template PressureRows<D> number_rows<D>(const ProjectionInput<D>&);                                                 \
+  template SparseMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);               \
+  template std::vector<double> pressure_right_side<D>(const ProjectionInput<D>&, const PressureRows<D>&,              \
+                                                      const FaceField<D>&);                                           \
+  template double face_pressure_slope<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, int, \
+                                         Site);                                                                       \
+  template RowGrid row_grid<D>(const ProjectionInput<D>&, const PressureRows<D>&);                                    \
+  template double max_divergence<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&);          \
   template VolumeMismatch worst_mismatch<D>(const ProjectionInput<D>&, const PressureRows<D>&, const NullSpace&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

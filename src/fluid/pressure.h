@@ -16,17 +16,17 @@ struct ProjectionInput {
   const Communicator& ranks;
   const CellField<Dim>& phi;
   const FaceGeometry<Dim>& faces;
-  double density;   // kg/m^3
-  double dt;        // s
+  double density;  // kg/m^3
+  double dt;       // s
 };
 
 // The unknowns: one row a liquid cell that an open face touches.
 template <int Dim>
 struct PressureRows {
-  CellField<Dim, std::int64_t> row;   // global row or -1, filled one cell around
-  std::vector<Site> cells;            // owned cells with a row, in row order
+  CellField<Dim, std::int64_t> row;  // global row or -1, filled one cell around
+  std::vector<Site> cells;           // owned cells with a row, in row order
   Row first = 0, global = 0;
-  std::int64_t isolated = 0;          // liquid cells without an open face, over all ranks
+  std::int64_t isolated = 0;  // liquid cells without an open face, over all ranks
 };
 
 template <int Dim>
@@ -37,12 +37,12 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in);
 template <int Dim>
 NullSpace find_closed_components(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 
-// Distance from a liquid cell's centre to the free surface towards an air cell, in cells. Clamped at 1e-8: any clamp large
-// enough to matter breaks hydrostatic rest (docs/decisions/0003).
+// Distance from a liquid cell's centre to the free surface towards an air cell, in cells. Clamped at 1e-8: any clamp
+// large enough to matter breaks hydrostatic rest (docs/decisions/0003).
 double surface_distance(double phi_liquid, double phi_air);
 
-// sum_f w (p_i - p_j)/theta = -(rho h/dt) sum_f +-(w u* + closed flux), p = 0 at the surface (Gibou et al. 2002; Ng, Min,
-// Gibou 2009). Scaled by h^(2-Dim) rho/dt.
+// sum_f w (p_i - p_j)/theta = -(rho h/dt) sum_f +-(w u* + closed flux), p = 0 at the surface (Gibou et al. 2002; Ng,
+// Min, Gibou 2009). Scaled by h^(2-Dim) rho/dt.
 template <int Dim>
 SparseMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 template <int Dim>
@@ -58,8 +58,8 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
 
 // (p_high - p_low)/(theta rho h): the acceleration the pressure gives a face, sign turned. Zero where no row touches.
 template <int Dim>
-double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                           int axis, Site face);
+double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                           const CellField<Dim>& pressure, int axis, Site face);
 
 template <int Dim>
 RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);

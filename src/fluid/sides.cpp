@@ -54,7 +54,8 @@ Extensions<Dim> Sides<Dim>::velocity_extensions() const {
 }
 
 template <int Dim>
-void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides, FaceField<Dim>& u) {
+void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides,
+                          FaceField<Dim>& u) {
   halo.fill_ghosts(u);
   const Extensions<Dim> rules = sides.velocity_extensions();
   for (int a = 0; a < Dim; ++a) extend_beyond_sides<Dim>(layout, u[a].data(), face_offset<Dim>(a), rules);

@@ -32,7 +32,8 @@ void append_sites(const Layout<Dim>& layout, const Box<Dim>& box, std::vector<Si
 }  // namespace
 
 template <int Dim>
-Halo<Dim>::Halo(const Layout<Dim>& layout, const std::vector<Box<Dim>>& boxes, const Communicator& ranks) : ranks_(ranks) {
+Halo<Dim>::Halo(const Layout<Dim>& layout, const std::vector<Box<Dim>>& boxes, const Communicator& ranks)
+    : ranks_(ranks) {
   const auto shifts = period_shifts<Dim>(layout.geometry(), layout.halo());
   for (int r = 0; r < int(boxes.size()); ++r) {
     if (boxes[r].empty() || layout.cells().empty()) continue;

@@ -34,8 +34,8 @@ class Halo {
   void exchange(std::initializer_list<T*> fields) const;
 
   Communicator ranks_;
-  std::vector<Peer> peers_;                       // other ranks
-  std::vector<Site> copy_from_, copy_to_;         // periodic images of our own
+  std::vector<Peer> peers_;                // other ranks
+  std::vector<Site> copy_from_, copy_to_;  // periodic images of our own
 };
 
 }  // namespace seiche

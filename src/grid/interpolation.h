@@ -57,9 +57,7 @@ double interpolate_cubic(const Layout<Dim>& layout, const double* f, const Vec<D
   const Site s = detail::base_site<Dim>(layout, g, 1, 2, t);
   std::array<std::array<double, 4>, Dim> w;
   for (int a = 0; a < Dim; ++a) w[a] = lagrange_weights(t[a]);
-  const auto row = [&](const double* p) {
-    return w[0][0] * p[-1] + w[0][1] * p[0] + w[0][2] * p[1] + w[0][3] * p[2];
-  };
+  const auto row = [&](const double* p) { return w[0][0] * p[-1] + w[0][1] * p[0] + w[0][2] * p[1] + w[0][3] * p[2]; };
   const auto plane = [&](const double* p) {
     const Site d = layout.stride(1);
     return w[1][0] * row(p - d) + w[1][1] * row(p) + w[1][2] * row(p + d) + w[1][3] * row(p + 2 * d);

@@ -61,7 +61,8 @@ double split_cost(const IVec<Dim>& cells, const IVec<Dim>& split) {
 }
 
 template <int Dim>
-void search_split(const IVec<Dim>& cells, int axis, int remaining, IVec<Dim>& split, IVec<Dim>& best, double& best_cost) {
+void search_split(const IVec<Dim>& cells, int axis, int remaining, IVec<Dim>& split, IVec<Dim>& best,
+                  double& best_cost) {
   if (axis == Dim - 1) {
     split[axis] = remaining;
     if (remaining > cells[axis]) return;

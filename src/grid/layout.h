@@ -15,8 +15,8 @@ using Site = std::ptrdiff_t;
 // The whole grid: cell (i, j, k) spans lower + h (i, j, k) to lower + h (i+1, j+1, k+1).
 template <int Dim>
 struct Geometry {
-  Vec<Dim> lower = Vec<Dim>::Zero();   // m
-  double h = 1;                        // cell size, m
+  Vec<Dim> lower = Vec<Dim>::Zero();  // m
+  double h = 1;                       // cell size, m
   IVec<Dim> cells = IVec<Dim>::Ones();
   std::array<bool, Dim> periodic{};
 
@@ -52,11 +52,11 @@ class Layout {
   Site size() const { return size_; }
   Site stride(int axis) const { return stride_[axis]; }
 
-  const Box<Dim>& cells() const { return owned_; }              // owned cells
-  Box<Dim> faces(int axis) const;                               // owned low faces, and the domain's last face
-  Box<Dim> nodes() const;                                       // owned low nodes, and the domain's last nodes
-  const Box<Dim>& padded() const { return padded_; }            // all sites stored
-  const Box<Dim>& authority() const { return authority_; }      // owned and, beyond the domain's sides, the halo
+  const Box<Dim>& cells() const { return owned_; }          // owned cells
+  Box<Dim> faces(int axis) const;                           // owned low faces, and the domain's last face
+  Box<Dim> nodes() const;                                   // owned low nodes, and the domain's last nodes
+  const Box<Dim>& padded() const { return padded_; }        // all sites stored
+  const Box<Dim>& authority() const { return authority_; }  // owned and, beyond the domain's sides, the halo
   // Owned cells grown by n, within the sites stored.
   Box<Dim> grown(int n) const { return owned_.empty() ? owned_ : owned_.grown(n).cut(padded_); }
   bool at_lower(int axis) const { return !geometry_.periodic[axis] && owned_.lower[axis] == 0; }

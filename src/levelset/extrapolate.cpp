@@ -5,7 +5,9 @@
 namespace seiche {
 namespace {
 
-double minmod(double a, double b) { return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b); }
+double minmod(double a, double b) {
+  return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b);
+}
 
 // What the sites known from earlier layers predict. Sites are at least four from the end of the stored ones.
 template <int Dim>
@@ -17,8 +19,8 @@ struct Predictor {
 
   bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
 
-  // The nearest value along a line, plus the smaller of the two slopes behind it where both are known: continued straight
-  // in smooth flow, constant from drops and sheets too thin to have a slope.
+  // The nearest value along a line, plus the smaller of the two slopes behind it where both are known: continued
+  // straight in smooth flow, constant from drops and sheets too thin to have a slope.
   double along(Site s, Site d, char layer) const {
     if (layer - 2 >= linear_layers || !earlier(s + d, layer) || !earlier(s + 2 * d, layer)) return f[s];
     return f[s] + minmod(f[s] - f[s + d], f[s + d] - f[s + 2 * d]);
@@ -42,8 +44,8 @@ struct Predictor {
 }  // namespace
 
 template <int Dim>
-void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, const ExtrapolateOptions& options,
-                 std::vector<double>& f, std::vector<char>& known) {
+void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
+                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known) {
   halo.fill_ghosts({f.data()});
   halo.fill_ghosts({known.data()});
   const Predictor<Dim> predictor{layout, f, known, options.linear_layers};

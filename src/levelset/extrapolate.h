@@ -6,13 +6,13 @@ namespace seiche {
 
 struct ExtrapolateOptions {
   int layers = 4;
-  int linear_layers = 0;   // the first layers continue straight lines, the others the nearest value
+  int linear_layers = 0;  // the first layers continue straight lines, the others the nearest value
 };
 
-// One component of a face field. known: 1 where data exist, 0 elsewhere; on return each reached site holds its layer + 1.
-// Sites never reached keep their value. Domain-boundary sites beyond the sides are not filled. Collective.
+// One component of a face field. known: 1 where data exist, 0 elsewhere; on return each reached site holds its layer
+// + 1. Sites never reached keep their value. Domain-boundary sites beyond the sides are not filled. Collective.
 template <int Dim>
-void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, const ExtrapolateOptions& options,
-                 std::vector<double>& f, std::vector<char>& known);
+void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
+                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known);
 
 }  // namespace seiche

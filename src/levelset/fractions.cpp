@@ -65,7 +65,9 @@ double square_part(const Cube<2>& q, const std::array<double, 2>& apex, double m
   return sum;
 }
 
-double cube_part(const Cube<2>& c) { return square_part<2>(c, {}, 1.0); }
+double cube_part(const Cube<2>& c) {
+  return square_part<2>(c, {}, 1.0);
+}
 
 double cube_part(const Cube<3>& c) {
   double sum = 0;

@@ -6,7 +6,9 @@
 namespace seiche {
 namespace {
 
-double minmod(double a, double b) { return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b); }
+double minmod(double a, double b) {
+  return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b);
+}
 
 // `cell` is the cell size in the units of phi: no distance changes faster.
 template <int Dim>
@@ -16,10 +18,12 @@ void fill_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, double cell, 
 }
 
 // Second difference along d, unscaled.
-double second(const double* f, Site d) { return f[-d] - 2 * f[0] + f[d]; }
+double second(const double* f, Site d) {
+  return f[-d] - 2 * f[0] + f[d];
+}
 
-// Share t of the way from f[0] to f[d] at which the ENO parabola a + B t + c/2 t^2 crosses zero; signs of f[0], f[d] differ.
-// Written so that nothing cancels as c goes to zero.
+// Share t of the way from f[0] to f[d] at which the ENO parabola a + B t + c/2 t^2 crosses zero; signs of f[0], f[d]
+// differ. Written so that nothing cancels as c goes to zero.
 double crossing(const double* f, Site d) {
   const double c = minmod(second(f, d), second(f + d, d)), a = f[0], b = f[d];
   const double B = b - a - c / 2;
@@ -34,7 +38,7 @@ struct BandCell {
   Site site;
   double sign;
   double step;
-  unsigned sides;   // bit 2 axis + side: no cell of the domain beyond
+  unsigned sides;  // bit 2 axis + side: no cell of the domain beyond
   std::array<std::array<double, 2>, Dim> reach;
 };
 
@@ -42,7 +46,12 @@ template <int Dim>
 class Relaxation {
  public:
   Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi)
-      : layout_(layout), halo_(halo), limit_(options.band), entering_(std::min(options.entering, layout.halo())), phi_(phi), start_(phi) {
+      : layout_(layout),
+        halo_(halo),
+        limit_(options.band),
+        entering_(std::min(options.entering, layout.halo())),
+        phi_(phi),
+        start_(phi) {
     collect();
   }
 
@@ -125,8 +134,8 @@ class Relaxation {
     return g;
   }
 
-  // Beyond a side phi only continues what is inside: a distance must not shrink on its word, or it would shrink without end
-  // (a lower phi at the wall makes the continued slope steeper). It may grow.
+  // Beyond a side phi only continues what is inside: a distance must not shrink on its word, or it would shrink without
+  // end (a lower phi at the wall makes the continued slope steeper). It may grow.
   double rate(const BandCell<Dim>& c) const {
     const Gradient g = gradient(c);
     return g.enters && g.norm > 1 ? 0 : 1 - g.norm;
@@ -162,7 +171,8 @@ void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, Cel
 }
 
 template <int Dim>
-void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi) {
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
+                CellField<Dim>& phi) {
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);

@@ -5,15 +5,16 @@
 namespace seiche {
 
 struct RedistanceOptions {
-  double band = 5;       // cells on each side within which phi is kept; beyond it is +-band
-  int iterations = 8;    // each carries distance 0.45 cells outwards
-  int entering = 2;      // layers beyond the band that may enter it: what the interface moved since the last call
+  double band = 5;     // cells on each side within which phi is kept; beyond it is +-band
+  int iterations = 8;  // each carries distance 0.45 cells outwards
+  int entering = 2;    // layers beyond the band that may enter it: what the interface moved since the last call
 };
 
 // Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka
 // 2000; du Chene, Min, Gibou 2008). Fills ghosts. Collective.
 template <int Dim>
-void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi);
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
+                CellField<Dim>& phi);
 
 // Halo exchange and straight continuation beyond the sides, as level sets need it.
 template <int Dim>

@@ -3,7 +3,9 @@
 namespace seiche {
 namespace {
 
-double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
+double radians(double degrees) {
+  return degrees * 3.14159265358979323846 / 180;
+}
 
 // A representative point of the shape before its transform.
 Vec3 shape_center(const ShapeSpec& s) {

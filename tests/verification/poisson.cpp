@@ -1,4 +1,5 @@
-// Manufactured pressures: the cut-cell projection recovers p from u* = u + (dt/rho) grad p, where u does not cross solids.
+// Manufactured pressures: the cut-cell projection recovers p from u* = u + (dt/rho) grad p, where u does not cross
+// solids.
 #include <catch2/catch.hpp>
 
 #include "coupling/step_geometry.h"
@@ -30,8 +31,8 @@ class Problem {
     fill_level_set_ghosts(layout_, halo_, phi_);
   }
 
-  // L-infinity error of the pressure in cells whose centre is liquid, its mean removed where `closed`. `velocity(axis, x)`
-  // is free of divergence and tangential to the solids.
+  // L-infinity error of the pressure in cells whose centre is liquid, its mean removed where `closed`. `velocity(axis,
+  // x)` is free of divergence and tangential to the solids.
   double error(std::function<double(int, const Vec<Dim>&)> velocity, std::function<double(const Vec<Dim>&)> p,
                std::function<double(int, const Vec<Dim>&)> slope) {
     const ProjectionInput<Dim> in{layout_, halo_, ranks_, phi_, step_.faces, 1.0, 1.0};
@@ -161,9 +162,9 @@ double full(const Vec<Dim>&) {
 }
 
 template <int Dim>
-void check_order(const std::string& name, const std::vector<SolidSpec>& solids, std::function<double(int, const Vec<Dim>&)> u,
-                 std::function<double(const Vec<Dim>&)> phi, std::function<double(const Vec<Dim>&)> p,
-                 std::function<double(int, const Vec<Dim>&)> slope) {
+void check_order(const std::string& name, const std::vector<SolidSpec>& solids,
+                 std::function<double(int, const Vec<Dim>&)> u, std::function<double(const Vec<Dim>&)> phi,
+                 std::function<double(const Vec<Dim>&)> p, std::function<double(int, const Vec<Dim>&)> slope) {
   const std::vector<int> sizes = Dim == 2 ? std::vector<int>{32, 64, 128} : std::vector<int>{24, 48, 96};
   std::vector<double> e;
   for (int n : sizes) e.push_back(Problem<Dim>(n, solids, phi).error(u, p, slope));

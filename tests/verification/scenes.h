@@ -34,6 +34,8 @@ inline void add_liquid(Scene& s, const Formula& phi) {
 }
 
 // log2 of the ratio of errors on grids whose cell sizes differ by two.
-inline double order(double coarse, double fine) { return std::log2(coarse / fine); }
+inline double order(double coarse, double fine) {
+  return std::log2(coarse / fine);
+}
 
 }  // namespace seiche::test

@@ -100,7 +100,8 @@ TEST_CASE("a turned, mirrored or permuted scene gives the turned result") {
       const auto turned = run(scene(t, dim, n), 12);
       const double surface = largest_difference(t, reference[0], turned[0], dim, n);
       const double pressure = largest_difference(t, reference[1], turned[1], dim, n);
-      WARN(t.name << " " << dim << "D: relative difference of the surface " << surface << ", of the pressure " << pressure);
+      WARN(t.name << " " << dim << "D: relative difference of the surface " << surface << ", of the pressure "
+                  << pressure);
       CHECK(surface <= 1e-12);
       CHECK(pressure <= 1e-11);  // the solve's tolerance of 1e-14, times the amplification of a free surface
     }

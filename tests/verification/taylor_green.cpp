@@ -11,7 +11,8 @@ Scene vortices(int n, double carry_x, double carry_y) {
   Scene s = test::box_scene(2, n);
   test::make_periodic(s);
   test::add_liquid(s, "-1");
-  s.liquid.velocity = {fmt::format("{}-cos(2*pi*x)*sin(2*pi*y)", carry_x), fmt::format("{}+sin(2*pi*x)*cos(2*pi*y)", carry_y), "0"};
+  s.liquid.velocity = {fmt::format("{}-cos(2*pi*x)*sin(2*pi*y)", carry_x),
+                       fmt::format("{}+sin(2*pi*x)*cos(2*pi*y)", carry_y), "0"};
   s.solver.tolerance = 1e-10;  // far below the discretisation errors measured
   return s;
 }
@@ -44,7 +45,7 @@ double error_at(int n, double carry_x, double carry_y, double end) {
 TEST_CASE("resting Taylor-Green vortices keep their velocity to t = 2") {
   const double e64 = error_at(64, 0, 0, 2), e128 = error_at(128, 0, 0, 2);
   WARN("resting Taylor-Green L2: 64^2 " << e64 << ", 128^2 " << e128);
-  CHECK(e64 <= 9e-4);    // the bars of the validation page, 1.1 B
+  CHECK(e64 <= 9e-4);  // the bars of the validation page, 1.1 B
   CHECK(e128 <= 1.2e-4);
 }
 
