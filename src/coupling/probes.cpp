@@ -71,6 +71,25 @@ std::pair<int, int> upwards(const Setup<Dim>& s) {
   return {axis, g[axis] > 0 ? -1 : 1};
 }
 
+// Largest x of liquid in the layer of cells on the floor (the whole domain where gravity acts along x).
+template <int Dim>
+std::optional<double> front(const Setup<Dim>& s, const State<Dim>& state) {
+  const Geometry<Dim>& grid = s.layout.geometry();
+  const auto [axis, sense] = upwards(s);
+  const int floor = sense > 0 ? 0 : grid.cells[axis] - 1;
+  double best = -std::numeric_limits<double>::infinity();
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (state.phi[c] >= 0 || (axis != 0 && i[axis] != floor)) return;
+    const double next = state.phi[c + s.layout.stride(0)];
+    const bool last = i[0] == grid.cells[0] - 1;
+    const double reach = last ? 0.5 : next >= 0 ? state.phi[c] / (state.phi[c] - next) : 1;
+    best = std::max(best, grid.lower[0] + grid.h * (i[0] + 0.5 + reach));
+  });
+  best = s.ranks.global_max(best);
+  if (!std::isfinite(best)) return {};
+  return best;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -78,8 +97,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   ProbeSample out;
   out.name = probe.name;
   const Vec<Dim> x = truncate<Dim>(probe.position);
-  const auto line = [&](int axis, int sense) {
-    const auto found = farthest_liquid(s, state, x, axis, sense);
+  const auto take = [&](std::optional<double> found) {
     out.defined = found.has_value();
     out.value = found.value_or(0);
   };
@@ -94,10 +112,10 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
       s.ranks.global_sum(std::span<double>(out.vector.data(), 3));
       break;
     case ProbeKind::surface_height:
-      line(upwards(s).first, upwards(s).second);
+      take(farthest_liquid(s, state, x, upwards(s).first, upwards(s).second));
       break;
     case ProbeKind::front:
-      line(0, 1);
+      take(front(s, state));
       break;
   }
   return out;
