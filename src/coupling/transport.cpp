@@ -3,7 +3,6 @@
 #include "coupling/restore.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
-#include "levelset/extrapolate.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
 
@@ -52,9 +51,40 @@ std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
           tau * (tau + dt1) / ((dt1 + dt2) * dt2)};
 }
 
-// w = u(t + dt/2), extrapolated from up to three levels where all of them were solved for; elsewhere the present u.
+// Smallest mask value within `reach` sites along an axis. The domain ends without harm: beyond its sides there is a
+// wall's mirror image or what flows in.
 template <int Dim>
-FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+char least_along(const Layout<Dim>& layout, const std::vector<char>& mask, int component, int axis, int reach, Site f,
+                 const IVec<Dim>& i) {
+  const bool ends = !layout.geometry().periodic[axis];
+  const int last = layout.geometry().cells[axis] - (axis == component ? 0 : 1);
+  const int from = ends ? std::max(-reach, -i[axis]) : -reach, to = ends ? std::min(reach, last - i[axis]) : reach;
+  char least = 1;
+  for (int k = from; k <= to; ++k) least = std::min<char>(least, mask[f + k * layout.stride(axis)] != 0);
+  return least;
+}
+
+// 1 where every face that transport may read from is valid: higher order needs whole stencils.
+template <int Dim>
+FaceField<Dim, char> interior_faces(const Setup<Dim>& s, const FaceField<Dim, char>& valid) {
+  const int reach = s.layout.halo() - 1;  // a step's path and half a stencil
+  FaceField<Dim, char> interior = valid;
+  for (int a = 0; a < Dim; ++a)
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::vector<char> old = interior[a];
+      Box<Dim> box = s.layout.faces(a);
+      for (int later = axis + 1; later < Dim; ++later) box.lower[later] -= reach, box.upper[later] += reach;
+      for_each_index(s.layout, box.cut(s.layout.padded()), [&](Site f, const IVec<Dim>& i) {
+        interior.at(a, f) = old[f] == 0 ? 0 : least_along(s.layout, old, a, axis, reach, f, i);
+      });
+    }
+  return interior;
+}
+
+// w = u(t + dt/2), extrapolated from up to three levels within the liquid; elsewhere the present u.
+template <int Dim>
+FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim, char>& interior,
+                             double dt) {
   FaceField<Dim> w = state.now->u;
   if (!state.before || s.scene.time.scheme == TimeScheme::first_order) return w;
   const bool three = state.earlier != nullptr;
@@ -62,7 +92,7 @@ FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, doubl
   const Level<Dim>&l0 = *state.now, &l1 = *state.before, &l2 = three ? *state.earlier : *state.before;
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (l0.valid.at(a, f) && l1.valid.at(a, f) && l2.valid.at(a, f))
+      if (interior.at(a, f) && l1.valid.at(a, f) && l2.valid.at(a, f))
         w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, w);
@@ -104,10 +134,9 @@ FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double 
   return trend;
 }
 
-// A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on; continued
-// beyond the liquid. All zero at the start and in first order. Impacts change velocity at once whatever dt is, so that
-// their A says nothing of the next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of
-// order h there).
+// A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on. All zero at
+// the start and in first order. Impacts change velocity at once whatever dt is, so that their A says nothing of the
+// next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of order h there).
 template <int Dim>
 FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   FaceField<Dim> acc(s.layout);
@@ -116,15 +145,11 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double
   const Level<Dim>& level = *state.now;
   const Vec<Dim> g = s.gravity();
   const double limit = 0.25 * s.layout.h() / (dt * dt);
-  FaceField<Dim, char> known = level.valid;
-  for (int a = 0; a < Dim; ++a) {
+  for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (level.valid.at(a, f) == face_solved)
         acc.at(a, f) = std::clamp(g[a] - level.q.at(a, f) - trend.at(a, f), -limit, limit);
-      if (level.valid.at(a, f)) known.at(a, f) = 1;
     });
-    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 0}, acc[a], known[a]);
-  }
   fill_velocity_ghosts(s.layout, s.halo, s.sides, acc);
   return acc;
 }
@@ -160,17 +185,17 @@ FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& s, const CellField<Dim>
 
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
-  const FaceField<Dim> path = path_velocity(s, state, dt), acc = acceleration(s, state, dt);
+  const FaceField<Dim, char> interior = interior_faces(s, state.now->valid), near = faces_near_liquid(s, phi);
+  const FaceField<Dim> path = path_velocity(s, state, interior, dt), acc = acceleration(s, state, dt);
   FaceField<Dim> carried = state.now->u;
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.padded(), [&](Site f) { carried.at(a, f) += 0.5 * dt * acc.at(a, f); });
-  const FaceField<Dim, char> near = faces_near_liquid(s, phi);
   FaceField<Dim> u(s.layout);
-  advect_faces(s.layout, path, dt, near, carried, u);
+  advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
   const Vec<Dim> g = s.gravity();
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (near.at(a, f)) u.at(a, f) += dt * (g[a] - 0.5 * acc.at(a, f));
+      if (near.at(a, f)) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
     });
   set_source_velocity(s, state.time, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);

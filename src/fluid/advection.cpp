@@ -57,12 +57,14 @@ void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double
 
 template <int Dim>
 void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double dt, const FaceField<Dim, char>& near,
-                  const FaceField<Dim>& carried, FaceField<Dim>& result) {
+                  const FaceField<Dim, char>& interior, const FaceField<Dim>& inner, const FaceField<Dim>& outer,
+                  FaceField<Dim>& result) {
   for (int a = 0; a < Dim; ++a)
     for_each_index(layout, layout.faces(a), [&](Site s, const IVec<Dim>& i) {
       if (!near.at(a, s)) return;
       const Vec<Dim> from = trace_midpoint<Dim>(layout, path, mean_at_face(layout, path, a, s),
                                                 layout.position(i, face_offset<Dim>(a)), dt);
+      const FaceField<Dim>& carried = interior.at(a, s) ? inner : outer;
       result.at(a, s) =
           interpolate_cubic<Dim>(layout, carried[a].data(), index_coordinates<Dim>(layout, from, face_offset<Dim>(a)));
     });
@@ -74,7 +76,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,   \
                                     CellField<D>&);                                                               \
   template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,         \
-                                const FaceField<D>&, FaceField<D>&);
+                                const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

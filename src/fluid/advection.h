@@ -19,9 +19,11 @@ template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
                       const CellField<Dim>& phi, CellField<Dim>& moved);
 
-// result(f) <- carried(departure point) at the owned faces where near[f] is set; the others keep their value.
+// At the owned faces where near[f] is set: result(f) <- inner(departure point) where interior[f] is set, too, else
+// outer(departure point). The others keep their value.
 template <int Dim>
 void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double dt, const FaceField<Dim, char>& near,
-                  const FaceField<Dim>& carried, FaceField<Dim>& result);
+                  const FaceField<Dim, char>& interior, const FaceField<Dim>& inner, const FaceField<Dim>& outer,
+                  FaceField<Dim>& result);
 
 }  // namespace seiche
