@@ -31,12 +31,26 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   return bodies;
 }
 
+// A box of liquid that ends at a side of the domain goes on beyond it: the wall is no free surface.
+ShapeSpec open_to_sides(ShapeSpec shape, const DomainSpec& domain) {
+  const TransformSpec& t = shape.transform;
+  const bool plain = t.scale == 1 && t.rotate.degrees == 0 && t.translate.isZero(0) && !shape.invert;
+  if (shape.kind != "box" || !plain) return shape;
+  const double near = 1e-6 * domain.cell_size;
+  for (int a = 0; a < 3; ++a) {
+    const double size = domain.upper[a] - domain.lower[a];
+    if (shape.lower[a] <= domain.lower[a] + near) shape.lower[a] = domain.lower[a] - size;
+    if (shape.upper[a] >= domain.upper[a] - near) shape.upper[a] = domain.upper[a] + size;
+  }
+  return shape;
+}
+
 template <int Dim>
 std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::string>& notes) {
   std::vector<Source<Dim>> sources;
   for (const LiquidSourceSpec& spec : scene.liquid.sources)
-    sources.push_back(
-        {spec, make_shape<Dim>(spec.shape, {scene.domain.cell_size, &notes}), VectorExpression(spec.velocity)});
+    sources.push_back({spec, make_shape<Dim>(open_to_sides(spec.shape, scene.domain), {scene.domain.cell_size, &notes}),
+                       VectorExpression(spec.velocity)});
   return sources;
 }
 
@@ -101,7 +115,7 @@ template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& s) {
   std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
   for (const auto& region : s.scene.liquid.regions)
-    shapes.push_back(make_shape<Dim>(region.shape, {s.layout.h(), nullptr}));
+    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.layout.h(), nullptr}));
   State<Dim> state;
   state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);

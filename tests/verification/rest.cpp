@@ -91,3 +91,31 @@ TEST_CASE("liquid rests among 20 random spheres") {
     CHECK(speed <= 1e-10);
   }
 }
+
+TEST_CASE("a pool that fills the tank from wall to wall keeps its volume and presses on the floor with rho g h") {
+  Scene s = test::box_scene(2, 32);
+  s.gravity = {0, -9.81, 0};
+  LiquidRegionSpec pool;
+  pool.shape.kind = "box";
+  pool.shape.upper = {1, 0.71, 0};
+  pool.shape.where = "test";
+  s.liquid.regions.push_back(pool);
+  SolidSpec ball;
+  ball.name = "ball";
+  ball.shape.kind = "sphere";
+  ball.shape.center = {0.5, 0.35, 0};
+  ball.shape.radius = 0.2;
+  s.solids.push_back(ball);
+  ProbeSpec floor;
+  floor.name = "floor";
+  floor.position = {0.5, 0, 0};
+  s.probes.push_back(floor);
+  s.solver.tolerance = 1e-13;
+  const auto sim = make_simulation(s, Communicator());
+  const double volume = sim->stats().liquid_volume;
+  for (int n = 0; n < 10; ++n) (void)sim->step(sim->time() + 1);
+  CHECK(sim->stats().liquid_volume == Approx(volume).epsilon(1e-13));
+  CHECK(sim->probe(0).value == Approx(1000 * 9.81 * 0.71).epsilon(1e-10));
+  // Archimedes, with the area the closed face shares add up to: second order, 13 cells across the disc.
+  CHECK(sim->solids()[0].force[1] == Approx(1000 * 9.81 * 3.14159265358979323846 * 0.04).epsilon(0.005));
+}
