@@ -1,5 +1,7 @@
 #include "base/communicator.h"
 
+#include <cstdlib>
+
 #include "base/error.h"
 
 namespace seiche {
@@ -39,6 +41,8 @@ std::vector<std::string> split(const Pieces& p) {
 }  // namespace
 
 MpiSession::MpiSession(int& argc, char**& argv) {
+  // Without mpirun Open MPI starts a daemon for the one process, which can fail where many start at once.
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
 }

@@ -55,7 +55,9 @@ double net_inflow(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellFie
         const double inward = (side == 0 ? 1 : -1) * g.faces.open.at(a, f) * u.at(a, f);
         const bool fed = s.sides.type(a, side) == SideType::inflow && inward > 0;
         const double share = std::clamp(0.5 - phi[inside] / s.layout.h(), 0.0, 1.0);
-        sum += inward * (fed ? 1 : share);
+        // Through an outflow side liquid leaves; what flows back is air.
+        const bool back = s.sides.is_outflow(a, side) && inward > 0;
+        sum += back ? 0 : inward * (fed ? 1 : share);
       });
     }
   return s.ranks.global_sum(sum) * s.layout.geometry().face_area();
@@ -146,6 +148,7 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("geometry");
     out.geometry = s.solids.measure(before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
+    out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     out.state.corrected_volume +=
         control_volume(s, out.geometry.psi, out.state.expected_volume, 0.05 * s.layout.h(), out.state.phi);
   }
@@ -179,7 +182,6 @@ struct StepInProgress {
         restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry, out.divergence));
     inject(s, fault, level->u[0].data());
     out.failure = find_non_finite(s, "u", level->u);
-    out.state.expected_volume += dt * net_inflow(s, out.geometry, out.state.phi, level->u);
     out.state.now = level;
   }
 };

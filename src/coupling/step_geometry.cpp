@@ -108,15 +108,13 @@ void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
     }
 }
 
-// |d1 - d0| + |R1 - R0| r, r the largest distance from the pivot at which the body's surface stands in the domain.
+// |d1 - d0| + turn r, r the largest distance from the pivot at which the body's surface stands in the domain.
 template <int Dim>
 double SolidGeometry<Dim>::largest_displacement(double t0, double t1) const {
   double largest = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (!bodies_[k].moves()) continue;
-    const Pose before = bodies_[k].pose(t0), after = bodies_[k].pose(t1);
-    const double turn = (after.rotation - before.rotation).norm();
-    largest = std::max(largest, (after.displacement - before.displacement).norm() + turn * radius_[k]);
+    const Twist v = bodies_[k].twist(t0, t1);
+    largest = std::max(largest, (t1 - t0) * (v.linear.norm() + v.angular.norm() * radius_[k]));
   }
   return largest;
 }

@@ -7,6 +7,25 @@
 
 namespace seiche {
 
+namespace {
+
+// Inflow moves the surface in the air before it, too.
+template <int Dim>
+double fastest_inflow(const Setup<Dim>& s, const Level<Dim>& level) {
+  double fastest = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side) {
+      if (s.sides.type(a, side) != SideType::inflow) continue;
+      Box<Dim> box = s.layout.faces(a);
+      box.lower[a] = std::max(box.lower[a], side == 0 ? 0 : s.layout.geometry().cells[a]);
+      box.upper[a] = std::min(box.upper[a], side == 0 ? 1 : s.layout.geometry().cells[a] + 1);
+      fastest = std::max(fastest, local_max(s.layout, box, 0.0, [&](Site f) { return std::abs(level.u.at(a, f)); }));
+    }
+  return fastest;
+}
+
+}  // namespace
+
 template <int Dim>
 double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
   double fastest = 0;
@@ -14,7 +33,7 @@ double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
     fastest = std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) {
                          return state.now->valid.at(a, f) ? std::abs(state.now->u.at(a, f)) : 0.0;
                        }));
-  return s.ranks.global_max(fastest);
+  return s.ranks.global_max(std::max(fastest, fastest_inflow(s, *state.now)));
 }
 
 namespace {
@@ -44,6 +63,8 @@ template <int Dim>
 double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const TimeSpec& spec = s.scene.time;
   const double remaining = until - state.time;
+  if (!(remaining > 0))
+    throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));

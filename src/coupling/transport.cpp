@@ -87,7 +87,8 @@ FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const
                              double dt) {
   FaceField<Dim> w = state.now->u;
   if (!state.before || s.scene.time.scheme == TimeScheme::first_order) return w;
-  const bool three = state.earlier != nullptr;
+  if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
+  const bool three = state.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
   const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
   const Level<Dim>&l0 = *state.now, &l1 = *state.before, &l2 = three ? *state.earlier : *state.before;
   for (int a = 0; a < Dim; ++a)
@@ -119,7 +120,7 @@ void smooth(const Setup<Dim>& s, FaceField<Dim>& f) {
 template <int Dim>
 FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   FaceField<Dim> trend(s.layout);
-  if (!state.before || state.dt_before == 0) return trend;
+  if (!state.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
   const double courant = fastest_component(s, state) * dt / s.layout.h();
   if (courant > 2) return trend;
   const Level<Dim>&l0 = *state.now, &l1 = *state.before;

@@ -21,7 +21,7 @@ Site base_site(const Layout<Dim>& layout, const Vec<Dim>& g, int low, int high, 
   Site s = 0;
   for (int a = 0; a < Dim; ++a) {
     const int first = layout.padded().lower[a] + low, last = layout.padded().upper[a] - 1 - high;
-    const double x = std::min(std::max(g[a], double(first)), double(last) + 1);
+    const double x = std::min(std::max(double(first), g[a]), double(last) + 1);  // `first` where g is no number
     const int i = std::min(int(std::floor(x)), last);
     t[a] = x - i;
     s += (i - layout.padded().lower[a]) * layout.stride(a);
