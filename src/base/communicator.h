@@ -1,5 +1,5 @@
 #pragma once
-// The ranks of a run. All collective calls of Seiche outside src/grid/halo and the hypre adapter are here.
+// The ranks of a run. All MPI calls of Seiche are here, in src/grid/halo, and in src/linalg (column halo, hypre).
 #include <mpi.h>
 
 #include <cstdint>

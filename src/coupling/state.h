@@ -40,7 +40,7 @@ struct Setup {
 template <int Dim>
 struct Level {
   FaceField<Dim> u;            // m/s, continued beyond the liquid, ghosts filled
-  FaceField<Dim, char> valid;  // 1 where u was solved for or prescribed next to liquid (owned faces and halo)
+  FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
 };
 
