@@ -81,12 +81,13 @@ struct LiquidSourceSpec {
 
 struct LiquidSpec {
   double density = 1000;
+  bool separates = false;  // pressure at walls and solids is held at or above zero: liquid may part from them
   VectorFormula velocity{"0", "0", "0"};
   std::vector<LiquidRegionSpec> regions;
   std::vector<LiquidSourceSpec> sources;
 };
 
-enum class SolidKind { fixed, kinematic };  // "static", "kinematic"
+enum class SolidKind { fixed, kinematic, rigid };  // "static", "kinematic", "rigid"
 enum class Slip { free_slip, no_slip };
 
 // Displacement of a kinematic solid from its rest pose: first rotate about center, then translate.
@@ -96,12 +97,21 @@ struct MotionSpec {
   Formula degrees = "0";
 };
 
+// Inertia and initial motion of a rigid solid.
+struct RigidSpec {
+  double density = 0;  // kg/m^3
+  Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
+  std::array<bool, 3> fixed_position{false, false, false}, fixed_rotation{false, false, false};  // world axes
+};
+
 struct SolidSpec {
   std::string name;
   SolidKind kind = SolidKind::fixed;
   ShapeSpec shape;
   Slip slip = Slip::free_slip;
-  MotionSpec motion;
+  MotionSpec motion;               // kinematic
+  RigidSpec rigid;                 // rigid
+  std::optional<double> friction;  // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
 };
 
 enum class ProbeKind { pressure, velocity, surface_height, front };
