@@ -1,4 +1,5 @@
-// The surface of a shape for pictures: triangles in 3D, segments by marching squares in 2D.
+// The surface of a shape for pictures and contacts: triangles in 3D, segments by marching squares in 2D.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -120,6 +121,18 @@ SurfaceMesh contour(const std::vector<float>& values, const Nodes<3>& nodes) {
   return vdb::contour(values, nodes.count, nodes.lower, nodes.spacing);
 }
 
+// The part of a shape within a box.
+template <int Dim>
+struct CutOff : ShapeField<Dim> {
+  const ShapeField<Dim>& inner;
+  Vec<Dim> lower, upper;
+  CutOff(const ShapeField<Dim>& field, const Vec<Dim>& low, const Vec<Dim>& high)
+      : inner(field), lower(low), upper(high) {}
+  double operator()(const Vec<Dim>& x) const override {
+    return std::max(inner(x), (lower - x).cwiseMax(x - upper).maxCoeff());
+  }
+};
+
 }  // namespace
 
 template <int Dim>
@@ -131,6 +144,14 @@ SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, co
   return contour(sample<Dim>(*field, nodes), nodes);
 }
 
+template <int Dim>
+SurfaceMesh closed_contour(const ShapeField<Dim>& field, double spacing, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  const Nodes<Dim> nodes = cover<Dim>(lower, upper, spacing);
+  return contour(sample<Dim>(CutOff<Dim>(field, lower, upper), nodes), nodes);
+}
+
+template SurfaceMesh closed_contour<2>(const ShapeField<2>&, double, const Vec<2>&, const Vec<2>&);
+template SurfaceMesh closed_contour<3>(const ShapeField<3>&, double, const Vec<3>&, const Vec<3>&);
 template SurfaceMesh shape_surface<2>(const ShapeSpec&, const ShapeOptions&, const Vec<2>&, const Vec<2>&);
 template SurfaceMesh shape_surface<3>(const ShapeSpec&, const ShapeOptions&, const Vec<3>&, const Vec<3>&);
 

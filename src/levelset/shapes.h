@@ -36,4 +36,9 @@ template <int Dim>
 SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
                           const Vec<Dim>& upper);
 
+// The zero contour of a field on a grid of the given spacing, closed: what reaches beyond [lower, upper] is cut off
+// flat there.
+template <int Dim>
+SurfaceMesh closed_contour(const ShapeField<Dim>& field, double spacing, const Vec<Dim>& lower, const Vec<Dim>& upper);
+
 }  // namespace seiche
