@@ -1,5 +1,7 @@
 #include "coupling/checkpoint_state.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -69,6 +71,22 @@ std::shared_ptr<const Level<Dim>> load_level(const Setup<Dim>& s, const std::str
   return level;
 }
 
+// visit(name, value) of every number of a rigid body's state.
+template <class State, class Visit>
+void for_each_number(State& r, const std::string& body, const Visit& visit) {
+  const auto vector = [&](const char* name, auto& v) {
+    for (int i = 0; i < int(v.size()); ++i) visit(fmt::format("rigid.{}.{}{}", body, name, i), v.data()[i]);
+  };
+  vector("center", r.center);
+  vector("rotation", r.rotation);
+  vector("velocity", r.velocity);
+  vector("angular_velocity", r.angular_velocity);
+  vector("angular_momentum", r.angular_momentum);
+  vector("extra_force", r.extra_force);
+  vector("extra_torque", r.extra_torque);
+  visit(fmt::format("rigid.{}.horizon", body), r.horizon);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -83,6 +101,9 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
                                             : 1.0},
                   {"expected_volume", state.expected_volume},
                   {"corrected_volume", state.corrected_volume}};
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_rigid())
+      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double x) { data.scalars[n] = x; });
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
   const Level<Dim> none{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
@@ -94,10 +115,9 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
 
 template <int Dim>
 State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
-  const auto scalar = [&](const char* name) {
+  const auto scalar = [&](const std::string& name) {
     const auto found = data.scalars.find(name);
-    if (found == data.scalars.end())
-      throw Error(ExitCode::bad_checkpoint, std::string("the checkpoint lacks '") + name + "'");
+    if (found == data.scalars.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + name + "'");
     return found->second;
   };
   State<Dim> state;
@@ -107,6 +127,10 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.dt_before = scalar("dt_before");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
+  state.rigid.resize(s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_rigid())
+      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
   state.phi = CellField<Dim>(s.layout);
   state.pressure = CellField<Dim>(s.layout);
   restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);

@@ -14,7 +14,7 @@ template <int Dim>
 class FlowSimulation : public Simulation {
  public:
   FlowSimulation(const Scene& scene, const Communicator& ranks) : setup_(scene, ranks), state_(initial_state(setup_)) {
-    geometry_ = setup_.solids.measure(0, 0);
+    geometry_ = measure_geometry();
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_.notes;
     refresh();
@@ -55,13 +55,13 @@ class FlowSimulation : public Simulation {
 
   void load(const CheckpointData& data) override {
     state_ = load_state(setup_, data);
-    geometry_ = setup_.solids.measure(state_.time - state_.dt_now, state_.time);
+    geometry_ = measure_geometry();
     refresh();
   }
 
   SurfaceMesh solid_surface(std::size_t k) const override {
     SurfaceMesh mesh = surfaces_.at(k);
-    const Pose pose = setup_.bodies[k].pose(state_.time);
+    const Pose& pose = geometry_.placed[k].pose;
     for (Vec3& x : mesh.points) x = pose.apply(x);
     return mesh;
   }
@@ -77,6 +77,16 @@ class FlowSimulation : public Simulation {
     informed.state.earlier = nullptr;
     informed.state.dt_before = 0;
     return informed;
+  }
+
+  StepGeometry<Dim> measure_geometry() const {
+    StepGeometry<Dim> g = setup_.solids.measure(place_bodies(setup_, state_), state_.time);
+    for (std::size_t k = 0; k < setup_.bodies.size(); ++k) {
+      const RigidState& r = state_.rigid[k];
+      if (setup_.bodies[k].is_rigid())
+        set_twist(setup_.layout, int(k), Twist{r.velocity, r.angular_velocity, r.center}, g);
+    }
+    return g;
   }
 
   // The initial state as if a step of dt had led to it: slope of the trial, u(-dt) = 2 u(0) - u(dt).
@@ -98,6 +108,8 @@ class FlowSimulation : public Simulation {
     geometry_ = std::move(a.geometry);
     solve_ = a.solve;
     divergence_ = a.divergence;
+    newton_iterations_ = a.newton_iterations;
+    contacts_ = a.contacts;
     for (const std::string& line : a.solve.ladder)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh();
@@ -110,7 +122,10 @@ class FlowSimulation : public Simulation {
     stats_.time = state_.time;
     stats_.dt = state_.dt_now;
     measure_liquid(setup_, state_, geometry_.psi, stats_);
+    measure_rigid(setup_, state_, stats_);
     stats_.max_divergence = divergence_;
+    stats_.newton_iterations = newton_iterations_;
+    stats_.contacts = contacts_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
     solids_ = measure_solids(setup_, state_, geometry_);
@@ -140,6 +155,7 @@ class FlowSimulation : public Simulation {
   std::vector<SurfaceMesh> surfaces_;
   SolveReport solve_;
   double divergence_ = 0;
+  int newton_iterations_ = 0, contacts_ = 0;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };

@@ -3,6 +3,7 @@
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
+#include "solid/rigid_motion.h"
 
 namespace seiche {
 namespace {
@@ -53,44 +54,58 @@ void measure_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeFiel
   stats.volume_corrected = state.corrected_volume;
 }
 
+// E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x.
+template <int Dim>
+void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_rigid()) continue;
+    const RigidState& r = state.rigid[k];
+    const double mass = s.bodies[k].mass().mass;
+    const Vec3 w = angular_velocity(principal_inertia(s.bodies[k].mass().inertia), r.rotation, r.angular_momentum);
+    stats.kinetic_energy += 0.5 * mass * r.velocity.squaredNorm() + 0.5 * w.dot(r.angular_momentum);
+    stats.potential_energy -= mass * s.scene.gravity.dot(r.center);
+    stats.momentum += mass * r.velocity;
+  }
+}
+
 // F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
   std::vector<SolidState> solids;
   std::vector<double> loads(6 * s.bodies.size());
+  const double area = s.layout.geometry().face_area();
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const Pose pose = s.bodies[k].pose(state.time);
+    const Pose& pose = g.placed[k].pose;
     const Eigen::Quaterniond q(pose.rotation);
     SolidState& out = solids.emplace_back();
     out.name = s.bodies[k].spec().name;
     out.position = pose.apply(s.bodies[k].reference_point());
     out.orientation = {q.w(), q.x(), q.y(), q.z()};
-    out.velocity = g.twists[k].at(out.position);
-    out.angular_velocity = g.twists[k].angular;
+    out.velocity = g.placed[k].twist.at(out.position);
+    out.angular_velocity = g.placed[k].twist.angular;
+    for (const FaceShare& share : *g.shares[k]) {
+      const double jump = state.pressure[share.face - s.layout.stride(share.axis)] - state.pressure[share.face];
+      const IVec<Dim> i = s.layout.index(share.face);
+      if (jump == 0 || !s.layout.faces(share.axis).contains(i)) continue;
+      Vec3 force = Vec3::Zero();
+      force[share.axis] = share.closed * area * jump;
+      const Vec3 torque = (extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))) - out.position).cross(force);
+      for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
+    }
   }
-  const double area = s.layout.geometry().face_area();
-  for (int a = 0; a < Dim && !s.bodies.empty(); ++a)
-    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      const double jump = state.pressure[f - s.layout.stride(a)] - state.pressure[f];
-      if (jump == 0) return;
-      const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
-      for_each_closing_body(s.layout, g, a, f, [&](int k, double share) {
-        Vec3 force = Vec3::Zero();
-        force[a] = share * area * jump;
-        const Vec3 torque = (x - solids[k].position).cross(force);
-        for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
-      });
-    });
-  s.ranks.global_sum(loads);
+  if (!loads.empty()) s.ranks.global_sum(loads);
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    solids[k].force = {loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]};
-    solids[k].torque = {loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]};
+    const RigidState& r = state.rigid[k];
+    solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]) + r.extra_force;
+    solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]) + r.extra_torque +
+                       (r.center - solids[k].position).cross(r.extra_force);
   }
   return solids;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                         \
   template void measure_liquid<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
+  template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                       \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -53,7 +53,7 @@ void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceFi
       if (d.psi >= 0 || norm == 0) return;
       const Vec<Dim> n = d.gradient / norm;
       const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
-      const Vec<Dim> v = truncate<Dim>(g.twists[g.body[f]].at(x));
+      const Vec<Dim> v = truncate<Dim>(g.placed[g.body[f]].twist.at(x));
       u.at(a, f) += (v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
     });
 }

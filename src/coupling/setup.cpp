@@ -27,7 +27,9 @@ int halo_width(const Scene& scene) {
 template <int Dim>
 std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>& notes) {
   std::vector<Body<Dim>> bodies;
-  for (const SolidSpec& spec : scene.solids) bodies.emplace_back(spec, ShapeOptions{scene.domain.cell_size, &notes});
+  for (const SolidSpec& spec : scene.solids)
+    bodies.emplace_back(spec, ShapeOptions{scene.domain.cell_size, &notes}, truncate<Dim>(scene.domain.lower),
+                        truncate<Dim>(scene.domain.upper));
   return bodies;
 }
 
@@ -112,6 +114,16 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
       sources(make_sources<Dim>(sc, notes)) {}
 
 template <int Dim>
+bool Setup<Dim>::has_rigid() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) { return b.is_rigid(); });
+}
+
+template <int Dim>
+std::vector<Placement> place_bodies(const Setup<Dim>& s, const State<Dim>& state) {
+  return place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
+}
+
+template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& s) {
   std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
   for (const auto& region : s.scene.liquid.regions)
@@ -119,7 +131,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   State<Dim> state;
   state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
-  const StepGeometry<Dim> g = s.solids.measure(0, 0);
+  for (const Body<Dim>& body : s.bodies) state.rigid.push_back(initial_rigid_state(body));
+  const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
 
   Level<Dim> level{FaceField<Dim>(s.layout), faces_near_liquid(s, state.phi), FaceField<Dim>(s.layout)};
@@ -137,6 +150,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
 
 template struct Setup<2>;
 template struct Setup<3>;
+template std::vector<Placement> place_bodies<2>(const Setup<2>&, const State<2>&);
+template std::vector<Placement> place_bodies<3>(const Setup<3>&, const State<3>&);
 template State<2> initial_state<2>(const Setup<2>&);
 template State<3> initial_state<3>(const Setup<3>&);
 

@@ -28,6 +28,7 @@ struct Setup {
   std::vector<Source<Dim>> sources;
 
   Setup(const Scene& scene, const Communicator& ranks);
+  bool has_rigid() const;
   Vec<Dim> gravity() const { return truncate<Dim>(scene.gravity); }
   double density() const { return scene.liquid.density; }
   // Half width of the level-set band, m: what a step can cross, and the reach of the stencils.
@@ -54,6 +55,7 @@ struct State {
   CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;                             // restored by the volume control so far
+  std::vector<RigidState> rigid;                           // one a solid; of the rigid ones
 };
 
 // How a step went; `state` is only set where it succeeded.
@@ -64,7 +66,7 @@ struct Attempt {
   StepGeometry<Dim> geometry;
   SolveReport solve;
   double divergence = 0;
-  std::int64_t rows = 0;
+  int newton_iterations = 0, contacts = 0;
 };
 
 // The phases of a step, timed and open to fault injection.
@@ -75,6 +77,10 @@ struct Phases {
 
   PhaseFault enter(const std::string& name) const { return hook ? hook(name) : PhaseFault::none; }
 };
+
+// All solids at the state's time, those that move as prescribed with their motion over the step that led there.
+template <int Dim>
+std::vector<Placement> place_bodies(const Setup<Dim>& setup, const State<Dim>& state);
 
 // The initial state of a scene.
 template <int Dim>
@@ -87,6 +93,9 @@ template <int Dim>
 // Largest |u_a| on the faces next to liquid, m/s, over all ranks.
 template <int Dim>
 double fastest_component(const Setup<Dim>& setup, const State<Dim>& state);
+
+// With rigid bodies a step is at most this much longer than the last one: contact is solved that far ahead.
+constexpr double step_growth = 1.25;
 
 // The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that
 // is hopelessly short.

@@ -1,7 +1,7 @@
 // One time step, as the algorithm reads: transport, measure geometry, solve, restore.
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "coupling/coupled_solve.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -63,49 +63,6 @@ double net_inflow(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellFie
   return s.ranks.global_sum(sum) * s.layout.geometry().face_area();
 }
 
-// Why a closed, full container cannot do what is asked of it; empty where it can.
-template <int Dim>
-std::string find_impossible_motion(const Setup<Dim>& s, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
-  if (std::abs(m.net) <= 1e-6 * m.scale) return {};
-  std::string who;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    if (!g.twists[k].at_rest()) who += (who.empty() ? " by '" : ", '") + s.bodies[k].spec().name + "'";
-  return fmt::format(
-      "incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free surface, "
-      "an outflow side, or a motion that keeps the volume",
-      -m.net, Dim, who);
-}
-
-template <int Dim>
-struct Solution {
-  PressureRows<Dim> rows;
-  CellField<Dim> pressure;
-  SolveReport report;
-  std::string failure;
-};
-
-// Pressure that leaves no liquid cell with a net flux, from the last pressure as first guess.
-template <int Dim>
-Solution<Dim> solve_pressure(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const StepGeometry<Dim>& g,
-                             const CellField<Dim>& guess, const FaceField<Dim>& u_star, PhaseFault fault) {
-  Solution<Dim> r{number_rows(in), CellField<Dim>(s.layout), {}, {}};
-  const NullSpace closed = find_closed_components(in, r.rows);
-  const std::string impossible =
-      closed.count == 0 ? "" : find_impossible_motion(s, g, worst_mismatch(in, r.rows, closed));
-  if (!impossible.empty()) throw Error(ExitCode::cannot_continue, impossible);
-  std::vector<double> b = pressure_right_side(in, r.rows, u_star), x;
-  if (fault == PhaseFault::poison && !b.empty()) b[0] = poison;
-  for (Site c : r.rows.cells) x.push_back(guess[c]);
-  const SolveOptions options{.tolerance = s.scene.solver.tolerance, .preconditioner = s.scene.solver.preconditioner};
-  r.report = solve_spd(assemble_pressure_matrix(in, r.rows), row_grid(in, r.rows), closed, b, x, options, s.ranks);
-  for (std::size_t n = 0; n < x.size(); ++n) r.pressure[r.rows.cells[n]] = x[n];
-  s.halo.fill_ghosts(r.pressure);
-  if (!r.report.converged)
-    r.failure = fmt::format("the pressure solve stopped at residual {:.2e} after {} iterations", r.report.residual,
-                            r.report.iterations);
-  return r;
-}
-
 template <int Dim>
 std::string verify(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& u_star) {
   std::string text = find_non_finite(s, "phi", s.layout.cells(), phi.data());
@@ -121,7 +78,7 @@ struct StepInProgress {
   Phases& phases;
   Attempt<Dim> out;
   FaceField<Dim> u_star;
-  Solution<Dim> solution;
+  CoupledSolution<Dim> solution;
 
   StepInProgress(const Setup<Dim>& setup, const State<Dim>& state, double step, Phases& p)
       : s(setup), before(state), dt(step), phases(p) {
@@ -132,6 +89,11 @@ struct StepInProgress {
     next.before = state.now;
     next.dt_before = state.dt_now;
     next.dt_now = dt;
+  }
+
+  void move_bodies() {
+    for (std::size_t k = 0; k < s.bodies.size(); ++k)
+      if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], dt);
   }
 
   void transport_surface() {
@@ -146,7 +108,7 @@ struct StepInProgress {
   void measure_geometry() {
     const PhaseFault fault = phases.enter("geometry");
     const auto timed = phases.timers.measure("geometry");
-    out.geometry = s.solids.measure(before.time, out.state.time);
+    out.geometry = s.solids.measure(place_bodies(s, out.state), out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     out.state.corrected_volume +=
@@ -164,12 +126,16 @@ struct StepInProgress {
     return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt};
   }
 
+  // Contact is solved for as far ahead as the next step may reach.
+  double horizon() const { return s.scene.time.fixed_step ? dt : step_growth * dt; }
+
   bool solve() {
     const PhaseFault fault = phases.enter("solve");
     const auto timed = phases.timers.measure("solve");
-    solution = solve_pressure(s, input(), out.geometry, before.pressure, u_star, fault);
+    solution = solve_coupled(s, input(), out.geometry, out.state.rigid, before.pressure, u_star, horizon(), fault);
     out.solve = solution.report;
-    out.rows = solution.rows.global;
+    out.newton_iterations = solution.newton_iterations;
+    out.contacts = solution.contacts;
     out.failure = solution.failure;
     out.state.pressure = solution.pressure;
     return out.failure.empty();
@@ -191,6 +157,7 @@ struct StepInProgress {
 template <int Dim>
 Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double dt, Phases& phases) {
   StepInProgress<Dim> step(s, state, dt, phases);
+  step.move_bodies();
   step.transport_surface();
   step.measure_geometry();
   if (step.transport_velocity() && step.solve()) step.restore();

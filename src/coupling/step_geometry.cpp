@@ -7,11 +7,15 @@ namespace seiche {
 namespace {
 
 constexpr double far_away = 1e30;
-constexpr double snap = 1e-3;  // cells: nodes nearer than this to a solid count as on it, so that no sliver faces arise
+// Cells: nodes nearer than this to a solid count as on it, and gaps between two solids narrower than this as closed, so
+// that no sliver faces arise.
+constexpr double snap = 1e-3;
+constexpr int margin = 4;  // cells around a moving body within which its distance is known
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
 template <int Dim>
 double surface_radius(const Layout<Dim>& layout, const Body<Dim>& body) {
+  if (body.is_rigid()) return body.radius();
   const Geometry<Dim>& g = layout.geometry();
   const Vec3 pivot = body.pose(0).pivot;
   const int step = std::max(1, g.cells.maxCoeff() / 64);
@@ -26,6 +30,50 @@ double surface_radius(const Layout<Dim>& layout, const Body<Dim>& body) {
   return radius;
 }
 
+double snapped(double distance, double h) {
+  return std::abs(distance) < snap * h ? 0 : distance;
+}
+
+// Faces whose corners are all stored, in the owned block and two layers around it.
+template <int Dim>
+Box<Dim> measured_faces(const Layout<Dim>& layout) {
+  Box<Dim> box = layout.grown(2);
+  for (int b = 0; b < Dim; ++b) box.upper[b] = std::min(box.upper[b], layout.padded().upper[b] - 1);
+  return box;
+}
+
+// The part of each static body: the closed part of a face split by how deep its corners lie in each body.
+template <int Dim, class Visit>
+void for_each_static_share(const Layout<Dim>& layout, const StepGeometry<Dim>& g, int axis, Site face,
+                           const Visit& visit) {
+  constexpr int corners = 1 << (Dim - 1);
+  const double closed = 1 - g.faces.open.at(axis, face);
+  std::array<int, corners> body;
+  std::array<double, corners> depth;
+  double total = 0;
+  for (int k = 0; k < corners; ++k) {
+    Site node = face;
+    for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
+    body[k] = g.body[node];
+    depth[k] = std::max(-g.psi[node], 0.0);
+    total += depth[k];
+  }
+  for (int k = 0; k < corners; ++k) {
+    if (total == 0)
+      visit(body[k], closed / corners);
+    else if (depth[k] > 0)
+      visit(body[k], closed * depth[k] / total);
+  }
+}
+
+// One entry a face and body, in the order of the faces.
+void add_share(FaceShares& shares, const FaceShare& s) {
+  if (!shares.empty() && shares.back().face == s.face && shares.back().axis == s.axis)
+    shares.back().closed += s.closed;
+  else
+    shares.push_back(s);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -35,58 +83,119 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);
   still_.faces = FaceGeometry<Dim>(layout);
-  still_.twists.resize(bodies.size());
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    any_moves_ = any_moves_ || bodies[k].moves();
-    radius_.push_back(bodies[k].moves() ? surface_radius(layout, bodies[k]) : 0);
-    if (!bodies[k].moves()) measure_distances(bodies[k], std::int16_t(k), Pose{}, still_);
-  }
-  if (!bodies.empty()) close_faces(still_);
+  for (const Body<Dim>& body : bodies) radius_.push_back(body.moves() ? surface_radius(layout, body) : 0);
+  measure_static();
 }
 
 template <int Dim>
-void SolidGeometry<Dim>::measure_distances(const Body<Dim>& body, std::int16_t index, const Pose& pose,
-                                           StepGeometry<Dim>& g) const {
-  for_each_index_in_order(layout_, layout_.padded(), [&](Site s, const IVec<Dim>& i) {
-    const double d = body.distance_in(pose, layout_.position(i, node_offset<Dim>()));
-    if (d >= g.psi[s]) return;
-    g.psi[s] = d;
-    g.body[s] = index;
-  });
-}
-
-template <int Dim>
-StepGeometry<Dim> SolidGeometry<Dim>::measure(double t0, double t1) const {
-  StepGeometry<Dim> g = still_;
+void SolidGeometry<Dim>::measure_static() {
+  bool any = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (!bodies_[k].moves()) continue;
-    g.twists[k] = bodies_[k].twist(t0, t1);
-    measure_distances(bodies_[k], std::int16_t(k), bodies_[k].pose(t1), g);
+    if (bodies_[k].moves()) continue;
+    any = true;
+    for_each_index_in_order(layout_, layout_.padded(), [&](Site s, const IVec<Dim>& i) {
+      const double d = snapped(bodies_[k].distance_at_rest(layout_.position(i, node_offset<Dim>())), layout_.h());
+      if (d >= still_.psi[s]) return;
+      still_.psi[s] = d;
+      still_.body[s] = std::int16_t(k);
+    });
   }
-  if (any_moves_) close_faces(g);
-  set_sides(t1, g);
+  std::vector<FaceShares> shares(bodies_.size());
+  for (int a = 0; a < Dim && any; ++a)
+    for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>&) {
+      const double open = open_part_of_face(layout_, still_.psi, a, f);
+      if (open == 1) return;
+      still_.faces.open.at(a, f) = open;
+      still_.faces.kind.at(a, f) = char(open == 0 ? FaceKind::closed : FaceKind::open);
+      for_each_static_share(layout_, still_, a, f, [&](int k, double part) { add_share(shares[k], {f, a, part}); });
+    });
+  for (FaceShares& s : shares) still_.shares.push_back(std::make_shared<const FaceShares>(std::move(s)));
+}
+
+// Nodes that a body in this pose, and a margin around it, can reach.
+template <int Dim>
+Box<Dim> SolidGeometry<Dim>::reach(int body, const Pose& pose) const {
+  if (!bodies_[body].is_rigid()) return layout_.padded();
+  const Vec<Dim> center = truncate<Dim>(pose.apply(pose.pivot));
+  Box<Dim> box = layout_.padded();
+  for (int a = 0; a < Dim; ++a) {
+    const double x = (center[a] - layout_.geometry().lower[a]) / layout_.h(), r = radius_[body] / layout_.h() + margin;
+    const double lowest = box.lower[a], highest = box.upper[a];
+    box.lower[a] = int(std::clamp(std::floor(x - r), lowest, highest));
+    box.upper[a] = int(std::clamp(std::ceil(x + r) + 1, lowest, highest));
+  }
+  return box;
+}
+
+// Shares as if no other moving body were there.
+template <int Dim>
+FaceShares SolidGeometry<Dim>::measure_moving(int k, const Pose& pose, NodeField<Dim>& scratch,
+                                              StepGeometry<Dim>& g) const {
+  FaceShares shares;
+  const Box<Dim> box = reach(k, pose);
+  if (box.empty()) return shares;
+  for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>& i) {
+    scratch[s] = snapped(bodies_[k].distance_in(pose, layout_.position(i, node_offset<Dim>())), layout_.h());
+    if (scratch[s] >= g.psi[s]) return;
+    g.psi[s] = scratch[s];
+    g.body[s] = std::int16_t(k);
+  });
+  const Box<Dim> faces = measured_faces(layout_).cut({box.lower, box.upper.array() - 1});
+  for (int a = 0; a < Dim && !faces.empty(); ++a)
+    for_each_index_in_order(layout_, faces, [&](Site f, const IVec<Dim>&) {
+      const double closed = 1 - open_part_of_face(layout_, scratch, a, f);
+      if (closed > 0) shares.push_back({f, a, closed});
+    });
+  for_each_site(layout_, box, [&](Site s) { scratch[s] = far_away; });
+  return shares;
+}
+
+// Static bodies keep their part of a face. Moving ones share the rest where they would close more than that, or leave a
+// gap that counts as closed, in proportion to what each would close alone.
+template <int Dim>
+void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
+  FaceField<Dim> moving(layout_);
+  for (const FaceShares& list : shares)
+    for (const FaceShare& s : list) moving.at(s.axis, s.face) += s.closed;
+  for (FaceShares& list : shares)
+    for (FaceShare& s : list) {
+      const double room = still_.faces.open.at(s.axis, s.face), wanted = moving.at(s.axis, s.face);
+      const bool alone = room == 1 && wanted == s.closed;
+      const double gap = room - wanted;
+      const bool closes = gap <= 0 || (!alone && gap < snap);
+      if (closes) s.closed *= room / wanted;
+      g.faces.open.at(s.axis, s.face) = closes ? 0 : gap;
+      g.faces.kind.at(s.axis, s.face) = char(closes ? FaceKind::closed : FaceKind::open);
+    }
+}
+
+template <int Dim>
+StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& placed, double t) const {
+  StepGeometry<Dim> g = still_;
+  g.placed = placed;
+  for (Placement& p : g.placed) p.twist = {};
+  NodeField<Dim> scratch(layout_, far_away);
+  std::vector<FaceShares> shares(bodies_.size());
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    if (bodies_[k].moves()) shares[k] = measure_moving(int(k), placed[k].pose, scratch, g);
+  close_faces(shares, g);
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    if (bodies_[k].moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
+  for (std::size_t k = 0; k < bodies_.size(); ++k) set_twist(layout_, int(k), placed[k].twist, g);
+  set_sides(t, g);
   return g;
 }
 
-// closed flux = sum_k s_k v_k(face centre) . e, s_k the share of the face that body k closes.
+// closed flux += s_k (v_new - v_old)(face centre) . e
 template <int Dim>
-void SolidGeometry<Dim>::close_faces(StepGeometry<Dim>& g) const {
-  for_each_site(layout_, layout_.padded(), [&](Site s) {
-    if (std::abs(g.psi[s]) < snap * layout_.h()) g.psi[s] = 0;
-  });
-  open_fractions(layout_, g.psi, g.faces.open);
-  for (int a = 0; a < Dim; ++a) {
-    Box<Dim> box = layout_.grown(2);
-    for (int b = 0; b < Dim; ++b) box.upper[b] = std::min(box.upper[b], layout_.padded().upper[b] - 1);
-    for_each_index(layout_, box, [&](Site s, const IVec<Dim>& i) {
-      g.faces.kind.at(a, s) = char(g.faces.open.at(a, s) == 0 ? FaceKind::closed : FaceKind::open);
-      if (g.faces.open.at(a, s) == 1) return;
-      const Vec3 x = extend<Dim>(layout_.position(i, face_offset<Dim>(a)));
-      double flux = 0;
-      for_each_closing_body(layout_, g, a, s, [&](int k, double share) { flux += share * g.twists[k].at(x)[a]; });
-      g.faces.closed_flux.at(a, s) = flux;
-    });
+void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeometry<Dim>& g) {
+  Twist& present = g.placed[body].twist;
+  if (present.at_rest() && twist.at_rest()) return;
+  for (const FaceShare& s : *g.shares[body]) {
+    const Vec3 x = extend<Dim>(layout.position(layout.index(s.face), face_offset<Dim>(s.axis)));
+    g.faces.closed_flux.at(s.axis, s.face) += s.closed * (twist.at(x)[s.axis] - present.at(x)[s.axis]);
   }
+  present = twist;
 }
 
 template <int Dim>
@@ -108,17 +217,19 @@ void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
     }
 }
 
-// |d1 - d0| + turn r, r the largest distance from the pivot at which the body's surface stands in the domain.
+// |v| + |w| r, r the largest distance from the pivot at which the body's surface stands in the domain.
 template <int Dim>
-double SolidGeometry<Dim>::largest_displacement(double t0, double t1) const {
+double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& placed, double dt) const {
   double largest = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    const Twist v = bodies_[k].twist(t0, t1);
-    largest = std::max(largest, (t1 - t0) * (v.linear.norm() + v.angular.norm() * radius_[k]));
+    const Twist& v = placed[k].twist;
+    largest = std::max(largest, dt * (v.linear.norm() + v.angular.norm() * radius_[k]));
   }
   return largest;
 }
 
+template void set_twist<2>(const Layout<2>&, int, const Twist&, StepGeometry<2>&);
+template void set_twist<3>(const Layout<3>&, int, const Twist&, StepGeometry<3>&);
 template struct StepGeometry<2>;
 template struct StepGeometry<3>;
 template class SolidGeometry<2>;

@@ -50,10 +50,22 @@ double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state) {
   return std::min(flow, 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g)));
 }
 
+// The solids as they will move in the coming dt.
+template <int Dim>
+std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  std::vector<Placement> placed = place_bodies(s.bodies, state.rigid, state.time, state.time + dt);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    const RigidState& r = state.rigid[k];
+    if (s.bodies[k].is_rigid()) placed[k].twist = {r.velocity, r.angular_velocity, r.center};
+  }
+  return placed;
+}
+
 // Moving solids go at most one cell a step.
 template <int Dim>
 double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  for (int n = 0; n < 60 && s.solids.largest_displacement(state.time, state.time + dt) > s.layout.h(); ++n) dt /= 2;
+  if (s.has_rigid() && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
+  for (int n = 0; n < 60 && s.solids.largest_displacement(motion_ahead(s, state, dt), dt) > s.layout.h(); ++n) dt /= 2;
   return dt;
 }
 

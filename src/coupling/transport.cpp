@@ -16,10 +16,11 @@ bool is_active(const Source<Dim>& source, double t) {
 
 // Union of the liquid with the active sources. Returns the volume added.
 template <int Dim>
-double add_sources(const Setup<Dim>& s, double t, CellField<Dim>& phi) {
+double add_sources(const Setup<Dim>& s, const State<Dim>& state, CellField<Dim>& phi) {
+  const double t = state.time;
   const bool any = std::any_of(s.sources.begin(), s.sources.end(), [&](const auto& x) { return is_active(x, t); });
   if (!any) return 0;
-  const NodeField<Dim> psi = s.solids.measure(t, t).psi;
+  const NodeField<Dim> psi = s.solids.measure(place_bodies(s, state), t).psi;
   const double before = liquid_volume(s, phi, psi);
   for (const Source<Dim>& source : s.sources) {
     if (!is_active(source, t)) continue;
@@ -169,7 +170,7 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, d
   CellField<Dim> phi(s.layout);
   advect_level_set(s.layout, state.now->u, dt, s.band(), joined, phi);
   fill_level_set_ghosts(s.layout, s.halo, phi);
-  added = add_sources(s, state.time, phi);
+  added = add_sources(s, state, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
   redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved}, phi);
   return phi;

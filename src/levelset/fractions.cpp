@@ -84,6 +84,8 @@ double cube_part(const Cube<3>& c) {
   return sum;
 }
 
+}  // namespace
+
 template <int Dim>
 double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site s) {
   if constexpr (Dim == 2) {
@@ -98,8 +100,6 @@ double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, i
     return square_part<2>(q, {}, 1.0);
   }
 }
-
-}  // namespace
 
 template <int N>
 double negative_measure(const CutSimplex<N>& s) {
@@ -164,6 +164,8 @@ template double negative_measure<2>(const CutSimplex<2>&);
 template double negative_measure<3>(const CutSimplex<3>&);
 template double negative_measure_both<2>(const CutSimplex<2>&);
 template double negative_measure_both<3>(const CutSimplex<3>&);
+template double open_part_of_face<2>(const Layout<2>&, const NodeField<2>&, int, Site);
+template double open_part_of_face<3>(const Layout<3>&, const NodeField<3>&, int, Site);
 template void open_fractions<2>(const Layout<2>&, const NodeField<2>&, FaceField<2>&);
 template void open_fractions<3>(const Layout<3>&, const NodeField<3>&, FaceField<3>&);
 template double liquid_share<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);

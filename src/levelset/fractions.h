@@ -25,6 +25,10 @@ double negative_measure_both(const CutSimplex<N>& s);
 template <int Dim>
 void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceField<Dim>& open);
 
+// The same of one face.
+template <int Dim>
+double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face);
+
 // Share of a cell with phi < 0 (phi at cell centres, valid one cell around) and psi > 0.
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell);

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
+#include <algorithm>
 #include <cstring>
 
 namespace seiche {
@@ -32,7 +33,9 @@ std::vector<T> gather(const std::vector<T>& items, const Communicator& ranks) {
   return result;
 }
 
-std::vector<Entry> local_entries(const LinearSystem& system) {
+// Of A and, where bodies are coupled in, of J and J', whose unknowns follow those of A.
+std::vector<Entry> local_entries(const CoupledSystem& coupled) {
+  const LinearSystem& system = coupled.liquid();
   const SparseMatrix& A = system.pattern();
   std::vector<Entry> entries;
   for (int i = 0; i < A.rows(); ++i) {
@@ -40,14 +43,41 @@ std::vector<Entry> local_entries(const LinearSystem& system) {
       entries.push_back({std::int32_t(A.first_row + i), std::int32_t(A.column[k]), system.values()[k]});
     }
   }
+  std::int64_t first = A.global_rows;
+  for (const ColumnBlock& block : coupled.columns().blocks) {
+    for (std::size_t i = 0; coupled.is_coupled() && i < block.row.size(); ++i)
+      for (int k = 0; k < block.width; ++k) {
+        const auto row = std::int32_t(A.first_row + block.row[i]), column = std::int32_t(first + k);
+        entries.push_back({row, column, block.value[i * block.width + k]});
+        entries.push_back({column, row, block.value[i * block.width + k]});
+      }
+    first += block.width;
+  }
   return entries;
 }
 
-std::vector<RowData> local_rows(const LinearSystem& system, const Vector& b) {
+// Components whose constants bodies feel need no grounding.
+std::vector<RowData> local_rows(const CoupledSystem& coupled, const Vector& b) {
   std::vector<RowData> rows;
-  const auto& component = system.null_space().component;
-  for (int i = 0; i < system.rows(); ++i) rows.push_back({b[i], component.empty() ? -1 : component[i]});
+  const auto& component = coupled.liquid().null_space().component;
+  const auto& sensed = coupled.sensed_components();
+  for (int i = 0; i < coupled.rows(); ++i) {
+    int c = component.empty() ? -1 : component[i];
+    if (coupled.is_coupled() && std::find(sensed.begin(), sensed.end(), c) != sensed.end()) c = -1;
+    rows.push_back({b[i], c});
+  }
   return rows;
+}
+
+// -H/c
+void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std::vector<RowData>& rows) {
+  const SmallMatrix& H = coupled.small();
+  const auto first = std::int32_t(rows.size());
+  for (int k = 0; k < H.outerSize(); ++k)
+    for (SmallMatrix::InnerIterator it(H, k); it; ++it)
+      entries.push_back(
+          {first + std::int32_t(it.row()), first + std::int32_t(it.col()), -it.value() / coupled.scale()});
+  rows.resize(rows.size() + std::size_t(H.rows()), RowData{0, -1});
 }
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -95,14 +125,17 @@ std::vector<double> solve_gathered(const std::vector<Entry>& entries, const std:
 
 }  // namespace
 
-std::string solve_directly(const LinearSystem& system, const Vector& b, Vector& x) {
-  const SparseMatrix& A = system.pattern();
+std::string solve_directly(const CoupledSystem& system, const Vector& b, Vector& x) {
+  const SparseMatrix& A = system.liquid().pattern();
   const Communicator& ranks = system.ranks();
   if (A.global_rows > direct_solve_limit) return "too many rows for elimination";
-  const std::vector<Entry> entries = gather(local_entries(system), ranks);
-  const std::vector<RowData> rows = gather(local_rows(system, b), ranks);
+  std::vector<Entry> entries = gather(local_entries(system), ranks);
+  std::vector<RowData> rows = gather(local_rows(system, b), ranks);
   std::vector<double> all;
-  if (ranks.is_root()) all = solve_gathered(entries, rows, system.null_space().count);
+  if (ranks.is_root()) {
+    append_small(system, entries, rows);
+    all = solve_gathered(entries, rows, system.liquid().null_space().count);
+  }
   const std::string bytes = ranks.broadcast(to_bytes(all));
   if (bytes.empty()) return "elimination failed";
   std::memcpy(x.data(), bytes.data() + std::size_t(A.first_row) * sizeof(double), x.size() * sizeof(double));

@@ -26,7 +26,8 @@ class LinearSystem {
   // Of A, in its order; rows and columns whose diagonal was zero are those of the identity.
   const std::vector<double>& values() const { return values_; }
   double diagonal(int row) const { return values_[pattern_.row_start[row]]; }
-  std::int64_t identity_rows() const { return identity_rows_; }  // over all ranks
+  const std::vector<int>& identity_list() const { return identity_; }  // of this rank
+  std::int64_t identity_rows() const { return identity_rows_; }        // over all ranks
 
   // y = A x. Collective.
   void multiply(const Vector& x, Vector& y) const;

@@ -1,10 +1,13 @@
 #pragma once
 // Symmetric positive (semi-)definite systems: preconditioned conjugate gradients with a ladder of preconditioners.
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/communicator.h"
+#include "linalg/coupled_system.h"
 #include "linalg/sparse_matrix.h"
 
 namespace seiche {
@@ -29,9 +32,52 @@ struct SolveReport {
 // The names a scene may ask for.
 std::vector<std::string> preconditioner_names();
 
-// Solves A x = b from the initial x. b is made compatible per null-space component first (its mean removed), x keeps
-// mean zero there. Tries the preconditioner asked for, then the rungs of the ladder; never returns a result whose
-// recomputed residual was not checked. Throws Error(machine) for more rows than hypre can index.
+class Deflation;
+class Preconditioner;
+
+// Solves with one matrix, several times: A x = b, or (A + c J H^-1 J') x = b with H changing from solve to solve. What
+// is built for A (hierarchies, J seen through them) is kept.
+class SpdSolver {
+ public:
+  // Takes copies of J, references to the rest. Collective. Throws Error(machine) for more rows than hypre can index.
+  SpdSolver(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J, double c,
+            const SolveOptions& options, const Communicator& ranks);
+  ~SpdSolver();
+
+  // From the initial x. b is made compatible first (what no x can reach removed), x keeps out of the null space. Tries
+  // the preconditioner asked for, then the rungs of the ladder; never returns a result whose recomputed residual was
+  // not checked. An empty H leaves the second term out. The tolerance is relative to `scale`, or to |b| where that is
+  // 0.
+  [[nodiscard]] SolveReport solve(const SmallMatrix& H, const Vector& b, Vector& x, double scale = 0);
+
+  // Closed components of A that bodies feel: their mean pressure is what H and J decide.
+  const std::vector<int>& sensed_components() const { return system_.sensed_components(); }
+  int setup_applications() const;  // of preconditioners to columns of J, so far
+
+ private:
+  struct Built;  // a preconditioner, or why there is none
+  struct Problem;
+  struct Rung;
+  Built& build(const std::string& name);
+  double true_residual(const Problem& problem, const Vector& x) const;
+  double make_compatible(Vector& b) const;
+  std::vector<Rung> make_ladder(const std::string& chosen) const;
+  struct Climb {
+    int iterations = 0;
+    std::string failure;
+  };
+  Climb climb(const Rung& rung, const Problem& problem, Vector& x);
+  Climb iterate(const Rung& rung, const Problem& problem, Vector& x);
+  void climb_ladder(const Problem& problem, Vector& x, SolveReport& report);
+
+  SolveOptions options_;
+  BlockColumns J_;
+  LinearSystem liquid_;
+  CoupledSystem system_;
+  std::map<std::string, std::unique_ptr<Built>> built_;
+};
+
+// Solves A x = b once, as SpdSolver does.
 [[nodiscard]] SolveReport solve_spd(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space,
                                     const std::vector<double>& b, std::vector<double>& x, const SolveOptions& options,
                                     const Communicator& ranks);

@@ -1,5 +1,7 @@
 #include "solid/body.h"
 
+#include "solid/contact_surface.h"
+
 namespace seiche {
 namespace {
 
@@ -19,8 +21,13 @@ Vec3 shape_center(const ShapeSpec& s) {
 }  // namespace
 
 template <int Dim>
-Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options)
+Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper)
     : spec_(spec), shape_(make_shape<Dim>(spec.shape, options)) {
+  surface_ = seiche::contact_surface<Dim>(spec.shape, options, lower, upper);
+  if (is_rigid()) {
+    mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
+    for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
+  }
   if (spec.kind != SolidKind::kinematic) return;
   const MotionSpec& m = spec.motion;
   motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
@@ -46,11 +53,6 @@ Twist Body<Dim>::twist(double t0, double t1) const {
 template <int Dim>
 double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
   return (*shape_)(truncate<Dim>(pose.to_rest(extend<Dim>(x))));
-}
-
-template <int Dim>
-double Body<Dim>::distance(const Vec<Dim>& x, double t) const {
-  return motion_ ? distance_in(pose(t), x) : (*shape_)(x);
 }
 
 template <int Dim>

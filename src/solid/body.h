@@ -1,5 +1,5 @@
 #pragma once
-// Static and kinematic solids: a shape in its rest pose and a prescribed rigid motion.
+// A solid of rigid shape: static, moved as prescribed, or moved by forces.
 #include <memory>
 #include <optional>
 
@@ -7,6 +7,7 @@
 
 #include "base/expression.h"
 #include "levelset/shapes.h"
+#include "solid/mass_properties.h"
 
 namespace seiche {
 
@@ -28,15 +29,20 @@ struct Twist {
 template <int Dim>
 class Body {
  public:
-  Body(const SolidSpec& spec, const ShapeOptions& options);
+  // lower and upper: the corners of the domain.
+  Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   const SolidSpec& spec() const { return spec_; }
-  bool moves() const { return motion_.has_value(); }
+  bool is_rigid() const { return spec_.kind == SolidKind::rigid; }
+  bool moves() const { return motion_.has_value() || is_rigid(); }
+  const MassProperties& mass() const { return mass_; }             // of a rigid body
+  const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
+  double radius() const { return radius_; }                        // of a rigid body about its centre of mass, m
+  // As prescribed.
   Pose pose(double t) const;
   // The rigid motion that takes the body from its pose at t0 to that at t1 in t1 - t0.
   Twist twist(double t0, double t1) const;
-  // Signed distance at time t, negative inside (m).
-  double distance(const Vec<Dim>& x, double t) const;
+  // Signed distance, negative inside (m).
   double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
   double distance_in(const Pose& pose, const Vec<Dim>& x) const;
   // The point that solids.csv reports and torques are taken about, at rest.
@@ -51,6 +57,9 @@ class Body {
   SolidSpec spec_;
   std::unique_ptr<ShapeField<Dim>> shape_;
   std::optional<Motion> motion_;
+  MassProperties mass_;
+  SurfaceMesh surface_;
+  double radius_ = 0;
 };
 
 }  // namespace seiche

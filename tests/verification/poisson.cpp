@@ -25,7 +25,7 @@ class Problem {
         sides_(scene_.domain),
         bodies_(make_bodies(solids)),
         solids_(layout_, sides_, bodies_),
-        step_(solids_.measure(0, 0)),
+        step_(solids_.measure(std::vector<Placement>(bodies_.size()), 0)),
         phi_(layout_) {
     for_each_index(layout_, layout_.cells(), [&](Site s, const IVec<Dim>& i) { phi_[s] = phi(center(i)); });
     fill_level_set_ghosts(layout_, halo_, phi_);
@@ -62,7 +62,10 @@ class Problem {
   }
   std::vector<Body<Dim>> make_bodies(const std::vector<SolidSpec>& specs) {
     std::vector<Body<Dim>> bodies;
-    for (const SolidSpec& spec : specs) bodies.emplace_back(spec, ShapeOptions{layout_.h(), nullptr});
+    for (const SolidSpec& spec : specs) {
+      const Vec<Dim> lower = Vec<Dim>::Zero(), upper = Vec<Dim>::Ones();
+      bodies.emplace_back(spec, ShapeOptions{layout_.h(), nullptr}, lower, upper);
+    }
     return bodies;
   }
   Vec<Dim> center(const IVec<Dim>& i) const { return layout_.position(i, cell_offset<Dim>()); }

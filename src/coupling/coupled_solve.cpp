@@ -1,0 +1,71 @@
+#include "coupling/coupled_solve.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/liquid_problem.h"
+
+namespace seiche {
+namespace {
+
+// Throws where a closed, full container cannot do what is asked of it.
+template <int Dim>
+void refuse_impossible_motion(const Setup<Dim>& s, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
+  if (std::abs(m.net) <= 1e-6 * m.scale) return;
+  std::string who;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (!g.placed[k].twist.at_rest()) who += (who.empty() ? " by '" : ", '") + s.bodies[k].spec().name + "'";
+  throw Error(ExitCode::cannot_continue,
+              fmt::format("incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free "
+                          "surface, an outflow side, or a motion that keeps the volume",
+                          -m.net, Dim, who));
+}
+
+// Components whose volume rigid bodies can make up for are left to them.
+NullSpace without(NullSpace closed, const std::vector<int>& components) {
+  for (int& c : closed.component)
+    if (std::find(components.begin(), components.end(), c) != components.end()) c = -1;
+  return closed;
+}
+
+}  // namespace
+
+template <int Dim>
+CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Dim>& in, StepGeometry<Dim>& g,
+                                   std::vector<RigidState>& rigid, const CellField<Dim>& guess,
+                                   const FaceField<Dim>& u_star, double horizon, PhaseFault fault) {
+  CoupledSolution<Dim> r;
+  r.rows = number_rows(in);
+  r.pressure = CellField<Dim>(s.layout);
+  const NullSpace closed = find_closed_components(in, r.rows);
+  const RigidCoupling<Dim> coupling = couple_rigid_bodies(s, g, r.rows, rigid, in.dt, horizon);
+  const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
+  const SparseMatrix A = assemble_pressure_matrix(in, r.rows);
+  const RowGrid grid = row_grid(in, r.rows);
+  const SolveOptions options{.tolerance = s.scene.solver.tolerance, .preconditioner = s.scene.solver.preconditioner};
+  SpdSolver solver(A, grid, closed, coupling.J, c1 * c2, options, s.ranks);
+  if (closed.count > 0)
+    refuse_impossible_motion(s, g, worst_mismatch(in, r.rows, without(closed, solver.sensed_components())));
+  Vector b = pressure_right_side(in, r.rows, u_star), p;
+  if (fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
+  for (Site c : r.rows.cells) p.push_back(guess[c]);
+  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
+  const InertiaResponse response =
+      problem.minimise(SmallMatrix(problem.size(), problem.size()), Eigen::VectorXd::Zero(problem.size()));
+  r.report = problem.report();
+  r.failure = response.failure;
+  for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
+  s.halo.fill_ghosts(r.pressure);
+  if (r.failure.empty()) set_velocities(s, coupling, response.velocity, g, rigid);
+  for (RigidState& body : rigid) body.horizon = horizon;
+  return r;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template CoupledSolution<D> solve_coupled<D>(const Setup<D>&, const ProjectionInput<D>&, StepGeometry<D>&,       \
+                                               std::vector<RigidState>&, const CellField<D>&, const FaceField<D>&, \
+                                               double, PhaseFault);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

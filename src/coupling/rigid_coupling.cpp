@@ -1,0 +1,230 @@
+#include "coupling/rigid_coupling.h"
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+using Generalised = Eigen::Matrix<double, twist_size<Dim>, 1>;
+
+// What the faces of one body add up to.
+template <int Dim>
+struct Sums {
+  Vec<Dim> volume = Vec<Dim>::Zero();                    // sum_f s A h over the faces of each axis
+  std::array<Vec3, Dim> moment;                          // the same times (x_f - X)
+  double wet = 0, surface = 0;                           // |net area| of cells with a row, and of all
+  std::vector<std::pair<Site, Generalised<Dim>>> cells;  // net area and moment a cell, by site
+  Sums() { moment.fill(Vec3::Zero()); }
+};
+
+// Generalised coordinates of the velocity along an axis at x: v_a + (omega x (x - X))_a.
+template <int Dim>
+Generalised<Dim> face_mode(int axis, const Vec3& arm) {
+  Vec3 e = Vec3::Zero();
+  e[axis] = 1;
+  return stacked<Dim>(e, arm.cross(e));
+}
+
+template <int Dim>
+Sums<Dim> add_up(const Setup<Dim>& s, const FaceShares& shares, const Vec3& center) {
+  Sums<Dim> sums;
+  const Layout<Dim>& l = s.layout;
+  const double cell_volume = l.geometry().cell_volume();
+  for (const FaceShare& share : shares) {
+    const IVec<Dim> i = l.index(share.face);
+    const Vec3 arm = extend<Dim>(l.position(i, face_offset<Dim>(share.axis))) - center;
+    if (l.faces(share.axis).contains(i)) {
+      sums.volume[share.axis] += share.closed * cell_volume;
+      sums.moment[share.axis] += share.closed * cell_volume * arm;
+    }
+    const Generalised<Dim> mode = share.closed * face_mode<Dim>(share.axis, arm);
+    IVec<Dim> low = i;
+    low[share.axis] -= 1;
+    if (l.cells().contains(i)) sums.cells.emplace_back(share.face, -mode);
+    if (l.cells().contains(low)) sums.cells.emplace_back(share.face - l.stride(share.axis), mode);
+  }
+  std::stable_sort(sums.cells.begin(), sums.cells.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < sums.cells.size(); ++n) {
+    if (kept > 0 && sums.cells[kept - 1].first == sums.cells[n].first)
+      sums.cells[kept - 1].second += sums.cells[n].second;
+    else
+      sums.cells[kept++] = sums.cells[n];
+  }
+  sums.cells.resize(kept);
+  return sums;
+}
+
+template <int Dim>
+Generalised<Dim> freedom_mask(const RigidSpec& spec) {
+  Vec3 linear, angular;
+  for (int a = 0; a < 3; ++a) linear[a] = !spec.fixed_position[a], angular[a] = !spec.fixed_rotation[a];
+  return stacked<Dim>(linear, angular);
+}
+
+// Cells inside a body see it on all sides alike: their net area is rounding, and they have no row.
+constexpr double rounding = 1e-12;
+
+template <int Dim>
+ColumnBlock make_block(const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+  ColumnBlock block;
+  block.width = twist_size<Dim>;
+  for (const auto& [cell, mode] : sums.cells) {
+    const double area = mode.template head<Dim>().norm();
+    const bool has_row = rows.row[cell] >= 0;
+    if (area > rounding) sums.surface += area, sums.wet += has_row ? area : 0;
+    if (!has_row) continue;
+    block.row.push_back(int(rows.row[cell] - rows.first));
+    for (int k = 0; k < block.width; ++k) block.value.push_back(mask[k] * mode[k]);
+  }
+  return block;
+}
+
+// Sums over the ranks of all bodies' volumes, moments and surfaces.
+template <int Dim>
+void sum_over_ranks(std::vector<Sums<Dim>>& sums, const Communicator& ranks) {
+  std::vector<double> all;
+  for (const Sums<Dim>& s : sums) {
+    for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
+    all.insert(all.end(), {s.wet, s.surface});
+  }
+  if (!all.empty()) ranks.global_sum(all);
+  const double* next = all.data();
+  for (Sums<Dim>& s : sums) {
+    for (int a = 0; a < Dim; ++a, next += 4) s.volume[a] = next[0], s.moment[a] = Vec3(next[1], next[2], next[3]);
+    s.wet = *next++, s.surface = *next++;
+  }
+}
+
+template <int Dim>
+bool lies_within(const DomainSpec& d, const Vec3& center, double radius) {
+  for (int a = 0; a < Dim; ++a)
+    if (center[a] - radius < d.lower[a] || center[a] + radius > d.upper[a]) return false;
+  return true;
+}
+
+// Pressure rho g.x + const on the face shares gives the force -rho g_a V_a along each axis and the torque
+// -rho sum_a g_a m_a x e_a; on the body itself -rho g V and none. The difference, for the wet part of the surface.
+template <int Dim>
+Generalised<Dim> buoyancy_difference(const Setup<Dim>& s, const Sums<Dim>& sums, double volume) {
+  const double wet = sums.surface > 0 ? sums.wet / sums.surface : 0;
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  for (int a = 0; a < Dim; ++a) {
+    const double weight = s.density() * s.scene.gravity[a];
+    Vec3 e = Vec3::Zero();
+    e[a] = 1;
+    force[a] = -weight * (volume - sums.volume[a]);
+    torque += weight * sums.moment[a].cross(e);
+  }
+  return wet * stacked<Dim>(force, torque);
+}
+
+template <int Dim>
+Eigen::Matrix<double, twist_size<Dim>, twist_size<Dim>> mass_block(double mass, const Eigen::Matrix3d& inertia) {
+  constexpr int n = twist_size<Dim>;
+  Eigen::Matrix<double, n, n> M = Eigen::Matrix<double, n, n>::Zero();
+  M.template topLeftCorner<Dim, Dim>().diagonal().setConstant(mass);
+  if constexpr (Dim == 2) M(2, 2) = inertia(2, 2);
+  if constexpr (Dim == 3) M.template bottomRightCorner<3, 3>() = inertia;
+  return M;
+}
+
+// Fixed axes keep their own mass and no links to the others.
+template <int Dim>
+void add_mass(const Eigen::Matrix<double, twist_size<Dim>, twist_size<Dim>>& M, const Generalised<Dim>& mask, int first,
+              std::vector<Eigen::Triplet<double>>& entries) {
+  for (int i = 0; i < M.rows(); ++i)
+    for (int j = 0; j < M.cols(); ++j)
+      if (M(i, j) != 0 && (i == j || (mask[i] != 0 && mask[j] != 0)))
+        entries.emplace_back(first + i, first + j, M(i, j));
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::Matrix<double, twist_size<Dim>, 1> stacked(const Vec3& linear, const Vec3& angular) {
+  Generalised<Dim> v;
+  if constexpr (Dim == 2)
+    v << linear[0], linear[1], angular[2];
+  else
+    v << linear, angular;
+  return v;
+}
+
+template <int Dim>
+Twist unstacked(const Eigen::VectorXd& v, int first, const Vec3& about) {
+  if constexpr (Dim == 2) return {{v[first], v[first + 1], 0}, {0, 0, v[first + 2]}, about};
+  return {v.segment<3>(first), v.segment<3>(first + 3), about};
+}
+
+template <int Dim>
+RigidCoupling<Dim> couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                                       const std::vector<RigidState>& rigid, double dt, double horizon) {
+  RigidCoupling<Dim> c;
+  std::vector<Sums<Dim>> sums;
+  std::vector<Eigen::Triplet<double>> mass;
+  constexpr int n = twist_size<Dim>;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_rigid()) continue;
+    const Generalised<Dim> mask = freedom_mask<Dim>(s.bodies[k].spec().rigid);
+    for (int i = 0; i < n; ++i) c.freedom.push_back(mask[i] != 0 ? Freedom::free : Freedom::fixed);
+    sums.push_back(add_up(s, *g.shares[k], rigid[k].center));
+    c.J.blocks.push_back(make_block(rows, mask, sums.back()));
+    const auto M = mass_block<Dim>(s.bodies[k].mass().mass, world_inertia(s.bodies[k], rigid[k]));
+    add_mass<Dim>(M, mask, n * int(c.bodies.size()), mass);
+    c.bodies.push_back(int(k));
+  }
+  sum_over_ranks(sums, s.ranks);
+  const int size = n * int(c.bodies.size());
+  c.mass.resize(size, size);
+  c.mass.setFromTriplets(mass.begin(), mass.end());
+  c.target.resize(size), c.free.resize(size), c.buoyancy_correction.setZero(size);
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    const Body<Dim>& body = s.bodies[c.bodies[b]];
+    const RigidState& r = rigid[c.bodies[b]];
+    const Twist v = free_twist(body, r, s.scene.gravity, dt, horizon);
+    c.free.template segment<n>(n * b) = stacked<Dim>(v.linear, v.angular);
+    if (lies_within<Dim>(s.scene.domain, r.center, body.radius()))
+      c.buoyancy_correction.template segment<n>(n * b) =
+          buoyancy_difference(s, sums[b], body.mass().volume).cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
+  }
+  const Eigen::SimplicialLDLT<SmallMatrix> factor(c.mass);
+  c.target = c.free;
+  if (size > 0) c.target += dt * factor.solve(c.buoyancy_correction);
+  return c;
+}
+
+// L += I (omega - omega*): what liquid and contact added to the free rotation.
+template <int Dim>
+void set_velocities(const Setup<Dim>& s, const RigidCoupling<Dim>& c, const Eigen::VectorXd& v, StepGeometry<Dim>& g,
+                    std::vector<RigidState>& rigid) {
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    const int k = c.bodies[b], first = twist_size<Dim> * int(b);
+    RigidState& r = rigid[k];
+    const Twist now = unstacked<Dim>(v, first, r.center), free = unstacked<Dim>(c.free, first, r.center);
+    const Eigen::Matrix3d inertia = world_inertia(s.bodies[k], r);
+    r.angular_momentum = turns_freely(s.bodies[k].spec().rigid)
+                             ? Vec3(r.angular_momentum + inertia * (now.angular - free.angular))
+                             : Vec3(inertia * now.angular);
+    r.velocity = now.linear;
+    r.angular_velocity = now.angular;
+    const Twist extra = unstacked<Dim>(c.buoyancy_correction, first, r.center);
+    r.extra_force = extra.linear;
+    r.extra_torque = extra.angular;
+    set_twist(s.layout, k, now, g);
+  }
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);                              \
+  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                                              \
+  template RigidCoupling<D> couple_rigid_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,   \
+                                                   const std::vector<RigidState>&, double, double);                   \
+  template void set_velocities<D>(const Setup<D>&, const RigidCoupling<D>&, const Eigen::VectorXd&, StepGeometry<D>&, \
+                                  std::vector<RigidState>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

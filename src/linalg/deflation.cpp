@@ -1,0 +1,228 @@
+#include "linalg/deflation.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <unordered_map>
+
+#include "linalg/body_regions.h"
+
+namespace seiche {
+namespace {
+
+// Cells around a body within which its own column of B J is kept where there are many bodies; for few it is kept whole.
+constexpr int cut_reach = 5;
+constexpr std::size_t few_bodies = 2;
+
+// Values of v on the rows that lie in a range.
+SparseColumn cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range) {
+  SparseColumn c;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (v[i] != 0 && range.contains(cells[i])) c.row.push_back(int(i)), c.value.push_back(v[i]);
+  return c;
+}
+
+// Sums of products over the ranks' rows, by pair of columns.
+class PairSums {
+ public:
+  explicit PairSums(std::int64_t columns) : columns_(columns) {}
+  void add(int i, int j, double value) { sums_[std::int64_t(i) * columns_ + j] += value; }
+
+  // Collective.
+  std::vector<Eigen::Triplet<double>> total(const Communicator& ranks) const {
+    std::map<std::int64_t, double> all(sums_.begin(), sums_.end());
+    if (ranks.size() > 1) {
+      std::vector<Item> mine;
+      for (const auto& [key, value] : all) mine.push_back({key, value});
+      const std::string bytes(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(Item));
+      all.clear();
+      for (const std::string& part : ranks.all_gather(bytes)) {
+        std::vector<Item> theirs(part.size() / sizeof(Item));
+        if (!part.empty()) std::memcpy(theirs.data(), part.data(), part.size());
+        for (const Item& item : theirs) all[item.key] += item.value;
+      }
+    }
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (const auto& [key, value] : all) triplets.emplace_back(int(key / columns_), int(key % columns_), value);
+    return triplets;
+  }
+
+ private:
+  struct Item {
+    std::int64_t key;
+    double value;
+  };
+  std::int64_t columns_;
+  std::unordered_map<std::int64_t, double> sums_;
+};
+
+struct ColumnValue {
+  int column;
+  double value;
+};
+
+// Columns by row.
+std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseColumn>& columns, int rows) {
+  std::vector<std::vector<ColumnValue>> list(rows);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (std::size_t n = 0; n < columns[c].row.size(); ++n)
+      list[columns[c].row[n]].push_back({int(c), columns[c].value[n]});
+  return list;
+}
+
+}  // namespace
+
+Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
+  make_columns();
+  add_component_columns();
+  multiply_out();
+}
+
+// Bodies of one colour share one application of B a column.
+void Deflation::make_columns() {
+  const BlockColumns& J = S_.columns();
+  const LinearSystem& A = S_.liquid();
+  const auto cells = cells_of_rows(A);
+  std::vector<CellRange> ranges = ranges_of_blocks(J, cells, S_.ranks());
+  const bool whole = J.blocks.size() <= few_bodies;
+  constexpr int everywhere = 1 << 28;
+  for (CellRange& r : ranges) r = r.grown(whole ? everywhere : cut_reach);
+  std::vector<CellRange> apart;
+  for (const CellRange& r : ranges) apart.push_back(r.grown(1));  // A reaches one cell further
+  const std::vector<int> colors = color(apart);
+  const int count = colors.empty() ? 0 : 1 + *std::max_element(colors.begin(), colors.end());
+  Vector r(A.rows()), z(A.rows()), az(A.rows()), own(A.rows());
+  for (int c = 0; c < count; ++c)
+    for (int mode = 0; mode < 6; ++mode) {
+      std::fill(r.begin(), r.end(), 0.0);
+      bool any = false;
+      for (std::size_t b = 0; b < J.blocks.size(); ++b) {
+        const ColumnBlock& block = J.blocks[b];
+        if (colors[b] != c || mode >= block.width) continue;
+        for (std::size_t i = 0; i < block.row.size(); ++i) {
+          r[block.row[i]] = block.value[i * block.width + mode];
+          any = any || r[block.row[i]] != 0;
+        }
+      }
+      if (!S_.ranks().any(any)) continue;
+      A.project(r);
+      B_.apply(r, z);
+      A.project(z);
+      ++applications_;
+      std::fill(own.begin(), own.end(), 0.0);
+      std::vector<std::size_t> members;
+      for (std::size_t b = 0; b < J.blocks.size(); ++b) {
+        if (colors[b] != c || mode >= J.blocks[b].width) continue;
+        members.push_back(b);
+        Z_.push_back(cut(z, cells, ranges[b]));
+        for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
+      }
+      A.multiply(own, az);
+      for (const std::size_t b : members) AZ_.push_back(cut(az, cells, apart[b]));
+    }
+}
+
+// A sees no constants on closed components; where bodies feel them, S does.
+void Deflation::add_component_columns() {
+  const auto& component = S_.liquid().null_space().component;
+  for (const int c : S_.sensed_components()) {
+    SparseColumn chi;
+    for (std::size_t i = 0; i < component.size(); ++i)
+      if (component[i] == c) chi.row.push_back(int(i)), chi.value.push_back(1);
+    Z_.push_back(std::move(chi));
+    AZ_.emplace_back();
+  }
+}
+
+void Deflation::multiply_out() {
+  const Communicator& ranks = S_.ranks();
+  const auto z_rows = by_row(Z_, S_.rows()), az_rows = by_row(AZ_, S_.rows());
+  PairSums zaz(std::int64_t(Z_.size())), jz(std::int64_t(Z_.size()));
+  for (std::size_t i = 0; i < z_rows.size(); ++i)
+    for (const ColumnValue& a : z_rows[i])
+      for (const ColumnValue& b : az_rows[i]) zaz.add(a.column, b.column, a.value * b.value);
+  int first = 0;
+  for (const ColumnBlock& block : S_.columns().blocks) {
+    for (std::size_t i = 0; i < block.row.size(); ++i)
+      for (const ColumnValue& z : z_rows[block.row[i]])
+        for (int k = 0; k < block.width; ++k) jz.add(first + k, z.column, block.value[i * block.width + k] * z.value);
+    first += block.width;
+  }
+  zaz_ = zaz.total(ranks);
+  jz_ = jz.total(ranks);
+  double trace = 0;
+  for (const auto& t : zaz_)
+    if (t.row() == t.col()) trace += t.value();
+  regularization_ = Z_.empty() ? 0 : 1e-14 * trace / double(Z_.size());
+}
+
+// E = Z'AZ + c (J'Z)' H^-1 (J'Z) is the Schur complement of the factored matrix, which is quasi-definite and sparse.
+bool Deflation::refresh() {
+  const int n = int(Z_.size()), m = S_.columns().columns();
+  if (n == 0) return true;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& t : zaz_) entries.emplace_back(t.row(), t.col(), t.value());
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, regularization_);
+  for (const auto& t : jz_) {
+    entries.emplace_back(n + t.row(), t.col(), t.value());
+    entries.emplace_back(t.col(), n + t.row(), t.value());
+  }
+  const SmallMatrix& H = S_.small();
+  for (int k = 0; k < H.outerSize(); ++k)
+    for (SmallMatrix::InnerIterator it(H, k); it; ++it)
+      entries.emplace_back(n + int(it.row()), n + int(it.col()), -it.value() / S_.scale());
+  SmallMatrix E(n + m, n + m);
+  E.setFromTriplets(entries.begin(), entries.end());
+  factor_.compute(E);
+  return factor_.info() == Eigen::Success;
+}
+
+Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(f.size() + S_.columns().columns());
+  all.head(f.size()) = f;
+  return factor_.solve(all).head(f.size());
+}
+
+Eigen::VectorXd Deflation::transposed(const std::vector<SparseColumn>& columns, const Vector& x) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(Eigen::Index(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (std::size_t n = 0; n < columns[c].row.size(); ++n)
+      y[Eigen::Index(c)] += columns[c].value[n] * x[columns[c].row[n]];
+  return y;
+}
+
+void Deflation::subtract(const Eigen::VectorXd& q, Vector& z) const {
+  for (std::size_t c = 0; c < Z_.size(); ++c)
+    for (std::size_t n = 0; n < Z_[c].row.size(); ++n) z[Z_[c].row[n]] -= Z_[c].value[n] * q[Eigen::Index(c)];
+}
+
+void Deflation::apply(const Vector& r, Vector& z) {
+  B_.apply(r, z);
+  S_.liquid().project(z);
+  if (Z_.empty() || !S_.is_coupled()) return;
+  const Eigen::Index n = Eigen::Index(Z_.size()), m = S_.columns().columns();
+  Eigen::VectorXd sums(n + m);  // (AZ)'z - Z'r, J'z
+  sums << transposed(AZ_, z) - transposed(Z_, r), local_transposed(S_.columns(), z);
+  S_.ranks().global_sum(std::span<double>(sums.data(), std::size_t(sums.size())));
+  // (S Z)' z = (A Z)' z + (J'Z)' c H^-1 J'z: E q = f and -H/c w + J'Z q = J'z solved together.
+  Eigen::VectorXd f = sums.head(n);
+  const Eigen::VectorXd w = S_.weigh(sums.tail(m));
+  for (const auto& t : jz_) f[t.col()] += t.value() * w[t.row()];
+  Eigen::VectorXd q = solve_small(f);
+  make_identical(q, S_.ranks());
+  subtract(q, z);
+  S_.project(z);
+}
+
+void Deflation::prepare(const Vector& b, Vector& x) {
+  if (Z_.empty() || !S_.is_coupled()) return;
+  Vector r(x.size());
+  S_.residual(b, x, r);
+  Eigen::VectorXd f = transposed(Z_, r);
+  S_.ranks().global_sum(std::span<double>(f.data(), std::size_t(f.size())));
+  Eigen::VectorXd q = solve_small(-f);
+  make_identical(q, S_.ranks());
+  subtract(q, x);
+}
+
+}  // namespace seiche

@@ -1,0 +1,51 @@
+#pragma once
+// Makes a preconditioner B of A serve for S = A + c J H^-1 J', whatever H: the directions Z = B J, cut to the
+// neighbourhood of each body, are solved for exactly (A-DEF2 of Tang, Nabben, Vuik, Erlangga 2009). With uncut Z and
+// H -> infinity nothing changes; with H -> 0 (massless bodies) Z spans what A alone does not know.
+#include <Eigen/SparseCholesky>
+
+#include "linalg/coupled_system.h"
+#include "linalg/preconditioners.h"
+
+namespace seiche {
+
+// Some columns over this rank's rows; rows ascend.
+struct SparseColumn {
+  std::vector<int> row;
+  std::vector<double> value;
+};
+
+class Deflation {
+ public:
+  // Keeps references. Collective.
+  Deflation(const CoupledSystem& S, Preconditioner& B);
+
+  // For the present H of S. Collective; whether E = Z' S Z could be factored.
+  [[nodiscard]] bool refresh();
+
+  // z = (I - Q S) B r + Q r, Q = Z E^-1 Z'. Collective.
+  void apply(const Vector& r, Vector& z);
+
+  // x += Q (b - S x): afterwards the residual is orthogonal to Z, which apply() counts on. Collective.
+  void prepare(const Vector& b, Vector& x);
+
+  int applications_of_B() const { return applications_; }  // at set-up
+
+ private:
+  void make_columns();
+  void add_component_columns();
+  void multiply_out();
+  Eigen::VectorXd transposed(const std::vector<SparseColumn>& columns, const Vector& x) const;
+  Eigen::VectorXd solve_small(const Eigen::VectorXd& f) const;
+  void subtract(const Eigen::VectorXd& q, Vector& z) const;
+
+  const CoupledSystem& S_;
+  Preconditioner& B_;
+  std::vector<SparseColumn> Z_, AZ_;
+  std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
+  double regularization_ = 0;
+  int applications_ = 0;
+  Eigen::SimplicialLDLT<SmallMatrix> factor_;  // of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
+};
+
+}  // namespace seiche
