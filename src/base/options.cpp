@@ -46,6 +46,8 @@ std::string type_name(OptionType type) {
       return "an array of numbers";
     case OptionType::axis:
       return "an array of three numbers";
+    case OptionType::spin:
+      return "an array of three numbers (2D: a number)";
     case OptionType::formula:
       return "a number or an expression in quotes";
     case OptionType::formula_vector:

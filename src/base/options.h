@@ -16,6 +16,7 @@ enum class OptionType {
   choice_list,     // any of `choices`, each at most once
   vector,          // as many numbers as the scene has dimensions
   axis,            // three numbers in either dimension
+  spin,            // a rate of rotation: three numbers; in 2D one, about z
   formula,         // a number or an expression
   formula_vector,  // as many formulas as the scene has dimensions
   file,            // a path, relative to the scene's folder

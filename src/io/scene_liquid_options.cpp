@@ -89,6 +89,11 @@ Section<LiquidSpec> liquid_section() {
   Section<S> s;
   s.keys = {
       value_key<S>({.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"}, &S::density),
+      value_key<S>({.key = "separates",
+                    .type = T::boolean,
+                    .doc = "true: liquid may part from walls and solids, whose pressure on it stays at or above zero; "
+                           "false: it clings to them"},
+                   &S::separates),
       zero_key({.key = "viscosity",
                 .unit = "Pa s",
                 .range = between(0, number_limit),

@@ -46,20 +46,19 @@ Section<MotionSpec> motion_section() {
 }
 
 Key<SolidSpec> kind_key() {
-  const std::string reason = "this version does not move or deform solids by the flow";
   return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
       {.key = "kind",
-       .refused = {{"rigid", reason}, {"elastic", reason}},
-       .doc = "static: at rest; kinematic: moves as prescribed"},
-      &SolidSpec::kind, {{"static", SolidKind::fixed}, {"kinematic", SolidKind::kinematic}});
+       .refused = {{"elastic", "this version does not deform solids by the flow"}},
+       .doc = "static: at rest; kinematic: moves as prescribed; rigid: moved by the liquid, gravity and contacts"},
+      &SolidSpec::kind,
+      {{"static", SolidKind::fixed}, {"kinematic", SolidKind::kinematic}, {"rigid", SolidKind::rigid}});
 }
 
 std::vector<Key<SolidSpec>> later_keys() {
   std::vector<Key<SolidSpec>> keys;
-  for (const char* name :
-       {"density", "friction", "velocity", "angular_velocity", "fixed", "material", "element_size", "pinned"}) {
-    keys.push_back(later_key<SolidSpec>(
-        {.key = name, .only_for = {"kind", {"rigid", "elastic"}}, .doc = "a property of rigid and elastic solids"}));
+  for (const char* name : {"material", "element_size", "pinned"}) {
+    keys.push_back(
+        later_key<SolidSpec>({.key = name, .only_for = {"kind", {"elastic"}}, .doc = "a property of elastic solids"}));
   }
   return keys;
 }
@@ -81,8 +80,17 @@ Section<SolidSpec> solid_section() {
                                           .presence = Presence::required,
                                           .doc = "how it moves: translate and/or rotate as functions of t"},
                                          &SolidSpec::motion, motion_section()));
+  for (Key<SolidSpec>& key : lift<SolidSpec>(rigid_section(), &SolidSpec::rigid)) s.keys.push_back(std::move(key));
+  s.keys.push_back(value_key<SolidSpec>({.key = "friction",
+                                         .range = between(0, number_limit),
+                                         .unset = "that of the other solid; 0 if both leave it out",
+                                         .doc = "Coulomb's coefficient in contacts with other solids"},
+                                        &SolidSpec::friction));
   for (Key<SolidSpec>& key : later_keys()) s.keys.push_back(std::move(key));
-  s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) { finish_shape(c, p, solid.shape); };
+  s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
+    finish_shape(c, p, solid.shape);
+    if (solid.kind == SolidKind::rigid && c.clean(p.path)) finish_rigid(c, p, solid);
+  };
   return s;
 }
 

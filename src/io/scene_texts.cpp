@@ -47,6 +47,7 @@ std::string to_toml(bool value, const Option&, int) {
 }
 
 std::string to_toml(const Vec3& value, const Option& option, int dimension) {
+  if (option.type == OptionType::spin && dimension == 2) return number_text(value[2]);
   const std::size_t count = option.type == OptionType::axis ? 3 : std::size_t(dimension);
   return array_text(value, count, [](double v) { return number_text(v); });
 }

@@ -76,7 +76,8 @@ bool check_length(SceneContext& c, const Place& p, const Option& option) {
     return false;
   }
   const std::size_t size = p.node->items.size();
-  const std::size_t wanted = option.type == OptionType::axis ? 3 : std::size_t(c.dimension);
+  const bool always_three = option.type == OptionType::axis || option.type == OptionType::spin;
+  const std::size_t wanted = always_three ? 3 : std::size_t(c.dimension);
   if (size == wanted || (wanted == 0 && (size == 2 || size == 3))) return true;
   const std::string reason = option.type == OptionType::axis ? "" : fmt::format(" (dimension = {})", c.dimension);
   c.report(p, wanted == 0 ? fmt::format("{} must have 2 or 3 components, not {}", p.path, size)
@@ -86,6 +87,23 @@ bool check_length(SceneContext& c, const Place& p, const Option& option) {
 
 Place item(const Place& p, std::size_t index) {
   return {&p.node->items[index], fmt::format("{}.{}", p.path, index)};
+}
+
+// In 2D a spin is one number about z: alone, in an array of one, or after two zeros as 3D scenes write it.
+void read_flat_spin(SceneContext& c, const Place& p, const Option& option, Vec3& out) {
+  const bool array = p.node->kind == Kind::array;
+  const std::size_t size = array ? p.node->items.size() : 1;
+  std::vector<double> parts;
+  if (!array && !is_number(*p.node)) return report_type(c, p, option);
+  for (std::size_t i = 0; i < size && (size == 1 || size == 3); ++i) {
+    const auto number = checked_number(c, array ? item(p, i) : p, option);
+    if (!number) return;
+    parts.push_back(*number);
+  }
+  if (parts.empty() || (size == 3 && (parts[0] != 0 || parts[1] != 0))) {
+    return c.report(p, fmt::format("{} must be a number{} in 2D: the rotation is about z", p.path, unit_text(option)));
+  }
+  out = Vec3(0, 0, parts.back());
 }
 
 void check_plain_text(SceneContext& c, const Place& p) {
@@ -119,6 +137,7 @@ void read_value(SceneContext& c, const Place& p, const Option& option, bool& out
 }
 
 void read_value(SceneContext& c, const Place& p, const Option& option, Vec3& out) {
+  if (option.type == OptionType::spin && c.dimension != 3) return read_flat_spin(c, p, option, out);
   if (!check_length(c, p, option)) return;
   Vec3 value = Vec3::Zero();
   bool good = true;

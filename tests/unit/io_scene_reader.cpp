@@ -31,11 +31,15 @@ TEST_CASE("a full scene is read as it is written") {
   CHECK(s.liquid.regions[0].shape.transform.scale == 1.5);
   CHECK(s.liquid.sources.at(0).from == 0.5);
   CHECK(s.liquid.sources.at(0).until == 1.5);
-  REQUIRE(s.solids.size() == 2);
+  CHECK(s.liquid.separates);
+  REQUIRE(s.solids.size() == 3);
   CHECK(s.solids[0].slip == Slip::no_slip);
   CHECK(s.solids[1].name == "solid2");
   CHECK(s.solids[1].kind == SolidKind::kinematic);
   CHECK(s.solids[1].motion.degrees == "90*t");
+  CHECK(s.solids[2].kind == SolidKind::rigid);
+  CHECK(s.solids[2].rigid.density == 400);
+  CHECK(s.solids[2].friction == 0.3);
   CHECK_THAT(s.solids[1].shape.where, StartsWith("scene.toml:"));
   CHECK(s.probes.at(0).every == 0.01);
   CHECK(s.solver.tolerance == 1e-9);

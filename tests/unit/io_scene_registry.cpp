@@ -22,9 +22,11 @@ namespace {
 
 using T = OptionType;
 
-// The path with entry 0 of each list; motions belong to the second solid of the rich scene.
+// The path with entry 0 of each list; motions belong to the second solid of the rich scene, inertia to the third.
 std::string concrete_path(const Option& option) {
   std::string path = option.path;
+  const auto& kinds = option.only_for.values;
+  if (std::find(kinds.begin(), kinds.end(), "rigid") != kinds.end()) path.replace(0, 7, "solid.2");
   if (path.rfind("solid[].motion", 0) == 0) path.replace(0, 7, "solid.1");
   for (std::size_t at = path.find("[]"); at != std::string::npos; at = path.find("[]")) path.replace(at, 2, ".0");
   return path;
@@ -45,7 +47,7 @@ bool is_numeric(const Option& o) {
 }
 
 bool is_numeric_vector(const Option& o) {
-  return o.type == T::vector || o.type == T::axis || o.type == T::formula_vector;
+  return o.type == T::vector || o.type == T::axis || o.type == T::spin || o.type == T::formula_vector;
 }
 
 // Only x_lower has a table in the rich scene; the other sides are built by the same rows.

@@ -53,9 +53,9 @@ TEST_CASE("every default is written out") {
   const std::string text = write_scene(parse(small_scene));
   for (const char* part : {"title = \"\"", "dimension = 3", "gravity = [0.0, -9.81, 0.0]", "x_lower = \"free_slip\"",
                            "z_upper = \"free_slip\"", "frame_rate = 24.0", "cfl = 1.0", "scheme = \"second_order\"",
-                           "density = 1000.0", "viscosity = 0.0", "surface_tension = 0.0", "method = \"level_set\"",
-                           "tolerance = 1e-08", "preconditioner = \"auto\"", "frames = [\"surface\", \"velocity\"]",
-                           "formats = [\"vdb\"]", "checkpoint_every = 10"}) {
+                           "density = 1000.0", "viscosity = 0.0", "separates = false", "surface_tension = 0.0",
+                           "method = \"level_set\"", "tolerance = 1e-08", "preconditioner = \"auto\"",
+                           "frames = [\"surface\", \"velocity\"]", "formats = [\"vdb\"]", "checkpoint_every = 10"}) {
     CHECK_THAT(text, Contains(part));
   }
 }
@@ -73,6 +73,6 @@ TEST_CASE("changed keys are named by their path") {
   CHECK(changed_keys(a, a).empty());
   CHECK(changed_keys(a, b) == std::vector<std::string>{"time.max_step", "liquid.density", "solid.0.radius"});
   const Scene more = parse(text + "[[solid]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n");
-  CHECK(changed_keys(a, more) == std::vector<std::string>{"solid.2"});
-  CHECK(changed_keys(more, a) == std::vector<std::string>{"solid.2"});
+  CHECK(changed_keys(a, more) == std::vector<std::string>{"solid.3"});
+  CHECK(changed_keys(more, a) == std::vector<std::string>{"solid.3"});
 }
