@@ -35,25 +35,15 @@ Names fixed_names(int dimension) {
   return names;
 }
 
-// False, and reported, if a name has no meaning in this scene or says what another does.
-bool check_fixed(SceneContext& c, const Place& p, const Names& names) {
-  const Names possible = fixed_names(c.dimension == 2 ? 2 : 3);
-  for (const std::string& name : names) {
-    if (!lists(possible, name)) {
-      c.report(p, fmt::format("{} lists \"{}\", which is for 3D; with dimension = 2 it may have {}", p.path, name,
-                              quoted_list(possible)));
-    }
-    if (name != turning && name.starts_with(turning) && lists(names, turning)) {
-      c.report(p, fmt::format("{} lists \"{}\" twice: \"{}\" means all axes", p.path, name, turning));
-    }
-  }
-  return c.clean(p.path);
-}
-
-void read_fixed(SceneContext& c, const Place& p, const Option& option, RigidSpec& rigid) {
+void read_fixed(SceneContext& c, const Place& p, Option option, RigidSpec& rigid) {
+  if (c.dimension == 2) option.choices = fixed_names(2);
   Names names;
   read_value(c, p, option, names);
-  if (!c.clean(p.path) || !check_fixed(c, p, names)) return;
+  for (const std::string& name : names) {
+    if (name == turning || !name.starts_with(turning) || !lists(names, turning)) continue;
+    c.report(p, fmt::format("{} lists \"{}\" twice: \"{}\" means all axes", p.path, name, turning));
+  }
+  if (!c.clean(p.path)) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string name = axis_name(int(axis));
     rigid.fixed_position[axis] = lists(names, name);

@@ -101,7 +101,7 @@ void read_flat_spin(SceneContext& c, const Place& p, const Option& option, Vec3&
     parts.push_back(*number);
   }
   if (parts.empty() || (size == 3 && (parts[0] != 0 || parts[1] != 0))) {
-    return c.report(p, fmt::format("{} must be a number{} in 2D: the rotation is about z", p.path, unit_text(option)));
+    return c.report(p, fmt::format("{} must be one number ({}) in 2D: the rotation is about z", p.path, option.unit));
   }
   out = Vec3(0, 0, parts.back());
 }

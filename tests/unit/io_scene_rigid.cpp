@@ -76,7 +76,7 @@ TEST_CASE("in 2D the angular velocity is one number") {
     CHECK(rigid_of(heavy(2, fmt::format("angular_velocity = {}", text))).angular_velocity == Vec3(0, 0, 2.5));
   }
   for (const char* text : {"[]", "[1, 2]", "[0, 1, 2]", "[1, 0, 0]", "[1, 2, 3, 4]"}) {
-    check_refused(heavy(2, fmt::format("angular_velocity = {}", text)), "must be a number rad/s in 2D");
+    check_refused(heavy(2, fmt::format("angular_velocity = {}", text)), "must be one number (rad/s) in 2D");
   }
   check_refused(heavy(2, "angular_velocity = nan"), "angular_velocity must be a finite number");
   check_refused(heavy(2, "angular_velocity = [\"a\"]"), "angular_velocity.0 must be a number");
@@ -107,8 +107,8 @@ TEST_CASE("what is fixed must exist, be said once and not move") {
   check_refused(heavy(3, "fixed = \"x\""), "must be an array of names in quotes");
   check_refused(heavy(3, "fixed = [1]"), "solid.0.fixed.0 must be a name in quotes");
   check_refused(heavy(2, "fixed = [\"z\"]"),
-                "which is for 3D; with dimension = 2 it may have \"x\", \"y\" or \"rotation\"");
-  check_refused(heavy(2, "fixed = [\"rotation_z\"]"), "which is for 3D");
+                "solid.0.fixed.0 must be \"x\", \"y\" or \"rotation\", not the text \"z\"");
+  check_refused(heavy(2, "fixed = [\"rotation_z\"]"), "did you mean \"rotation\"?");
   check_refused(heavy(3, "fixed = [\"y\"]\nvelocity = [1, 2, 3]"), "solid.0.velocity is 2 for y, which fixed holds");
   check_refused(heavy(2, "fixed = [\"rotation\"]\nangular_velocity = 1"), "solid.0.angular_velocity is 1 for z");
 }
