@@ -12,8 +12,8 @@ namespace seiche {
 //   capsule      (42 cells), 48 round a capsule (12 cells); in 2D 256 round a disc or capsule (660 cells)
 //   plane        a block beyond the domain with one pair of triangles as its face
 //   mesh         the file's own triangles
-//   expression,  contoured at cell_size, cut off flat two cells beyond [lower, upper]
-//   level_set
+//   expression,  contoured at cell_size: up to h^2/(2 r) inside convex parts, sharp edges rounded
+//   level_set    by up to a cell; cut off flat two cells beyond [lower, upper]
 // Throws Error(bad_input) naming spec.where.
 template <int Dim>
 SurfaceMesh contact_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,

@@ -54,6 +54,7 @@ void check_primitive(ShapeSpec spec, double cell_size) {
   const SurfaceMesh mesh = surface_of<Dim>(spec, cell_size);
   CHECK(is_closed(mesh));
   const Distances d = distances<Dim>(mesh, spec, cell_size);
+  CHECK(self_intersections(mesh) == 0);
   CHECK(d.corners < 1e-13);
   CHECK(d.middles <= 0.05 * cell_size + 1e-13);
   // A surface at most c inside a shape of least radius r misses about Dim c/r of its volume.
@@ -166,6 +167,23 @@ TEST_CASE("expressions are contoured, and cut off where they leave the domain") 
   const SurfaceMesh ball = surface_of<3>(s, 0.05);
   CHECK(is_closed(ball));
   CHECK(distances<3>(ball, s, 0.05).corners < 0.05 * 0.05 / (2 * 0.25));
+}
+
+// Two balls that overlap, a thin shell, and a block with a hole: creases and narrow gaps.
+TEST_CASE("contours do not go through themselves") {
+  ShapeSpec s = solid_shape("expression");
+  for (const char* phi :
+       {"min(sqrt((x-0.3)^2+y*y+z*z)-0.29,sqrt((x+0.3)^2+y*y+z*z)-0.29)",
+        "max(sqrt(x*x+y*y+z*z)-0.5,0.4-sqrt(x*x+y*y+z*z))", "max(abs(x)+abs(y)+abs(z)-0.5,-(x*x+y*y-0.04))"}) {
+    INFO(phi);
+    s.phi = phi;
+    for (const TransformSpec& transform : {TransformSpec{}, skewed_transform(3)}) {
+      s.transform = transform;
+      const SurfaceMesh mesh = surface_of<3>(s, 0.08);
+      CHECK(is_closed(mesh));
+      CHECK(self_intersections(mesh) == 0);
+    }
+  }
 }
 
 TEST_CASE("impossible shapes have no surface") {

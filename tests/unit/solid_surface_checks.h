@@ -1,5 +1,8 @@
 #pragma once
 // What tests of solids ask of closed surfaces.
+#include <Eigen/Geometry>
+
+#include <array>
 #include <map>
 #include <utility>
 
@@ -26,6 +29,41 @@ inline bool is_closed(const SurfaceMesh& mesh) {
     if (count != std::pair(1, 1)) return false;
   }
   return !uses.empty() || !ends.empty();
+}
+
+// Six times the signed volume of a tetrahedron.
+inline double determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).cross(c - a).dot(d - a);
+}
+
+inline bool pierces(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
+  if (determinant(t[0], t[1], t[2], p) * determinant(t[0], t[1], t[2], q) >= 0) return false;
+  const double a = determinant(p, q, t[0], t[1]), b = determinant(p, q, t[1], t[2]), c = determinant(p, q, t[2], t[0]);
+  return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
+// How many edges go through the inside of a triangle that they share no corner with.
+inline int self_intersections(const SurfaceMesh& mesh) {
+  int count = 0;
+  const auto corners = [&](const std::array<int, 3>& t) {
+    return std::array<Vec3, 3>{mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])],
+                               mesh.points[std::size_t(t[2])]};
+  };
+  const auto touches = [](const std::array<int, 3>& t, int p) { return t[0] == p || t[1] == p || t[2] == p; };
+  for (const auto& t : mesh.triangles) {
+    const std::array<Vec3, 3> c = corners(t);
+    const Vec3 low = c[0].cwiseMin(c[1]).cwiseMin(c[2]), high = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
+    for (const auto& s : mesh.triangles) {
+      for (int e = 0; e < 3; ++e) {
+        const int i = s[std::size_t(e)], j = s[std::size_t((e + 1) % 3)];
+        if (i > j || touches(t, i) || touches(t, j)) continue;
+        const Vec3 &p = mesh.points[std::size_t(i)], &q = mesh.points[std::size_t(j)];
+        if ((p.cwiseMin(q).array() > high.array()).any() || (p.cwiseMax(q).array() < low.array()).any()) continue;
+        count += pierces(p, q, c);
+      }
+    }
+  }
+  return count;
 }
 
 // A spec with every field set, no part of it along an axis.
