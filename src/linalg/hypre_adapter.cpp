@@ -217,8 +217,8 @@ class Pfmg : public Preconditioner {
     HYPRE_StructPFMGSetRelaxType(solver_, s.relax);
     HYPRE_StructPFMGSetRAPType(solver_, s.coarse_operator);
     HYPRE_StructPFMGSetSkipRelax(solver_, s.skip_relax);
-    HYPRE_StructPFMGSetNumPreRelax(solver_, 1);
-    HYPRE_StructPFMGSetNumPostRelax(solver_, 1);
+    HYPRE_StructPFMGSetNumPreRelax(solver_, s.sweeps);
+    HYPRE_StructPFMGSetNumPostRelax(solver_, s.sweeps);
   }
 
   std::vector<int> row_of_cell_;

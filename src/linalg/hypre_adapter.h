@@ -22,12 +22,13 @@ PreconditionerOrFailure make_boomeramg(const LinearSystem& system, const AmgSett
 
 struct PfmgSettings {
   int relax = 2;                 // red-black Gauss-Seidel, black-red after the coarse grid: symmetric
+  int sweeps = 2;                // before and after the coarse grid
   int coarse_operator = 0;       // 0 Galerkin, 1 keeps the 5- or 7-point stencil
   int skip_relax = 1;            // on levels coarsened along one axis only
   double diagonal_shift = 1e-8;  // relative, where a null space would leave a zero on the coarsest grid
 };
 
-// One V(1,1) cycle of geometric multigrid on the box of the grid, cells without a row included. Collective.
+// One V-cycle of geometric multigrid on the box of the grid, cells without a row included. Collective.
 PreconditionerOrFailure make_pfmg(const LinearSystem& system, const PfmgSettings& settings = {});
 
 }  // namespace seiche
