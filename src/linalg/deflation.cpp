@@ -11,8 +11,8 @@ namespace seiche {
 namespace {
 
 // Cells around a body within which its own column of B J is kept where there are many bodies; for few it is kept whole.
-constexpr int cut_reach = 5;
-constexpr std::size_t few_bodies = 2;
+// Wider ranges save iterations and cost more colours (docs/decisions/0006-many-bodies.md).
+constexpr int cut_reach = 4;
 
 // Values of v on the rows that lie in a range.
 SparseColumn cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range) {
@@ -20,6 +20,20 @@ SparseColumn cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, 
   for (std::size_t i = 0; i < v.size(); ++i)
     if (v[i] != 0 && range.contains(cells[i])) c.row.push_back(int(i)), c.value.push_back(v[i]);
   return c;
+}
+
+// Lets the values fade out over the outer cells of a range: cut off sharply, what is left of A z at the edge costs
+// twice the iterations.
+void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& range, SparseColumn& c) {
+  for (std::size_t n = 0; n < c.row.size(); ++n) {
+    const auto& cell = cells[c.row[n]];
+    double weight = 1;
+    for (int a = 0; a < 3; ++a) {
+      const double inside = std::min(cell[a] - range.lower[a] + 1, range.upper[a] - cell[a]);
+      weight = std::min(weight, inside / (cut_reach + 1));
+    }
+    c.value[n] *= weight;
+  }
 }
 
 // Sums of products over the ranks' rows, by pair of columns.
@@ -115,6 +129,7 @@ void Deflation::make_columns() {
         if (colors[b] != c || mode >= J.blocks[b].width) continue;
         members.push_back(b);
         Z_.push_back(cut(z, cells, ranges[b]));
+        if (!whole) fade_out(cells, ranges[b], Z_.back());
         for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
       }
       A.multiply(own, az);

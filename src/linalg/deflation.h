@@ -15,6 +15,9 @@ struct SparseColumn {
   std::vector<double> value;
 };
 
+// Up to this many bodies columns are kept whole.
+inline constexpr std::size_t few_bodies = 2;
+
 class Deflation {
  public:
   // Keeps references. Collective.

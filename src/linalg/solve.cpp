@@ -146,9 +146,16 @@ SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vect
   return iterate(rung, problem, x);
 }
 
+// Among many bodies multigrid needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md).
+std::string SpdSolver::choose() const {
+  const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
+  const bool many = system_.is_coupled() && J_.blocks.size() > few_bodies;
+  return options_.preconditioner == "auto" && chosen == "multigrid" && many ? "boomeramg" : chosen;
+}
+
 // x keeps the best finite vector met.
 void SpdSolver::climb_ladder(const Problem& problem, Vector& x, SolveReport& report) {
-  const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
+  const std::string chosen = choose();
   Vector y = x;
   int index = 0;
   for (const Rung& rung : make_ladder(chosen)) {

@@ -61,6 +61,7 @@ class SpdSolver {
   Built& build(const std::string& name);
   double true_residual(const Problem& problem, const Vector& x) const;
   double make_compatible(Vector& b) const;
+  std::string choose() const;
   std::vector<Rung> make_ladder(const std::string& chosen) const;
   struct Climb {
     int iterations = 0;
