@@ -1,6 +1,6 @@
 #include "solid/body.h"
 
-#include "solid/contact_surface.h"
+#include "solid/closed_surface.h"
 
 namespace seiche {
 namespace {

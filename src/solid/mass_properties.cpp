@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "levelset/shape_makers.h"
-#include "solid/contact_surface.h"
+#include "solid/closed_surface.h"
 
 namespace seiche {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "solid/contact_surface.h"
+#include "solid/closed_surface.h"
 #include "solid/mass_properties.h"
 #include "solid_surface_checks.h"
 

@@ -1,4 +1,4 @@
-#include "solid/contact_surface.h"
+#include "solid/closed_surface.h"
 
 #include <array>
 #include <utility>
