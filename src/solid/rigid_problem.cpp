@@ -1,0 +1,36 @@
+#include "solid/rigid_problem.h"
+
+#include <Eigen/SparseCholesky>
+
+namespace seiche {
+
+InertiaProblem::~InertiaProblem() = default;
+
+DryProblem::DryProblem(Eigen::SparseMatrix<double> mass, Eigen::VectorXd target, std::vector<Freedom> freedom)
+    : mass_(std::move(mass)), target_(std::move(target)), freedom_(std::move(freedom)) {
+  freedom_.resize(target_.size(), Freedom::free);
+}
+
+// (M + K) v = M v* + r on the free degrees of freedom, v = 0 on the others.
+InertiaResponse DryProblem::minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) {
+  if (target_.size() == 0) return respond(target_);
+  Eigen::SparseMatrix<double> matrix = mass_ + K;
+  Eigen::VectorXd rhs = mass_ * target_ + r;
+  matrix.prune([&](auto row, auto column, double) {
+    return row == column || (freedom_[row] == Freedom::free && freedom_[column] == Freedom::free);
+  });
+  for (int i = 0; i < size(); ++i) {
+    if (freedom_[i] == Freedom::free) continue;
+    matrix.coeffRef(i, i) = 1;
+    rhs[i] = 0;
+  }
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  if (factor.info() != Eigen::Success) return {"the matrix of inertia and contact cannot be factored", {}, {}};
+  return respond(factor.solve(rhs));
+}
+
+InertiaResponse DryProblem::respond(const Eigen::VectorXd& v) {
+  return {"", v, mass_ * (v - target_)};
+}
+
+}  // namespace seiche

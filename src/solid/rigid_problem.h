@@ -1,0 +1,49 @@
+#pragma once
+// What stands behind the rigid bodies of one contact solve (inertia, and liquid where there is any), as a quadratic
+// energy.
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+namespace seiche {
+
+// Generalised velocities of one body: (v of the centre of mass, omega), in 2D (v_x, v_y, omega_z).
+template <int Dim>
+constexpr int twist_size = Dim == 2 ? 3 : 6;
+
+// The gradient of e at `velocity` is the impulse that acts on each degree of freedom (N s, N m s).
+struct InertiaResponse {
+  std::string failure;  // empty if it went well
+  Eigen::VectorXd velocity, gradient;
+};
+
+// e(v), a convex quadratic in the stacked generalised velocities of the free bodies (J).
+class InertiaProblem {
+ public:
+  virtual ~InertiaProblem();
+  virtual int size() const = 0;
+  // The v that minimises e(v) + 1/2 v'Kv - r'v, K symmetric and positive semi-definite.
+  virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
+  virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
+};
+
+enum class Freedom : char { free, fixed };
+
+// Bodies without liquid: e = 1/2 (v - v*)'M(v - v*). Fixed degrees of freedom stay at zero; their gradient is the
+// impulse that would hold them.
+class DryProblem : public InertiaProblem {
+ public:
+  DryProblem(Eigen::SparseMatrix<double> mass, Eigen::VectorXd target, std::vector<Freedom> freedom = {});
+  int size() const override { return static_cast<int>(target_.size()); }
+  InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) override;
+  InertiaResponse respond(const Eigen::VectorXd& v) override;
+
+ private:
+  Eigen::SparseMatrix<double> mass_;
+  Eigen::VectorXd target_;
+  std::vector<Freedom> freedom_;
+};
+
+}  // namespace seiche
