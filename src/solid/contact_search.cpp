@@ -18,8 +18,21 @@ class Search {
   std::vector<Candidate> run() {
     for (size_t b = 0; b < scene_.surfaces.size(); ++b) body_boxes_.push_back(body_box(static_cast<int>(b)));
     near_walls();
-    for (const auto& [a, b] : near_bodies()) meet(a, b);
+    for (const auto& [a, b] : near_bodies())
+      meet(a, b, [&, a = a, b = b](int e, int f) {
+        points_and_element(a, e, b, f);
+        points_and_element(b, f, a, e);
+        if constexpr (Dim == 3) edges(a, e, b, f);
+      });
     return std::move(found_);
+  }
+
+  std::vector<ElementPair> element_pairs() {
+    std::vector<ElementPair> pairs;
+    for (size_t b = 0; b < scene_.surfaces.size(); ++b) body_boxes_.push_back(body_box(static_cast<int>(b)));
+    for (const auto& [a, b] : near_bodies())
+      meet(a, b, [&, a = a, b = b](int e, int f) { pairs.push_back({a, e, b, f}); });
+    return pairs;
   }
 
  private:
@@ -93,8 +106,9 @@ class Search {
     return boxes;
   }
 
-  // Both trees downwards, the larger node first.
-  void meet(int a, int b) {
+  // Both trees downwards, the larger node first; `visit` gets the elements of leaves that meet.
+  template <class Visit>
+  void meet(int a, int b, const Visit& visit) {
     const std::vector<Box<Dim>>&boxes_a = tree(a), &boxes_b = tree(b);
     std::vector<std::pair<int, int>> todo{{0, 0}};
     while (!todo.empty()) {
@@ -109,19 +123,11 @@ class Search {
       } else if (other.low_child > 0) {
         todo.insert(todo.end(), {{n, other.high_child}, {n, other.low_child}});
       } else {
-        meet_leaves(a, node, b, other);
+        for (int i = node.first; i < node.last; ++i)
+          for (int j = other.first; j < other.last; ++j)
+            visit(scene_.surfaces[a].order[i], scene_.surfaces[b].order[j]);
       }
     }
-  }
-
-  void meet_leaves(int a, const TreeNode& node, int b, const TreeNode& other) {
-    for (int i = node.first; i < node.last; ++i)
-      for (int j = other.first; j < other.last; ++j) {
-        const int e = scene_.surfaces[a].order[i], f = scene_.surfaces[b].order[j];
-        points_and_element(a, e, b, f);
-        points_and_element(b, f, a, e);
-        if constexpr (Dim == 3) edges(a, e, b, f);
-      }
   }
 
   void points_and_element(int a, int e, int b, int f) {
@@ -167,6 +173,14 @@ std::vector<Candidate> find_candidates(const typename ContactScene<Dim>::Data& s
   return Search<Dim>(scene, from, to, margin).run();
 }
 
+template <int Dim>
+std::vector<ElementPair> find_element_pairs(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& at,
+                                            double margin) {
+  return Search<Dim>(scene, at, at, margin).element_pairs();
+}
+
+template std::vector<ElementPair> find_element_pairs<2>(const ContactScene<2>::Data&, const Points<2>&, double);
+template std::vector<ElementPair> find_element_pairs<3>(const ContactScene<3>::Data&, const Points<3>&, double);
 template std::vector<Candidate> find_candidates<2>(const ContactScene<2>::Data&, const Points<2>&, const Points<2>&,
                                                    double);
 template std::vector<Candidate> find_candidates<3>(const ContactScene<3>::Data&, const Points<3>&, const Points<3>&,

@@ -20,6 +20,14 @@ template <int Dim>
 std::vector<Candidate> find_candidates(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& from,
                                        const Points<Dim>& to, double margin);
 
+// Elements of two bodies whose boxes are within `margin` of one another.
+struct ElementPair {
+  int first_body, first, second_body, second;
+};
+template <int Dim>
+std::vector<ElementPair> find_element_pairs(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& at,
+                                            double margin);
+
 template <int Dim>
 PairPoints<Dim> gather(const Candidate& pair, const Points<Dim>& points) {
   PairPoints<Dim> x;
