@@ -1,0 +1,104 @@
+#pragma once
+// Contact and friction between rigid bodies: incremental potential contact (Li et al. 2020; rigid bodies: Ferguson et
+// al. 2021) over one interval of time. Impacts are inelastic. docs/contact.md has the equations.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "levelset/mesh.h"
+#include "solid/body.h"
+#include "solid/rigid_problem.h"
+
+namespace seiche {
+
+enum class BodyControl { free, prescribed };
+
+struct ContactBody {
+  SurfaceMesh surface;  // closed, in the rest pose; empty: the body touches nothing
+  BodyControl control = BodyControl::free;
+  double mass = 0;                 // kg (kg/m in 2D) of a free body
+  std::optional<double> friction;  // Coulomb's coefficient
+  std::string name;
+};
+
+// The half-space that bodies keep out of lies behind the plane; its friction counts as unset.
+struct ContactWall {
+  Vec3 point, normal;  // the normal points into the domain
+};
+
+// Of a free body: `start`, with the centre of mass at rest as its pivot. Of a prescribed one also `end`.
+struct ContactMotion {
+  Pose start, end;
+};
+
+struct ContactOptions {
+  double reach = 1e-3;            // d^ (m): bodies push each other when nearer; 0.02 to 0.1 of a cell is meant
+  double acceleration = 9.81;     // m/s^2: that of a body's weight; sets the stiffness
+  double creep_speed = 1e-4;      // eps_v (m/s): below it contacts stick, but for a creep of at most this
+  double speed_tolerance = 1e-6;  // m/s: a Newton step that moves no point faster ends the iteration
+  int newton_limit = 200;         // iterations for one set of friction forces
+  int friction_limit = 20;        // times that the friction forces are brought up to date
+};
+
+struct BodyImpulse {
+  Vec3 linear{0, 0, 0}, angular{0, 0, 0};  // N s; N m s about the centre of mass (of a prescribed body: its pivot)
+};
+
+enum class FrictionState { none, settled, unsettled };
+
+struct ContactReport {
+  std::string failure;                 // empty if the velocities are an intersection-free minimum
+  Eigen::VectorXd velocity, gradient;  // of e, free bodies stacked
+  int active = 0;                      // pairs within reach
+  int newton_iterations = 0, solves = 0, friction_updates = 0;
+  double smallest_gap = 0;  // m, of the pairs within reach; `reach` if there are none
+  double stiffness = 0;     // kappa (N/m)
+  FrictionState friction = FrictionState::none;
+  std::vector<BodyImpulse> impulses;  // by contact, one a body
+};
+
+// Bodies and walls prepared for any number of solves. Copies share what was prepared.
+template <int Dim>
+class ContactScene {
+ public:
+  struct Data;
+  // Throws Error(bad_input) on indices out of range.
+  ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls);
+  const Data& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+// The accepted velocities of the free bodies over the interval: the minimum of
+//   e(v) + dt/H B(x(v)) + dt D(v),
+// B the barrier energy of all near pairs in the pose that v leads to after H, D the friction.
+template <int Dim>
+ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
+                            double dt, InertiaProblem& inertia, const ContactOptions& options);
+
+// The pose of a free body after moving for `horizon` with the generalised velocity `twist`.
+template <int Dim>
+Pose moved_pose(const Pose& start, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist, double horizon);
+
+// The share of the motion (0 to 1) that surely is free of collisions, leaving a share of each gap. Free bodies move
+// with `velocity` (stacked), prescribed ones to their end poses.
+template <int Dim>
+double largest_safe_fraction(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
+                             const Eigen::VectorXd& velocity);
+
+struct Overlap {
+  int body;   // index of a free body
+  int other;  // index of a body, or of a wall
+  enum class With { body, wall } with;
+  double depth;         // m; negative: apart by less than the clearance
+  std::string message;  // names both
+};
+
+// Pairs with at least one free body that intersect, contain one another's matter or are closer than `clearance` (m).
+template <int Dim>
+std::vector<Overlap> find_initial_overlaps(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
+                                           double clearance);
+
+}  // namespace seiche

@@ -1,0 +1,34 @@
+#pragma once
+// The barrier energy of one pair with its derivatives.
+#include "solid/contact_distance.h"
+
+namespace seiche::contact {
+
+struct Barrier {
+  double value = 0, slope = 0, curvature = 0;  // J, N, N/m
+};
+
+// b(d) = -kappa (d - d^)^2 ln(d/d^) below the reach d^, 0 above (Li et al. 2020, of the distance itself).
+Barrier barrier(double distance, double reach, double stiffness);
+
+// The stiffness at which a pair at half the reach pushes with `force` (N/m).
+double stiffness_for(double force, double reach);
+
+// The Hessian is bounded from above by sum_k stiffness[k] direction[k] direction[k]', each positive: Gauss-Newton.
+template <int Dim>
+struct PairEnergy {
+  using Points = Eigen::Matrix<double, Dim, 4>;  // one column a point
+  double value = 0;
+  double force = 0;  // N, along the normal
+  Points gradient = Points::Zero();
+  int ranks = 0;
+  std::array<double, 4> stiffness{};
+  std::array<Points, 4> direction;
+};
+
+// Of the pair whose points are x.
+template <int Dim>
+PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separation<Dim>& apart, double reach,
+                            double stiffness);
+
+}  // namespace seiche::contact

@@ -1,0 +1,37 @@
+#pragma once
+// Distances of the primitives of surfaces, with the weights of the nearest points.
+#include <array>
+
+#include "base/vec.h"
+
+namespace seiche::contact {
+
+enum class PairKind : char { point_wall, point_element, edge_edge };
+
+// The points of one pair: one point, then those of a segment (2D) or triangle (3D); or two and two of edges.
+template <int Dim>
+using PairPoints = std::array<Vec<Dim>, 4>;
+
+constexpr int points_of(PairKind kind, int dim) {
+  return kind == PairKind::point_wall ? 1 : kind == PairKind::edge_edge ? 4 : dim + 1;
+}
+constexpr int points_of_first(PairKind kind) {
+  return kind == PairKind::edge_edge ? 2 : 1;
+}
+
+// normal: unit, from the second side to the first. weight: of the nearest points, their sum is 1 on the first side and
+// -1 on the second; normal * weight is then the gradient of the distance to each point.
+template <int Dim>
+struct Separation {
+  double distance = 0;
+  Vec<Dim> normal = Vec<Dim>::Zero();
+  std::array<double, 4> weight{};
+};
+
+template <int Dim>
+Separation<Dim> separate(PairKind kind, const PairPoints<Dim>& x);
+
+template <int Dim>
+Separation<Dim> separate_from_wall(const Vec<Dim>& x, const Vec<Dim>& point, const Vec<Dim>& normal);
+
+}  // namespace seiche::contact

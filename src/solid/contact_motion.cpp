@@ -1,0 +1,133 @@
+#include "solid/contact_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace contact {
+namespace {
+
+Eigen::Matrix3d cross_matrix(const Vec3& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return m;
+}
+
+// The rotation vector of R.
+template <int Dim>
+Turn<Dim> angle_of(const Eigen::Matrix3d& R) {
+  if constexpr (Dim == 2) return Turn<2>(std::atan2(R(1, 0), R(0, 0)));
+  const Eigen::AngleAxisd turn{Eigen::Quaterniond(R).normalized()};
+  const Vec3 angle = turn.angle() * turn.axis();
+  return angle.tail<turn_size<Dim>>();
+}
+
+}  // namespace
+
+template <>
+Square<2> rotation_by<2>(const Turn<2>& angle) {
+  return Eigen::Rotation2Dd(angle[0]).toRotationMatrix();
+}
+
+template <>
+Square<3> rotation_by<3>(const Turn<3>& angle) {
+  const double size = angle.norm();
+  return size > 0 ? Eigen::AngleAxisd(size, angle / size).toRotationMatrix() : Eigen::Matrix3d::Identity();
+}
+
+template <>
+Eigen::Matrix<double, 1, 1> left_jacobian<2>(const Turn<2>&) {
+  return Eigen::Matrix<double, 1, 1>::Ones();
+}
+
+// J_l = 1 + (1 - cos a)/a^2 [a] + (a - sin a)/a^3 [a]^2; below 1e-3 the series, whose next terms are under round-off.
+template <>
+Eigen::Matrix3d left_jacobian<3>(const Turn<3>& angle) {
+  const double a = angle.norm(), a2 = a * a;
+  const Eigen::Matrix3d cross = cross_matrix(angle);
+  const double first = a < 1e-3 ? 0.5 - a2 / 24 : (1 - std::cos(a)) / a2;
+  const double second = a < 1e-3 ? 1. / 6 - a2 / 120 : (a - std::sin(a)) / (a2 * a);
+  return Eigen::Matrix3d::Identity() + first * cross + second * cross * cross;
+}
+
+template <int Dim>
+Interval<Dim> make_interval(const typename ContactScene<Dim>::Data& scene, const std::vector<ContactMotion>& motions,
+                            double horizon) {
+  Interval<Dim> r;
+  r.horizon = horizon;
+  r.prescribed.resize(motions.size());
+  for (size_t b = 0; b < motions.size(); ++b) {
+    const Pose& start = motions[b].start;
+    const Eigen::Matrix3d& R = start.rotation;
+    r.centers.push_back(truncate<Dim>(start.pivot + start.displacement));
+    r.radius.push_back(0);
+    r.prescribed[b].setZero();
+    for (const Vec<Dim>& rest : scene.surfaces[b].points) {
+      r.arms.push_back(truncate<Dim>(R * (extend<Dim>(rest) - start.pivot)));
+      r.radius.back() = std::max(r.radius.back(), r.arms.back().norm());
+    }
+    if (scene.control[b] == BodyControl::free) continue;
+    const Pose& end = motions[b].end;
+    r.prescribed[b] << (truncate<Dim>(end.apply(start.pivot)) - r.centers[b]) / horizon,
+        angle_of<Dim>(end.rotation * R.transpose()) / horizon;
+  }
+  return r;
+}
+
+template <int Dim>
+Placement<Dim> place(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
+                     const Twists<Dim>& twists) {
+  Placement<Dim> r{twists, interval.centers, interval.arms};
+  for (size_t b = 0; b < twists.size(); ++b) {
+    r.centers[b] += interval.horizon * twists[b].template head<Dim>();
+    const Square<Dim> R = rotation_by<Dim>(interval.horizon * twists[b].template tail<turn_size<Dim>>());
+    for (int p = scene.point_begin[b]; p < scene.point_begin[b + 1]; ++p)
+      r.points[p] = r.centers[b] + R * interval.arms[p];
+  }
+  return r;
+}
+
+template <int Dim>
+double speed_bound(const Interval<Dim>& interval, int b, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist) {
+  return twist.template head<Dim>().norm() + interval.radius[b] * twist.template tail<turn_size<Dim>>().norm();
+}
+
+template <int Dim>
+Twists<Dim> all_twists(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
+                       const Eigen::VectorXd& v, double share) {
+  Twists<Dim> r(interval.prescribed.size());
+  for (size_t b = 0; b < r.size(); ++b) {
+    r[b] = share * interval.prescribed[b];
+    if (scene.block[b] >= 0) r[b] = v.template segment<twist_size<Dim>>(twist_size<Dim> * scene.block[b]);
+  }
+  return r;
+}
+
+#define SEICHE_INSTANTIATE(Dim)                                                                                      \
+  template Interval<Dim> make_interval<Dim>(const ContactScene<Dim>::Data&, const std::vector<ContactMotion>&,       \
+                                            double);                                                                 \
+  template Placement<Dim> place<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Twists<Dim>&);      \
+  template double speed_bound<Dim>(const Interval<Dim>&, int, const Eigen::Matrix<double, twist_size<Dim>, 1>&);     \
+  template Twists<Dim> all_twists<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Eigen::VectorXd&, \
+                                       double);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+#undef SEICHE_INSTANTIATE
+
+}  // namespace contact
+
+template <int Dim>
+Pose moved_pose(const Pose& start, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist, double horizon) {
+  Pose r = start;
+  r.displacement += horizon * extend<Dim>(twist.template head<Dim>());
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<Dim, Dim>() = contact::rotation_by<Dim>(horizon * twist.template tail<contact::turn_size<Dim>>());
+  // Back onto the rotations, so that round-off does not add up over many intervals.
+  r.rotation = Eigen::Quaterniond(turn * start.rotation).normalized().toRotationMatrix();
+  return r;
+}
+
+template Pose moved_pose<2>(const Pose&, const Eigen::Matrix<double, 3, 1>&, double);
+template Pose moved_pose<3>(const Pose&, const Eigen::Matrix<double, 6, 1>&, double);
+
+}  // namespace seiche

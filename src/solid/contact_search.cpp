@@ -1,0 +1,189 @@
+#include "solid/contact_search.h"
+
+#include <algorithm>
+
+namespace seiche::contact {
+namespace {
+
+template <int Dim>
+using Box = Eigen::AlignedBox<double, Dim>;
+
+template <int Dim>
+class Search {
+ public:
+  using Scene = typename ContactScene<Dim>::Data;
+  Search(const Scene& scene, const Points<Dim>& from, const Points<Dim>& to, double margin)
+      : scene_(scene), from_(from), to_(to), half_(0.5 * margin), trees_(scene.surfaces.size()) {}
+
+  std::vector<Candidate> run() {
+    for (size_t b = 0; b < scene_.surfaces.size(); ++b) body_boxes_.push_back(body_box(static_cast<int>(b)));
+    near_walls();
+    for (const auto& [a, b] : near_bodies())
+      meet(a, b, [&, a = a, b = b](int e, int f) {
+        points_and_element(a, e, b, f);
+        points_and_element(b, f, a, e);
+        if constexpr (Dim == 3) edges(a, e, b, f);
+      });
+    return std::move(found_);
+  }
+
+  std::vector<ElementPair> element_pairs() {
+    std::vector<ElementPair> pairs;
+    for (size_t b = 0; b < scene_.surfaces.size(); ++b) body_boxes_.push_back(body_box(static_cast<int>(b)));
+    for (const auto& [a, b] : near_bodies())
+      meet(a, b, [&, a = a, b = b](int e, int f) { pairs.push_back({a, e, b, f}); });
+    return pairs;
+  }
+
+ private:
+  // The box of a point's path, grown by half the margin.
+  Box<Dim> path(int p) const {
+    const Vec<Dim> grow = Vec<Dim>::Constant(half_);
+    return Box<Dim>(from_[p].cwiseMin(to_[p]) - grow, from_[p].cwiseMax(to_[p]) + grow);
+  }
+  template <size_t N>
+  Box<Dim> path(int begin, const std::array<int, N>& points) const {
+    Box<Dim> box = path(begin + points[0]);
+    for (size_t i = 1; i < N; ++i) box.extend(path(begin + points[i]));
+    return box;
+  }
+  Box<Dim> body_box(int b) const {
+    Box<Dim> box;
+    for (int p = scene_.point_begin[b]; p < scene_.point_begin[b + 1]; ++p) box.extend(path(p));
+    return box;
+  }
+
+  // Sweep along x over the boxes of bodies.
+  std::vector<std::pair<int, int>> near_bodies() const {
+    std::vector<std::pair<double, int>> starts;
+    for (size_t b = 0; b < body_boxes_.size(); ++b)
+      if (!body_boxes_[b].isEmpty()) starts.emplace_back(body_boxes_[b].min()[0], static_cast<int>(b));
+    std::sort(starts.begin(), starts.end());
+    std::vector<std::pair<int, int>> pairs;
+    std::vector<int> open;
+    for (const auto& [start, b] : starts) {
+      std::erase_if(open, [&, at = start](int a) { return body_boxes_[a].max()[0] < at; });
+      for (int a : open)
+        if ((scene_.block[a] >= 0 || scene_.block[b] >= 0) && body_boxes_[a].intersects(body_boxes_[b]))
+          pairs.emplace_back(std::min(a, b), std::max(a, b));
+      open.push_back(b);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  void near_walls() {
+    for (size_t b = 0; b < body_boxes_.size(); ++b) {
+      if (scene_.block[b] < 0 || body_boxes_[b].isEmpty()) continue;
+      for (size_t w = 0; w < scene_.walls.size(); ++w) near_wall(static_cast<int>(b), static_cast<int>(w));
+    }
+  }
+
+  void near_wall(int b, int w) {
+    const Wall<Dim>& wall = scene_.walls[w];
+    const auto height = [&](const Vec<Dim>& x) { return (x - wall.point).dot(wall.normal); };
+    const Vec<Dim> reach = 0.5 * body_boxes_[b].sizes();
+    if (height(body_boxes_[b].center()) - reach.dot(wall.normal.cwiseAbs()) > half_) return;
+    for (int p = scene_.point_begin[b]; p < scene_.point_begin[b + 1]; ++p)
+      if (std::min(height(from_[p]), height(to_[p])) <= 2 * half_)
+        found_.push_back({PairKind::point_wall, b, w, {p, 0, 0, 0}});
+  }
+
+  // The boxes of a body's tree, made when first wanted.
+  const std::vector<Box<Dim>>& tree(int b) {
+    std::vector<Box<Dim>>& boxes = trees_[b];
+    const Surface<Dim>& s = scene_.surfaces[b];
+    if (!boxes.empty()) return boxes;
+    boxes.resize(s.nodes.size());
+    for (int n = static_cast<int>(s.nodes.size()) - 1; n >= 0; --n) {
+      const TreeNode& node = s.nodes[n];
+      if (node.low_child > 0)
+        boxes[n] = boxes[node.low_child].merged(boxes[node.high_child]);
+      else
+        for (int i = node.first; i < node.last; ++i)
+          boxes[n].extend(path(scene_.point_begin[b], s.elements[s.order[i]]));
+    }
+    return boxes;
+  }
+
+  // Both trees downwards, the larger node first; `visit` gets the elements of leaves that meet.
+  template <class Visit>
+  void meet(int a, int b, const Visit& visit) {
+    const std::vector<Box<Dim>>&boxes_a = tree(a), &boxes_b = tree(b);
+    std::vector<std::pair<int, int>> todo{{0, 0}};
+    while (!todo.empty()) {
+      const auto [n, m] = todo.back();
+      todo.pop_back();
+      if (!boxes_a[n].intersects(boxes_b[m])) continue;
+      const TreeNode &node = scene_.surfaces[a].nodes[n], &other = scene_.surfaces[b].nodes[m];
+      const bool split_a = node.low_child > 0 && (other.low_child == 0 || boxes_a[n].diagonal().squaredNorm() >=
+                                                                              boxes_b[m].diagonal().squaredNorm());
+      if (split_a) {
+        todo.insert(todo.end(), {{node.high_child, m}, {node.low_child, m}});
+      } else if (other.low_child > 0) {
+        todo.insert(todo.end(), {{n, other.high_child}, {n, other.low_child}});
+      } else {
+        for (int i = node.first; i < node.last; ++i)
+          for (int j = other.first; j < other.last; ++j)
+            visit(scene_.surfaces[a].order[i], scene_.surfaces[b].order[j]);
+      }
+    }
+  }
+
+  void points_and_element(int a, int e, int b, int f) {
+    const std::vector<int>& own = scene_.surfaces[a].own_points[e];
+    if (own.empty()) return;
+    const Element<Dim>& element = scene_.surfaces[b].elements[f];
+    const Box<Dim> box = path(scene_.point_begin[b], element);
+    for (int p : own) {
+      if (!path(scene_.point_begin[a] + p).intersects(box)) continue;
+      Candidate c{PairKind::point_element, a, b, {scene_.point_begin[a] + p, 0, 0, 0}};
+      for (int k = 0; k < Dim; ++k) c.points[k + 1] = scene_.point_begin[b] + element[k];
+      found_.push_back(c);
+    }
+  }
+
+  void edges(int a, int e, int b, int f) {
+    const int start_a = scene_.point_begin[a], start_b = scene_.point_begin[b];
+    for (int i : scene_.surfaces[a].own_edges[e]) {
+      const std::array<int, 2>& one = scene_.surfaces[a].edges[i];
+      const Box<Dim> box = path(start_a, one);
+      for (int j : scene_.surfaces[b].own_edges[f]) {
+        const std::array<int, 2>& two = scene_.surfaces[b].edges[j];
+        if (!box.intersects(path(start_b, two))) continue;
+        found_.push_back(
+            {PairKind::edge_edge, a, b, {start_a + one[0], start_a + one[1], start_b + two[0], start_b + two[1]}});
+      }
+    }
+  }
+
+  const Scene& scene_;
+  const Points<Dim>&from_, &to_;
+  double half_;
+  std::vector<Box<Dim>> body_boxes_;
+  std::vector<std::vector<Box<Dim>>> trees_;
+  std::vector<Candidate> found_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<Candidate> find_candidates(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& from,
+                                       const Points<Dim>& to, double margin) {
+  return Search<Dim>(scene, from, to, margin).run();
+}
+
+template <int Dim>
+std::vector<ElementPair> find_element_pairs(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& at,
+                                            double margin) {
+  return Search<Dim>(scene, at, at, margin).element_pairs();
+}
+
+template std::vector<ElementPair> find_element_pairs<2>(const ContactScene<2>::Data&, const Points<2>&, double);
+template std::vector<ElementPair> find_element_pairs<3>(const ContactScene<3>::Data&, const Points<3>&, double);
+template std::vector<Candidate> find_candidates<2>(const ContactScene<2>::Data&, const Points<2>&, const Points<2>&,
+                                                   double);
+template std::vector<Candidate> find_candidates<3>(const ContactScene<3>::Data&, const Points<3>&, const Points<3>&,
+                                                   double);
+
+}  // namespace seiche::contact

@@ -1,0 +1,46 @@
+#pragma once
+// Which pairs of primitives can come near one another along linear paths of their points.
+#include "solid/contact_distance.h"
+#include "solid/contact_motion.h"
+
+namespace seiche::contact {
+
+struct Candidate {
+  PairKind kind;
+  int first, second;          // bodies; second is a wall for point_wall
+  std::array<int, 4> points;  // in the list of all points
+};
+
+template <int Dim>
+using Points = std::vector<Vec<Dim>>;
+
+// All pairs of which one body is free and that may be within `margin` while points move from one place to the other
+// (the start and the end included), in an order that depends on nothing but the input.
+template <int Dim>
+std::vector<Candidate> find_candidates(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& from,
+                                       const Points<Dim>& to, double margin);
+
+// Elements of two bodies whose boxes are within `margin` of one another.
+struct ElementPair {
+  int first_body, first, second_body, second;
+};
+template <int Dim>
+std::vector<ElementPair> find_element_pairs(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& at,
+                                            double margin);
+
+template <int Dim>
+PairPoints<Dim> gather(const Candidate& pair, const Points<Dim>& points) {
+  PairPoints<Dim> x;
+  for (int i = 0; i < points_of(pair.kind, Dim); ++i) x[i] = points[pair.points[i]];
+  for (int i = points_of(pair.kind, Dim); i < 4; ++i) x[i].setZero();
+  return x;
+}
+
+template <int Dim>
+Separation<Dim> separate(const typename ContactScene<Dim>::Data& scene, const Candidate& pair,
+                         const PairPoints<Dim>& x) {
+  if (pair.kind != PairKind::point_wall) return separate<Dim>(pair.kind, x);
+  return separate_from_wall<Dim>(x[0], scene.walls[pair.second].point, scene.walls[pair.second].normal);
+}
+
+}  // namespace seiche::contact

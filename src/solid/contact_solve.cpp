@@ -1,0 +1,225 @@
+// Newton's method on e(v) + C(v) with a line search that never lets surfaces touch (Li et al. 2020).
+#include <algorithm>
+#include <cmath>
+
+#include "solid/contact_path.h"
+#include "solid/contact_system.h"
+
+namespace seiche {
+namespace contact {
+namespace {
+
+constexpr double sufficient_decrease = 1e-4;  // Armijo
+constexpr double energy_round_off = 1e-12;    // of the sum of the energies: differences below say nothing
+constexpr double least_step = 1e-10;          // of a Newton step; shorter ones get nowhere
+// Gaps below this share of the reach make contacts stiffer, by this factor, this often at most.
+constexpr double tiny_gap = 1e-2, stiffening = 10;
+constexpr int stiffening_limit = 12;
+// Friction forces have settled when they move no point faster than this share of the creep speed.
+constexpr double settled_share = 0.1;
+
+enum class Outcome { converged, failed };
+
+template <int Dim>
+class Solver {
+ public:
+  Solver(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon, double dt,
+         InertiaProblem& inertia, const ContactOptions& options)
+      : scene_(scene.data()), inertia_(inertia), options_(options) {
+    interval_ = make_interval<Dim>(scene_, motions, horizon);
+    weights_ = {dt, options.reach, stiffness_for(heaviest() * options.acceleration, options.reach),
+                options.creep_speed};
+  }
+
+  ContactReport run() {
+    if (free_of_contact()) return report_;
+    if (!report_.failure.empty() || !start_at_rest()) return report_;
+    for (int i = 0; i < stiffening_limit; ++i) {
+      if (solve_with_friction() == Outcome::failed) return report_;
+      if (!stiffen()) break;
+    }
+    finish();
+    return report_;
+  }
+
+ private:
+  double heaviest() const {
+    double mass = 0;
+    for (size_t b = 0; b < scene_.mass.size(); ++b)
+      if (scene_.block[b] >= 0) mass = std::max(mass, scene_.mass[b]);
+    return mass > 0 ? mass : 1;
+  }
+
+  // Takes the response if it is usable.
+  Outcome take(InertiaResponse response, InertiaResponse& into) {
+    ++report_.solves;
+    if (!response.failure.empty())
+      report_.failure = response.failure;
+    else if (!response.velocity.allFinite() || !response.gradient.allFinite())
+      report_.failure = "the velocities of the bodies are not finite";
+    into = std::move(response);
+    return report_.failure.empty() ? Outcome::converged : Outcome::failed;
+  }
+
+  Twists<Dim> twists(const Eigen::VectorXd& v, double share) const {
+    return all_twists<Dim>(scene_, interval_, v, share);
+  }
+
+  // The motion without contact is the answer if it meets nothing: e has no lower value.
+  bool free_of_contact() {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
+    const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
+    at_ = place<Dim>(scene_, interval_, twists(zero, 0));
+    if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
+    const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, twists(e_.velocity, 1), weights_.reach);
+    if (way.share < 1) return false;
+    if (contact_energy<Dim>(scene_, interval_, way.end, way.near, {}, weights_) > 0) return false;
+    report_.velocity = e_.velocity;
+    report_.gradient = e_.gradient;
+    report_.smallest_gap = weights_.reach;
+    report_.stiffness = weights_.stiffness;
+    report_.impulses.resize(scene_.surfaces.size());
+    return true;
+  }
+
+  bool start_at_rest() {
+    pairs_ = find_candidates<Dim>(scene_, at_.points, at_.points, weights_.reach);
+    const double energy = contact_energy<Dim>(scene_, interval_, at_, pairs_, {}, weights_);
+    if (!std::isfinite(energy)) report_.failure = "bodies touch or overlap at the start of the step";
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
+    return report_.failure.empty() && take(inertia_.respond(zero), e_) == Outcome::converged;
+  }
+
+  // Newton with the friction forces of the present state, until these no longer move anything.
+  Outcome solve_with_friction() {
+    report_.friction = FrictionState::none;
+    for (int i = 0; i < options_.friction_limit; ++i) {
+      friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
+      if (i > 0 && friction_.empty()) return Outcome::converged;
+      if (!friction_.empty()) ++report_.friction_updates;
+      double first_step = 0;
+      if (newton(first_step) == Outcome::failed) return Outcome::failed;
+      if (!friction_.empty()) report_.friction = FrictionState::unsettled;
+      if (i > 0 && first_step <= settled_share * options_.creep_speed) {
+        report_.friction = FrictionState::settled;
+        break;
+      }
+    }
+    return Outcome::converged;
+  }
+
+  Outcome newton(double& first_step) {
+    for (int i = 0; i < options_.newton_limit; ++i) {
+      ++report_.newton_iterations;
+      terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_);
+      const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
+      InertiaResponse goal;
+      if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
+      const double speed = fastest(goal.velocity - e_.velocity);
+      if (i == 0) first_step = speed;
+      const bool last = speed <= options_.speed_tolerance && share_ == 1;
+      const double step = search(goal);
+      if (last) return Outcome::converged;
+      if (step == 0) return fail("contact: no step downhill is free of collisions");
+    }
+    return fail("contact: Newton's method does not converge");
+  }
+
+  Outcome fail(const std::string& why) {
+    report_.failure = why;
+    return Outcome::failed;
+  }
+
+  double fastest(const Eigen::VectorXd& v) const {
+    double speed = 0;
+    for (size_t b = 0; b < scene_.surfaces.size(); ++b)
+      if (scene_.block[b] >= 0)
+        speed =
+            std::max(speed, speed_bound<Dim>(interval_, static_cast<int>(b),
+                                             v.template segment<twist_size<Dim>>(twist_size<Dim> * scene_.block[b])));
+    return speed;
+  }
+
+  // e(v + s p) - e(v) of a quadratic whose gradients at v and v + p are known.
+  double inertia_change(const InertiaResponse& goal, double s) const {
+    const Eigen::VectorXd p = goal.velocity - e_.velocity;
+    return s * p.dot(e_.gradient + 0.5 * s * (goal.gradient - e_.gradient));
+  }
+
+  // Goes towards the goal as far as is free of collisions and downhill; the share of the way, 0 if it stays. While
+  // prescribed bodies are under way energies cannot be compared.
+  double search(const InertiaResponse& goal) {
+    const Eigen::VectorXd p = goal.velocity - e_.velocity;
+    const double slope = p.dot(e_.gradient + terms_.gradient), left = 1 - share_;
+    for (double s = 1; s > least_step; s *= 0.5) {
+      Walk<Dim> way = walk<Dim>(scene_, interval_, at_, twists(e_.velocity + s * p, share_ + s * left), weights_.reach);
+      s *= way.share;
+      if (s <= least_step) break;
+      const double energy = contact_energy<Dim>(scene_, interval_, way.end, way.near, friction_, weights_);
+      const double inertia = inertia_change(goal, s);
+      const double noise = energy_round_off * (std::abs(inertia) + energy + terms_.energy);
+      if (!std::isfinite(energy)) continue;
+      if (left == 0 && inertia + energy - terms_.energy > sufficient_decrease * s * std::min(slope, 0.) + noise)
+        continue;
+      accept(std::move(way), goal, s);
+      share_ = s == 1 ? 1 : share_ + s * left;
+      return s;
+    }
+    return 0;
+  }
+
+  void accept(Walk<Dim> way, const InertiaResponse& goal, double s) {
+    at_ = std::move(way.end);
+    pairs_ = std::move(way.near);
+    e_.velocity = s == 1 ? goal.velocity : Eigen::VectorXd(e_.velocity + s * (goal.velocity - e_.velocity));
+    e_.gradient = s == 1 ? goal.gradient : Eigen::VectorXd(e_.gradient + s * (goal.gradient - e_.gradient));
+  }
+
+  bool stiffen() {
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_);
+    if (terms_.smallest_gap >= tiny_gap * weights_.reach) return false;
+    weights_.stiffness *= stiffening;
+    return true;
+  }
+
+  void finish() {
+    friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_);
+    report_.velocity = e_.velocity;
+    report_.gradient = e_.gradient;
+    report_.active = terms_.active;
+    report_.smallest_gap = terms_.smallest_gap;
+    report_.stiffness = weights_.stiffness;
+    report_.impulses = contact_impulses<Dim>(scene_, at_, pairs_, friction_, weights_);
+  }
+
+  const Scene<Dim>& scene_;
+  InertiaProblem& inertia_;
+  const ContactOptions& options_;
+  Interval<Dim> interval_;
+  Weights weights_;
+  ContactReport report_;
+  // The present iterate: free velocities with the gradient of e, the share of the prescribed motion, what follows.
+  InertiaResponse e_;
+  double share_ = 0;
+  Placement<Dim> at_;
+  std::vector<Candidate> pairs_;
+  std::vector<FrictionPoint<Dim>> friction_;
+  ContactTerms terms_;
+};
+
+}  // namespace
+}  // namespace contact
+
+template <int Dim>
+ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
+                            double dt, InertiaProblem& inertia, const ContactOptions& options) {
+  return contact::Solver<Dim>(scene, motions, horizon, dt, inertia, options).run();
+}
+
+template ContactReport solve_contact<2>(const ContactScene<2>&, const std::vector<ContactMotion>&, double, double,
+                                        InertiaProblem&, const ContactOptions&);
+template ContactReport solve_contact<3>(const ContactScene<3>&, const std::vector<ContactMotion>&, double, double,
+                                        InertiaProblem&, const ContactOptions&);
+
+}  // namespace seiche

@@ -1,0 +1,265 @@
+#include "solid/contact_system.h"
+
+#include <limits>
+#include <map>
+
+namespace seiche::contact {
+namespace {
+
+// A derivative by the twists of the two bodies of a pair.
+template <int Dim>
+using PairVector = Eigen::Matrix<double, 2 * twist_size<Dim>, 1>;
+template <int Dim>
+using PairMatrix = Eigen::Matrix<double, 2 * twist_size<Dim>, 2 * twist_size<Dim>>;
+
+// Collects pairs by the bodies they join; an ordered map keeps sums the same from run to run.
+template <int Dim>
+class Assembly {
+ public:
+  static constexpr int n = twist_size<Dim>;
+  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left)
+      : scene_(scene), interval_(interval), left_(share_left) {
+    gradient_.setZero(n * scene.free_count);
+    drag_.setZero(n * scene.free_count);
+  }
+
+  void add(int a, int b, const PairVector<Dim>& gradient) {
+    if (block(a) >= 0) gradient_.template segment<n>(n * block(a)) += gradient.template head<n>();
+    if (block(b) >= 0) gradient_.template segment<n>(n * block(b)) += gradient.template tail<n>();
+  }
+
+  void add(int a, int b, const PairMatrix<Dim>& hessian) {
+    const auto [place, fresh] = hessians_.try_emplace({a, b}, hessian);
+    if (!fresh) place->second += hessian;
+  }
+
+  void finish(ContactTerms& terms) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& [bodies, hessian] : hessians_) {
+      const std::array<int, 2> body{bodies.first, bodies.second};
+      for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) scatter(body[i], body[j], hessian.template block<n, n>(n * i, n * j), entries);
+    }
+    terms.gradient = gradient_;
+    terms.drag = drag_;
+    terms.K.resize(gradient_.size(), gradient_.size());
+    terms.K.setFromTriplets(entries.begin(), entries.end());
+  }
+
+ private:
+  int block(int body) const { return body < 0 ? -1 : scene_.block[body]; }
+
+  void scatter(int row, int column, const Eigen::Matrix<double, n, n>& part,
+               std::vector<Eigen::Triplet<double>>& entries) {
+    const int i = block(row), j = block(column);
+    if (i < 0 || column < 0) return;
+    if (j < 0) {
+      drag_.template segment<n>(n * i) += part * (left_ * interval_.prescribed[column]);
+      return;
+    }
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) entries.emplace_back(n * i + r, n * j + c, part(r, c));
+  }
+
+  const Scene<Dim>& scene_;
+  const Interval<Dim>& interval_;
+  double left_;
+  Eigen::VectorXd gradient_, drag_;
+  std::map<std::pair<int, int>, PairMatrix<Dim>> hessians_;
+};
+
+int second_body(const Candidate& pair) {
+  return pair.kind == PairKind::point_wall ? -1 : pair.second;
+}
+
+template <int Dim>
+using TurnJacobians = std::vector<Eigen::Matrix<double, turn_size<Dim>, turn_size<Dim>>>;
+
+template <int Dim>
+TurnJacobians<Dim> turn_jacobians(const Interval<Dim>& interval, const Twists<Dim>& twists) {
+  TurnJacobians<Dim> r;
+  for (const auto& twist : twists)
+    r.push_back(left_jacobian<Dim>(interval.horizon * twist.template tail<turn_size<Dim>>()));
+  return r;
+}
+
+// Forces on the points of a pair as a force and moment on each body: (sum f, sum (x - c) x f).
+template <int Dim>
+PairVector<Dim> wrench(const Candidate& pair, const Placement<Dim>& at, const PairPoints<Dim>& x,
+                       const Eigen::Matrix<double, Dim, 4>& forces) {
+  PairVector<Dim> r = PairVector<Dim>::Zero();
+  const int first = points_of_first(pair.kind);
+  for (int i = 0; i < points_of(pair.kind, Dim); ++i) {
+    const int side = i < first ? 0 : twist_size<Dim>;
+    const Vec<Dim> arm = x[i] - at.centers[i < first ? pair.first : pair.second], force = forces.col(i);
+    r.template segment<Dim>(side) += force;
+    r.template segment<turn_size<Dim>>(side + Dim) += moment<Dim>(arm, force);
+  }
+  return r;
+}
+
+// d x = H (d v + J_l d omega x arm): the moments by omega are those by the rotation vector times J_l.
+template <int Dim>
+PairVector<Dim> by_twists(const Candidate& pair, const TurnJacobians<Dim>& jacobians, PairVector<Dim> wrench) {
+  constexpr int n = twist_size<Dim>, turn = turn_size<Dim>;
+  const int second = second_body(pair);
+  wrench.template segment<turn>(Dim) = (jacobians[pair.first].transpose() * wrench.template segment<turn>(Dim)).eval();
+  if (second >= 0)
+    wrench.template segment<turn>(n + Dim) =
+        (jacobians[second].transpose() * wrench.template segment<turn>(n + Dim)).eval();
+  return wrench;
+}
+
+// The derivative of each component of the slip by the twists of both bodies.
+template <int Dim>
+Eigen::Matrix<double, 2 * twist_size<Dim>, Dim - 1> slip_derivative(const FrictionPoint<Dim>& f) {
+  constexpr int n = twist_size<Dim>;
+  Eigen::Matrix<double, 2 * n, Dim - 1> r;
+  for (int k = 0; k < Dim - 1; ++k) {
+    const Vec<Dim> t = f.tangent.col(k);
+    r.col(k) << t, moment<Dim>(f.arm_first, t), -t, -moment<Dim>(f.arm_second, t);
+  }
+  return r;
+}
+
+template <int Dim>
+void add_friction(const std::vector<FrictionPoint<Dim>>& friction, const Placement<Dim>& at, const Weights& w,
+                  ContactTerms& terms, Assembly<Dim>& assembly) {
+  for (const FrictionPoint<Dim>& f : friction) {
+    const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed);
+    const auto derivative = slip_derivative<Dim>(f);
+    terms.energy += w.dt * e.value;
+    assembly.add(f.first, f.second, PairVector<Dim>(w.dt * derivative * e.gradient));
+    assembly.add(f.first, f.second, PairMatrix<Dim>(w.dt * derivative * e.hessian * derivative.transpose()));
+  }
+}
+
+template <int Dim>
+double share_left(const Scene<Dim>& scene, const Interval<Dim>& interval, const Twists<Dim>& twists) {
+  double left = 0;
+  for (size_t b = 0; b < twists.size(); ++b) {
+    const double whole = interval.prescribed[b].squaredNorm();
+    if (scene.block[b] < 0 && whole > 0) left = std::max(left, 1 - twists[b].dot(interval.prescribed[b]) / whole);
+  }
+  return left;
+}
+
+}  // namespace
+
+template <int Dim>
+double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
+                      const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
+                      const Weights& w) {
+  double energy = 0;
+  for (const Candidate& pair : pairs) {
+    const PairPoints<Dim> x = gather<Dim>(pair, at.points);
+    const Separation<Dim> apart = separate<Dim>(scene, pair, x);
+    if (apart.distance >= w.reach) continue;
+    if (apart.distance <= 0) return std::numeric_limits<double>::infinity();
+    energy += w.dt / interval.horizon * pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness).value;
+  }
+  for (const FrictionPoint<Dim>& f : friction)
+    energy += w.dt * slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed).value;
+  return energy;
+}
+
+template <int Dim>
+ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
+                           const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
+                           const Weights& w) {
+  ContactTerms terms;
+  terms.smallest_gap = w.reach;
+  Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.twists));
+  const TurnJacobians<Dim> jacobians = turn_jacobians<Dim>(interval, at.twists);
+  for (const Candidate& pair : pairs) {
+    const PairPoints<Dim> x = gather<Dim>(pair, at.points);
+    const Separation<Dim> apart = separate<Dim>(scene, pair, x);
+    if (apart.distance >= w.reach) continue;
+    const PairEnergy<Dim> e = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness);
+    const auto twist = [&](const auto& forces) {
+      return by_twists<Dim>(pair, jacobians, wrench<Dim>(pair, at, x, forces));
+    };
+    ++terms.active;
+    terms.smallest_gap = std::min(terms.smallest_gap, apart.distance);
+    terms.energy += w.dt / interval.horizon * e.value;
+    assembly.add(pair.first, second_body(pair), PairVector<Dim>(w.dt * twist(e.gradient)));
+    PairMatrix<Dim> hessian = PairMatrix<Dim>::Zero();
+    for (int k = 0; k < e.ranks; ++k) {
+      const PairVector<Dim> q = twist(e.direction[k]);
+      hessian += w.dt * interval.horizon * e.stiffness[k] * q * q.transpose();
+    }
+    assembly.add(pair.first, second_body(pair), hessian);
+  }
+  add_friction<Dim>(friction, at, w, terms, assembly);
+  assembly.finish(terms);
+  return terms;
+}
+
+template <int Dim>
+std::vector<FrictionPoint<Dim>> friction_points(const Scene<Dim>& scene, const Placement<Dim>& at,
+                                                const std::vector<Candidate>& pairs, const Weights& w) {
+  std::vector<FrictionPoint<Dim>> found;
+  for (const Candidate& pair : pairs) {
+    const int second = second_body(pair);
+    const double mu = pair_friction(scene.friction[pair.first], second < 0 ? std::nullopt : scene.friction[second]);
+    if (mu == 0) continue;
+    const PairPoints<Dim> x = gather<Dim>(pair, at.points);
+    const Separation<Dim> apart = separate<Dim>(scene, pair, x);
+    if (apart.distance >= w.reach) continue;
+    const double force = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness).force;
+    if (force <= 0) continue;
+    Vec<Dim> middle = -0.5 * apart.distance * apart.normal;
+    for (int i = 0; i < points_of_first(pair.kind); ++i) middle += apart.weight[i] * x[i];
+    const Vec<Dim> arm = second < 0 ? Vec<Dim>::Zero() : Vec<Dim>(middle - at.centers[second]);
+    found.push_back(
+        {pair.first, second, mu * force, middle - at.centers[pair.first], arm, tangents<Dim>(apart.normal)});
+  }
+  return found;
+}
+
+template <int Dim>
+std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placement<Dim>& at,
+                                          const std::vector<Candidate>& pairs,
+                                          const std::vector<FrictionPoint<Dim>>& friction, const Weights& w) {
+  constexpr int n = twist_size<Dim>;
+  std::vector<BodyImpulse> impulses(scene.surfaces.size());
+  const auto add = [&](int body, const Eigen::Matrix<double, n, 1>& gradient) {
+    if (body < 0) return;
+    impulses[body].linear -= w.dt * extend<Dim>(gradient.template head<Dim>());
+    impulses[body].angular.template tail<turn_size<Dim>>() -= w.dt * gradient.template tail<turn_size<Dim>>();
+  };
+  const auto add_pair = [&](int first, int second, const PairVector<Dim>& gradient) {
+    add(first, gradient.template head<n>());
+    add(second, gradient.template tail<n>());
+  };
+  for (const Candidate& pair : pairs) {
+    const PairPoints<Dim> x = gather<Dim>(pair, at.points);
+    const Separation<Dim> apart = separate<Dim>(scene, pair, x);
+    if (apart.distance >= w.reach) continue;
+    const PairEnergy<Dim> e = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness);
+    add_pair(pair.first, second_body(pair), wrench<Dim>(pair, at, x, e.gradient));
+  }
+  for (const FrictionPoint<Dim>& f : friction) {
+    const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed);
+    add_pair(f.first, f.second, slip_derivative<Dim>(f) * e.gradient);
+  }
+  return impulses;
+}
+
+#define SEICHE_INSTANTIATE(Dim)                                                                                   \
+  template double contact_energy<Dim>(const Scene<Dim>&, const Interval<Dim>&, const Placement<Dim>&,             \
+                                      const std::vector<Candidate>&, const std::vector<FrictionPoint<Dim>>&,      \
+                                      const Weights&);                                                            \
+  template ContactTerms contact_terms<Dim>(const Scene<Dim>&, const Interval<Dim>&, const Placement<Dim>&,        \
+                                           const std::vector<Candidate>&, const std::vector<FrictionPoint<Dim>>&, \
+                                           const Weights&);                                                       \
+  template std::vector<FrictionPoint<Dim>> friction_points<Dim>(const Scene<Dim>&, const Placement<Dim>&,         \
+                                                                const std::vector<Candidate>&, const Weights&);   \
+  template std::vector<BodyImpulse> contact_impulses<Dim>(const Scene<Dim>&, const Placement<Dim>&,               \
+                                                          const std::vector<Candidate>&,                          \
+                                                          const std::vector<FrictionPoint<Dim>>&, const Weights&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+#undef SEICHE_INSTANTIATE
+
+}  // namespace seiche::contact

@@ -1,0 +1,45 @@
+#pragma once
+// Barrier and friction of all pairs as functions of the velocities.
+#include "solid/contact_friction.h"
+#include "solid/contact_search.h"
+
+namespace seiche::contact {
+
+struct Weights {
+  double dt = 0, reach = 0, stiffness = 0, creep_speed = 0;
+};
+
+template <int Dim>
+using Scene = typename ContactScene<Dim>::Data;
+
+// C(v) = dt/H B(x(v)) + dt D(v) (J). K bounds its Hessian over the free velocities; drag is the product of the
+// Hessian's mixed part with what the prescribed velocities still lack. A pair that touches makes the energy infinite.
+struct ContactTerms {
+  double energy = 0, smallest_gap = 0;
+  int active = 0;
+  Eigen::VectorXd gradient, drag;
+  Eigen::SparseMatrix<double> K;
+};
+
+template <int Dim>
+double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
+                      const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
+                      const Weights& weights);
+
+template <int Dim>
+ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
+                           const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
+                           const Weights& weights);
+
+// The friction that the present normal forces and points of contact allow.
+template <int Dim>
+std::vector<FrictionPoint<Dim>> friction_points(const Scene<Dim>& scene, const Placement<Dim>& at,
+                                                const std::vector<Candidate>& pairs, const Weights& weights);
+
+// The impulses on all bodies about their centres in the present placement; in pairs equal and opposite.
+template <int Dim>
+std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placement<Dim>& at,
+                                          const std::vector<Candidate>& pairs,
+                                          const std::vector<FrictionPoint<Dim>>& friction, const Weights& weights);
+
+}  // namespace seiche::contact
