@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "coupling/contact_setup.h"
 #include "coupling/liquid_problem.h"
 
 namespace seiche {
@@ -28,17 +29,38 @@ NullSpace without(NullSpace closed, const std::vector<int>& components) {
   return closed;
 }
 
+// Velocities of the rigid bodies; the pressure that goes with them is left in the problem.
+template <int Dim>
+Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon,
+                         LiquidProblem<Dim>& problem, CoupledSolution<Dim>& r) {
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(problem.size());
+  if (s.contact) {
+    const auto motions = contact_motions(s, state.rigid, state.time, horizon);
+    const ContactReport contact = solve_contact(*s.contact, motions, horizon, dt, problem, contact_options(s, dt));
+    r.failure = contact.failure;
+    r.newton_iterations = contact.newton_iterations;
+    r.contacts = contact.active;
+    v = contact.velocity;
+    // The last pressure belongs to the last trial, not to what the line search made of it.
+    if (r.failure.empty() && contact.newton_iterations > 0) r.failure = problem.respond(v).failure;
+  } else {
+    r.failure = problem.minimise(SmallMatrix(0, 0), v).failure;
+  }
+  r.report = problem.report();
+  return v;
+}
+
 }  // namespace
 
 template <int Dim>
 CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Dim>& in, StepGeometry<Dim>& g,
-                                   std::vector<RigidState>& rigid, const CellField<Dim>& guess,
-                                   const FaceField<Dim>& u_star, double horizon, PhaseFault fault) {
+                                   State<Dim>& state, const CellField<Dim>& guess, const FaceField<Dim>& u_star,
+                                   double horizon, PhaseFault fault) {
   CoupledSolution<Dim> r;
   r.rows = number_rows(in);
   r.pressure = CellField<Dim>(s.layout);
   const NullSpace closed = find_closed_components(in, r.rows);
-  const RigidCoupling<Dim> coupling = couple_rigid_bodies(s, g, r.rows, rigid, in.dt, horizon);
+  const RigidCoupling<Dim> coupling = couple_rigid_bodies(s, g, r.rows, state.rigid, in.dt, horizon);
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
   const SparseMatrix A = assemble_pressure_matrix(in, r.rows);
   const RowGrid grid = row_grid(in, r.rows);
@@ -50,21 +72,18 @@ CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Di
   if (fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   for (Site c : r.rows.cells) p.push_back(guess[c]);
   LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
-  const InertiaResponse response =
-      problem.minimise(SmallMatrix(problem.size(), problem.size()), Eigen::VectorXd::Zero(problem.size()));
-  r.report = problem.report();
-  r.failure = response.failure;
+  const Eigen::VectorXd v = minimise(s, state, in.dt, horizon, problem, r);
   for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
   s.halo.fill_ghosts(r.pressure);
-  if (r.failure.empty()) set_velocities(s, coupling, response.velocity, g, rigid);
-  for (RigidState& body : rigid) body.horizon = horizon;
+  if (r.failure.empty()) set_velocities(s, coupling, v, g, state.rigid);
+  for (RigidState& body : state.rigid) body.horizon = horizon;
   return r;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                      \
-  template CoupledSolution<D> solve_coupled<D>(const Setup<D>&, const ProjectionInput<D>&, StepGeometry<D>&,       \
-                                               std::vector<RigidState>&, const CellField<D>&, const FaceField<D>&, \
-                                               double, PhaseFault);
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template CoupledSolution<D> solve_coupled<D>(const Setup<D>&, const ProjectionInput<D>&, StepGeometry<D>&, \
+                                               State<D>&, const CellField<D>&, const FaceField<D>&, double,  \
+                                               PhaseFault);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

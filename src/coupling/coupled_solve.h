@@ -18,7 +18,7 @@ struct CoupledSolution {
 // Error(cannot_continue) where the solids prescribe what closed liquid cannot do.
 template <int Dim>
 CoupledSolution<Dim> solve_coupled(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, StepGeometry<Dim>& geometry,
-                                   std::vector<RigidState>& rigid, const CellField<Dim>& guess,
-                                   const FaceField<Dim>& u_star, double horizon, PhaseFault fault);
+                                   State<Dim>& state, const CellField<Dim>& guess, const FaceField<Dim>& u_star,
+                                   double horizon, PhaseFault fault);
 
 }  // namespace seiche

@@ -43,6 +43,14 @@ std::string LiquidProblem<Dim>::solve(const SmallMatrix& H, const Vector& b) {
   return fmt::format("the pressure solve stopped at residual {:.2e} after {} iterations", r.residual, r.iterations);
 }
 
+// c2 J'p, the same bits on all ranks: they all go through the same contact solve.
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of_pressure() const {
+  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure_, ranks_);
+  make_identical(impulse, ranks_);
+  return impulse;
+}
+
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
@@ -58,10 +66,8 @@ InertiaResponse LiquidProblem<Dim>::minimise(const SmallMatrix& K, const Eigen::
   Vector b = b_;
   add_multiplied(coupling_.J, -c1_ * dry, b);
   if (std::string failure = solve(H, b); !failure.empty()) return {failure, {}, {}};
-  const Eigen::VectorXd force = c2_ * multiply_transposed(coupling_.J, pressure_, ranks_);
-  Eigen::VectorXd v = dry + factor.solve(force);
-  make_identical(v, ranks_);
-  return respond_with_pressure(v, force);
+  const Eigen::VectorXd force = impulse_of_pressure();
+  return respond_with_pressure(dry + factor.solve(force), force);
 }
 
 template <int Dim>
@@ -69,9 +75,7 @@ InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
   Vector b = b_;
   add_multiplied(coupling_.J, -c1_ * v, b);
   if (std::string failure = solve({}, b); !failure.empty()) return {failure, {}, {}};
-  InertiaResponse r = respond_with_pressure(v, c2_ * multiply_transposed(coupling_.J, pressure_, ranks_));
-  make_identical(r.gradient, ranks_);
-  return r;
+  return respond_with_pressure(v, impulse_of_pressure());
 }
 
 template class LiquidProblem<2>;

@@ -23,6 +23,7 @@ class LiquidProblem : public InertiaProblem {
   Eigen::VectorXd masked(Eigen::VectorXd v) const;
   SmallMatrix masked(const SmallMatrix& K) const;
   std::string solve(const SmallMatrix& H, const Vector& b);
+  Eigen::VectorXd impulse_of_pressure() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
   const RigidCoupling<Dim>& coupling_;
@@ -31,8 +32,8 @@ class LiquidProblem : public InertiaProblem {
   Vector& pressure_;
   double c1_, c2_;
   Communicator ranks_;
-  // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side, which
-  // grows without bound for ever lighter bodies.
+  // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side,
+  // which grows without bound for ever lighter bodies.
   double scale_ = 0;
   SolveReport report_;
 };

@@ -1,4 +1,5 @@
 // From a scene to its grid, solids and initial state.
+#include "coupling/contact_setup.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -111,7 +112,9 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
       sides(sc.domain),
       bodies(make_bodies<Dim>(sc, notes)),
       solids(layout, sides, bodies),
-      sources(make_sources<Dim>(sc, notes)) {}
+      sources(make_sources<Dim>(sc, notes)) {
+  if (has_rigid()) contact.emplace(make_contact_scene(sc, bodies));
+}
 
 template <int Dim>
 bool Setup<Dim>::has_rigid() const {
@@ -132,6 +135,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
   for (const Body<Dim>& body : s.bodies) state.rigid.push_back(initial_rigid_state(body));
+  refuse_overlaps(s, state.rigid);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
 

@@ -5,6 +5,7 @@
 #include "coupling/simulation.h"
 #include "coupling/step_geometry.h"
 #include "fluid/pressure.h"
+#include "solid/contact.h"
 
 namespace seiche {
 
@@ -25,6 +26,7 @@ struct Setup {
   Sides<Dim> sides;
   std::vector<Body<Dim>> bodies;
   SolidGeometry<Dim> solids;
+  std::optional<ContactScene<Dim>> contact;  // where there are rigid bodies
   std::vector<Source<Dim>> sources;
 
   Setup(const Scene& scene, const Communicator& ranks);

@@ -132,7 +132,7 @@ struct StepInProgress {
   bool solve() {
     const PhaseFault fault = phases.enter("solve");
     const auto timed = phases.timers.measure("solve");
-    solution = solve_coupled(s, input(), out.geometry, out.state.rigid, before.pressure, u_star, horizon(), fault);
+    solution = solve_coupled(s, input(), out.geometry, out.state, before.pressure, u_star, horizon(), fault);
     out.solve = solution.report;
     out.newton_iterations = solution.newton_iterations;
     out.contacts = solution.contacts;

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "coupling/state.h"
+#include "coupling/contact_setup.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -61,12 +61,12 @@ std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state
   return placed;
 }
 
-// Moving solids go at most one cell a step.
+// Moving solids go at most one cell a step, and no further than they can without touching.
 template <int Dim>
 double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   if (s.has_rigid() && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
   for (int n = 0; n < 60 && s.solids.largest_displacement(motion_ahead(s, state, dt), dt) > s.layout.h(); ++n) dt /= 2;
-  return dt;
+  return dt * safe_share(s, state, dt);
 }
 
 }  // namespace

@@ -1,0 +1,104 @@
+#include "coupling/contact_setup.h"
+
+#include "base/error.h"
+#include "coupling/rigid_coupling.h"
+
+namespace seiche {
+namespace {
+
+// Bodies push each other when nearer than this, in cells: far below what the grid resolves, far above rounding.
+constexpr double reach = 0.05;
+// Bodies must start at least this share of the reach apart.
+constexpr double clearance = 1e-3;
+
+template <int Dim>
+std::vector<ContactWall> closed_sides(const DomainSpec& d) {
+  std::vector<ContactWall> walls;
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side) {
+      const SideType type = d.sides[a][side].type;
+      if (type == SideType::periodic || type == SideType::outflow) continue;
+      ContactWall wall{side == 0 ? d.lower : d.upper, Vec3::Zero()};
+      wall.normal[a] = side == 0 ? 1 : -1;
+      walls.push_back(wall);
+    }
+  return walls;
+}
+
+}  // namespace
+
+template <int Dim>
+ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies) {
+  std::vector<ContactBody> contact;
+  for (const Body<Dim>& body : bodies) {
+    ContactBody& c = contact.emplace_back();
+    c.surface = body.contact_surface();
+    c.control = body.is_rigid() ? BodyControl::free : BodyControl::prescribed;
+    c.mass = body.is_rigid() ? body.mass().mass : 0;
+    c.friction = body.spec().friction;
+    c.name = body.spec().name;
+  }
+  return {contact, closed_sides<Dim>(scene.domain)};
+}
+
+template <int Dim>
+std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const std::vector<RigidState>& rigid, double t,
+                                           double horizon) {
+  std::vector<ContactMotion> motions;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const Body<Dim>& body = s.bodies[k];
+    if (body.is_rigid())
+      motions.push_back({rigid_pose(body, rigid[k]), {}});
+    else
+      motions.push_back({body.pose(t), body.pose(t + horizon)});
+  }
+  return motions;
+}
+
+// Speeds scale with that of a fall through a cell, without gravity with a cell a step. The stiffness is set by weights,
+// or by what stops a body that moves a cell a step within some steps.
+template <int Dim>
+ContactOptions contact_options(const Setup<Dim>& s, double dt) {
+  const double h = s.layout.h(), g = s.scene.gravity.norm(), speed = g > 0 ? std::sqrt(g * h) : h / dt;
+  ContactOptions o;
+  o.reach = reach * h;
+  o.acceleration = std::max(g, 0.01 * h / (dt * dt));
+  o.creep_speed = 1e-4 * speed;
+  o.speed_tolerance = 0.01 * o.creep_speed;
+  return o;
+}
+
+template <int Dim>
+void refuse_overlaps(const Setup<Dim>& s, const std::vector<RigidState>& rigid) {
+  if (!s.has_rigid()) return;
+  std::string all;
+  const double least = clearance * reach * s.layout.h();
+  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, rigid, 0, 0), least))
+    all += (all.empty() ? "" : "\n") + s.bodies[o.body].spec().shape.where + ": " + o.message;
+  if (!all.empty()) throw Error(ExitCode::bad_input, all);
+}
+
+template <int Dim>
+double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  if (!s.has_rigid()) return 1;
+  std::vector<double> velocity;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_rigid()) continue;
+    const auto v = stacked<Dim>(state.rigid[k].velocity, state.rigid[k].angular_velocity);
+    velocity.insert(velocity.end(), v.begin(), v.end());
+  }
+  const Eigen::Map<const Eigen::VectorXd> v(velocity.data(), Eigen::Index(velocity.size()));
+  return largest_safe_fraction(*s.contact, contact_motions(s, state.rigid, state.time, dt), dt, v);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&);                      \
+  template void refuse_overlaps<D>(const Setup<D>&, const std::vector<RigidState>&);                              \
+  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const std::vector<RigidState>&, double, \
+                                                         double);                                                 \
+  template ContactOptions contact_options<D>(const Setup<D>&, double);                                            \
+  template double safe_share<D>(const Setup<D>&, const State<D>&, double);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

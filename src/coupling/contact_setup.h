@@ -1,0 +1,28 @@
+#pragma once
+// The solids and the walls of the domain as the contact solve sees them.
+#include "coupling/state.h"
+
+namespace seiche {
+
+// All solids of the scene, and every closed side of the domain as a wall.
+template <int Dim>
+ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies);
+
+// Refuses rigid bodies that touch or overlap something at the start: Error(bad_input) naming the pairs and depths.
+template <int Dim>
+void refuse_overlaps(const Setup<Dim>& setup, const std::vector<RigidState>& rigid);
+
+// From where the solids stand at time t to where the prescribed ones stand after the horizon.
+template <int Dim>
+std::vector<ContactMotion> contact_motions(const Setup<Dim>& setup, const std::vector<RigidState>& rigid, double t,
+                                           double horizon);
+
+// Reach, stiffness and speeds of contact on this grid.
+template <int Dim>
+ContactOptions contact_options(const Setup<Dim>& setup, double dt);
+
+// The largest share of dt that the solids can move without touching, rigid ones as the last solve left them.
+template <int Dim>
+double safe_share(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+
+}  // namespace seiche
