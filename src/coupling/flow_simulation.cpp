@@ -135,6 +135,10 @@ class FlowSimulation : public Simulation {
     const DomainSpec& d = setup_.scene.domain;
     std::vector<SurfaceMesh> surfaces;
     for (const Body<Dim>& body : setup_.bodies) {
+      if (body.is_rigid()) {
+        surfaces.push_back(body.contact_surface());
+        continue;
+      }
       Vec<Dim> lower = Vec<Dim>::Constant(1e300), upper = -lower;
       for (int corner = 0; corner < (1 << Dim); ++corner) {
         Vec3 x = d.lower;
