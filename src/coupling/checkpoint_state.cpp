@@ -106,6 +106,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
       for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double x) { data.scalars[n] = x; });
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
+  if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
   const Level<Dim> none{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
   save_level(s, level_names[0], *state.now, data);
   save_level(s, level_names[1], state.before ? *state.before : none, data);
@@ -135,6 +136,10 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.pressure = CellField<Dim>(s.layout);
   restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);
   restore<Dim>(s, data, "pressure", s.layout.cells(), state.pressure);
+  if (s.scene.liquid.separates) {
+    state.parting = Parting<Dim>(s.layout);
+    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
+  }
   fill_level_set_ghosts(s.layout, s.halo, state.phi);
   s.halo.fill_ghosts(state.pressure);
   state.now = load_level(s, level_names[0], data);
@@ -147,6 +152,7 @@ template <int Dim>
 std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
   std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
                                  empty_record<Dim>("pressure", s.layout.cells())};
+  if (s.scene.liquid.separates) boxes.push_back(empty_record<Dim>("gap", s.layout.cells()));
   for (const char* level : level_names)
     for_each_level_field<Dim>(level, [&](const std::string& field, char, int a) {
       boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));

@@ -50,16 +50,16 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
   return v;
 }
 
-}  // namespace
-
+// One solve, with the cells that part given.
 template <int Dim>
-CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Dim>& in, StepGeometry<Dim>& g,
-                                   State<Dim>& state, const CellField<Dim>& guess, const FaceField<Dim>& u_star,
-                                   double horizon, PhaseFault fault) {
+CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>& in, StepGeometry<Dim>& g,
+                                State<Dim>& state, const CellField<Dim>& guess, const FaceField<Dim>& u_star,
+                                double horizon, PhaseFault fault) {
   CoupledSolution<Dim> r;
   r.rows = number_rows(in);
   r.pressure = CellField<Dim>(s.layout);
   const NullSpace closed = find_closed_components(in, r.rows);
+  r.closed_component = closed.component;
   const RigidCoupling<Dim> coupling = couple_rigid_bodies(s, g, r.rows, state.rigid, in.dt, horizon);
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
   const SparseMatrix A = assemble_pressure_matrix(in, r.rows);
@@ -77,6 +77,49 @@ CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Di
   s.halo.fill_ghosts(r.pressure);
   if (r.failure.empty()) set_velocities(s, coupling, v, g, state.rigid);
   for (RigidState& body : state.rigid) body.horizon = horizon;
+  return r;
+}
+
+constexpr int most_policies = 50;
+// Pressures this many solver tolerances below zero pull.
+constexpr double pull = 10;
+
+void add_up(SolveReport& all, const SolveReport& one) {
+  const int iterations = all.iterations + one.iterations;
+  all = one;
+  all.iterations = iterations;
+}
+
+}  // namespace
+
+// 0 <= p, 0 <= net flux + missing flux, one of them zero: policy iteration over the set of parted cells.
+template <int Dim>
+CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Dim>& in, StepGeometry<Dim>& g,
+                                   State<Dim>& state, const CellField<Dim>& guess, const FaceField<Dim>& u_star,
+                                   double horizon, PhaseFault fault) {
+  if (!in.parting) return solve_once(s, in, g, state, guess, u_star, horizon, fault);
+  start_parting(in, state.parting);
+  const StepGeometry<Dim> still = g;
+  const std::vector<RigidState> rigid = state.rigid;
+  CoupledSolution<Dim> r;
+  CellField<Dim> from = guess;
+  CellField<Dim, char> eligible;
+  for (int k = 0; k < most_policies; ++k) {
+    g = still;
+    state.rigid = rigid;
+    CoupledSolution<Dim> trial = solve_once(s, in, g, state, from, u_star, horizon, fault);
+    add_up(r.report, trial.report);
+    std::swap(trial.report, r.report);
+    r = std::move(trial);
+    if (!r.failure.empty()) return r;
+    if (k == 0) eligible = cells_that_may_part(in, r.rows, r.closed_component);
+    from = r.pressure;
+    if (!revise_parting(in, r.rows, r.pressure, u_star, eligible, pull * s.scene.solver.tolerance, state.parting)) {
+      advance_gaps(in, r.rows, r.pressure, u_star, state.parting);
+      return r;
+    }
+  }
+  r.failure = fmt::format("where the liquid parts from the solids is not settled after {} solves", most_policies);
   return r;
 }
 

@@ -8,7 +8,8 @@ template <int Dim>
 struct CoupledSolution {
   PressureRows<Dim> rows;
   CellField<Dim> pressure;
-  SolveReport report;  // iterations of all solves, the worst residual
+  std::vector<int> closed_component;  // of each row: a number where no pressure is given, else -1; empty: -1 everywhere
+  SolveReport report;                 // iterations of all solves, the worst residual
   int newton_iterations = 0, contacts = 0;
   std::string failure;  // empty: accepted
 };

@@ -97,7 +97,8 @@ Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in,
   Level<Dim> next{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      const bool wet = rows.row[f] >= 0 || rows.row[f - s.layout.stride(a)] >= 0;
+      const Site low = f - s.layout.stride(a);
+      const bool wet = rows.row[f] >= 0 || rows.row[low] >= 0 || in.is_parted(f) || in.is_parted(low);
       if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
         next.valid.at(a, f) = face_prescribed;

@@ -134,6 +134,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   State<Dim> state;
   state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
+  if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
   for (const Body<Dim>& body : s.bodies) state.rigid.push_back(initial_rigid_state(body));
   refuse_overlaps(s, state.rigid);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);

@@ -58,6 +58,7 @@ struct State {
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;                             // restored by the volume control so far
   std::vector<RigidState> rigid;                           // one a solid; of the rigid ones
+  Parting<Dim> parting;                                    // where the scene lets liquid part from solids
 };
 
 // How a step went; `state` is only set where it succeeded.

@@ -5,6 +5,7 @@
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
+#include "levelset/redistance.h"
 
 namespace seiche {
 namespace {
@@ -63,6 +64,25 @@ double net_inflow(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellFie
   return s.ranks.global_sum(sum) * s.layout.geometry().face_area();
 }
 
+// Empty volume that phi still counts as liquid, m^Dim.
+template <int Dim>
+double gap_volume(const Setup<Dim>& s, const Parting<Dim>& parting) {
+  if (!s.scene.liquid.separates) return 0;
+  const double cells = local_sum(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) { return parting.gap[c]; });
+  return s.ranks.global_sum(cells) * s.layout.geometry().cell_volume();
+}
+
+// A gap of half a cell becomes air.
+template <int Dim>
+void open_gaps(const Setup<Dim>& s, State<Dim>& state) {
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    if (state.parting.gap[c] < 0.5) return;
+    state.phi[c] = std::max(state.phi[c], (state.parting.gap[c] - 0.5) * s.layout.h());
+    state.parting.gap[c] = 0;
+  });
+  fill_level_set_ghosts(s.layout, s.halo, state.phi);
+}
+
 template <int Dim>
 std::string verify(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& u_star) {
   std::string text = find_non_finite(s, "phi", s.layout.cells(), phi.data());
@@ -112,7 +132,8 @@ struct StepInProgress {
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     out.state.corrected_volume +=
-        control_volume(s, out.geometry.psi, out.state.expected_volume, 0.05 * s.layout.h(), out.state.phi);
+        control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
+                       0.05 * s.layout.h(), out.state.phi);
   }
 
   bool transport_velocity() {
@@ -123,7 +144,8 @@ struct StepInProgress {
   }
 
   ProjectionInput<Dim> input() const {
-    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt};
+    const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
+    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting};
   }
 
   // Contact is solved for as far ahead as the next step may reach.
@@ -146,6 +168,7 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("restore");
     auto level = std::make_shared<Level<Dim>>(
         restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry, out.divergence));
+    if (s.scene.liquid.separates) open_gaps(s, out.state);
     inject(s, fault, level->u[0].data());
     out.failure = find_non_finite(s, "u", level->u);
     out.state.now = level;

@@ -23,13 +23,19 @@ struct Link {
   bool fixed_pressure = false;
 };
 
+// Cells from a row's cell to where p = 0 towards a cell without one: the free surface, or the centre of a parted cell.
+template <int Dim>
+double distance_to_air(const ProjectionInput<Dim>& in, Site cell, Site across) {
+  return in.is_parted(across) ? 1 : surface_distance(in.phi[cell], in.phi[across]);
+}
+
 template <int Dim>
 Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, int axis, Site face, Site cell,
                  Site across) {
   const double w = in.faces.open.at(axis, face);
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) return {w / 0.5, true};
   if (rows.row[across] >= 0) return {w, false};
-  return {w / surface_distance(in.phi[cell], in.phi[across]), true};
+  return {w / distance_to_air(in, cell, across), true};
 }
 
 // Net volume flux out of a cell a unit of face area.
@@ -52,7 +58,7 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
   rows.row = CellField<Dim, std::int64_t>(in.layout, -1);
   std::int64_t isolated = 0;
   for_each_index_in_order(in.layout, in.layout.cells(), [&](Site s, const IVec<Dim>&) {
-    if (in.phi[s] >= 0) return;
+    if (in.phi[s] >= 0 || in.is_parted(s)) return;
     if (touches_unknown(in, s))
       rows.cells.push_back(s);
     else
@@ -98,7 +104,7 @@ std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const Pr
   std::vector<double> b(rows.cells.size());
   for (std::size_t n = 0; n < b.size(); ++n) {
     const Site cell = rows.cells[n];
-    b[n] = -scale * net_flux(in, cell, u);
+    b[n] = -scale * (net_flux(in, cell, u) + in.missing_flux(cell));
     for_each_face_of(in.layout, cell, [&](int a, Site f, int, Site across) {
       if (in.faces.kind_at(a, f) != FaceKind::outflow) return;
       b[n] += link_across(in, rows, a, f, cell, across).weight * in.faces.side_pressure.at(a, f);
@@ -118,8 +124,8 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
     return scale / 0.5 * (has_low ? beyond - pressure[low] : has_high ? pressure[high] - beyond : 0);
   }
   if (has_low && has_high) return scale * (pressure[high] - pressure[low]);
-  if (has_low) return -scale * pressure[low] / surface_distance(in.phi[low], in.phi[high]);
-  if (has_high) return scale * pressure[high] / surface_distance(in.phi[high], in.phi[low]);
+  if (has_low) return -scale * pressure[low] / distance_to_air(in, low, high);
+  if (has_high) return scale * pressure[high] / distance_to_air(in, high, low);
   return 0;
 }
 
@@ -142,7 +148,7 @@ RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) 
 template <int Dim>
 double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u) {
   double largest = 0;
-  for (Site cell : rows.cells) largest = std::max(largest, std::abs(net_flux(in, cell, u)));
+  for (Site cell : rows.cells) largest = std::max(largest, std::abs(net_flux(in, cell, u) + in.missing_flux(cell)));
   return in.ranks.global_max(largest) / in.layout.h();
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "fluid/face_geometry.h"
+#include "fluid/parting.h"
 #include "grid/halo.h"
 #include "linalg/solve.h"
 
@@ -16,11 +17,16 @@ struct ProjectionInput {
   const Communicator& ranks;
   const CellField<Dim>& phi;
   const FaceGeometry<Dim>& faces;
-  double density;  // kg/m^3
-  double dt;       // s
+  double density;                         // kg/m^3
+  double dt;                              // s
+  const Parting<Dim>* parting = nullptr;  // where liquid may part from solids
+
+  bool is_parted(Site cell) const { return parting && parting->parted[cell]; }
+  // Flux that a cell must take in before it is full, per face area, m/s.
+  double missing_flux(Site cell) const { return parting ? parting->gap[cell] * layout.h() / dt : 0; }
 };
 
-// The unknowns: one row a liquid cell that an open face touches.
+// The unknowns: one row a liquid cell that an open face touches and that has not parted.
 template <int Dim>
 struct PressureRows {
   CellField<Dim, std::int64_t> row;  // global row or -1, filled one cell around
