@@ -122,6 +122,16 @@ PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separ
   return e;
 }
 
+template <int Dim>
+double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness) {
+  double share = 1;
+  if constexpr (Dim == 3)
+    if (kind == PairKind::edge_edge) share = mollify(x).value;
+  return share * barrier(distance, reach, stiffness).value;
+}
+
+template double pair_value<2>(PairKind, const PairPoints<2>&, double, double, double);
+template double pair_value<3>(PairKind, const PairPoints<3>&, double, double, double);
 template PairEnergy<2> pair_energy<2>(PairKind, const PairPoints<2>&, const Separation<2>&, double, double);
 template PairEnergy<3> pair_energy<3>(PairKind, const PairPoints<3>&, const Separation<3>&, double, double);
 

@@ -29,4 +29,8 @@ template <int Dim>
 PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separation<Dim>& apart, double reach,
                             double stiffness);
 
+// Its value alone.
+template <int Dim>
+double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness);
+
 }  // namespace seiche::contact

@@ -187,7 +187,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
     if (apart.distance >= w.reach) continue;
     if (apart.distance <= 0) return std::numeric_limits<double>::infinity();
-    energy += w.dt / interval.horizon * pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness).value;
+    energy += w.dt / interval.horizon * pair_value<Dim>(pair.kind, x, apart.distance, w.reach, w.stiffness);
   }
   for (const FrictionPoint<Dim>& f : friction)
     energy += w.dt * slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed).value;
