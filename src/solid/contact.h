@@ -36,7 +36,7 @@ struct ContactOptions {
   double reach = 1e-3;            // d^ (m): bodies push each other when nearer; 0.02 to 0.1 of a cell is meant
   double acceleration = 9.81;     // m/s^2: that of a body's weight; sets the stiffness
   double creep_speed = 1e-4;      // eps_v (m/s): below it contacts stick, but for a creep of at most this
-  double speed_tolerance = 1e-6;  // m/s: a Newton step that moves no point faster ends the iteration
+  double speed_tolerance = 1e-5;  // m/s: a Newton step that moves no point faster ends the iteration
   int newton_limit = 200;         // iterations for one set of friction forces
   int friction_limit = 20;        // times that the friction forces are brought up to date
 };
@@ -54,6 +54,9 @@ struct ContactReport {
   int newton_iterations = 0, solves = 0, friction_updates = 0;
   double smallest_gap = 0;  // m, of the pairs within reach; `reach` if there are none
   double stiffness = 0;     // kappa (N/m)
+  // How far bodies can go straight to where they end. 1: surely none has got round another in this interval. Below 1
+  // one may have, or bodies only turned about their contacts; halve the interval to tell.
+  double straight_share = 1;
   FrictionState friction = FrictionState::none;
   std::vector<BodyImpulse> impulses;  // by contact, one a body
 };

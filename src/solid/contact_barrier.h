@@ -14,21 +14,23 @@ Barrier barrier(double distance, double reach, double stiffness);
 // The stiffness at which a pair at half the reach pushes with `force` (N/m).
 double stiffness_for(double force, double reach);
 
-// The Hessian is bounded from above by sum_k stiffness[k] direction[k] direction[k]', each positive: Gauss-Newton.
 template <int Dim>
 struct PairEnergy {
   using Points = Eigen::Matrix<double, Dim, 4>;  // one column a point
+  using Hessian = Eigen::Matrix<double, 4 * Dim, 4 * Dim>;
   double value = 0;
   double force = 0;  // N, along the normal
   Points gradient = Points::Zero();
-  int ranks = 0;
-  std::array<double, 4> stiffness{};
-  std::array<Points, 4> direction;
+  Hessian hessian = Hessian::Zero();  // may have negative eigenvalues
 };
 
 // Of the pair whose points are x.
 template <int Dim>
 PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separation<Dim>& apart, double reach,
                             double stiffness);
+
+// Its value alone.
+template <int Dim>
+double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness);
 
 }  // namespace seiche::contact

@@ -20,12 +20,16 @@ constexpr int points_of_first(PairKind kind) {
 }
 
 // normal: unit, from the second side to the first. weight: of the nearest points, their sum is 1 on the first side and
-// -1 on the second; normal * weight is then the gradient of the distance to each point.
+// -1 on the second; normal * weight is then the gradient of the distance to each point. The nearest points move freely
+// along `freedoms` parameters (two within a face, one along an edge, none at a corner), `change` being the derivatives
+// of the weights by these.
 template <int Dim>
 struct Separation {
   double distance = 0;
   Vec<Dim> normal = Vec<Dim>::Zero();
   std::array<double, 4> weight{};
+  int freedoms = 0;
+  std::array<std::array<double, 4>, 2> change{};
 };
 
 template <int Dim>

@@ -8,48 +8,64 @@ namespace {
 template <int Dim>
 using Box = Eigen::AlignedBox<double, Dim>;
 
+// The box of what moves by `way` from within a box.
+template <int Dim>
+Box<Dim> swept(const Box<Dim>& box, const Vec<Dim>& way) {
+  return Box<Dim>(box.min() + way.cwiseMin(0), box.max() + way.cwiseMax(0));
+}
+
+// Paths are seen from a frame that drifts with the mean motion of a body: what moves together does not meet.
 template <int Dim>
 class Search {
  public:
   using Scene = typename ContactScene<Dim>::Data;
   Search(const Scene& scene, const Points<Dim>& from, const Points<Dim>& to, double margin)
-      : scene_(scene), from_(from), to_(to), half_(0.5 * margin), trees_(scene.surfaces.size()) {}
+      : scene_(scene), from_(from), to_(to), half_(0.5 * margin), trees_(scene.surfaces.size()) {
+    paths_.reserve(from.size());
+    for (size_t b = 0; b < scene.surfaces.size(); ++b) enclose(static_cast<int>(b));
+  }
 
   std::vector<Candidate> run() {
-    for (size_t b = 0; b < scene_.surfaces.size(); ++b) body_boxes_.push_back(body_box(static_cast<int>(b)));
     near_walls();
-    for (const auto& [a, b] : near_bodies())
-      meet(a, b, [&, a = a, b = b](int e, int f) {
-        points_and_element(a, e, b, f);
-        points_and_element(b, f, a, e);
-        if constexpr (Dim == 3) edges(a, e, b, f);
+    for (const auto& [a, b] : near_bodies()) {
+      const Vec<Dim> way = drift_[a] - drift_[b], none = Vec<Dim>::Zero();
+      meet(a, b, way, [&, a = a, b = b](int e, int f) {
+        points_and_element(a, e, way, b, f, none);
+        points_and_element(b, f, none, a, e, way);
+        if constexpr (Dim == 3) edges(a, e, way, b, f);
       });
+    }
     return std::move(found_);
   }
 
   std::vector<ElementPair> element_pairs() {
     std::vector<ElementPair> pairs;
-    for (size_t b = 0; b < scene_.surfaces.size(); ++b) body_boxes_.push_back(body_box(static_cast<int>(b)));
     for (const auto& [a, b] : near_bodies())
-      meet(a, b, [&, a = a, b = b](int e, int f) { pairs.push_back({a, e, b, f}); });
+      meet(a, b, drift_[a] - drift_[b], [&, a = a, b = b](int e, int f) { pairs.push_back({a, e, b, f}); });
     return pairs;
   }
 
  private:
-  // The box of a point's path, grown by half the margin.
-  Box<Dim> path(int p) const {
+  // The boxes of a body and of its points, grown by half the margin; those of points without the drift.
+  void enclose(int b) {
+    const int begin = scene_.point_begin[b], end = scene_.point_begin[b + 1];
+    Vec<Dim> drift = Vec<Dim>::Zero();
+    for (int p = begin; p < end; ++p) drift += (to_[p] - from_[p]) / (end - begin);
     const Vec<Dim> grow = Vec<Dim>::Constant(half_);
-    return Box<Dim>(from_[p].cwiseMin(to_[p]) - grow, from_[p].cwiseMax(to_[p]) + grow);
+    Box<Dim> body;
+    for (int p = begin; p < end; ++p) {
+      const Vec<Dim> last = to_[p] - drift;
+      paths_.emplace_back(from_[p].cwiseMin(last) - grow, from_[p].cwiseMax(last) + grow);
+      body.extend(paths_.back());
+    }
+    drift_.push_back(drift);
+    body_boxes_.push_back(body.isEmpty() ? body : swept<Dim>(body, drift));
   }
+
   template <size_t N>
   Box<Dim> path(int begin, const std::array<int, N>& points) const {
-    Box<Dim> box = path(begin + points[0]);
-    for (size_t i = 1; i < N; ++i) box.extend(path(begin + points[i]));
-    return box;
-  }
-  Box<Dim> body_box(int b) const {
-    Box<Dim> box;
-    for (int p = scene_.point_begin[b]; p < scene_.point_begin[b + 1]; ++p) box.extend(path(p));
+    Box<Dim> box = paths_[begin + points[0]];
+    for (size_t i = 1; i < N; ++i) box.extend(paths_[begin + points[i]]);
     return box;
   }
 
@@ -106,15 +122,16 @@ class Search {
     return boxes;
   }
 
-  // Both trees downwards, the larger node first; `visit` gets the elements of leaves that meet.
+  // Both trees downwards, the larger node first; `visit` gets the elements of leaves that meet. `way` is that of a's
+  // drift seen from b.
   template <class Visit>
-  void meet(int a, int b, const Visit& visit) {
+  void meet(int a, int b, const Vec<Dim>& way, const Visit& visit) {
     const std::vector<Box<Dim>>&boxes_a = tree(a), &boxes_b = tree(b);
     std::vector<std::pair<int, int>> todo{{0, 0}};
     while (!todo.empty()) {
       const auto [n, m] = todo.back();
       todo.pop_back();
-      if (!boxes_a[n].intersects(boxes_b[m])) continue;
+      if (!swept<Dim>(boxes_a[n], way).intersects(boxes_b[m])) continue;
       const TreeNode &node = scene_.surfaces[a].nodes[n], &other = scene_.surfaces[b].nodes[m];
       const bool split_a = node.low_child > 0 && (other.low_child == 0 || boxes_a[n].diagonal().squaredNorm() >=
                                                                               boxes_b[m].diagonal().squaredNorm());
@@ -123,31 +140,42 @@ class Search {
       } else if (other.low_child > 0) {
         todo.insert(todo.end(), {{n, other.high_child}, {n, other.low_child}});
       } else {
-        for (int i = node.first; i < node.last; ++i)
-          for (int j = other.first; j < other.last; ++j)
-            visit(scene_.surfaces[a].order[i], scene_.surfaces[b].order[j]);
+        meet_leaves(a, node, way, b, other, visit);
       }
     }
   }
 
-  void points_and_element(int a, int e, int b, int f) {
+  template <class Visit>
+  void meet_leaves(int a, const TreeNode& node, const Vec<Dim>& way, int b, const TreeNode& other, const Visit& visit) {
+    const Surface<Dim>&one = scene_.surfaces[a], &two = scene_.surfaces[b];
+    for (int i = node.first; i < node.last; ++i) {
+      const int e = one.order[i];
+      const Box<Dim> box = swept<Dim>(path(scene_.point_begin[a], one.elements[e]), way);
+      for (int j = other.first; j < other.last; ++j) {
+        const int f = two.order[j];
+        if (box.intersects(path(scene_.point_begin[b], two.elements[f]))) visit(e, f);
+      }
+    }
+  }
+
+  void points_and_element(int a, int e, const Vec<Dim>& way, int b, int f, const Vec<Dim>& other_way) {
     const std::vector<int>& own = scene_.surfaces[a].own_points[e];
     if (own.empty()) return;
     const Element<Dim>& element = scene_.surfaces[b].elements[f];
-    const Box<Dim> box = path(scene_.point_begin[b], element);
+    const Box<Dim> box = swept<Dim>(path(scene_.point_begin[b], element), other_way);
     for (int p : own) {
-      if (!path(scene_.point_begin[a] + p).intersects(box)) continue;
+      if (!swept<Dim>(paths_[scene_.point_begin[a] + p], way).intersects(box)) continue;
       Candidate c{PairKind::point_element, a, b, {scene_.point_begin[a] + p, 0, 0, 0}};
       for (int k = 0; k < Dim; ++k) c.points[k + 1] = scene_.point_begin[b] + element[k];
       found_.push_back(c);
     }
   }
 
-  void edges(int a, int e, int b, int f) {
+  void edges(int a, int e, const Vec<Dim>& way, int b, int f) {
     const int start_a = scene_.point_begin[a], start_b = scene_.point_begin[b];
     for (int i : scene_.surfaces[a].own_edges[e]) {
       const std::array<int, 2>& one = scene_.surfaces[a].edges[i];
-      const Box<Dim> box = path(start_a, one);
+      const Box<Dim> box = swept<Dim>(path(start_a, one), way);
       for (int j : scene_.surfaces[b].own_edges[f]) {
         const std::array<int, 2>& two = scene_.surfaces[b].edges[j];
         if (!box.intersects(path(start_b, two))) continue;
@@ -160,7 +188,8 @@ class Search {
   const Scene& scene_;
   const Points<Dim>&from_, &to_;
   double half_;
-  std::vector<Box<Dim>> body_boxes_;
+  std::vector<Vec<Dim>> drift_;               // of each body, the mean way of its points
+  std::vector<Box<Dim>> paths_, body_boxes_;  // of all points, of all bodies
   std::vector<std::vector<Box<Dim>>> trees_;
   std::vector<Candidate> found_;
 };

@@ -29,6 +29,8 @@ class Solver {
     interval_ = make_interval<Dim>(scene_, motions, horizon);
     weights_ = {dt, options.reach, stiffness_for(heaviest() * options.acceleration, options.reach),
                 options.creep_speed};
+    for (const auto& twist : interval_.prescribed)
+      if (!twist.isZero(0)) share_ = 0;
   }
 
   ContactReport run() {
@@ -55,7 +57,7 @@ class Solver {
     ++report_.solves;
     if (!response.failure.empty())
       report_.failure = response.failure;
-    else if (!response.velocity.allFinite() || !response.gradient.allFinite())
+    else if (response.shape == Shape::convex && !(response.velocity.allFinite() && response.gradient.allFinite()))
       report_.failure = "the velocities of the bodies are not finite";
     into = std::move(response);
     return report_.failure.empty() ? Outcome::converged : Outcome::failed;
@@ -69,7 +71,7 @@ class Solver {
   bool free_of_contact() {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
     const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
-    at_ = place<Dim>(scene_, interval_, twists(zero, 0));
+    at_ = place<Dim>(scene_, interval_, twists(zero, share_));
     if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
     const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, twists(e_.velocity, 1), weights_.reach);
     if (way.share < 1) return false;
@@ -111,10 +113,8 @@ class Solver {
   Outcome newton(double& first_step) {
     for (int i = 0; i < options_.newton_limit; ++i) {
       ++report_.newton_iterations;
-      terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_);
-      const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
       InertiaResponse goal;
-      if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
+      if (aim(goal) == Outcome::failed) return Outcome::failed;
       const double speed = fastest(goal.velocity - e_.velocity);
       if (i == 0) first_step = speed;
       const bool last = speed <= options_.speed_tolerance && share_ == 1;
@@ -123,6 +123,17 @@ class Solver {
       if (step == 0) return fail("contact: no step downhill is free of collisions");
     }
     return fail("contact: Newton's method does not converge");
+  }
+
+  // The minimum of e and the quadratic model of C at the present iterate. The model is made convex where there is none.
+  Outcome aim(InertiaResponse& goal) {
+    for (Curvature curvature : {Curvature::exact, Curvature::convex}) {
+      terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, curvature);
+      const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
+      if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
+      if (goal.shape == Shape::convex) return Outcome::converged;
+    }
+    return fail("contact: the energy of the bodies' inertia is not convex");
   }
 
   Outcome fail(const std::string& why) {
@@ -176,15 +187,17 @@ class Solver {
   }
 
   bool stiffen() {
-    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_);
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
     if (terms_.smallest_gap >= tiny_gap * weights_.reach) return false;
     weights_.stiffness *= stiffening;
     return true;
   }
 
   void finish() {
+    const Twists<Dim> still = twists(Eigen::VectorXd::Zero(inertia_.size()), 0);
+    report_.straight_share = walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.twists, 0).share;
     friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
-    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_);
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
     report_.velocity = e_.velocity;
     report_.gradient = e_.gradient;
     report_.active = terms_.active;
@@ -201,7 +214,7 @@ class Solver {
   ContactReport report_;
   // The present iterate: free velocities with the gradient of e, the share of the prescribed motion, what follows.
   InertiaResponse e_;
-  double share_ = 0;
+  double share_ = 1;
   Placement<Dim> at_;
   std::vector<Candidate> pairs_;
   std::vector<FrictionPoint<Dim>> friction_;

@@ -3,6 +3,8 @@
 #include <limits>
 #include <map>
 
+#include <Eigen/Eigenvalues>
+
 namespace seiche::contact {
 namespace {
 
@@ -11,6 +13,14 @@ template <int Dim>
 using PairVector = Eigen::Matrix<double, 2 * twist_size<Dim>, 1>;
 template <int Dim>
 using PairMatrix = Eigen::Matrix<double, 2 * twist_size<Dim>, 2 * twist_size<Dim>>;
+
+// The nearest matrix without negative eigenvalues.
+template <class Matrix>
+Matrix without_negative(const Matrix& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric);
+  if (eigen.eigenvalues()[0] >= 0) return symmetric;
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+}
 
 // Collects pairs by the bodies they join; an ordered map keeps sums the same from run to run.
 template <int Dim>
@@ -33,9 +43,10 @@ class Assembly {
     if (!fresh) place->second += hessian;
   }
 
-  void finish(ContactTerms& terms) {
+  void finish(Curvature curvature, ContactTerms& terms) {
     std::vector<Eigen::Triplet<double>> entries;
-    for (const auto& [bodies, hessian] : hessians_) {
+    for (const auto& [bodies, sum] : hessians_) {
+      const PairMatrix<Dim> hessian = curvature == Curvature::exact ? sum : without_negative(sum);
       const std::array<int, 2> body{bodies.first, bodies.second};
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) scatter(body[i], body[j], hessian.template block<n, n>(n * i, n * j), entries);
@@ -83,31 +94,51 @@ TurnJacobians<Dim> turn_jacobians(const Interval<Dim>& interval, const Twists<Di
   return r;
 }
 
-// Forces on the points of a pair as a force and moment on each body: (sum f, sum (x - c) x f).
+// The derivative of the points by velocities and turns of both bodies: d x = d v + d theta x arm.
 template <int Dim>
-PairVector<Dim> wrench(const Candidate& pair, const Placement<Dim>& at, const PairPoints<Dim>& x,
-                       const Eigen::Matrix<double, Dim, 4>& forces) {
-  PairVector<Dim> r = PairVector<Dim>::Zero();
+using PointMatrix = Eigen::Matrix<double, 4 * Dim, 2 * twist_size<Dim>>;
+
+template <int Dim>
+PointMatrix<Dim> point_derivative(const Candidate& pair, const Placement<Dim>& at, const PairPoints<Dim>& x) {
+  PointMatrix<Dim> J = PointMatrix<Dim>::Zero();
   const int first = points_of_first(pair.kind);
   for (int i = 0; i < points_of(pair.kind, Dim); ++i) {
     const int side = i < first ? 0 : twist_size<Dim>;
-    const Vec<Dim> arm = x[i] - at.centers[i < first ? pair.first : pair.second], force = forces.col(i);
-    r.template segment<Dim>(side) += force;
-    r.template segment<turn_size<Dim>>(side + Dim) += moment<Dim>(arm, force);
+    const Vec<Dim> arm = x[i] - at.centers[i < first ? pair.first : pair.second];
+    J.template block<Dim, Dim>(Dim * i, side).setIdentity();
+    for (int k = 0; k < turn_size<Dim>; ++k)
+      J.template block<Dim, 1>(Dim * i, side + Dim + k) = turned<Dim>(Turn<Dim>::Unit(k), arm);
   }
-  return r;
+  return J;
 }
 
-// d x = H (d v + J_l d omega x arm): the moments by omega are those by the rotation vector times J_l.
+// Points turn on circles: f . d2x = sym(f r') - (f . r) 1 on the turns of each body (in 2D -f . r).
 template <int Dim>
-PairVector<Dim> by_twists(const Candidate& pair, const TurnJacobians<Dim>& jacobians, PairVector<Dim> wrench) {
+void add_turning(const Candidate& pair, const Placement<Dim>& at, const PairPoints<Dim>& x,
+                 const Eigen::Matrix<double, Dim, 4>& forces, PairMatrix<Dim>& hessian) {
+  const int first = points_of_first(pair.kind);
+  for (int i = 0; i < points_of(pair.kind, Dim); ++i) {
+    const int side = (i < first ? 0 : twist_size<Dim>)+Dim;
+    const Vec<Dim> r = x[i] - at.centers[i < first ? pair.first : pair.second], f = forces.col(i);
+    auto block = hessian.template block<turn_size<Dim>, turn_size<Dim>>(side, side);
+    block.diagonal().array() -= f.dot(r);
+    if constexpr (Dim == 3) block += 0.5 * (f * r.transpose() + r * f.transpose());
+  }
+}
+
+// From turns d theta to angular velocities, d theta = J_l d omega.
+template <int Dim>
+PairMatrix<Dim> turns_by_twists(const Candidate& pair, const TurnJacobians<Dim>& jacobians) {
   constexpr int n = twist_size<Dim>, turn = turn_size<Dim>;
-  const int second = second_body(pair);
-  wrench.template segment<turn>(Dim) = (jacobians[pair.first].transpose() * wrench.template segment<turn>(Dim)).eval();
-  if (second >= 0)
-    wrench.template segment<turn>(n + Dim) =
-        (jacobians[second].transpose() * wrench.template segment<turn>(n + Dim)).eval();
-  return wrench;
+  PairMatrix<Dim> J = PairMatrix<Dim>::Identity();
+  J.template block<turn, turn>(Dim, Dim) = jacobians[pair.first];
+  if (second_body(pair) >= 0) J.template block<turn, turn>(n + Dim, n + Dim) = jacobians[pair.second];
+  return J;
+}
+
+template <int Dim>
+PairVector<Dim> flat_product(const PointMatrix<Dim>& J, const Eigen::Matrix<double, Dim, 4>& forces) {
+  return J.transpose() * Eigen::Map<const Eigen::Matrix<double, 4 * Dim, 1>>(forces.data());
 }
 
 // The derivative of each component of the slip by the twists of both bodies.
@@ -156,7 +187,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
     if (apart.distance >= w.reach) continue;
     if (apart.distance <= 0) return std::numeric_limits<double>::infinity();
-    energy += w.dt / interval.horizon * pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness).value;
+    energy += w.dt / interval.horizon * pair_value<Dim>(pair.kind, x, apart.distance, w.reach, w.stiffness);
   }
   for (const FrictionPoint<Dim>& f : friction)
     energy += w.dt * slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed).value;
@@ -166,7 +197,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
-                           const Weights& w) {
+                           const Weights& w, Curvature curvature) {
   ContactTerms terms;
   terms.smallest_gap = w.reach;
   Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.twists));
@@ -176,22 +207,20 @@ ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interva
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
     if (apart.distance >= w.reach) continue;
     const PairEnergy<Dim> e = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness);
-    const auto twist = [&](const auto& forces) {
-      return by_twists<Dim>(pair, jacobians, wrench<Dim>(pair, at, x, forces));
-    };
+    const PointMatrix<Dim> J = point_derivative<Dim>(pair, at, x);
+    const PairMatrix<Dim> turns = turns_by_twists<Dim>(pair, jacobians);
+    PairMatrix<Dim> hessian = J.transpose() * e.hessian * J;
+    add_turning<Dim>(pair, at, x, e.gradient, hessian);
     ++terms.active;
     terms.smallest_gap = std::min(terms.smallest_gap, apart.distance);
     terms.energy += w.dt / interval.horizon * e.value;
-    assembly.add(pair.first, second_body(pair), PairVector<Dim>(w.dt * twist(e.gradient)));
-    PairMatrix<Dim> hessian = PairMatrix<Dim>::Zero();
-    for (int k = 0; k < e.ranks; ++k) {
-      const PairVector<Dim> q = twist(e.direction[k]);
-      hessian += w.dt * interval.horizon * e.stiffness[k] * q * q.transpose();
-    }
-    assembly.add(pair.first, second_body(pair), hessian);
+    assembly.add(pair.first, second_body(pair),
+                 PairVector<Dim>(w.dt * turns.transpose() * flat_product<Dim>(J, e.gradient)));
+    assembly.add(pair.first, second_body(pair),
+                 PairMatrix<Dim>(w.dt * interval.horizon * turns.transpose() * hessian * turns));
   }
   add_friction<Dim>(friction, at, w, terms, assembly);
-  assembly.finish(terms);
+  assembly.finish(curvature, terms);
   return terms;
 }
 
@@ -237,7 +266,7 @@ std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placeme
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
     if (apart.distance >= w.reach) continue;
     const PairEnergy<Dim> e = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness);
-    add_pair(pair.first, second_body(pair), wrench<Dim>(pair, at, x, e.gradient));
+    add_pair(pair.first, second_body(pair), flat_product<Dim>(point_derivative<Dim>(pair, at, x), e.gradient));
   }
   for (const FrictionPoint<Dim>& f : friction) {
     const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed);
@@ -252,7 +281,7 @@ std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placeme
                                       const Weights&);                                                            \
   template ContactTerms contact_terms<Dim>(const Scene<Dim>&, const Interval<Dim>&, const Placement<Dim>&,        \
                                            const std::vector<Candidate>&, const std::vector<FrictionPoint<Dim>>&, \
-                                           const Weights&);                                                       \
+                                           const Weights&, Curvature);                                            \
   template std::vector<FrictionPoint<Dim>> friction_points<Dim>(const Scene<Dim>&, const Placement<Dim>&,         \
                                                                 const std::vector<Candidate>&, const Weights&);   \
   template std::vector<BodyImpulse> contact_impulses<Dim>(const Scene<Dim>&, const Placement<Dim>&,               \

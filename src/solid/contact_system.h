@@ -12,8 +12,11 @@ struct Weights {
 template <int Dim>
 using Scene = typename ContactScene<Dim>::Data;
 
-// C(v) = dt/H B(x(v)) + dt D(v) (J). K bounds its Hessian over the free velocities; drag is the product of the
-// Hessian's mixed part with what the prescribed velocities still lack. A pair that touches makes the energy infinite.
+// `convex`: without the negative eigenvalues of the contacts between each two bodies.
+enum class Curvature : char { exact, convex };
+
+// C(v) = dt/H B(x(v)) + dt D(v) (J). K is its Hessian over the free velocities (but for what the change of J_l adds);
+// drag is the product of the Hessian's mixed part with what the prescribed velocities still lack.
 struct ContactTerms {
   double energy = 0, smallest_gap = 0;
   int active = 0;
@@ -21,6 +24,7 @@ struct ContactTerms {
   Eigen::SparseMatrix<double> K;
 };
 
+// Infinite if a pair touches.
 template <int Dim>
 double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                       const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
@@ -29,7 +33,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
-                           const Weights& weights);
+                           const Weights& weights, Curvature curvature);
 
 // The friction that the present normal forces and points of contact allow.
 template <int Dim>

@@ -25,12 +25,12 @@ InertiaResponse DryProblem::minimise(const Eigen::SparseMatrix<double>& K, const
     rhs[i] = 0;
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  if (factor.info() != Eigen::Success) return {"the matrix of inertia and contact cannot be factored", {}, {}};
+  if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0) return {"", Shape::indefinite, {}, {}};
   return respond(factor.solve(rhs));
 }
 
 InertiaResponse DryProblem::respond(const Eigen::VectorXd& v) {
-  return {"", v, mass_ * (v - target_)};
+  return {"", Shape::convex, v, mass_ * (v - target_)};
 }
 
 }  // namespace seiche

@@ -13,9 +13,12 @@ namespace seiche {
 template <int Dim>
 constexpr int twist_size = Dim == 2 ? 3 : 6;
 
+enum class Shape : char { convex, indefinite };
+
 // The gradient of e at `velocity` is the impulse that acts on each degree of freedom (N s, N m s).
 struct InertiaResponse {
-  std::string failure;  // empty if it went well
+  std::string failure;          // empty if it went well
+  Shape shape = Shape::convex;  // indefinite: there is no minimum, nothing else is set
   Eigen::VectorXd velocity, gradient;
 };
 
@@ -24,7 +27,8 @@ class InertiaProblem {
  public:
   virtual ~InertiaProblem();
   virtual int size() const = 0;
-  // The v that minimises e(v) + 1/2 v'Kv - r'v, K symmetric and positive semi-definite.
+  // The v that minimises e(v) + 1/2 v'Kv - r'v, K symmetric. That this has a minimum must be found out (by a Cholesky
+  // factor): K is not always positive semi-definite.
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
 };
