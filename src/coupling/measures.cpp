@@ -65,8 +65,10 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     out.name = s.bodies[k].spec().name;
     out.position = pose.apply(s.bodies[k].reference_point());
     out.orientation = {q.w(), q.x(), q.y(), q.z()};
-    out.velocity = g.twists[k].at(out.position);
-    out.angular_velocity = g.twists[k].angular;
+    // Before the first step there is no mean over a step; the share of a frame bounds error and cancellation by 1e-8.
+    const Twist v = state.step == 0 ? s.bodies[k].velocity(state.time, 1e-4 / s.scene.time.frame_rate) : g.twists[k];
+    out.velocity = v.at(out.position);
+    out.angular_velocity = v.angular;
   }
   const double area = s.layout.geometry().face_area();
   for (int a = 0; a < Dim && !s.bodies.empty(); ++a)

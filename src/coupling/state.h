@@ -88,8 +88,15 @@ template <int Dim>
 template <int Dim>
 double fastest_component(const Setup<Dim>& setup, const State<Dim>& state);
 
+// Why a pinned step of dt cannot be taken, with figures; empty where it can: for the flow (collective), and for the
+// solids' motions from t on.
+template <int Dim>
+std::string fault_of_pinned_flow(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+template <int Dim>
+std::string fault_of_pinned_solids(const Setup<Dim>& setup, double t, double dt);
+
 // The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that
-// is hopelessly short.
+// is hopelessly short, or where a pinned step is too long.
 template <int Dim>
 double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
 
