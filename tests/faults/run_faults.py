@@ -141,6 +141,7 @@ def formula_not_finite_at_start(bench):
             result = bench.simulate("--set", f"{path}={value}", ranks=ranks).needs(2, key, " at (")
             expect(re.search(r"is (nan|infinite) at", result.errors), result.errors)
             expect(not bench.path("out/stats.csv").exists(), "the run had begun")
+        bench.run("check", bench.scene(), "--set", f"{path}={value}").needs(2, key, " at (")
 
 
 def shape_not_finite(bench):
