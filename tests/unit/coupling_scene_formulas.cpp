@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "../verification/scenes.h"
-#include "base/error.h"
+#include "coupling_end.h"
 
 using namespace seiche;
 
@@ -34,17 +34,6 @@ SideSpec& side(Scene& s, int axis, int end, SideType type) {
   return spec;
 }
 
-// The error that ends the scene within 0.1 s, or ("", done).
-std::pair<std::string, ExitCode> end_of(const Scene& s) {
-  try {
-    const auto sim = make_simulation(s, Communicator());
-    while (sim->time() < 0.1) (void)sim->step(0.1);
-  } catch (const Error& error) {
-    return {error.what(), error.code()};
-  }
-  return {"", ExitCode::done};
-}
-
 struct Row {
   std::string said;
   std::function<void(Scene&, const Formula&)> put;
@@ -73,7 +62,7 @@ TEST_CASE("a formula that is not finite at the start is a mistake of the scene, 
     for (const Row& row : table) {
       Scene s = pool();
       row.put(s, formula);
-      const auto [text, code] = end_of(s);
+      const auto [text, code] = test::end_of(s, 0.1);
       INFO(row.said << formula << ": " << text);
       CHECK(code == ExitCode::bad_input);
       CHECK(text.find(row.said + '"' + formula + "\" is " + value + " at (") != std::string::npos);
@@ -85,7 +74,7 @@ TEST_CASE("a shape's formula that is not finite is said with its place in the sc
     Scene s = pool();
     s.liquid.regions[0].shape.phi = formula;
     s.liquid.regions[0].shape.where = "scene.toml:7";
-    const auto [text, code] = end_of(s);
+    const auto [text, code] = test::end_of(s, 0.1);
     INFO(text);
     CHECK(code == ExitCode::bad_input);
     CHECK(text.find("scene.toml:7: phi = \"" + formula) == 0);
@@ -97,7 +86,7 @@ TEST_CASE("a formula that stops being finite ends the run in that step, by name"
     if (row.said.find("liquid.velocity") == 0 || row.said.find("liquid.region") == 0) continue;  // used at t = 0 alone
     Scene s = pool();
     row.put(s, "0*sqrt(0.04-t)");
-    const auto [text, code] = end_of(s);
+    const auto [text, code] = test::end_of(s, 0.1);
     INFO(row.said << ": " << text);
     CHECK(code == ExitCode::cannot_continue);
     CHECK(text.find(row.said + "\"0*sqrt(0.04-t)\" is nan at (") != std::string::npos);
@@ -114,7 +103,7 @@ TEST_CASE("a motion that stops being finite ends the run in that step, by name")
   paddle.shape.radius = 0.1;
   paddle.motion.translate[0] = "0.1*sqrt(0.04-t)";
   s.solids.push_back(paddle);
-  const auto [text, code] = end_of(s);
+  const auto [text, code] = test::end_of(s, 0.1);
   INFO(text);
   CHECK(code == ExitCode::cannot_continue);
   CHECK(text.find("solid 'paddle': its motion is not finite at t = ") != std::string::npos);

@@ -2,22 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "../verification/scenes.h"
-#include "base/error.h"
+#include "coupling_end.h"
 
 using namespace seiche;
 
 namespace {
-
-// The error that ends the scene by the given time, or ("", done).
-std::pair<std::string, ExitCode> end_of(const Scene& s, double until) {
-  try {
-    const auto sim = make_simulation(s, Communicator());
-    while (sim->time() < until) (void)sim->step(until);
-  } catch (const Error& error) {
-    return {error.what(), error.code()};
-  }
-  return {"", ExitCode::done};
-}
 
 // Periodic, full, moving at 2 m/s; cells of 1/16 m.
 Scene stream(double cfl, double fixed_step) {
@@ -46,7 +35,7 @@ SolidSpec mover(const Formula& x, const Formula& degrees = "0") {
 }
 
 void check_end(const Scene& s, ExitCode expected, const std::vector<std::string>& texts) {
-  const auto [text, code] = end_of(s, s.time.end);
+  const auto [text, code] = test::end_of(s, s.time.end);
   INFO(text);
   CHECK(code == expected);
   for (const std::string& part : texts) CHECK(text.find(part) != std::string::npos);
