@@ -131,11 +131,12 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
 // these a bounded number of steps is looked at, evenly spread over the run.
 template <int Dim>
 void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
-  constexpr double most_looks = 1e4;
+  constexpr double most_looks = 1e4, budget = 2e6;  // of one body, of all; a second or two
   const TimeSpec& time = s.scene.time;
   if (!time.fixed_step || time.end <= 0) return;
   const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
-  const double looks = std::clamp(std::floor(time.end / dt), 1.0, most_looks);
+  const double most = std::min(most_looks, budget / double(s.bodies.size() + 1));
+  const double looks = std::clamp(std::floor(time.end / dt), 1.0, most);
   std::string fault = fault_of_pinned_flow(s, start, dt);
   for (int n = 0; fault.empty() && n < looks; ++n) fault = fault_of_pinned_solids(s, time.end * n / looks, dt);
   if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
