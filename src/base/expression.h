@@ -27,6 +27,7 @@ class VectorExpression {
  public:
   explicit VectorExpression(const VectorFormula& text);
   Vec3 operator()(const Vec3& x, double t) const;
+  bool is_constant() const { return parts_[0].is_constant() && parts_[1].is_constant() && parts_[2].is_constant(); }
   double component(int axis, const Vec3& x, double t) const { return parts_[axis](x, t); }
 
  private:

@@ -3,6 +3,17 @@
 #include <fmt/format.h>
 
 namespace seiche {
+namespace {
+
+InertiaResponse failed(const std::string& why) {
+  return {why, Shape::convex, {}, {}};
+}
+
+InertiaResponse indefinite() {
+  return {{}, Shape::indefinite, {}, {}};
+}
+
+}  // namespace
 
 template <int Dim>
 LiquidProblem<Dim>::LiquidProblem(const RigidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b,
@@ -54,23 +65,24 @@ Eigen::VectorXd LiquidProblem<Dim>::impulse_of_pressure() const {
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
-  return {{}, v, coupling_.mass * (v - coupling_.target) - force};
+  return {{}, Shape::convex, v, coupling_.mass * (v - coupling_.target) - force};
 }
 
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise(const SmallMatrix& K, const Eigen::VectorXd& r) {
   if (added_) return minimise_with_added_mass(K, r);
   if (++coupled_solves_ > solves_before_added_mass() && can_build_added_mass()) {
-    if (std::string failure = build_added_mass(); !failure.empty()) return {failure, {}, {}};
+    if (std::string failure = build_added_mass(); !failure.empty()) return failed(failure);
     return minimise_with_added_mass(K, r);
   }
   const SmallMatrix H = K.nonZeros() > 0 ? SmallMatrix(coupling_.mass + masked(K)) : coupling_.mass;
-  const Eigen::SimplicialLDLT<SmallMatrix> factor(H);
+  const Eigen::SimplicialLLT<SmallMatrix> factor(H);
+  if (size() > 0 && factor.info() != Eigen::Success) return indefinite();
   const Eigen::VectorXd push = coupling_.mass * coupling_.target + masked(r);
   const Eigen::VectorXd dry = factor.solve(push);
   Vector b = b_;
   add_multiplied(coupling_.J, -c1_ * dry, b);
-  if (std::string failure = solve(H, b, pressure_, scale_); !failure.empty()) return {failure, {}, {}};
+  if (std::string failure = solve(H, b, pressure_, scale_); !failure.empty()) return failed(failure);
   const Eigen::VectorXd force = impulse_of_pressure();
   return respond_with_pressure(dry + factor.solve(force), force);
 }
@@ -122,7 +134,9 @@ InertiaResponse LiquidProblem<Dim>::minimise_with_added_mass(const SmallMatrix& 
   T += added_->G;
   if (K.nonZeros() > 0) T += masked(K);
   const Eigen::VectorXd push = coupling_.mass * coupling_.target + masked(r) + added_->impulse;
-  const Eigen::VectorXd v = T.ldlt().solve(push);
+  const Eigen::LLT<Eigen::MatrixXd> factor(T);
+  if (factor.info() != Eigen::Success) return indefinite();
+  const Eigen::VectorXd v = factor.solve(push);
   return respond_with_pressure(v, added_->impulse - added_->G * v);
 }
 
@@ -135,7 +149,7 @@ InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
   }
   Vector b = b_;
   add_multiplied(coupling_.J, -c1_ * v, b);
-  if (std::string failure = solve({}, b, pressure_, scale_); !failure.empty()) return {failure, {}, {}};
+  if (std::string failure = solve({}, b, pressure_, scale_); !failure.empty()) return failed(failure);
   return respond_with_pressure(v, impulse_of_pressure());
 }
 

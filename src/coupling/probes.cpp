@@ -25,7 +25,13 @@ double level_set_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>
   return interpolate_linear<Dim>(s.layout, state.phi.data(), index_coordinates<Dim>(s.layout, x, cell_offset<Dim>()));
 }
 
-// Pressure continued straight from the liquid's cells, so that a probe on a wall reads the wall; 0 in the air.
+// True, on all ranks, where x lies in liquid.
+template <int Dim>
+bool is_wet(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
+  return s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
+}
+
+// Pressure continued straight from the liquid's cells, so that a probe on a wall reads the wall.
 template <int Dim>
 double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
   std::vector<double> p(state.pressure.data(), state.pressure.data() + s.layout.size());
@@ -33,9 +39,8 @@ double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>&
   for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[c] = state.phi[c] < 0 && p[c] != 0; });
   extrapolate(s.layout, s.halo, s.layout.cells(), {2, 2}, p, known);
   extend_beyond_sides<Dim>(s.layout, p.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
-  const bool wet = holds(s.layout, x) && level_set_at(s, state, x) < 0;
   const Vec<Dim> g = index_coordinates<Dim>(s.layout, x, cell_offset<Dim>());
-  return s.ranks.global_sum(wet ? interpolate_linear<Dim>(s.layout, p.data(), g) : 0.0);
+  return s.ranks.global_sum(holds(s.layout, x) ? interpolate_linear<Dim>(s.layout, p.data(), g) : 0.0);
 }
 
 // Farthest liquid along `axis` on the line through x: the last zero of phi on it, or the side where liquid reaches it.
@@ -103,12 +108,14 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   };
   switch (probe.kind) {
     case ProbeKind::pressure:
-      out.value = pressure_at(s, state, x);
+      out.defined = is_wet(s, state, x);
+      if (out.defined) out.value = pressure_at(s, state, x);
       break;
     case ProbeKind::velocity:
       out.is_vector = true;
-      out.vector =
-          holds(s.layout, x) ? extend<Dim>(sample_velocity<Dim>(s.layout, state.now->u, x)) : Vec3(Vec3::Zero());
+      out.defined = is_wet(s, state, x);
+      out.vector = out.defined && holds(s.layout, x) ? extend<Dim>(sample_velocity<Dim>(s.layout, state.now->u, x))
+                                                     : Vec3(Vec3::Zero());
       s.ranks.global_sum(std::span<double>(out.vector.data(), 3));
       break;
     case ProbeKind::surface_height:

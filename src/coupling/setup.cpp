@@ -1,5 +1,9 @@
 // From a scene to its grid, solids and initial state.
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "coupling/contact_setup.h"
+#include "coupling/formula_checks.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -62,10 +66,20 @@ bool needs_redistancing(const ShapeSpec& s) {
   return s.kind == "expression";
 }
 
-// Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid.
+// What is said of an initial velocity that is not finite; `region` is its index, -1 for the liquid's own.
+template <int Dim>
+std::string velocity_fault(const Setup<Dim>& s, int region, int axis, double value, const Vec<Dim>& x) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  const std::string key = region < 0 ? "liquid" : fmt::format("liquid.region.{}", region);
+  const Formula& formula = (region < 0 ? liquid.velocity : *liquid.regions[region].velocity)[axis];
+  return not_finite_text<Dim>(fmt::format("{}.velocity[{}]", key, axis), formula, value, x, 0);
+}
+
+// Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid. `fault` says where a formula is
+// not finite.
 template <int Dim>
 FaceField<Dim> initial_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near,
-                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes, std::string& fault) {
   FaceField<Dim> u(s.layout);
   const VectorExpression everywhere(s.scene.liquid.velocity);
   std::vector<std::optional<VectorExpression>> own;
@@ -77,10 +91,12 @@ FaceField<Dim> initial_velocity(const Setup<Dim>& s, const FaceField<Dim, char>&
     for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       if (!near.at(a, f)) return;
       const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
-      const VectorExpression* v = &everywhere;
+      int region = -1;
       for (std::size_t k = 0; k < shapes.size(); ++k)
-        if (own[k] && (*shapes[k])(x) < s.layout.h()) v = &*own[k];
-      u.at(a, f) = v->component(a, extend<Dim>(x), 0);
+        if (own[k] && (*shapes[k])(x) < s.layout.h()) region = int(k);
+      const VectorExpression& v = region < 0 ? everywhere : *own[region];
+      u.at(a, f) = v.component(a, extend<Dim>(x), 0);
+      if (fault.empty() && !std::isfinite(u.at(a, f))) fault = velocity_fault(s, region, a, u.at(a, f), x);
     });
   return u;
 }
@@ -126,6 +142,24 @@ std::vector<Placement> place_bodies(const Setup<Dim>& s, const State<Dim>& state
   return place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
 }
 
+// What a pinned step will meet is known at the start as far as the initial velocity and the solids' motions go; of
+// these a bounded number of steps is looked at, evenly spread over the run.
+template <int Dim>
+void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
+  constexpr double most_looks = 1e4, budget = 2e6;  // of one body, of all; a second or two
+  const TimeSpec& time = s.scene.time;
+  if (!time.fixed_step || time.end <= 0) return;
+  const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
+  const double most = std::min(most_looks, budget / double(s.bodies.size() + 1));
+  const double looks = std::clamp(std::floor(time.end / dt), 1.0, most);
+  std::string fault = fault_of_pinned_flow(s, start, dt);
+  for (int n = 0; fault.empty() && n < looks; ++n) {
+    const double t = time.end * n / looks;
+    fault = fault_of_pinned_solids(s, place_bodies(s.bodies, start.rigid, t, t + dt), t, dt);
+  }
+  if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
+}
+
 template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& s) {
   std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
@@ -141,7 +175,9 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
 
   Level<Dim> level{FaceField<Dim>(s.layout), faces_near_liquid(s, state.phi), FaceField<Dim>(s.layout)};
-  level.u = initial_velocity(s, level.valid, shapes);
+  std::string fault;
+  level.u = initial_velocity(s, level.valid, shapes, fault);
+  check_formulas_at_start(s, g, fault);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
@@ -150,6 +186,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   continue_velocity(s, g, level.valid, level.u);
   s.halo.fill_ghosts(level.valid);
   state.now = std::make_shared<Level<Dim>>(std::move(level));
+  check_fixed_step(s, state);
   return state;
 }
 

@@ -67,6 +67,9 @@ struct Cost {
 enum class PhaseFault { none, poison };
 using FaultHook = std::function<PhaseFault(const std::string& phase)>;
 
+// Steps to the next frame beyond which a run is given up.
+constexpr int most_steps_a_frame = 1'000'000;
+
 class Simulation {
  public:
   virtual ~Simulation() = default;

@@ -99,9 +99,15 @@ double fastest_component(const Setup<Dim>& setup, const State<Dim>& state);
 
 // With rigid bodies a step is at most this much longer than the last one: contact is solved that far ahead.
 constexpr double step_growth = 1.25;
+// Why a pinned step of dt cannot be taken, with figures; empty where it can: for the flow (collective), and for the
+// solids' motions as placed.
+template <int Dim>
+std::string fault_of_pinned_flow(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+template <int Dim>
+std::string fault_of_pinned_solids(const Setup<Dim>& setup, const std::vector<Placement>& placed, double t, double dt);
 
 // The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that
-// is hopelessly short.
+// is hopelessly short, or where a pinned step is too long.
 template <int Dim>
 double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
 

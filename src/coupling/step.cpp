@@ -1,7 +1,9 @@
 // One time step, as the algorithm reads: transport, measure geometry, solve, restore.
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "coupling/coupled_solve.h"
+#include "coupling/formula_checks.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -129,6 +131,7 @@ struct StepInProgress {
     const PhaseFault fault = phases.enter("geometry");
     const auto timed = phases.timers.measure("geometry");
     out.geometry = s.solids.measure(place_bodies(s, out.state), out.state.time);
+    check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     out.state.corrected_volume +=

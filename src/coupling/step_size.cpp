@@ -38,8 +38,6 @@ double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
 
 namespace {
 
-constexpr double most_steps_a_frame = 1e6;
-
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
 // omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2.
 template <int Dim>
@@ -48,6 +46,14 @@ double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state) {
   if (g == 0) return v > 0 ? reach / v : std::numeric_limits<double>::infinity();
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
   return std::min(flow, 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g)));
+}
+
+constexpr double rounding = 1e-9;  // relative, of a motion that takes just the whole reach
+
+template <int Dim>
+std::string pinned_step(const Setup<Dim>& s, double t, double dt) {
+  return fmt::format("time.fixed_step = {:g} s: the step of {:.6g} s from time {:.6g} s carries",
+                     *s.scene.time.fixed_step, dt, t);
 }
 
 // The solids as they will move in the coming dt.
@@ -71,6 +77,26 @@ double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) 
 
 }  // namespace
 
+// The halo holds paths of ceil(cfl) cells.
+template <int Dim>
+std::string fault_of_pinned_flow(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  const double h = s.layout.h(), cfl = s.scene.time.cfl, most = std::ceil(cfl);
+  const double crossed = fastest_component(s, state) * dt / h;
+  if (crossed <= most * (1 + rounding)) return {};
+  return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
+                     pinned_step(s, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
+}
+
+// A solid that goes further than a cell leaps over faces.
+template <int Dim>
+std::string fault_of_pinned_solids(const Setup<Dim>& s, const std::vector<Placement>& placed, double t, double dt) {
+  const double h = s.layout.h(), crossed = s.solids.largest_displacement(placed, dt) / h;
+  if (crossed <= 1 + rounding) return {};
+  return fmt::format(
+      "{} a solid {:.3g} cells of {:g} m; at most 1 is possible; lower fixed_step or slow the solid down",
+      pinned_step(s, t, dt), crossed, h);
+}
+
 template <int Dim>
 double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const TimeSpec& spec = s.scene.time;
@@ -80,18 +106,27 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
-  if (!(dt * most_steps_a_frame > remaining))
+  if (!(dt * double(most_steps_a_frame) > remaining))
     throw Error(
         ExitCode::cannot_continue,
-        fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {:.0g} steps); the flow "
+        fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {} steps); the flow "
                     "or a solid is too fast for cells of {:.3g} m",
                     dt, remaining, most_steps_a_frame, s.layout.h()));
-  if (dt >= remaining * (1 - 1e-9)) return remaining;
-  return 2 * dt > remaining && !spec.fixed_step ? remaining / 2 : dt;
+  if (dt >= remaining * (1 - 1e-9)) dt = remaining;
+  if (spec.fixed_step) {
+    std::string fault = fault_of_pinned_flow(s, state, dt);
+    if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(s, state, dt), state.time, dt);
+    if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  }
+  return dt < remaining && 2 * dt > remaining && !spec.fixed_step ? remaining / 2 : dt;
 }
 
 template double fastest_component<2>(const Setup<2>&, const State<2>&);
 template double fastest_component<3>(const Setup<3>&, const State<3>&);
+template std::string fault_of_pinned_flow<2>(const Setup<2>&, const State<2>&, double);
+template std::string fault_of_pinned_solids<2>(const Setup<2>&, const std::vector<Placement>&, double, double);
+template std::string fault_of_pinned_flow<3>(const Setup<3>&, const State<3>&, double);
+template std::string fault_of_pinned_solids<3>(const Setup<3>&, const std::vector<Placement>&, double, double);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);
 template double choose_step<3>(const Setup<3>&, const State<3>&, double);
 

@@ -1,6 +1,8 @@
 #include "coupling/transport.h"
 
+#include "coupling/formula_checks.h"
 #include "coupling/restore.h"
+#include "coupling/sources.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -8,41 +10,6 @@
 
 namespace seiche {
 namespace {
-
-template <int Dim>
-bool is_active(const Source<Dim>& source, double t) {
-  return t >= source.spec.from && t < source.spec.until;
-}
-
-// Union of the liquid with the active sources. Returns the volume added.
-template <int Dim>
-double add_sources(const Setup<Dim>& s, const State<Dim>& state, CellField<Dim>& phi) {
-  const double t = state.time;
-  const bool any = std::any_of(s.sources.begin(), s.sources.end(), [&](const auto& x) { return is_active(x, t); });
-  if (!any) return 0;
-  const NodeField<Dim> psi = s.solids.measure(place_bodies(s, state), t).psi;
-  const double before = liquid_volume(s, phi, psi);
-  for (const Source<Dim>& source : s.sources) {
-    if (!is_active(source, t)) continue;
-    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-      phi[c] = std::min(phi[c], (*source.shape)(s.layout.position(i, cell_offset<Dim>())));
-    });
-  }
-  fill_level_set_ghosts(s.layout, s.halo, phi);
-  return liquid_volume(s, phi, psi) - before;
-}
-
-template <int Dim>
-void set_source_velocity(const Setup<Dim>& s, double t, FaceField<Dim>& u) {
-  for (const Source<Dim>& source : s.sources) {
-    if (!is_active(source, t)) continue;
-    for (int a = 0; a < Dim; ++a)
-      for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-        const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
-        if ((*source.shape)(x) <= 0) u.at(a, f) = source.velocity.component(a, extend<Dim>(x), t);
-      });
-  }
-}
 
 // Lagrange weights that carry values at t, t - dt1, t - dt1 - dt2 to t + dt/2.
 std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
@@ -165,12 +132,13 @@ double liquid_volume(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeF
 
 template <int Dim>
 CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, double dt, double& added) {
+  check_sources_of_step(s, state.time, state.time + dt);
   CellField<Dim> joined = state.phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
   CellField<Dim> phi(s.layout);
   advect_level_set(s.layout, state.now->u, dt, s.band(), joined, phi);
   fill_level_set_ghosts(s.layout, s.halo, phi);
-  added = add_sources(s, state, phi);
+  added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
   redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved}, phi);
   return phi;
@@ -199,7 +167,7 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (near.at(a, f)) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
     });
-  set_source_velocity(s, state.time, u);
+  set_source_velocity(s, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
   return u;
 }

@@ -14,7 +14,6 @@
 namespace seiche {
 namespace {
 
-constexpr int most_steps_a_frame = 100000;
 constexpr auto patience = std::chrono::seconds(3);  // for other ranks to report the same error
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

@@ -39,8 +39,12 @@ Section<LiquidRegionSpec> region_section() {
 
 // The end of time is written by leaving the key out.
 Key<LiquidSourceSpec> until_key() {
-  const Option option{
-      .key = "until", .unit = "s", .unset = "for ever", .doc = "the source flows while from <= t < until"};
+  const Option option{.key = "until",
+                      .unit = "s",
+                      .unset = "for ever",
+                      .doc =
+                          "the source flows while from <= t < until: its shape is filled at the start and kept full, "
+                          "parts of a step count"};
   Key<LiquidSourceSpec> key{option, {}, {}};
   key.read = [option](SceneContext& c, const Place& p, LiquidSourceSpec& s) { read_value(c, p, option, s.until); };
   key.write = [option](const LiquidSourceSpec& s, int dimension, const std::string& path, SceneLines& lines) {

@@ -122,9 +122,13 @@ Section<TimeSpec> time_section() {
       value_key<S>({.key = "cfl", .range = positive(8), .doc = "cells the fastest flow may cross in a step"}, &S::cfl),
       value_key<S>({.key = "max_step", .unit = "s", .range = period, .unset = "no limit", .doc = "longest step"},
                    &S::max_step),
-      value_key<S>(
-          {.key = "fixed_step", .unit = "s", .range = period, .unset = "steps follow cfl", .doc = "pins the step"},
-          &S::fixed_step),
+      value_key<S>({.key = "fixed_step",
+                    .unit = "s",
+                    .range = period,
+                    .unset = "steps follow cfl",
+                    .doc = "pins the step, but for the last one before a frame; a step that would carry the flow "
+                           "beyond cfl cells, rounded up, or a solid beyond one is not taken: the run ends"},
+                   &S::fixed_step),
       choice_key<S, TimeScheme S::*, TimeScheme>(
           {.key = "scheme", .doc = "order of the time stepping"}, &S::scheme,
           {{"first_order", TimeScheme::first_order}, {"second_order", TimeScheme::second_order}}),
@@ -278,9 +282,12 @@ Section<Scene> build_scene_section() {
                            "has a free surface at pressure 0"}),
       list_key<S, SolidSpec>({.key = "solid", .unset = "none", .doc = "solids in the liquid", .most = most_entries},
                              &S::solids, solid_section()),
-      list_key<S, ProbeSpec>(
-          {.key = "probe", .unset = "none", .doc = "measurements for probes.csv", .most = most_entries}, &S::probes,
-          probe_section()),
+      list_key<S, ProbeSpec>({.key = "probe",
+                              .unset = "none",
+                              .doc = "measurements for probes.csv; a row without values where there is nothing to "
+                                     "measure, such as pressure or velocity in the air",
+                              .most = most_entries},
+                             &S::probes, probe_section()),
       block_key<S>({.key = "tracking", .doc = "the liquid surface"}, itself, tracking_section()),
       block_key<S>({.key = "solver", .doc = "the pressure solve"}, &S::solver, solver_section()),
       block_key<S>({.key = "output", .doc = "what is written"}, &S::output, output_section()),

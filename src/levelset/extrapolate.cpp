@@ -49,14 +49,17 @@ void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
   halo.fill_ghosts({f.data()});
   halo.fill_ghosts({known.data()});
   const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
+  std::vector<char> next = known;  // neighbours still read `known` while this is written
   for (int n = 0; n < options.layers; ++n) {
     const char layer = char(n + 2);
     for_each_site(layout, box, [&](Site s) {
       double value;
+      next[s] = known[s];
       if (known[s] != 0 || !predictor.predict(s, layer, value)) return;
       f[s] = value;
-      known[s] = layer;
+      next[s] = layer;
     });
+    known.swap(next);
     halo.fill_ghosts({f.data()});
     halo.fill_ghosts({known.data()});
   }

@@ -22,7 +22,7 @@ constexpr double reach_in_cells = 1e6;  // bound of phi / |grad phi| where the g
 template <int Dim>
 struct ExpressionShape : ShapeField<Dim> {
   Expression phi;
-  std::string text;
+  std::string text, where;
   double step = 0, reach = 0;  // m, in the shape's own frame
 
   explicit ExpressionShape(const Formula& formula) : phi(formula), text(formula) {}
@@ -40,10 +40,10 @@ struct ExpressionShape : ShapeField<Dim> {
 
   double operator()(const Vec<Dim>& x) const override {
     const double value = at(x);
-    if (std::isnan(value)) {
+    if (!std::isfinite(value)) {
       const Vec3 p = extend<Dim>(x);
-      refuse(fmt::format("phi = \"{}\" is not a number at ({:g}, {:g}, {:g}); it must be defined in the whole domain",
-                         text, p[0], p[1], p[2]));
+      refuse(fmt::format("{}phi = \"{}\" is {} at ({:g}, {:g}, {:g}); it must be finite in the whole domain", where,
+                         text, std::isnan(value) ? "nan" : "infinite", p[0], p[1], p[2]));
     }
     const double gradient = slope(x);
     if (value == 0) return 0;
@@ -74,6 +74,7 @@ Field<Dim> make_expression(const ShapeSpec& spec, const ShapeOptions& options) {
   require_cell_size(options, spec.kind);
   if (spec.phi.empty()) refuse("the expression shape has no phi; give for example phi = \"y-0.5\"");
   auto field = std::make_unique<ExpressionShape<Dim>>(spec.phi);
+  field->where = spec.where.empty() ? "" : spec.where + ": ";
   field->step = options.cell_size / spec.transform.scale / steps_per_cell;
   field->reach = options.cell_size / spec.transform.scale * reach_in_cells;
   return field;

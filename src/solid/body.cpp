@@ -51,6 +51,14 @@ Twist Body<Dim>::twist(double t0, double t1) const {
 }
 
 template <int Dim>
+Twist Body<Dim>::velocity(double t, double tau) const {
+  if (!motion_) return {};
+  const Twist one = twist(t, t + tau), two = twist(t, t + 2 * tau);
+  return {2 * one.linear - two.linear, 2 * one.angular - two.angular,
+          motion_->center + motion_->translate(Vec3::Zero(), t)};
+}
+
+template <int Dim>
 double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
   return (*shape_)(truncate<Dim>(pose.to_rest(extend<Dim>(x))));
 }

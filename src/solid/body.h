@@ -42,6 +42,9 @@ class Body {
   Pose pose(double t) const;
   // The rigid motion that takes the body from its pose at t0 to that at t1 in t1 - t0.
   Twist twist(double t0, double t1) const;
+  // Velocity at time t from the motion at t and up to 2 tau later: -3/2, 2, -1/2 (second order, one-sided, since a
+  // motion need not be defined before the start).
+  Twist velocity(double t, double tau) const;
   // Signed distance, negative inside (m).
   double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
   double distance_in(const Pose& pose, const Vec<Dim>& x) const;

@@ -122,6 +122,57 @@ def nothing_to_do(bench):
     expect(lines_of(bench.path("none") / "stats.csv")[0].startswith("step,time,dt"), "no header")
 
 
+# --- formulas and pinned steps ---------------------------------------------------------------------------------------
+
+BAD_AT_START = {
+    "liquid.velocity[0]": ("liquid.velocity", '["sqrt(x-0.2)", "0"]'),
+    "liquid.region.0.velocity[1]": ("liquid.region.0.velocity", '["0", "1/(0*x)"]'),
+    "domain.boundary.x_upper.velocity[0]":
+        ("domain.boundary.x_upper", '{ type = "inflow", velocity = ["log(y-0.1)", "0"] }'),
+    "domain.boundary.y_upper.pressure":
+        ("domain.boundary.y_upper", '{ type = "outflow", pressure = "sqrt(-1-x)" }'),
+}
+
+
+def formula_not_finite_at_start(bench):
+    """A formula that is NaN or infinite as the run begins: 2, key, place and value, from any number of ranks."""
+    for key, (path, value) in BAD_AT_START.items():
+        for ranks in (0, 3):
+            result = bench.simulate("--set", f"{path}={value}", ranks=ranks).needs(2, key, " at (")
+            expect(re.search(r"is (nan|infinite) at", result.errors), result.errors)
+            expect(not bench.path("out/stats.csv").exists(), "the run had begun")
+        bench.run("check", bench.scene(), "--set", f"{path}={value}").needs(2, key, " at (")
+
+
+def shape_not_finite(bench):
+    """A shape whose formula has no value on one rank's cells: 2, with the line of the shape."""
+    shape = region('shape = "expression"\nphi = "sqrt(0.9-x)-1"')
+    for ranks in (0, 3):
+        bench.simulate(text=box_scene([16, 16], shape), ranks=ranks).needs(2, "scene.toml:", "phi = ", "is nan at (")
+
+
+def formula_not_finite_later(bench):
+    """A side's formula that turns NaN: 3 in that step, naming the side; nothing of it on disk; resume says the same."""
+    later = 'domain.boundary.y_upper={ type = "outflow", pressure = "0*sqrt(0.1-t)" }'
+    for ranks in (0, 3):
+        out = f"later{ranks}"
+        bench.simulate("--set", later, out=out, ranks=ranks).needs(3, "domain.boundary.y_upper.pressure", "is nan at (")
+        expect(0 < float(stats(bench.path(out))[-1]["time"]) <= 0.1, "not stopped in time")
+        for name in ("stats.csv", "solids.csv", "probes.csv"):
+            expect("nan" not in bench.path(f"{out}/{name}").read_text(), f"NaN in {name}")
+        frames_are_good(bench.path(out), 3 if float(stats(bench.path(out))[-1]["time"]) == 0.1 else 2)
+        bench.run("resume", out, ranks=ranks).needs(3, "domain.boundary.y_upper.pressure")
+
+
+def pinned_step_too_long(bench):
+    """fixed_step beyond what the flow allows: 2 where the start shows it, else 3 with figures and a checkpoint."""
+    bench.simulate("--set", "time.fixed_step=0.02", "--set", "liquid.velocity=[3.0, 0.0]", out="start").needs(
+        2, "time.fixed_step", "cells", "lower fixed_step")
+    bench.simulate("--set", "time.fixed_step=0.05", out="later").needs(3, "time.fixed_step", "cells", "lower fixed_step")
+    last = stats(bench.path("later"))[-1]
+    expect(f"{int(last['step']):08d}" == newest_checkpoint(bench.path("later")).name, "not the last good step")
+
+
 # --- ranks -------------------------------------------------------------------------------------------------------------
 
 def more_ranks_than_cells(bench):
@@ -621,6 +672,7 @@ TABLES = {
     "domains": [no_liquid_at_all, liquid_drains_away, no_solids_no_container, full_closed_container,
                 full_container_with_moving_solid, inflow_without_outlet, inflow_balanced_to_round_off,
                 droplets_and_enclosed_cells, odd_and_thin_grids, nothing_to_do],
+    "formulas": [formula_not_finite_at_start, shape_not_finite, formula_not_finite_later, pinned_step_too_long],
     "ranks": [more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
               openmp_environment, openmp_differs_between_ranks],
     "output": [output_folder_created, output_is_a_file, output_not_writable, existing_output_refused,

@@ -39,18 +39,6 @@ std::string side_text(int dimension, const std::string& side) {
 
 }  // namespace
 
-ScratchFolder::ScratchFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "seiche_scene_XXXXXX").string();
-  if (!::mkdtemp(pattern.data())) throw std::runtime_error("no scratch folder");
-  path_ = std::filesystem::canonical(pattern);
-}
-
-std::filesystem::path ScratchFolder::write(const std::string& name, const std::string& text) const {
-  std::filesystem::create_directories((path_ / name).parent_path());
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
-}
-
 Scene parse(const std::string& text, const Overrides& overrides, const std::filesystem::path& folder) {
   return parse_scene(text, "scene.toml", folder, overrides);
 }

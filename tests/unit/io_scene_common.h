@@ -6,27 +6,11 @@
 
 #include "base/error.h"
 #include "io/scene_reader.h"
+#include "io_scratch.h"
 
 namespace seiche::testing {
 
 using Overrides = std::vector<Override>;
-
-// A folder of its own for the files of a test, gone when the test is over.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 // The smallest scene.
 inline const std::string small_scene = "[domain]\nupper = [1, 1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";

@@ -16,6 +16,7 @@ class ScratchFolder {
     path_ = std::filesystem::temp_directory_path() /
             ("seiche_io_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(path_);
+    path_ = std::filesystem::canonical(path_);
   }
   ~ScratchFolder() {
     std::error_code ignored;
@@ -25,6 +26,11 @@ class ScratchFolder {
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
 
  private:
   std::filesystem::path path_;

@@ -286,7 +286,7 @@ TEST_CASE("an expression that is not a number somewhere says where") {
   ShapeSpec spec = expression_spec("sqrt(x)-0.3");
   const auto phi = make_shape<3>(spec, options);
   CHECK((*phi)(Vec3(0.5, 0, 0)) == Approx((std::sqrt(0.5) - 0.3) * 2 * std::sqrt(0.5)).epsilon(1e-3));
-  CHECK_THROWS_WITH((*phi)(Vec3(-1, 0, 0)), Catch::Contains("not a number at (-1, 0, 0)"));
+  CHECK_THROWS_WITH((*phi)(Vec3(-1, 0, 0)), Catch::Contains("is nan at (-1, 0, 0)"));
 }
 
 TEST_CASE("a mesh is no shape of a 2D scene") {
