@@ -15,8 +15,11 @@ constexpr double least_step = 1e-10;          // of a Newton step; shorter ones 
 // Gaps below this share of the reach make contacts stiffer, by this factor, this often at most.
 constexpr double tiny_gap = 1e-2, stiffening = 10;
 constexpr int stiffening_limit = 12;
-// Friction forces have settled when they move no point faster than this share of the creep speed.
-constexpr double settled_share = 0.1;
+// Friction forces have settled when they move no point faster than this share of the creep speed, or of what contact
+// does to velocities: then friction is right to a thousandth.
+constexpr double settled_share = 0.1, settled_of_change = 1e-3;
+// Newton's tolerance as a share of what contact does to velocities, with new friction forces and with settled ones.
+constexpr double first_of_change = 1e-2, last_of_change = 1e-4;
 
 enum class Outcome { converged, failed };
 
@@ -73,6 +76,7 @@ class Solver {
     const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
     at_ = place<Dim>(scene_, interval_, twists(zero, share_));
     if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
+    free_velocity_ = e_.velocity;
     const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, twists(e_.velocity, 1), weights_.reach);
     if (way.share < 1) return false;
     if (contact_energy<Dim>(scene_, interval_, way.end, way.near, {}, weights_) > 0) return false;
@@ -100,9 +104,10 @@ class Solver {
       if (i > 0 && friction_.empty()) return Outcome::converged;
       if (!friction_.empty()) ++report_.friction_updates;
       double first_step = 0;
-      if (newton(first_step) == Outcome::failed) return Outcome::failed;
+      const double share = i == 0 && may_rub() ? first_of_change : last_of_change;
+      if (newton(share, first_step) == Outcome::failed) return Outcome::failed;
       if (!friction_.empty()) report_.friction = FrictionState::unsettled;
-      if (i > 0 && first_step <= settled_share * options_.creep_speed) {
+      if (i > 0 && first_step <= std::max(settled_share * options_.creep_speed, settled_of_change * change())) {
         report_.friction = FrictionState::settled;
         break;
       }
@@ -110,14 +115,23 @@ class Solver {
     return Outcome::converged;
   }
 
-  Outcome newton(double& first_step) {
+  // What contact does to velocities: by how much they differ from those without (m/s).
+  double change() const { return fastest(e_.velocity - free_velocity_); }
+
+  bool may_rub() const {
+    return std::any_of(scene_.friction.begin(), scene_.friction.end(),
+                       [](const auto& mu) { return mu.value_or(0) > 0; });
+  }
+
+  Outcome newton(double share_of_change, double& first_step) {
     for (int i = 0; i < options_.newton_limit; ++i) {
       ++report_.newton_iterations;
       InertiaResponse goal;
       if (aim(goal) == Outcome::failed) return Outcome::failed;
       const double speed = fastest(goal.velocity - e_.velocity);
       if (i == 0) first_step = speed;
-      const bool last = speed <= options_.speed_tolerance && share_ == 1;
+      const double tolerance = std::max(options_.speed_tolerance, share_of_change * change());
+      const bool last = speed <= tolerance && share_ == 1;
       const double step = search(goal);
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
@@ -214,6 +228,7 @@ class Solver {
   ContactReport report_;
   // The present iterate: free velocities with the gradient of e, the share of the prescribed motion, what follows.
   InertiaResponse e_;
+  Eigen::VectorXd free_velocity_;  // without contact
   double share_ = 1;
   Placement<Dim> at_;
   std::vector<Candidate> pairs_;
