@@ -21,7 +21,11 @@ constexpr double settled_share = 0.1, settled_of_change = 1e-3;
 // Newton's tolerance as a share of what contact does to velocities, with new friction forces and with settled ones.
 constexpr double first_of_change = 1e-2, last_of_change = 1e-4;
 
-enum class Outcome { converged, failed };
+// Newton iterations before friction is smoothed, and how fast it becomes sharp again.
+constexpr int patience = 12;
+constexpr double sharpening = 0.2;
+
+enum class Outcome { converged, slow, failed };
 
 template <int Dim>
 class Solver {
@@ -96,20 +100,30 @@ class Solver {
     return report_.failure.empty() && take(inertia_.respond(zero), e_) == Outcome::converged;
   }
 
-  // Newton with the friction forces of the present state, until these no longer move anything.
+  // Newton with the friction forces of the present state, until these no longer move anything. Where the change from
+  // creep to slip is too sharp for Newton, first with a creep speed as large as what contact does, then ever smaller.
   Outcome solve_with_friction() {
     report_.friction = FrictionState::none;
+    int limit = patience;
+    weights_.creep_speed = options_.creep_speed;
     for (int i = 0; i < options_.friction_limit; ++i) {
       friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
       if (i > 0 && friction_.empty()) return Outcome::converged;
       if (!friction_.empty()) ++report_.friction_updates;
+      const bool sharp = weights_.creep_speed <= options_.creep_speed;
+      const double share = may_rub() && (i == 0 || !sharp) ? first_of_change : last_of_change;
       double first_step = 0;
-      const double share = i == 0 && may_rub() ? first_of_change : last_of_change;
-      if (newton(share, first_step) == Outcome::failed) return Outcome::failed;
+      const Outcome outcome = newton(share, friction_.empty() ? options_.newton_limit : limit, first_step);
+      if (outcome == Outcome::failed) return outcome;
       if (!friction_.empty()) report_.friction = FrictionState::unsettled;
-      if (i > 0 && first_step <= std::max(settled_share * options_.creep_speed, settled_of_change * change())) {
+      if (outcome == Outcome::slow && sharp && limit == patience) {
+        limit = options_.newton_limit;
+        weights_.creep_speed = std::max(options_.creep_speed, change());
+      } else if (!sharp) {
+        weights_.creep_speed = std::max(options_.creep_speed, sharpening * weights_.creep_speed);
+      } else if (i > 0 && first_step <= std::max(settled_share * options_.creep_speed, settled_of_change * change())) {
         report_.friction = FrictionState::settled;
-        break;
+        return Outcome::converged;
       }
     }
     return Outcome::converged;
@@ -123,8 +137,8 @@ class Solver {
                        [](const auto& mu) { return mu.value_or(0) > 0; });
   }
 
-  Outcome newton(double share_of_change, double& first_step) {
-    for (int i = 0; i < options_.newton_limit; ++i) {
+  Outcome newton(double share_of_change, int limit, double& first_step) {
+    for (int i = 0; i < limit; ++i) {
       ++report_.newton_iterations;
       InertiaResponse goal;
       if (aim(goal) == Outcome::failed) return Outcome::failed;
@@ -136,6 +150,7 @@ class Solver {
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
     }
+    if (limit < options_.newton_limit) return Outcome::slow;
     return fail("contact: Newton's method does not converge");
   }
 

@@ -81,7 +81,7 @@ TEST_CASE("the exact test sees an intersection") {
 TEST_CASE("a tumbling pile never intersects") {
   DryWorld<3> world = pile(21);
   int contacts = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 110; ++i) {
     world.step(0.01);
     contacts = std::max(contacts, world.report.active);
     REQUIRE(intersections(facets(world)) == 0);
