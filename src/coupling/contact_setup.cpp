@@ -56,13 +56,14 @@ std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const std::vecto
 }
 
 // Speeds scale with that of a fall through a cell, without gravity with a cell a step. The stiffness is set by weights,
-// or by what stops a body that moves a cell a step within some steps.
+// whatever the step: bodies at rest are thrown up where it grows under them. Without gravity it is set by what stops a
+// body that moves a cell a step within some steps.
 template <int Dim>
 ContactOptions contact_options(const Setup<Dim>& s, double dt) {
   const double h = s.layout.h(), g = s.scene.gravity.norm(), speed = g > 0 ? std::sqrt(g * h) : h / dt;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = std::max(g, 0.01 * h / (dt * dt));
+  o.acceleration = g > 0 ? g : 0.01 * h / (dt * dt);
   o.creep_speed = 1e-4 * speed;
   o.speed_tolerance = 0.01 * o.creep_speed;
   return o;

@@ -44,7 +44,9 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
     // The last pressure belongs to the last trial, not to what the line search made of it.
     if (r.failure.empty() && contact.newton_iterations > 0) r.failure = problem.respond(v).failure;
   } else {
-    r.failure = problem.minimise(SmallMatrix(0, 0), v).failure;
+    const InertiaResponse response = problem.minimise(SmallMatrix(0, 0), v);
+    r.failure = response.failure;
+    if (r.failure.empty()) v = response.velocity;
   }
   r.report = problem.report();
   return v;

@@ -1,0 +1,91 @@
+// What a solve with rigid bodies costs: iterations at any density ratio and rank count, set-up for many bodies.
+#include <catch2/catch.hpp>
+
+#include "coupling/liquid_problem.h"
+#include "coupling/transport.h"
+#include "rigid_scenes.h"
+
+using namespace seiche;
+
+namespace {
+
+Scene tank(int cells) {
+  Scene s = test::box_scene(3, cells);
+  s.gravity = {0, -9.81, 0};
+  test::add_pool(s, 0.8);
+  return s;
+}
+
+Scene one_sphere(int cells, double ratio) {
+  Scene s = tank(cells);
+  s.solids.push_back(test::rigid_ball("ball", 0.2, {0.5, 0.42, 0.5}, 1000 * ratio));
+  return s;
+}
+
+// 27 balls of ratio 1e-6 to 1e-1.
+Scene many_spheres(int cells) {
+  Scene s = tank(cells);
+  for (int n = 0; n < 27; ++n) {
+    const Vec3 center(0.2 + 0.3 * (n % 3), 0.15 + 0.22 * (n / 9), 0.2 + 0.3 * (n / 3 % 3));
+    s.solids.push_back(
+        test::rigid_ball(fmt::format("ball{}", n), 0.08, center, 1000 * std::pow(10, -6 + 5.0 * n / 26)));
+  }
+  return s;
+}
+
+struct Effort {
+  int coupled = 0;  // iterations of a solve with the bodies free
+  int fixed = 0;    // with the bodies held
+  int setup = 0;    // applications of the preconditioner before the first
+};
+
+// The solves of a first step of 1 ms, from zero pressure.
+Effort measure(const Scene& scene) {
+  constexpr int Dim = 3;
+  constexpr double dt = 1e-3;
+  const Setup<Dim> s(scene, Communicator());
+  State<Dim> state = initial_state(s);
+  StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  const ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, state.phi, g.faces, s.density(), dt};
+  const PressureRows<Dim> rows = number_rows(in);
+  const RigidCoupling<Dim> coupling = couple_rigid_bodies(s, g, rows, state.rigid, dt, dt);
+  const double c1 = s.density() * s.layout.h() / dt, c2 = dt * s.layout.geometry().face_area();
+  const SparseMatrix A = assemble_pressure_matrix(in, rows);
+  const RowGrid grid = row_grid(in, rows);
+  SpdSolver solver(A, grid, find_closed_components(in, rows), coupling.J, c1 * c2, {.tolerance = 1e-8}, s.ranks);
+  const Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt));
+  Vector p(b.size());
+  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
+  REQUIRE(problem.minimise(SmallMatrix(0, 0), Eigen::VectorXd::Zero(problem.size())).failure.empty());
+  Effort e{problem.report().iterations, 0, solver.setup_applications()};
+  Vector still(b.size());
+  const SolveReport fixed = solver.solve({}, b, still);
+  REQUIRE(fixed.converged);
+  e.fixed = fixed.iterations;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("iterations do not depend on the density of a sphere", "[ranks]") {
+  int least = 1000, most = 0;
+  for (int cells : {32, 64})
+    for (double ratio : {1e-6, 1e-3, 1.0, 1e3}) {
+      const Effort e = measure(one_sphere(cells, ratio));
+      if (Communicator().is_root())
+        WARN(cells << "^3, ratio " << ratio << ": " << e.coupled << " iterations, held " << e.fixed << ", set-up "
+                   << e.setup << " cycles");
+      least = std::min(least, e.coupled), most = std::max(most, e.coupled);
+    }
+  CHECK(most <= 12);
+  CHECK(most - least <= 3);
+}
+
+TEST_CASE("27 light spheres cost three static solves to set up and thirty iterations", "[ranks]") {
+  const Effort e = measure(many_spheres(64));
+  if (Communicator().is_root())
+    WARN(e.coupled << " iterations (bar 30), set-up " << e.setup << " cycles, static solve " << e.fixed
+                   << " iterations (bar 3 of it)");
+  CHECK(e.coupled <= 30);
+  CHECK(e.setup <= 3 * e.fixed);
+}
