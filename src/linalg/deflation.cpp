@@ -172,9 +172,10 @@ void Deflation::multiply_out() {
 }
 
 // E = Z'AZ + c (J'Z)' H^-1 (J'Z) is the Schur complement of the factored matrix, which is quasi-definite and sparse.
+// Without H there is nothing to deflate.
 bool Deflation::refresh() {
   const int n = int(Z_.size()), m = S_.columns().columns();
-  if (n == 0) return true;
+  if (n == 0 || !S_.is_coupled()) return true;
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& t : zaz_) entries.emplace_back(t.row(), t.col(), t.value());
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, regularization_);

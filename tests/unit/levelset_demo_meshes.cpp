@@ -60,9 +60,29 @@ double gyre(const Vec3& x) {
   return std::max(smooth_min(pair, leg(x, 4 * pi / 3), 0.03), -x[1]);
 }
 
+// A distance to first order from an ellipsoid with these half axes.
+double ellipsoid(const Vec3& x, const Vec3& center, const Vec3& axes) {
+  const Vec3 r = (x - center).cwiseQuotient(axes);
+  return r.norm() * (r.norm() - 1) / std::max(r.cwiseQuotient(axes).norm(), 1e-9);
+}
+
+// A bath duck 0.22 m long that looks along x: body with wings, a tail that points up, head and bill, joined smoothly.
+// Its middle is broad, so that it floats upright up to half under.
+double duck(const Vec3& point) {
+  const Vec3 x(point[0], point[1], std::abs(point[2]));
+  double d = ellipsoid(x, {0, 0.05, 0}, {0.082, 0.046, 0.066});
+  const Vec3 tail(-0.05, 0.055, 0), upwards(-0.05, 0.04, 0);
+  const double along = std::clamp((x - tail).dot(upwards) / upwards.squaredNorm(), 0.0, 1.0);
+  d = smooth_min(d, (x - tail - along * upwards).norm() - (0.036 - 0.026 * along), 0.03);
+  d = smooth_min(d, ellipsoid(x, {-0.02, 0.068, 0.054}, {0.05, 0.026, 0.018}), 0.012);
+  d = smooth_min(d, ellipsoid(x, {0.05, 0.125, 0}, {0.04, 0.037, 0.036}), 0.03);
+  return smooth_min(d, ellipsoid(x, {0.09, 0.119, 0}, {0.03, 0.011, 0.022}), 0.012);
+}
+
 std::vector<DemoMesh> demo_meshes() {
   return {{"pebble", pebble, Vec3(-0.1, -0.07, -0.08), Vec3(0.1, 0.07, 0.08), 0.005},
-          {"gyre", gyre, Vec3(-0.22, -0.0155, -0.22), Vec3(0.22, 0.42, 0.22), 0.009}};
+          {"gyre", gyre, Vec3(-0.22, -0.0155, -0.22), Vec3(0.22, 0.42, 0.22), 0.009},
+          {"duck", duck, Vec3(-0.125, -0.01, -0.085), Vec3(0.135, 0.175, 0.085), 0.0095}};
 }
 
 Vec3 gradient(const DemoMesh& demo, const Vec3& x) {
@@ -93,6 +113,40 @@ SurfaceMesh build(const DemoMesh& demo) {
   }
   SurfaceMesh mesh = vdb::contour(values, nodes, demo.lower, demo.spacing);
   for (Vec3& p : mesh.points) p = onto_zero(demo, p);
+  return mesh;
+}
+
+// A water wheel about the z axis: a hub with eight flat blades, 0.6 m across and 0.3 m wide. Its outline goes round
+// once; the cap is a fan over the hub and two triangles a blade.
+SurfaceMesh wheel() {
+  constexpr int blades = 8;
+  constexpr double hub = 0.1, radius = 0.3, half_width = 0.02, depth = 0.15;
+  SurfaceMesh mesh;
+  for (const double z : {-depth, depth})
+    for (int blade = 0; blade < blades; ++blade) {
+      const Vec3 along(std::cos(2 * pi * blade / blades), std::sin(2 * pi * blade / blades), 0);
+      const Vec3 across(-half_width * along[1], half_width * along[0], 0);
+      const double foot = std::sqrt(hub * hub - half_width * half_width);
+      for (const auto& [r, side] : {std::pair(foot, -1), {radius, -1}, {radius, 1}, {foot, 1}})
+        mesh.points.push_back(r * along + side * across + Vec3(0, 0, z));
+    }
+  const int n = 4 * blades, low = 2 * n, high = low + 1;
+  mesh.points.insert(mesh.points.end(), {Vec3(0, 0, -depth), Vec3(0, 0, depth)});
+  const auto cap = [&](int a, int b, int c) {
+    mesh.triangles.push_back({a == low ? low : a % n, c % n, b % n});
+    mesh.triangles.push_back({a == low ? high : n + a % n, n + b % n, n + c % n});
+  };
+  for (int k = 0; k < n; k += 4) {
+    cap(low, k, k + 3);
+    cap(low, k + 3, k + 4);
+    cap(k, k + 1, k + 2);
+    cap(k, k + 2, k + 3);
+  }
+  for (int k = 0; k < n; ++k) {
+    const int next = (k + 1) % n;
+    mesh.triangles.push_back({k, next, n + next});
+    mesh.triangles.push_back({k, n + next, n + k});
+  }
   return mesh;
 }
 
@@ -134,6 +188,7 @@ TEST_CASE("write the demo meshes", "[.][write]") {
     out << ply(build(demo), demo.name);
     CHECK(out.good());
   }
+  std::ofstream(std::filesystem::path(folder) / "wheel.ply", std::ios::binary) << ply(wheel(), "wheel");
 }
 
 TEST_CASE("the demo meshes are small, closed in one piece and lie on the zeros of their formulas") {
@@ -159,4 +214,16 @@ TEST_CASE("the gyre stands on y = 0 and is 0.4 m tall") {
   }
   CHECK(low == Approx(0).margin(1e-6));     // float coordinates
   CHECK(high == Approx(0.4).margin(0.02));  // about
+}
+
+TEST_CASE("the wheel is closed and has the volume of its hub and blades") {
+  std::vector<std::string> notes;
+  const SurfaceMesh mesh = read_closed_mesh(committed("wheel"), notes);
+  CHECK(notes.empty());
+  double volume = 0;
+  for (const auto& t : mesh.triangles) volume += mesh.points[t[0]].dot(mesh.points[t[1]].cross(mesh.points[t[2]])) / 6;
+  // A polygon of eight chords over the blades' feet and eight between them, and eight blades that begin at the feet.
+  const double foot_angle = std::asin(0.2), foot = 0.1 * std::cos(foot_angle);
+  const double hub = 8 * (0.02 * foot + 0.005 * std::sin(2 * pi / 8 - 2 * foot_angle));
+  CHECK(volume == Approx(0.3 * (hub + 8 * 0.04 * (0.3 - foot))).epsilon(1e-5));  // float coordinates
 }
