@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "coupling/contact_model.h"
 #include "coupling/contact_setup.h"
 #include "coupling/liquid_problem.h"
 
@@ -29,27 +30,47 @@ NullSpace without(NullSpace closed, const std::vector<int>& components) {
   return closed;
 }
 
-// Velocities of the rigid bodies; the pressure that goes with them is left in the problem.
+// Speed of the farthest point of its body where a degree of freedom is one.
+template <int Dim>
+Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const RigidCoupling<Dim>& coupling) {
+  constexpr int n = twist_size<Dim>;
+  Eigen::VectorXd speeds = Eigen::VectorXd::Ones(n * Eigen::Index(coupling.bodies.size()));
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
+    speeds.segment(n * Eigen::Index(b) + Dim, n - Dim).setConstant(s.bodies[coupling.bodies[b]].radius());
+  return speeds;
+}
+
+// Velocities of the rigid bodies; the pressure that goes with them is left in the problem. Bodies that close off liquid
+// are beyond the model of the added mass: contact then asks the liquid at every turn.
 template <int Dim>
 Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon,
-                         LiquidProblem<Dim>& problem, CoupledSolution<Dim>& r) {
+                         const RigidCoupling<Dim>& coupling, const SpdSolver& solver, LiquidProblem<Dim>& problem,
+                         CoupledSolution<Dim>& r) {
   Eigen::VectorXd v = Eigen::VectorXd::Zero(problem.size());
-  if (s.contact) {
-    const auto motions = contact_motions(s, state.rigid, state.time, horizon);
-    const ContactReport contact = solve_contact(*s.contact, motions, horizon, dt, problem, contact_options(s, dt));
-    r.failure = contact.failure;
-    r.newton_iterations = contact.newton_iterations;
-    r.contacts = contact.active;
-    v = contact.velocity;
-    // The last pressure belongs to the last trial, not to what the line search made of it.
-    if (r.failure.empty() && contact.newton_iterations > 0) r.failure = problem.respond(v).failure;
-  } else {
+  if (!s.contact) {
     const InertiaResponse response = problem.minimise(SmallMatrix(0, 0), v);
     r.failure = response.failure;
-    if (r.failure.empty()) v = response.velocity;
+    r.report = problem.report();
+    return v;
   }
+  const auto motions = contact_motions(s, state.rigid, state.time, horizon);
+  const ContactOptions options = contact_options(s, dt);
+  ContactReport contact;
+  if (solver.sensed_components().empty()) {
+    contact = solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, solver, problem,
+                                      unit_speeds(s, coupling), options)
+                  .contact;
+  } else {
+    contact = solve_contact(*s.contact, motions, horizon, dt, problem, options);
+    // The last pressure belongs to the last trial, not to what the line search made of it.
+    if (contact.failure.empty() && contact.newton_iterations > 0)
+      contact.failure = problem.respond(contact.velocity).failure;
+  }
+  r.failure = contact.failure;
+  r.newton_iterations = contact.newton_iterations;
+  r.contacts = contact.active;
   r.report = problem.report();
-  return v;
+  return contact.velocity;
 }
 
 // One solve, with the cells that part given.
@@ -74,7 +95,7 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   if (fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   for (Site c : r.rows.cells) p.push_back(guess[c]);
   LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
-  const Eigen::VectorXd v = minimise(s, state, in.dt, horizon, problem, r);
+  const Eigen::VectorXd v = minimise(s, state, in.dt, horizon, coupling, solver, problem, r);
   for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
   s.halo.fill_ghosts(r.pressure);
   if (r.failure.empty()) set_velocities(s, coupling, v, g, state.rigid);

@@ -1,5 +1,6 @@
 #include "linalg/deflation.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -139,6 +140,7 @@ void Deflation::make_columns() {
 
 // A sees no constants on closed components; where bodies feel them, S does.
 void Deflation::add_component_columns() {
+  body_columns_ = int(Z_.size());
   const auto& component = S_.liquid().null_space().component;
   for (const int c : S_.sensed_components()) {
     SparseColumn chi;
@@ -169,6 +171,18 @@ void Deflation::multiply_out() {
   for (const auto& t : zaz_)
     if (t.row() == t.col()) trace += t.value();
   regularization_ = Z_.empty() ? 0 : 1e-14 * trace / double(Z_.size());
+}
+
+Eigen::MatrixXd Deflation::estimate_schur() const {
+  Eigen::MatrixXd zaz = Eigen::MatrixXd::Zero(body_columns_, body_columns_);
+  Eigen::MatrixXd jz = Eigen::MatrixXd::Zero(S_.columns().columns(), body_columns_);
+  for (const auto& t : zaz_)
+    if (t.row() < body_columns_ && t.col() < body_columns_) zaz(t.row(), t.col()) += t.value();
+  for (const auto& t : jz_)
+    if (t.col() < body_columns_) jz(t.row(), t.col()) += t.value();
+  zaz.diagonal().array() += regularization_;
+  const Eigen::MatrixXd schur = jz * zaz.ldlt().solve(jz.transpose());
+  return 0.5 * (schur + schur.transpose());
 }
 
 // E = Z'AZ + c (J'Z)' H^-1 (J'Z) is the Schur complement of the factored matrix, which is quasi-definite and sparse.

@@ -32,6 +32,9 @@ class Deflation {
   // x += Q (b - S x): afterwards the residual is orthogonal to Z, which apply() counts on. Collective.
   void prepare(const Vector& b, Vector& x);
 
+  // (J'Z)(Z'AZ)^-1(Z'J), the Galerkin part of J'A^-1 J; closed components left out.
+  Eigen::MatrixXd estimate_schur() const;
+
   int applications_of_B() const { return applications_; }  // at set-up
 
  private:
@@ -46,6 +49,7 @@ class Deflation {
   Preconditioner& B_;
   std::vector<SparseColumn> Z_, AZ_;
   std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
+  int body_columns_ = 0;                          // the first of Z; closed components follow
   double regularization_ = 0;
   int applications_ = 0;
   Eigen::SimplicialLDLT<SmallMatrix> factor_;  // of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]

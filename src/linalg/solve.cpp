@@ -109,6 +109,7 @@ SpdSolver::Built& SpdSolver::build(const std::string& name) {
   std::unique_ptr<Built>& built = built_[name];
   if (!built) built.reset(new Built{make_preconditioner(name, liquid_), nullptr});
   if (!built->made.preconditioner) return *built;
+  last_built_ = name;
   if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
   return *built;
 }
@@ -146,11 +147,19 @@ SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vect
   return iterate(rung, problem, x);
 }
 
-// Among many bodies multigrid needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md).
+// Among many bodies multigrid needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md), and with
+// any the columns of J seen through a hierarchy are a model of their added mass, seen through a diagonal they are not.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  const bool many = system_.is_coupled() && J_.blocks.size() > few_bodies;
-  return options_.preconditioner == "auto" && chosen == "multigrid" && many ? "boomeramg" : chosen;
+  const bool poor = chosen == "none" || (chosen == "multigrid" && J_.blocks.size() > few_bodies);
+  return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
+}
+
+Eigen::MatrixXd SpdSolver::added_mass_estimate() const {
+  const auto found = built_.find(last_built_);
+  const bool none = found == built_.end() || !found->second->deflation;
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(J_.columns(), J_.columns());
+  return none ? zero : Eigen::MatrixXd(system_.scale() * found->second->deflation->estimate_schur());
 }
 
 // x keeps the best finite vector met.

@@ -53,6 +53,8 @@ class SpdSolver {
   // Closed components of A that bodies feel: their mean pressure is what H and J decide.
   const std::vector<int>& sensed_components() const { return system_.sensed_components(); }
   int setup_applications() const;  // of preconditioners to columns of J, so far
+  // c (J'Z)(Z'AZ)^-1(Z'J): what the preconditioner last used knows of c J'A^-1 J, from below. Zero before any solve.
+  Eigen::MatrixXd added_mass_estimate() const;
 
  private:
   struct Built;  // a preconditioner, or why there is none
@@ -76,6 +78,7 @@ class SpdSolver {
   LinearSystem liquid_;
   CoupledSystem system_;
   std::map<std::string, std::unique_ptr<Built>> built_;
+  std::string last_built_;
 };
 
 // Solves A x = b once, as SpdSolver does.
