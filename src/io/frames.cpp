@@ -140,7 +140,9 @@ void FrameWriter::write_solids(const FrameLabel& label, const Simulation& simula
     const bool moves = scene_.solids[n].kind != SolidKind::fixed;
     if (moves || surfaces_[n].points.empty()) surfaces_[n] = simulation.solid_surface(n);
   }
-  write_file(paths_.frames() / frame_file("solids", label.number, "vtu"), vtk::surfaces(surfaces_, label.time));
+  std::vector<std::string> names;
+  for (const SolidSpec& solid : scene_.solids) names.push_back(solid.name);
+  write_file(paths_.frames() / frame_file("solids", label.number, "vtu"), vtk::surfaces(surfaces_, names, label.time));
   write_file(paths_.frames() / "solids.pvd", vtk::series("solids", "vtu", label.number, scene_.time.frame_rate));
 }
 

@@ -6,6 +6,7 @@
 #include "grid/parallel_range.h"
 #include "io/render_font.h"
 #include "io/render_outline.h"
+#include "io/render_palette.h"
 
 namespace seiche::render {
 namespace {
@@ -49,16 +50,16 @@ void paint_liquid(Canvas& canvas, const Plot& plot, const Mapping& map) {
 }
 
 void paint_solids(Canvas& canvas, const Plot& plot, const Mapping& map) {
-  const Vec3f grey = from_srgb(0.45f, 0.45f, 0.47f);
   const auto& [x0, y0, x1, y1] = map.rectangle;
   for (const int solid : std::set<int>(plot.solids.solid.begin(), plot.solids.solid.end())) {
     auto polygons = close_outlines(plot.solids, solid, plot.domain);
     for (Polygon& polygon : polygons) {
       for (Vec2f& x : polygon) x = map.picture(x);
     }
+    const Vec3f color = solid_color(plot.colors, solid);
     for (int y = y0; y < y1; ++y) {
       const auto cover = row_coverage(polygons, x0, x1 - x0, y);
-      for (int x = x0; x < x1; ++x) blend(canvas, x, y, grey, cover[x - x0]);
+      for (int x = x0; x < x1; ++x) blend(canvas, x, y, color, cover[x - x0]);
     }
   }
 }

@@ -12,7 +12,8 @@ struct Plot {
   ScalarVolume phi;                      // level set, one cell thick
   std::optional<ScalarVolume> quantity;  // unset: plain blue
   ColorScale scale;
-  SolidMesh solids;  // segments
+  SolidMesh solids;           // segments
+  std::vector<Vec3f> colors;  // of the solids
 };
 
 // The domain as large as fits, to scale, y upwards. The interface is smoothed by the share of each pixel that the level

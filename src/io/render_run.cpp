@@ -11,6 +11,7 @@
 #include "io/render_extras.h"
 #include "io/render_font.h"
 #include "io/render_frame.h"
+#include "io/render_palette.h"
 #include "io/render_plot.h"
 #include "io/render_trace.h"
 #include "io/scene_reader.h"
@@ -74,7 +75,7 @@ Canvas picture_2d(const Job& job, LoadedFrame& frame) {
     if (!frame.phi) throw Error(ExitCode::bad_input, "the frames hold neither a surface nor what --color names");
     std::fill(frame.phi->values.begin(), frame.phi->values.end(), -frame.phi->h);
   }
-  const Plot plot{frame.domain, *frame.phi, frame.quantity, job.scale, frame.solids};
+  const Plot plot{frame.domain, *frame.phi, frame.quantity, job.scale, frame.solids, solid_colors(job.scene)};
   return plot_picture(plot, job.options.width, job.options.height);
 }
 
@@ -87,6 +88,7 @@ Canvas picture_3d(const Job& job, LoadedFrame& frame) {
   stage.quantity = std::move(frame.quantity);
   stage.scale = job.scale;
   stage.solids = Bvh(smooth_triangles(frame.solids));
+  stage.colors = solid_colors(job.scene);
   for (const SolidSpec& solid : job.scene.solids) stage.containers.push_back(solid.shape.invert);
   const auto& [width, height] = std::array{job.options.width, job.options.height};
   const Camera camera = job.options.camera ? make_camera(*job.options.camera, stage.up(), width, height)

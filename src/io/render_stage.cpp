@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "grid/parallel_range.h"
+#include "io/render_palette.h"
 
 namespace seiche::render {
 namespace {
@@ -157,13 +158,6 @@ float sun_at(const Stage& stage, const Vec3f& x) {
   return is_blocked(stage, {x, stage.to_light}, 2e-3f * stage.reach) ? 0.0f : 1.0f;
 }
 
-Vec3f solid_color(int solid) {
-  static const std::array<Vec3f, 6> colors{Vec3f{0.72f, 0.42f, 0.22f}, Vec3f{0.55f, 0.55f, 0.55f},
-                                           Vec3f{0.60f, 0.18f, 0.14f}, Vec3f{0.68f, 0.58f, 0.22f},
-                                           Vec3f{0.24f, 0.42f, 0.24f}, Vec3f{0.42f, 0.28f, 0.50f}};
-  return colors[std::size_t(solid) % colors.size()];
-}
-
 Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
   if (hit.kind == OpaqueHit::Kind::sky) return sky(stage, ray.direction);
   if (hit.kind == OpaqueHit::Kind::ground) return shade_ground(stage, ray, hit);
@@ -174,7 +168,7 @@ Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
   const float height = std::clamp((x[stage.up_axis] - stage.ground) / (0.25f * stage.reach), 0.0f, 1.0f);
   const Vec3f from_sky(0.85f, 0.95f, 1.1f), from_ground(0.62f, 0.6f, 0.56f);
   const Vec3f ambient = (0.24f + 0.10f * height) * (open * from_sky + (1 - open) * from_ground);
-  return solid_color(hit.solid).cwiseProduct(ambient + 0.95f * sun * sun_color);
+  return solid_color(stage.colors, hit.solid).cwiseProduct(ambient + 0.95f * sun * sun_color);
 }
 
 // The liquid is as deeply coloured whatever the size of the scene: lengths count in diagonals of the domain.

@@ -25,6 +25,7 @@ struct Stage {
   ColorScale scale;
   Bvh solids;
   std::vector<char> containers;  // by solid: seen from outside, it is left away
+  std::vector<Vec3f> colors;     // by solid
   float ground = 0;              // its height along the up axis
   float reach = 1;               // diagonal of the domain, m
   Vec3f to_light{0, 1, 0};
@@ -54,8 +55,5 @@ float sun_at(const Stage& stage, const Vec3f& x);
 
 // The part of light that is left after a path of this length in the liquid, by channel (Beer-Lambert).
 Vec3f transmitted(const Stage& stage, float length);
-
-// The colour of a solid by its number, linear.
-Vec3f solid_color(int solid);
 
 }  // namespace seiche::render

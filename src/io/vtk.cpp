@@ -43,6 +43,17 @@ std::string array(const std::string& name, const std::vector<T>& values, int com
                      type_name<T>(), name, components, base64(bytes));
 }
 
+// Texts are written as their bytes, each text ended by a zero.
+std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
+  std::string codes;
+  for (const std::string& text : texts) {
+    for (const char c : text) codes += fmt::format("{} ", unsigned(static_cast<unsigned char>(c)));
+    codes += "0 ";
+  }
+  return fmt::format("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">{}</Array>\n", name,
+                     texts.size(), codes);
+}
+
 std::string file(const std::string& type, const std::string& body) {
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -154,12 +165,12 @@ std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
   return file("ImageData", body + "</CellData>\n</Piece>\n</ImageData>\n");
 }
 
-std::string surfaces(const std::vector<SurfaceMesh>& solids, double time) {
+std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<std::string>& names, double time) {
   const Elements all = collect(solids);
   std::string body = fmt::format(
       "<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-      "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n</FieldData>\n",
-      time);
+      "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n{}</FieldData>\n",
+      time, text_array("solid_names", names));
   body += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<CellData>\n", all.points.size() / 3,
                       all.offsets.size());
   body +=

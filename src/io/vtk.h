@@ -13,8 +13,9 @@ namespace seiche::vtk {
 // centres (on the last cell of an axis, where the high face is not stored, the low face stands for both).
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells);
 
-// A .vtu with the surfaces of all solids; the cell array `solid` counts them from 0.
-std::string surfaces(const std::vector<SurfaceMesh>& solids, double time);
+// A .vtu with the surfaces of all solids; the cell array `solid` counts them from 0, the field array `solid_names` has
+// their names in that order.
+std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<std::string>& names, double time);
 
 // A .pvd that names the files <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate);

@@ -76,7 +76,7 @@ TEST_CASE("surfaces of solids come back from a .vtu as they were written") {
   SurfaceMesh tetrahedron{
       {{0, 0, 0}, {1.0 / 3, 0, 0}, {0, 1e-7, 0}, {0, 0, -2e5}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}};
   SurfaceMesh outline{{{1, 1, 0}, {2, 1, 0}, {2, 2, 0}}, {}, {{0, 1}, {1, 2}, {2, 0}}};
-  write_file(file, vtk::surfaces({tetrahedron, {}, outline}, 0.25));
+  write_file(file, vtk::surfaces({tetrahedron, {}, outline}, {"one", "empty", "two"}, 0.25));
   const SolidMesh back = read_solids(file);
   REQUIRE(back.mesh.points.size() == 7);
   for (std::size_t i = 0; i < 4; ++i) CHECK(back.mesh.points[i] == tetrahedron.points[i]);

@@ -131,7 +131,10 @@ TEST_CASE("VTK files hold every field over the whole domain, velocities averaged
   bytes.append(reinterpret_cast<const char*>(centred), sizeof centred);
   CHECK(text.find(vtk::base64(bytes)) != std::string::npos);
   CHECK(text.find("WholeExtent=\"0 3 0 1 0 1\"") != std::string::npos);
-  const std::string surfaces = vtk::surfaces({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, {}}, 1.5);
+  const std::string surfaces =
+      vtk::surfaces({{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}}, {}}, {"duck", "b&w"}, 1.5);
+  CHECK(surfaces.find("Name=\"solid_names\" NumberOfTuples=\"2\" format=\"ascii\">100 117 99 107 0 98 38 119 0 <") !=
+        std::string::npos);
   CHECK(surfaces.find("NumberOfPoints=\"3\" NumberOfCells=\"1\"") != std::string::npos);
   CHECK(vtk::series("solids", "vtu", 2, 24).find("solids.0002.vtu") != std::string::npos);
 }
