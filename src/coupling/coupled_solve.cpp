@@ -51,7 +51,7 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
     const InertiaResponse response = problem.minimise(SmallMatrix(0, 0), v);
     r.failure = response.failure;
     r.report = problem.report();
-    return v;
+    return r.failure.empty() ? response.velocity : v;
   }
   const auto motions = contact_motions(s, state.rigid, state.time, horizon);
   const ContactOptions options = contact_options(s, dt);

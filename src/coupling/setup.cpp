@@ -29,12 +29,25 @@ int halo_width(const Scene& scene) {
   return int(std::ceil(scene.time.cfl)) + 3;
 }
 
+// Inertia below this share of that of the liquid cannot be told from none: the pressure that carries a body is known to
+// 1e-16 of itself, and its velocity is that over its mass.
+constexpr double least_density_ratio = 1e-7;
+
+SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std::string>& notes) {
+  const double least = least_density_ratio * liquid.density;
+  if (spec.kind != SolidKind::rigid || spec.rigid.density >= least) return spec;
+  notes.push_back(fmt::format("solid '{}': density {:g} kg/m^3 is taken as {:g}, {:g} of the liquid's", spec.name,
+                              spec.rigid.density, least, least_density_ratio));
+  spec.rigid.density = least;
+  return spec;
+}
+
 template <int Dim>
 std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>& notes) {
   std::vector<Body<Dim>> bodies;
   for (const SolidSpec& spec : scene.solids)
-    bodies.emplace_back(spec, ShapeOptions{scene.domain.cell_size, &notes}, truncate<Dim>(scene.domain.lower),
-                        truncate<Dim>(scene.domain.upper));
+    bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{scene.domain.cell_size, &notes},
+                        truncate<Dim>(scene.domain.lower), truncate<Dim>(scene.domain.upper));
   return bodies;
 }
 

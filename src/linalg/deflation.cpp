@@ -6,8 +6,6 @@
 #include <map>
 #include <unordered_map>
 
-#include "linalg/body_regions.h"
-
 namespace seiche {
 namespace {
 
@@ -93,49 +91,58 @@ Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
   multiply_out();
 }
 
+Deflation::Regions Deflation::find_regions() const {
+  const BlockColumns& J = S_.columns();
+  Regions regions{cells_of_rows(S_.liquid()), {}, {}, {}, J.blocks.size() <= few_bodies};
+  constexpr int everywhere = 1 << 28;
+  for (const CellRange& r : ranges_of_blocks(J, regions.cells, S_.ranks())) {
+    regions.kept.push_back(r.grown(regions.whole ? everywhere : cut_reach));
+    regions.touched.push_back(regions.kept.back().grown(1));  // A reaches one cell further
+  }
+  regions.color = color(regions.touched);
+  return regions;
+}
+
 // Bodies of one colour share one application of B a column.
 void Deflation::make_columns() {
-  const BlockColumns& J = S_.columns();
-  const LinearSystem& A = S_.liquid();
-  const auto cells = cells_of_rows(A);
-  std::vector<CellRange> ranges = ranges_of_blocks(J, cells, S_.ranks());
-  const bool whole = J.blocks.size() <= few_bodies;
-  constexpr int everywhere = 1 << 28;
-  for (CellRange& r : ranges) r = r.grown(whole ? everywhere : cut_reach);
-  std::vector<CellRange> apart;
-  for (const CellRange& r : ranges) apart.push_back(r.grown(1));  // A reaches one cell further
-  const std::vector<int> colors = color(apart);
-  const int count = colors.empty() ? 0 : 1 + *std::max_element(colors.begin(), colors.end());
-  Vector r(A.rows()), z(A.rows()), az(A.rows()), own(A.rows());
-  for (int c = 0; c < count; ++c)
-    for (int mode = 0; mode < 6; ++mode) {
-      std::fill(r.begin(), r.end(), 0.0);
-      bool any = false;
-      for (std::size_t b = 0; b < J.blocks.size(); ++b) {
-        const ColumnBlock& block = J.blocks[b];
-        if (colors[b] != c || mode >= block.width) continue;
-        for (std::size_t i = 0; i < block.row.size(); ++i) {
-          r[block.row[i]] = block.value[i * block.width + mode];
-          any = any || r[block.row[i]] != 0;
-        }
-      }
-      if (!S_.ranks().any(any)) continue;
-      A.project(r);
-      B_.apply(r, z);
-      A.project(z);
-      ++applications_;
-      std::fill(own.begin(), own.end(), 0.0);
+  const Regions regions = find_regions();
+  const auto& color = regions.color;
+  const int colors = color.empty() ? 0 : 1 + *std::max_element(color.begin(), color.end());
+  int modes = 0;
+  for (const ColumnBlock& block : S_.columns().blocks) modes = std::max(modes, block.width);
+  for (int c = 0; c < colors; ++c)
+    for (int mode = 0; mode < modes; ++mode) {
       std::vector<std::size_t> members;
-      for (std::size_t b = 0; b < J.blocks.size(); ++b) {
-        if (colors[b] != c || mode >= J.blocks[b].width) continue;
-        members.push_back(b);
-        Z_.push_back(cut(z, cells, ranges[b]));
-        if (!whole) fade_out(cells, ranges[b], Z_.back());
-        for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
-      }
-      A.multiply(own, az);
-      for (const std::size_t b : members) AZ_.push_back(cut(az, cells, apart[b]));
+      for (std::size_t b = 0; b < color.size(); ++b)
+        if (color[b] == c && mode < S_.columns().blocks[b].width) members.push_back(b);
+      add_columns(regions, members, mode);
     }
+}
+
+// z = B (sum of the members' columns of J), then each member's part of it.
+void Deflation::add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode) {
+  const LinearSystem& A = S_.liquid();
+  Vector r(A.rows(), 0.0), z(A.rows()), own(A.rows(), 0.0), az(A.rows());
+  bool any = false;
+  for (const std::size_t b : members) {
+    const ColumnBlock& block = S_.columns().blocks[b];
+    for (std::size_t i = 0; i < block.row.size(); ++i) {
+      r[block.row[i]] = block.value[i * block.width + mode];
+      any = any || r[block.row[i]] != 0;
+    }
+  }
+  if (!S_.ranks().any(any)) return;
+  A.project(r);
+  B_.apply(r, z);
+  A.project(z);
+  ++applications_;
+  for (const std::size_t b : members) {
+    Z_.push_back(cut(z, regions.cells, regions.kept[b]));
+    if (!regions.whole) fade_out(regions.cells, regions.kept[b], Z_.back());
+    for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
+  }
+  A.multiply(own, az);
+  for (const std::size_t b : members) AZ_.push_back(cut(az, regions.cells, regions.touched[b]));
 }
 
 // A sees no constants on closed components; where bodies feel them, S does.

@@ -4,6 +4,7 @@
 // H -> infinity nothing changes; with H -> 0 (massless bodies) Z spans what A alone does not know.
 #include <Eigen/SparseCholesky>
 
+#include "linalg/body_regions.h"
 #include "linalg/coupled_system.h"
 #include "linalg/preconditioners.h"
 
@@ -38,7 +39,15 @@ class Deflation {
   int applications_of_B() const { return applications_; }  // at set-up
 
  private:
+  struct Regions {
+    std::vector<std::array<int, 3>> cells;  // of this rank's rows
+    std::vector<CellRange> kept, touched;   // of each body: where its columns of Z, and of A Z, are not zero
+    std::vector<int> color;
+    bool whole;  // nothing is cut
+  };
+  Regions find_regions() const;
   void make_columns();
+  void add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode);
   void add_component_columns();
   void multiply_out();
   Eigen::VectorXd transposed(const std::vector<SparseColumn>& columns, const Vector& x) const;
