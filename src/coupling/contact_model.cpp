@@ -55,8 +55,8 @@ void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
 namespace {
 
 constexpr int most_corrections = 40;
-// Of the bodies' speeds: what the liquid solves themselves leave open is a tenth of this or less.
-constexpr double relative_tolerance = 1e-7;
+// Of what contact does to the velocities: contact itself is solved to that.
+constexpr double share_of_change = 1e-4;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
                        coupling.freedom);
   int newton_iterations = 0;
   while (r.corrections < most_corrections) {
-    r.contact = solve_contact(scene, motions, horizon, dt, model, options);
+    r.contact = solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity);
     newton_iterations += r.contact.newton_iterations;
     const bool untouched = r.corrections == 0 && r.contact.newton_iterations == 0;
     if (!r.contact.failure.empty() || untouched) return r;
@@ -84,8 +84,8 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
     r.contact.newton_iterations = newton_iterations;
     if (!liquid.failure.empty()) return r;
     const double off = model.error(liquid.velocity, liquid.gradient).cwiseProduct(speeds).cwiseAbs().maxCoeff();
-    const double fastest = liquid.velocity.cwiseProduct(speeds).cwiseAbs().maxCoeff();
-    if (off <= options.speed_tolerance + relative_tolerance * fastest) return r;
+    const double change = (liquid.velocity - alone.velocity).cwiseProduct(speeds).cwiseAbs().maxCoeff();
+    if (off <= std::max(options.speed_tolerance, share_of_change * change)) return r;
     model.learn(liquid.velocity, liquid.gradient);
   }
   r.contact.failure = "contact and liquid do not come to agree";

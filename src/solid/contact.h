@@ -76,10 +76,12 @@ class ContactScene {
 
 // The accepted velocities of the free bodies over the interval: the minimum of
 //   e(v) + dt/H B(x(v)) + dt D(v),
-// B the barrier energy of all near pairs in the pose that v leads to after H, D the friction.
+// B the barrier energy of all near pairs in the pose that v leads to after H, D the friction. `start` may give the
+// velocities that an earlier solve found for the same bodies and motions: Newton's method then goes on from there.
 template <int Dim>
 ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
-                            double dt, InertiaProblem& inertia, const ContactOptions& options);
+                            double dt, InertiaProblem& inertia, const ContactOptions& options,
+                            const Eigen::VectorXd& start = {});
 
 // The pose of a free body after moving for `horizon` with the generalised velocity `twist`.
 template <int Dim>

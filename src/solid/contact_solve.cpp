@@ -40,9 +40,9 @@ class Solver {
       if (!twist.isZero(0)) share_ = 0;
   }
 
-  ContactReport run() {
+  ContactReport run(const Eigen::VectorXd& start) {
     if (free_of_contact()) return report_;
-    if (!report_.failure.empty() || !start_at_rest()) return report_;
+    if (!report_.failure.empty() || !begin(start)) return report_;
     for (int i = 0; i < stiffening_limit; ++i) {
       if (solve_with_friction() == Outcome::failed) return report_;
       if (!stiffen()) break;
@@ -92,12 +92,15 @@ class Solver {
     return true;
   }
 
-  bool start_at_rest() {
+  // At rest, or with the whole motion that an earlier solve found.
+  bool begin(const Eigen::VectorXd& start) {
+    const Eigen::VectorXd v = start.size() > 0 ? start : Eigen::VectorXd::Zero(inertia_.size());
+    if (start.size() > 0) share_ = 1;
+    at_ = place<Dim>(scene_, interval_, twists(v, share_));
     pairs_ = find_candidates<Dim>(scene_, at_.points, at_.points, weights_.reach);
     const double energy = contact_energy<Dim>(scene_, interval_, at_, pairs_, {}, weights_);
     if (!std::isfinite(energy)) report_.failure = "bodies touch or overlap at the start of the step";
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
-    return report_.failure.empty() && take(inertia_.respond(zero), e_) == Outcome::converged;
+    return report_.failure.empty() && take(inertia_.respond(v), e_) == Outcome::converged;
   }
 
   // Newton with the friction forces of the present state, until these no longer move anything. Where the change from
@@ -256,13 +259,14 @@ class Solver {
 
 template <int Dim>
 ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
-                            double dt, InertiaProblem& inertia, const ContactOptions& options) {
-  return contact::Solver<Dim>(scene, motions, horizon, dt, inertia, options).run();
+                            double dt, InertiaProblem& inertia, const ContactOptions& options,
+                            const Eigen::VectorXd& start) {
+  return contact::Solver<Dim>(scene, motions, horizon, dt, inertia, options).run(start);
 }
 
 template ContactReport solve_contact<2>(const ContactScene<2>&, const std::vector<ContactMotion>&, double, double,
-                                        InertiaProblem&, const ContactOptions&);
+                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&);
 template ContactReport solve_contact<3>(const ContactScene<3>&, const std::vector<ContactMotion>&, double, double,
-                                        InertiaProblem&, const ContactOptions&);
+                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&);
 
 }  // namespace seiche
