@@ -8,6 +8,7 @@
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
+#include "solid/thinness.h"
 
 namespace seiche {
 namespace {
@@ -45,9 +46,15 @@ SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std
 template <int Dim>
 std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>& notes) {
   std::vector<Body<Dim>> bodies;
-  for (const SolidSpec& spec : scene.solids)
-    bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{scene.domain.cell_size, &notes},
-                        truncate<Dim>(scene.domain.lower), truncate<Dim>(scene.domain.upper));
+  const double h = scene.domain.cell_size;
+  const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
+  std::string thin;
+  for (const SolidSpec& spec : scene.solids) {
+    bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
+    if (is_thinner_than(bodies.back(), h, lower, upper)) thin += (thin.empty() ? "'" : ", '") + spec.name + "'";
+  }
+  if (!thin.empty())
+    notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid may pass through", h, thin));
   return bodies;
 }
 

@@ -169,6 +169,20 @@ void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeomet
     }
 }
 
+// Whether a ball about the body's pivot stands clear of the domain and goes away from it.
+template <int Dim>
+bool SolidGeometry<Dim>::is_leaving(const Placement& placed, double radius) const {
+  const Geometry<Dim>& g = layout_.geometry();
+  const Vec3 center = placed.pose.apply(placed.pose.pivot), v = placed.twist.linear;
+  const double clear = radius + margin * g.h;
+  for (int a = 0; a < Dim; ++a) {
+    if (g.periodic[a]) continue;
+    if (v[a] <= 0 && center[a] < g.lower[a] - clear) return true;
+    if (v[a] >= 0 && center[a] > g.lower[a] + g.cells[a] * g.h + clear) return true;
+  }
+  return false;
+}
+
 template <int Dim>
 StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& placed, double t) const {
   StepGeometry<Dim> g = still_;
@@ -217,12 +231,14 @@ void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
     }
 }
 
-// |v| + |w| r, r the largest distance from the pivot at which the body's surface stands in the domain.
+// |v| + |w| r, r the largest distance from the pivot at which the body's surface stands in the domain. Rigid bodies
+// that have left the domain may go as fast as they like.
 template <int Dim>
 double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& placed, double dt) const {
   double largest = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const Twist& v = placed[k].twist;
+    if (bodies_[k].is_rigid() && is_leaving(placed[k], radius_[k])) continue;
     largest = std::max(largest, dt * (v.linear.norm() + v.angular.norm() * radius_[k]));
   }
   return largest;

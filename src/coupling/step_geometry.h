@@ -47,6 +47,7 @@ class SolidGeometry {
   void close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const;
   void set_sides(double t, StepGeometry<Dim>& g) const;
   Box<Dim> reach(int body, const Pose& pose) const;
+  bool is_leaving(const Placement& placed, double radius) const;
 
   const Layout<Dim>& layout_;
   const Sides<Dim>& sides_;

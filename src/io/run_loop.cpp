@@ -93,8 +93,7 @@ RunEnd RunLoop::advance() {
   const TimeSpec& time = context_.scene.time;
   while (state_.frame < last_frame(time)) {
     const std::string stop = advance_to(frame_time(state_.frame + 1));
-    const bool reached = simulation_.time() >= frame_time(state_.frame + 1) * (1 - 1e-12);
-    if (reached) write_frame();
+    if (is_reached(frame_time(state_.frame + 1))) write_frame();
     if (!stop.empty()) return {ExitCode::stopped, "stopped: " + stop};
     const bool due = state_.frame % std::max(1, context_.scene.output.checkpoint_every) == 0;
     if (due) checkpoint();
@@ -115,10 +114,14 @@ void RunLoop::begin() {
   checkpoint();
 }
 
+// But for rounding: a ten-billionth of the time between frames.
+bool RunLoop::is_reached(double target) const {
+  return simulation_.time() >= target - 1e-10 / context_.scene.time.frame_rate;
+}
+
 // Steps until `target` is reached or a stop is asked for; returns the reason of the stop or "".
 std::string RunLoop::advance_to(double target) {
-  const double rounding = 1e-10 / context_.scene.time.frame_rate;
-  for (int steps = 0; simulation_.time() < target - rounding; ++steps) {
+  for (int steps = 0; !is_reached(target); ++steps) {
     if (steps == most_steps_a_frame) {
       throw Error(
           ExitCode::cannot_continue,

@@ -58,6 +58,7 @@ class RunLoop {
  private:
   RunEnd advance();
   void begin();
+  bool is_reached(double target) const;
   std::string advance_to(double target);
   void one_step(double target);
   void write_frame();

@@ -60,6 +60,19 @@ frames = ["surface", "velocity"]
 tolerance = {TOLERANCE}
 """
 
+def rigid(name, shape, density):
+    return f'[[solid]]\nname = "{name}"\nkind = "rigid"\ndensity = {density}\nfriction = 0.3\n{shape}\n'
+
+
+# Two boxes one on the other, which the water of the dam reaches, and a ball afloat; all within one solve.
+BOXES = TWENTY_STEPS + rigid("lower", 'shape = "box"\nlower = [0.44, 0.002]\nupper = [0.56, 0.09]', 1200.0)
+BOXES += rigid("upper", 'shape = "box"\nlower = [0.45, 0.092]\nupper = [0.55, 0.17]', 300.0)
+BOXES += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
+
+TUMBLE = SPLASH + rigid("box", 'shape = "box"\nlower = [0.15, 0.003, 0.2]\nupper = [0.4, 0.25, 0.45]', 1500.0)
+TUMBLE += rigid("rider", 'shape = "box"\nlower = [0.2, 0.253, 0.22]\nupper = [0.35, 0.45, 0.4]', 300.0)
+TUMBLE += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
+
 COMPARED = ("time", "liquid_volume", "kinetic_energy", "potential_energy", "momentum_x", "momentum_y", "momentum_z",
             "max_speed")
 
@@ -90,10 +103,10 @@ def same_to_tolerance(one, other, what):
             expect(worst <= (AFTER_TWENTY_STEPS + 2e-7) * top, f"{what}, {file.name}: {name} differs by {worst} of {top}")
 
 
-def ranks_agree(bench, text):
+def ranks_agree(bench, text, counts=(2, 3, 4)):
     bench.simulate(text=text, out="one").needs(0)
     frames_are_good(bench.path("one"), 2)
-    for ranks in (2, 3, 4):
+    for ranks in counts:
         out = f"ranks{ranks}"
         bench.simulate(text=text, out=out, ranks=ranks).needs(0)
         same_to_tolerance(bench.path("one"), bench.path(out), f"{ranks} ranks")
@@ -109,19 +122,31 @@ def ranks_agree_3d(bench):
     ranks_agree(bench, SPLASH)
 
 
+def rigid_ranks_agree_2d(bench):
+    """Boxes in contact and a floating ball on 1, 3 and 4 ranks."""
+    ranks_agree(bench, BOXES, (3, 4))
+    expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
+
+
+def rigid_ranks_agree_3d(bench):
+    """The same in 3D, a paddle among them."""
+    ranks_agree(bench, TUMBLE, (3, 4))
+    expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
+
+
 def same_ranks_same_bits(bench):
-    """Two runs on three ranks."""
+    """Two runs on three ranks, rigid bodies among them."""
     for out in ("one", "two"):
-        bench.simulate(text=SPLASH, out=out, ranks=3).needs(0)
+        bench.simulate(text=TUMBLE, out=out, ranks=3).needs(0)
     same_tables(bench.path("one"), bench.path("two"))
     same_frames(bench.path("one"), bench.path("two"))
 
 
-def killed_at_random(bench, ranks, kills):
+def killed_at_random(bench, ranks, kills, solids=""):
     """SIGKILL of a random rank at random moments; what comes out in the end is what an unbroken run gives."""
     seed = random.SystemRandom().randrange(10**6)
     rng = random.Random(seed)
-    text = DAM.replace("0.03125", "0.015625").replace("end = 0.2", "end = 0.4")
+    text = DAM.replace("0.03125", "0.015625").replace("end = 0.2", "end = 0.4") + solids
     started = time.monotonic()
     bench.simulate(text=text, out="whole", ranks=ranks).needs(0)
     duration = time.monotonic() - started
@@ -156,8 +181,13 @@ def two_ranks_killed_at_random(bench):
     killed_at_random(bench, 2, 4)
 
 
-TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, same_ranks_same_bits],
-          "killing": [one_rank_killed_at_random, two_ranks_killed_at_random]}
+def rigid_bodies_killed_at_random(bench):
+    """kill -9 of one of two ranks while boxes lie on each other in the flood."""
+    killed_at_random(bench, 2, 3, BOXES[len(TWENTY_STEPS):])
+
+
+TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, same_ranks_same_bits],
+          "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random]}
 
 if __name__ == "__main__":
     sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)
