@@ -123,6 +123,34 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double
   return acc;
 }
 
+// Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
+template <int Dim>
+std::pair<double, double> valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
+  std::pair<double, double> range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+  constexpr int neighbours = Dim == 2 ? 9 : 27;
+  for (int n = 0; n < neighbours; ++n) {
+    Site at = f;
+    for (int a = 0, left = n; a < Dim; ++a, left /= 3) at += (left % 3 - 1) * layout.stride(a);
+    if (!level.valid.at(axis, at)) continue;
+    range = {std::min(range.first, level.u.at(axis, at)), std::max(range.second, level.u.at(axis, at))};
+  }
+  return range;
+}
+
+// Where the path leads through air, what it brings is no more than a guess: continued straight on and carried back into
+// the liquid step after step, the slope of a thin film along a solid grows without bound. It keeps to what the liquid
+// around has.
+template <int Dim>
+void limit_at_surfaces(const Setup<Dim>& s, const Level<Dim>& level, const FaceField<Dim, char>& near,
+                       const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (!near.at(a, f) || interior.at(a, f)) return;
+      const auto [least, most] = valid_range(s.layout, level, a, f);
+      if (least <= most) u.at(a, f) = std::clamp(u.at(a, f), least, most);
+    });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -162,6 +190,7 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
     for_each_site(s.layout, s.layout.padded(), [&](Site f) { carried.at(a, f) += 0.5 * dt * acc.at(a, f); });
   FaceField<Dim> u(s.layout);
   advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
+  limit_at_surfaces(s, *state.now, near, interior, u);
   const Vec<Dim> g = s.gravity();
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
