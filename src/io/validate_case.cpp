@@ -68,6 +68,8 @@ Section<ResolutionSpec> resolution_section() {
                    &S::levels),
       overrides_key(),
       value_key<S>(error_bar, &S::max_error),
+      value_key<S>({.key = "reference", .type = T::formula, .unset = "the measure's", .doc = "what is expected here"},
+                   &S::reference),
       value_key<S>({.key = "others", .type = T::text, .doc = "what others report here"}, &S::others),
   };
   s.finish = [](SceneContext& c, const Place& p, S& spec) {
@@ -195,6 +197,10 @@ const fs::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution) 
 
 std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution) {
   return resolution.max_error ? resolution.max_error : one.max_error;
+}
+
+const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolution) {
+  return resolution.reference ? *resolution.reference : one.measure.reference;
 }
 
 fs::path find_cases_folder(const fs::path& here, const fs::path& program) {

@@ -14,10 +14,10 @@ namespace seiche {
 struct MeasureSpec {
   std::string kind;
   VectorFormula velocity{"0", "0", "0"};       // exact, in x, y, z, t, m/s
-  std::string probe, column;                   // names
+  std::string probe, column, solid;            // names
   Formula level = "0", reference = "0";        // constants
   Formula time_unit = "1", length_unit = "1";  // constants, s and m: what makes times and lengths dimensionless
-  double from = 0, to = 0;                     // dimensionless lengths
+  double from = 0, to = 0;                     // dimensionless lengths; of solids: s
   std::filesystem::path data;                  // CSV, header and two columns
 };
 
@@ -26,8 +26,9 @@ struct ResolutionSpec {
   std::optional<std::filesystem::path> scene;  // unset: the case's
   std::vector<std::string> levels{"quick", "full"};
   std::vector<Override> overrides;
-  std::optional<double> max_error;  // unset: the case's
-  std::string others;               // what others report at this resolution
+  std::optional<double> max_error;   // unset: the case's
+  std::optional<Formula> reference;  // unset: the measure's
+  std::string others;                // what others report at this resolution
 };
 
 struct CaseSpec {
@@ -54,6 +55,7 @@ std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std
 bool belongs_to(const ResolutionSpec& resolution, const std::string& level);
 const std::filesystem::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution);
 std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution);
+const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolution);
 
 // Where the cases are when the user does not say: `here`/validation, else share/seiche/validation beside the folder
 // of the program, else the source tree around build/<preset>/. Throws Error(bad_input) naming the places looked at.

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <map>
 
 #include "base/error.h"
 #include "io/validate_measures.h"
@@ -51,6 +54,19 @@ std::size_t column_named(const std::vector<std::vector<std::string>>& rows, cons
   return std::size_t(found - header.begin());
 }
 
+// time and a column in the rows of this name, empty fields left out.
+Points named_points(const std::vector<std::vector<std::string>>& rows, const std::string& wanted,
+                    const std::string& column) {
+  const std::size_t time = column_named(rows, "time"), name = column_named(rows, "name"),
+                    value = column_named(rows, column);
+  Points points;
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    if (rows[n].size() <= value || rows[n][name] != wanted || rows[n][value].empty()) continue;
+    points.emplace_back(number(rows[n], time), number(rows[n], value));
+  }
+  return points;
+}
+
 // Where y passes `level`, by straight lines.
 std::vector<double> crossings(const Points& points, double level) {
   std::vector<double> found;
@@ -62,21 +78,52 @@ std::vector<double> crossings(const Points& points, double level) {
   return found;
 }
 
+Points points_where(const Points& points, const std::function<bool(double, double)>& wanted) {
+  Points chosen;
+  for (const auto& [x, y] : points)
+    if (wanted(x, y)) chosen.emplace_back(x, y);
+  return chosen;
+}
+
+// Least squares; the bounds are for the message.
+double slope(const Points& points, double low, double high) {
+  double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
+  for (const auto& [x, y] : points) x_mean += x / double(points.size()), y_mean += y / double(points.size());
+  for (const auto& [x, y] : points) xx += (x - x_mean) * (x - x_mean), xy += (x - x_mean) * (y - y_mean);
+  if (points.size() < 2 || xx == 0)
+    fail(fmt::format("no slope: {} points between {:g} and {:g}", points.size(), low, high));
+  return xy / xx;
+}
+
 }  // namespace
 
 double slope_between(const Points& points, double low, double high) {
-  double count = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
-  for (const auto& [x, y] : points) {
-    if (y < low || y > high) continue;
-    ++count, x_sum += x, y_sum += y;
+  return slope(points_where(points, [&](double, double y) { return y >= low && y <= high; }), low, high);
+}
+
+double slope_during(const Points& points, double from, double to) {
+  // Times are sums of steps: rounding must not leave the last one out.
+  const double slack = 1e-9 * (to - from);
+  return slope(points_where(points, [&](double x, double) { return x >= from - slack && x <= to + slack; }), from, to);
+}
+
+double settled_mean(const Points& points, double from, double to) {
+  constexpr double pi = 3.14159265358979323846;
+  const double slack = 1e-9 * (to - from);
+  if (points.empty() || points.front().first > from + slack || points.back().first < to - slack)
+    fail(fmt::format("no mean: the run does not reach from {:g} s to {:g} s", from, to));
+  const auto weight = [&](double t) {
+    return std::pow(std::sin(pi * (std::clamp(t, from, to) - from) / (to - from)), 2);
+  };
+  double sum = 0, weights = 0;
+  for (std::size_t n = 1; n < points.size(); ++n) {
+    const auto [t0, y0] = points[n - 1];
+    const auto [t1, y1] = points[n];
+    sum += 0.5 * (t1 - t0) * (weight(t0) * y0 + weight(t1) * y1);
+    weights += 0.5 * (t1 - t0) * (weight(t0) + weight(t1));
   }
-  for (const auto& [x, y] : points) {
-    if (y < low || y > high) continue;
-    const double dx = x - x_sum / count;
-    xx += dx * dx, xy += dx * (y - y_sum / count);
-  }
-  if (count < 2 || xx == 0) fail(fmt::format("no slope: {} points between {:g} and {:g}", int(count), low, high));
-  return xy / xx;
+  if (weights == 0) fail(fmt::format("no mean: no rows between {:g} s and {:g} s", from, to));
+  return sum / weights;
 }
 
 double mean_period(const Points& points, double level) {
@@ -102,16 +149,30 @@ Points csv_points(const std::string& text) {
 }
 
 Points probe_points(const std::string& text, const std::string& probe) {
-  const auto rows = rows_of(text);
-  const std::size_t time = column_named(rows, "time"), name = column_named(rows, "name"),
-                    value = column_named(rows, "value");
-  Points points;
-  for (std::size_t n = 1; n < rows.size(); ++n) {
-    if (rows[n].size() <= value || rows[n][name] != probe || rows[n][value].empty()) continue;
-    points.emplace_back(number(rows[n], time), number(rows[n], value));
-  }
+  const Points points = named_points(rows_of(text), probe, "value");
   if (points.empty()) fail(fmt::format("probe '{}' has no samples", probe));
   return points;
+}
+
+Points solid_points(const std::string& text, const std::string& solid, const std::string& column) {
+  const Points points = named_points(rows_of(text), solid, column);
+  if (points.empty()) fail(fmt::format("solids.csv has no rows of '{}'", solid));
+  return points;
+}
+
+double farthest_stray(const std::string& text, double from) {
+  const auto rows = rows_of(text);
+  const std::size_t time = column_named(rows, "time"), name = column_named(rows, "name");
+  const std::array columns{column_named(rows, "x"), column_named(rows, "y"), column_named(rows, "z")};
+  std::map<std::string, Vec3> start;
+  double farthest = 0;
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    if (number(rows[n], time) < from) continue;
+    const Vec3 x(number(rows[n], columns[0]), number(rows[n], columns[1]), number(rows[n], columns[2]));
+    farthest = std::max(farthest, (x - start.try_emplace(rows[n][name], x).first->second).norm());
+  }
+  if (start.empty()) fail(fmt::format("solids.csv has no rows from {:g} s on", from));
+  return farthest;
 }
 
 }  // namespace seiche

@@ -91,6 +91,33 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
   return {largest, {}, largest};
 }
 
+// Mean over from <= t <= to, weighted so that oscillations leave next to nothing.
+Measurement solid_mean(const MeasureSpec& spec, const RunPaths& run) {
+  const double mean =
+      settled_mean(solid_points(read_whole_file(run.solids()), spec.solid, spec.column), spec.from, spec.to);
+  const double reference = constant(spec.reference);
+  return {mean, reference, std::abs(mean - reference) / constant(spec.length_unit)};
+}
+
+// Least-squares slope over from <= t <= to.
+Measurement solid_slope(const MeasureSpec& spec, const RunPaths& run) {
+  const Points all = solid_points(read_whole_file(run.solids()), spec.solid, spec.column);
+  return against(slope_during(all, spec.from, spec.to), constant(spec.reference));
+}
+
+Measurement solids_stray(const MeasureSpec& spec, const RunPaths& run) {
+  const double way = farthest_stray(read_whole_file(run.solids()), spec.from) / constant(spec.length_unit);
+  return {way, {}, way};
+}
+
+Measurement column_drift(const MeasureSpec& spec, const RunPaths& run) {
+  const std::vector<double> values = csv_column(read_whole_file(run.stats()), spec.column);
+  if (values.empty()) throw Error(ExitCode::cannot_continue, "stats.csv has no rows");
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value / values[0] - 1));
+  return {largest, {}, largest};
+}
+
 Measurement volume_drift_of_run(const MeasureSpec&, const RunPaths& run) {
   const std::string text = json_value(read_whole_file(run.summary()), "volume_drift");
   char* end = nullptr;
@@ -111,7 +138,11 @@ const std::vector<MeasureKind>& kinds() {
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope},
       {"max_of_column", {"column"}, max_of_column},
+      {"column_drift", {"column"}, column_drift},
       {"volume_drift", {}, volume_drift_of_run},
+      {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean},
+      {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope},
+      {"solids_stray", {"from", "length_unit"}, solids_stray},
   };
   return table;
 }
@@ -145,6 +176,7 @@ Section<MeasureSpec> measure_section() {
       parameter({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt"}, &S::velocity),
       parameter({.key = "probe", .type = T::text}, &S::probe),
       parameter({.key = "column", .type = T::text}, &S::column),
+      parameter({.key = "solid", .type = T::text}, &S::solid),
       parameter({.key = "level", .type = T::formula}, &S::level),
       parameter({.key = "reference", .type = T::formula}, &S::reference),
       parameter({.key = "time_unit", .type = T::formula, .unit = "s", .range = positive()}, &S::time_unit),

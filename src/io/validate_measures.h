@@ -41,6 +41,19 @@ std::vector<double> csv_column(const std::string& text, const std::string& name)
 // The first two columns of CSV text, below its header; lines that begin with '#' are skipped.
 Points csv_points(const std::string& text);
 
+// Least-squares slope of y(x) over the points with from <= x <= to. Throws Error(cannot_continue) for under two.
+double slope_during(const Points& points, double from, double to);
+
+// Mean of y(x) over from <= x <= to by trapezoids, weighted with sin^2, zero at both ends: next to nothing is left of
+// oscillations that go round more than twice. Throws Error(cannot_continue) where the points do not reach that far.
+double settled_mean(const Points& points, double from, double to);
+
+// time and a column of one solid, from the text of solids.csv.
+Points solid_points(const std::string& text, const std::string& solid, const std::string& column);
+
+// The farthest that any solid goes from where it is in its first row with time >= from, m.
+double farthest_stray(const std::string& text, double from);
+
 // time and value of a probe, from the text of probes.csv, without undefined samples.
 Points probe_points(const std::string& text, const std::string& probe);
 

@@ -90,7 +90,9 @@ ExitCode run_and_measure(const Planned& run, const ValidateOptions& options, con
   own.existing = ExistingOutput::overwrite;
   own.session.threads = options.threads;
   const ExitCode code = run_command(own, {around.ranks, around.emergency, console_of(run, around.console)});
-  if (code == ExitCode::done) result.measured = measure_on_root(run.one->measure, result.run, around.ranks);
+  MeasureSpec spec = run.one->measure;
+  spec.reference = reference_of(*run.one, *run.resolution);
+  if (code == ExitCode::done) result.measured = measure_on_root(spec, result.run, around.ranks);
   return code;
 }
 
@@ -109,11 +111,12 @@ ExitCode attempt(const Planned& run, const ValidateOptions& options, const Surro
   }
 }
 
-// The result before this one in the report, if it is of the same case.
-const CaseResult* coarser(const Report& report, const CaseSpec& one) {
+// The result before this one in the report, if it is of the same case and is to meet the same reference.
+const CaseResult* coarser(const Report& report, const CaseSpec& one, const ResolutionSpec& resolution) {
   if (report.results.empty() || report.results.back().one.name != one.name) return nullptr;
-  const CaseResult& last = report.results.back().result;
-  return last.verdict == Verdict::failed ? nullptr : &last;
+  const ReportedResult& last = report.results.back();
+  if (reference_of(one, last.resolution) != reference_of(one, resolution)) return nullptr;
+  return last.result.verdict == Verdict::failed ? nullptr : &last.result;
 }
 
 ExitCode run_one(const Planned& run, const ValidateOptions& options, const Surroundings& around, Report& report) {
@@ -125,7 +128,7 @@ ExitCode run_one(const Planned& run, const ValidateOptions& options, const Surro
   if (code != ExitCode::done) return code;
   result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
   if (result.verdict != Verdict::failed) {
-    const CaseResult* before = coarser(report, *run.one);
+    const CaseResult* before = coarser(report, *run.one, *run.resolution);
     if (run.one->min_order && before) result.order = observed_order(*before, result);
     result.verdict = judge(*run.one, *run.resolution, result);
   }

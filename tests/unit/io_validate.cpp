@@ -98,6 +98,18 @@ TEST_CASE("a case is read with its defaults, and its mistakes are all reported")
                         Catch::Contains("did you mean 'max_error'") && Catch::Contains("letters, digits"));
 }
 
+TEST_CASE("a resolution may have its own reference") {
+  const ScratchFolder folder;
+  put_case(
+      folder, "one",
+      "title = \"t\"\nscene = \"scene.toml\"\nmax_error = 1\n[measure]\nkind = \"period_of_probe\"\nprobe = \"p\"\n"
+      "level = \"0\"\nreference = \"1\"\n[[resolution]]\nname = \"a\"\n[[resolution]]\nname = \"b\"\nreference = "
+      "\"2\"\n");
+  const CaseSpec one = read_case(folder / "cases" / "one");
+  CHECK(reference_of(one, one.resolutions[0]) == "1");
+  CHECK(reference_of(one, one.resolutions[1]) == "2");
+}
+
 TEST_CASE("a measure takes only its own parameters, and all of them") {
   const ScratchFolder folder;
   put_case(folder, "one",

@@ -82,10 +82,34 @@ TEST_CASE("vector_l2 compares face velocities of the last frame at the faces' ow
   CHECK(l2_of(linear_frame(0.25)) == Approx(0.25).epsilon(1e-6));  // the same
 }
 
+TEST_CASE("the slope during a time takes the rows at its ends in") {
+  const Points points{{0, 9}, {0.1, 2}, {0.2, 4}, {0.1 + 0.2, 6}, {0.4, 9}};
+  CHECK(slope_during(points, 0.1, 0.3) == Approx(20).epsilon(1e-12));  // rounding of times
+  CHECK_THROWS_AS(slope_during(points, 0.15, 0.25), Error);
+}
+
+TEST_CASE("a settled mean leaves next to nothing of an oscillation, whatever the steps") {
+  Points points;
+  for (double t = 0, n = 0; t < 10; t += 0.02 + 0.01 * std::sin(n++)) points.emplace_back(t, 3 + std::cos(2 * t));
+  CHECK(settled_mean(points, 1, 9) == Approx(3).epsilon(0.01));  // between one and two hundred rows, five periods
+  CHECK_THROWS_AS(settled_mean(points, 1, 11), Error);
+  CHECK_THROWS_AS(settled_mean({}, 0, 1), Error);
+}
+
+TEST_CASE("rows of one solid are picked from solids.csv, and the farthest way of all") {
+  const std::string text = "time,name,x,y,z\n0,a,0,0,0\n0,b,5,5,5\n1,a,1,2,0\n1,b,5,5,5\n2,a,1,2,0\n2,b,5,8,1\n";
+  CHECK(solid_points(text, "a", "y") == Points{{0, 0}, {1, 2}, {2, 2}});
+  CHECK_THROWS_AS(solid_points(text, "c", "y"), Error);
+  CHECK(farthest_stray(text, 1) == Approx(5 * std::sqrt(0.4)).epsilon(1e-14));  // rounding
+  CHECK(farthest_stray(text, 2) == 0);
+  CHECK_THROWS_AS(farthest_stray(text, 3), Error);
+}
+
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  for (const char* kind : {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "volume_drift"}) {
+  for (const char* kind : {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "column_drift",
+                           "volume_drift", "solid_mean", "solid_slope", "solids_stray"}) {
     MeasureSpec spec;
     spec.kind = kind;
     try {
@@ -102,6 +126,9 @@ TEST_CASE("a run that does not hold what is measured is said not to be measurabl
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no rows"));  // and not an error of 0
   put(run.stats(), "step,max_speed\n0,1\n1,-2\n");
   CHECK(measure(spec, run).error == 2);
+  spec.kind = "column_drift";
+  put(run.stats(), "step,max_speed\n0,2\n1,1\n2,2.5\n");
+  CHECK(measure(spec, run).error == 0.5);
   put(run.summary(), "{\n  \"volume_drift\": -0.25\n}\n");
   spec.kind = "volume_drift";
   CHECK(measure(spec, run).error == 0.25);
