@@ -1,5 +1,7 @@
 #include "coupling/contact_setup.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "coupling/rigid_coupling.h"
 
@@ -8,8 +10,9 @@ namespace {
 
 // Bodies push each other when nearer than this, in cells: far below what the grid resolves, far above rounding.
 constexpr double reach = 0.05;
-// Bodies must start at least this share of the reach apart.
-constexpr double clearance = 1e-3;
+// Bodies must start at least this share of the reach apart: films that narrow still are liquid to the grid, which
+// closes those below 1e-3 cells.
+constexpr double clearance = 0.05;
 
 template <int Dim>
 std::vector<ContactWall> closed_sides(const DomainSpec& d) {
@@ -55,18 +58,38 @@ std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const std::vecto
   return motions;
 }
 
-// Speeds scale with that of a fall through a cell, without gravity with a cell a step. The stiffness is set by weights,
-// whatever the step: bodies at rest are thrown up where it grows under them. Without gravity it is set by what stops a
-// body that moves a cell a step within some steps.
+// The stiffness is set by weights and speeds by that of a fall through a cell, whatever the step: bodies at rest are
+// thrown up where the stiffness grows under them. Without gravity what crosses the domain in ten frames serves as one.
 template <int Dim>
-ContactOptions contact_options(const Setup<Dim>& s, double dt) {
-  const double h = s.layout.h(), g = s.scene.gravity.norm(), speed = g > 0 ? std::sqrt(g * h) : h / dt;
+ContactOptions contact_options(const Setup<Dim>& s) {
+  const Scene& scene = s.scene;
+  const double length = (scene.domain.upper - scene.domain.lower).norm(), rate = 0.1 * scene.time.frame_rate;
+  const double h = s.layout.h(), weight = scene.gravity.norm(), g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = g > 0 ? g : 0.01 * h / (dt * dt);
-  o.creep_speed = 1e-4 * speed;
+  o.acceleration = g;
+  o.creep_speed = 1e-4 * std::sqrt(g * h);
   o.speed_tolerance = 0.01 * o.creep_speed;
   return o;
+}
+
+template <int Dim>
+std::string other_name(const Setup<Dim>& s, const Overlap& o) {
+  if (o.with == Overlap::With::body) return "'" + s.bodies[o.other].spec().name + "'";
+  const Vec3 normal = closed_sides<Dim>(s.scene.domain)[std::size_t(o.other)].normal;
+  int axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return fmt::format("the side {}_{}", "xyz"[axis], normal[axis] > 0 ? "lower" : "upper");
+}
+
+template <int Dim>
+std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
+  if (!s.has_rigid()) return {};
+  std::string names;
+  const auto motions = contact_motions(s, state.rigid, state.time, 0);
+  for (const Overlap& o : find_initial_overlaps(*s.contact, motions, 0.1 * reach * s.layout.h()))
+    names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", s.bodies[o.body].spec().name, other_name(s, o));
+  return names;
 }
 
 template <int Dim>
@@ -74,8 +97,12 @@ void refuse_overlaps(const Setup<Dim>& s, const std::vector<RigidState>& rigid) 
   if (!s.has_rigid()) return;
   std::string all;
   const double least = clearance * reach * s.layout.h();
-  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, rigid, 0, 0), least))
-    all += (all.empty() ? "" : "\n") + s.bodies[o.body].spec().shape.where + ": " + o.message;
+  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, rigid, 0, 0), least)) {
+    const std::string state = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
+                                          : fmt::format("touch or are closer than {:.3g} m", least);
+    all += fmt::format("{}{}: solid '{}' and {} {} at the start; move them apart", all.empty() ? "" : "\n",
+                       s.bodies[o.body].spec().shape.where, s.bodies[o.body].spec().name, other_name(s, o), state);
+  }
   if (!all.empty()) throw Error(ExitCode::bad_input, all);
 }
 
@@ -94,10 +121,11 @@ double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
 
 #define SEICHE_INSTANTIATE(D)                                                                                     \
   template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&);                      \
+  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                                       \
   template void refuse_overlaps<D>(const Setup<D>&, const std::vector<RigidState>&);                              \
   template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const std::vector<RigidState>&, double, \
                                                          double);                                                 \
-  template ContactOptions contact_options<D>(const Setup<D>&, double);                                            \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                                    \
   template double safe_share<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -19,7 +19,11 @@ std::vector<ContactMotion> contact_motions(const Setup<Dim>& setup, const std::v
 
 // Reach, stiffness and speeds of contact on this grid.
 template <int Dim>
-ContactOptions contact_options(const Setup<Dim>& setup, double dt);
+ContactOptions contact_options(const Setup<Dim>& setup);
+
+// Names of the solids that all but touch, for messages.
+template <int Dim>
+std::string nearest_solids(const Setup<Dim>& setup, const State<Dim>& state);
 
 // The largest share of dt that the solids can move without touching, rigid ones as the last solve left them.
 template <int Dim>

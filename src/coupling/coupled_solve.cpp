@@ -40,6 +40,21 @@ Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const RigidCoupling<Dim>& coupl
   return speeds;
 }
 
+// The last pressure belongs to the last trial, not to what the line search made of it; and what liquid that bodies
+// close off has as its mean follows from their balance alone. So once more, with the impulses of contact as given.
+template <int Dim>
+std::string settle(const RigidCoupling<Dim>& coupling, LiquidProblem<Dim>& problem, ContactReport& contact) {
+  constexpr int n = twist_size<Dim>;
+  Eigen::VectorXd impulse(problem.size());
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
+    const BodyImpulse& i = contact.impulses[std::size_t(coupling.bodies[b])];
+    impulse.template segment<n>(n * Eigen::Index(b)) = stacked<Dim>(i.linear, i.angular);
+  }
+  const InertiaResponse r = problem.minimise(SmallMatrix(problem.size(), problem.size()), impulse);
+  if (r.failure.empty()) contact.velocity = r.velocity;
+  return r.failure;
+}
+
 // Velocities of the rigid bodies; the pressure that goes with them is left in the problem. Bodies that close off liquid
 // are beyond the model of the added mass: contact then asks the liquid at every turn.
 template <int Dim>
@@ -54,7 +69,7 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
     return r.failure.empty() ? response.velocity : v;
   }
   const auto motions = contact_motions(s, state.rigid, state.time, horizon);
-  const ContactOptions options = contact_options(s, dt);
+  const ContactOptions options = contact_options(s);
   ContactReport contact;
   if (solver.sensed_components().empty()) {
     contact = solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, solver, problem,
@@ -62,9 +77,7 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
                   .contact;
   } else {
     contact = solve_contact(*s.contact, motions, horizon, dt, problem, options);
-    // The last pressure belongs to the last trial, not to what the line search made of it.
-    if (contact.failure.empty() && contact.newton_iterations > 0)
-      contact.failure = problem.respond(contact.velocity).failure;
+    if (contact.failure.empty() && contact.newton_iterations > 0) contact.failure = settle(coupling, problem, contact);
   }
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
@@ -96,6 +109,10 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   for (Site c : r.rows.cells) p.push_back(guess[c]);
   LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
   const Eigen::VectorXd v = minimise(s, state, in.dt, horizon, coupling, solver, problem, r);
+  // Chambers that bodies close off are no null space one by one; together they may be.
+  constexpr double balanced = 1e-6;  // as refuse_impossible_motion has it
+  if (!solver.sensed_components().empty() && r.report.mismatch > balanced)
+    refuse_impossible_motion(s, g, worst_mismatch(in, r.rows, closed));
   for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
   s.halo.fill_ghosts(r.pressure);
   if (r.failure.empty()) set_velocities(s, coupling, v, g, state.rigid);
@@ -137,10 +154,8 @@ CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Di
     if (!r.failure.empty()) return r;
     if (k == 0) eligible = cells_that_may_part(in, r.rows, r.closed_component);
     from = r.pressure;
-    if (!revise_parting(in, r.rows, r.pressure, u_star, eligible, pull * s.scene.solver.tolerance, state.parting)) {
-      advance_gaps(in, r.rows, r.pressure, u_star, state.parting);
+    if (!revise_parting(in, r.rows, r.pressure, u_star, eligible, pull * s.scene.solver.tolerance, state.parting))
       return r;
-    }
   }
   r.failure = fmt::format("where the liquid parts from the solids is not settled after {} solves", most_policies);
   return r;

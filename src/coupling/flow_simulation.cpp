@@ -37,7 +37,7 @@ class FlowSimulation : public Simulation {
     const auto start = std::chrono::steady_clock::now();
     double dt = choose_step(setup_, state_, until);
     std::string failures;
-    for (int halvings = 0; halvings <= most_halvings; ++halvings, dt /= 2) {
+    for (int halvings = 0; halvings <= most_halvings && dt > 0; ++halvings, dt = hold_back(setup_, state_, dt / 2)) {
       Attempt<Dim> a = attempt(dt);
       if (a.failure.empty()) {
         accept(std::move(a));
@@ -47,6 +47,8 @@ class FlowSimulation : public Simulation {
       }
       failures = fmt::format("step {} of {:.6g} s at time {:.6g} s: {}", state_.step + 1, dt, state_.time, a.failure);
       phases_.warnings.push_back(failures + "; trying half the step");
+      for (const std::string& line : a.solve.ladder)
+        phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
     throw Error(
         ExitCode::cannot_continue,

@@ -99,10 +99,14 @@ void sum_over_ranks(std::vector<Sums<Dim>>& sums, const Communicator& ranks) {
 }
 
 template <int Dim>
-bool lies_within(const DomainSpec& d, const Vec3& center, double radius) {
-  for (int a = 0; a < Dim; ++a)
-    if (center[a] - radius < d.lower[a] || center[a] + radius > d.upper[a]) return false;
-  return true;
+bool lies_within(const DomainSpec& d, const Body<Dim>& body, const Pose& pose) {
+  const auto& points = body.contact_surface().points;
+  return std::all_of(points.begin(), points.end(), [&](const Vec3& X) {
+    const Vec3 x = pose.apply(X);
+    for (int a = 0; a < Dim; ++a)
+      if (x[a] < d.lower[a] || x[a] > d.upper[a]) return false;
+    return true;
+  });
 }
 
 // Pressure rho g.x + const on the face shares gives the force -rho g_a V_a along each axis and the torque
@@ -186,10 +190,11 @@ RigidCoupling<Dim> couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<D
     const RigidState& r = rigid[c.bodies[b]];
     const Twist v = free_twist(body, r, s.scene.gravity, dt, horizon);
     c.free.template segment<n>(n * b) = stacked<Dim>(v.linear, v.angular);
-    if (lies_within<Dim>(s.scene.domain, r.center, body.radius()))
+    if (lies_within<Dim>(s.scene.domain, body, g.placed[std::size_t(c.bodies[b])].pose))
       c.buoyancy_correction.template segment<n>(n * b) =
           buoyancy_difference(s, sums[b], body.mass().volume).cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
   }
+  make_identical(c.buoyancy_correction, s.ranks);
   const Eigen::SimplicialLDLT<SmallMatrix> factor(c.mass);
   c.target = c.free;
   if (size > 0) c.target += dt * factor.solve(c.buoyancy_correction);

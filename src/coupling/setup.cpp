@@ -175,7 +175,11 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
   std::string fault = fault_of_pinned_flow(s, start, dt);
   for (int n = 0; fault.empty() && n < looks; ++n) {
     const double t = time.end * n / looks;
-    fault = fault_of_pinned_solids(s, place_bodies(s.bodies, start.rigid, t, t + dt), t, dt);
+    auto placed = place_bodies(s.bodies, start.rigid, t, t + dt);
+    for (std::size_t k = 0; n == 0 && k < placed.size(); ++k)
+      if (s.bodies[k].is_rigid())
+        placed[k].twist = {start.rigid[k].velocity, start.rigid[k].angular_velocity, start.rigid[k].center};
+    fault = fault_of_pinned_solids(s, placed, t, dt);
   }
   if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
 }

@@ -106,6 +106,11 @@ std::string fault_of_pinned_flow(const Setup<Dim>& setup, const State<Dim>& stat
 template <int Dim>
 std::string fault_of_pinned_solids(const Setup<Dim>& setup, const std::vector<Placement>& placed, double t, double dt);
 
+// dt, or as much shorter as it takes that no rigid body meets another solid on the way; 0 where nothing is short
+// enough.
+template <int Dim>
+double hold_back(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+
 // The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that
 // is hopelessly short, or where a pinned step is too long.
 template <int Dim>

@@ -132,6 +132,7 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("geometry");
     out.geometry = s.solids.measure(place_bodies(s, out.state), out.state.time);
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
+    continue_surface_into_bodies(s, out.geometry, out.state.phi);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     out.state.corrected_volume +=
@@ -152,7 +153,7 @@ struct StepInProgress {
   }
 
   // Contact is solved for as far ahead as the next step may reach.
-  double horizon() const { return s.scene.time.fixed_step ? dt : step_growth * dt; }
+  double horizon() const { return s.scene.time.fixed_step ? std::max(dt, *s.scene.time.fixed_step) : step_growth * dt; }
 
   bool solve() {
     const PhaseFault fault = phases.enter("solve");
@@ -171,7 +172,10 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("restore");
     auto level = std::make_shared<Level<Dim>>(
         restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry, out.divergence));
-    if (s.scene.liquid.separates) open_gaps(s, out.state);
+    if (s.scene.liquid.separates) {
+      advance_gaps(input(), solution.rows, out.state.pressure, u_star, out.state.parting);
+      open_gaps(s, out.state);
+    }
     inject(s, fault, level->u[0].data());
     out.failure = find_non_finite(s, "u", level->u);
     out.state.now = level;

@@ -67,15 +67,36 @@ std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state
   return placed;
 }
 
-// Moving solids go at most one cell a step, and no further than they can without touching.
+// Moving solids go at most one cell a step.
 template <int Dim>
 double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   if (s.has_rigid() && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
   for (int n = 0; n < 60 && s.solids.largest_displacement(motion_ahead(s, state, dt), dt) > s.layout.h(); ++n) dt /= 2;
-  return dt * safe_share(s, state, dt);
+  return dt;
+}
+
+std::string too_short(double dt, double remaining, double h, const std::string& held) {
+  return fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {} steps); {}", dt,
+                     remaining, most_steps_a_frame,
+                     held.empty() ? fmt::format("the flow or a solid is too fast for cells of {:.3g} m", h)
+                                  : "solids leave each other no room: " + held);
 }
 
 }  // namespace
+
+// Each look is along straight paths to where the solids are at the end of the step: a shorter step has other ends, so
+// it is looked at again.
+template <int Dim>
+double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  constexpr int most_looks = 40;
+  constexpr double margin = 0.9;  // so that the next look finds the share of gaps it wants left
+  for (int n = 0; n < most_looks; ++n) {
+    const double share = safe_share(s, state, dt);
+    if (share >= 1) return dt;
+    dt *= margin * share;
+  }
+  return 0;
+}
 
 // The halo holds paths of ceil(cfl) cells.
 template <int Dim>
@@ -106,19 +127,18 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
-  if (!(dt * double(most_steps_a_frame) > remaining))
-    throw Error(
-        ExitCode::cannot_continue,
-        fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {} steps); the flow "
-                    "or a solid is too fast for cells of {:.3g} m",
-                    dt, remaining, most_steps_a_frame, s.layout.h()));
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
     std::string fault = fault_of_pinned_flow(s, state, dt);
     if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(s, state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   }
-  return dt < remaining && 2 * dt > remaining && !spec.fixed_step ? remaining / 2 : dt;
+  if (dt < remaining && 2 * dt > remaining && !spec.fixed_step) dt = remaining / 2;
+  const double free = hold_back(s, state, dt);
+  if (!(free * double(most_steps_a_frame) > remaining))
+    throw Error(ExitCode::cannot_continue,
+                too_short(free, remaining, s.layout.h(), free < dt ? nearest_solids(s, state) : ""));
+  return free;
 }
 
 template double fastest_component<2>(const Setup<2>&, const State<2>&);
@@ -127,6 +147,8 @@ template std::string fault_of_pinned_flow<2>(const Setup<2>&, const State<2>&, d
 template std::string fault_of_pinned_solids<2>(const Setup<2>&, const std::vector<Placement>&, double, double);
 template std::string fault_of_pinned_flow<3>(const Setup<3>&, const State<3>&, double);
 template std::string fault_of_pinned_solids<3>(const Setup<3>&, const std::vector<Placement>&, double, double);
+template double hold_back<2>(const Setup<2>&, const State<2>&, double);
+template double hold_back<3>(const Setup<3>&, const State<3>&, double);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);
 template double choose_step<3>(const Setup<3>&, const State<3>&, double);
 
