@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "coupling/checkpoint_state.h"
+#include "coupling/contact_setup.h"
 #include "coupling/measures.h"
 
 namespace seiche {
@@ -50,9 +51,10 @@ class FlowSimulation : public Simulation {
       for (const std::string& line : a.solve.ladder)
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
-    throw Error(
-        ExitCode::cannot_continue,
-        fmt::format("{} (after {} halvings; try a smaller cfl or a looser tolerance)", failures, most_halvings));
+    const std::string close = nearest_solids(setup_, state_);
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("{} (after {} halvings; {})", failures, most_halvings,
+                            close.empty() ? "try a smaller cfl or a looser tolerance" : "all but touching: " + close));
   }
 
   void load(const CheckpointData& data) override {
