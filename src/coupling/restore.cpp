@@ -1,5 +1,6 @@
 #include "coupling/restore.h"
 
+#include "coupling/films.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -91,9 +92,9 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
 }
 
 template <int Dim>
-Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star, const StepGeometry<Dim>& g,
-                            double& divergence) {
+Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                               const StepGeometry<Dim>& g) {
   Level<Dim> next{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -110,17 +111,21 @@ Level<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in,
       next.u.at(a, f) = u_star.at(a, f) - in.dt * next.q.at(a, f);
     });
   s.halo.fill_ghosts(next.u);
-  divergence = max_divergence(in, rows, next.u);
+  Restored<Dim> restored;
+  restored.divergence = max_divergence(in, rows, next.u);
+  const FaceField<Dim> solved = next.u;
   continue_velocity(s, g, next.valid, next.u);
   s.halo.fill_ghosts(next.valid);
-  return next;
+  restored.film = film_motion(s, in.faces, solved, next.u);
+  restored.level = std::move(next);
+  return restored;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                               \
-  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,    \
-                                     FaceField<D>&);                                                        \
-  template Level<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&, \
-                                        const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&, double&);
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,       \
+                                     FaceField<D>&);                                                           \
+  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&, \
+                                           const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -7,16 +7,19 @@ namespace seiche {
 // valid codes of Level::valid.
 enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 
-// Faces less open than this carry next to no mass, and jets through such slits say nothing of the flow beside them: the
-// projection uses them, transport takes the continued velocity there.
-constexpr double least_open = 0.2;
+// The flow after a solve.
+template <int Dim>
+struct Restored {
+  Level<Dim> level;
+  FaceField<Dim> film;    // films.h
+  double divergence = 0;  // the largest |net flux|/volume of a cell with a row, 1/s
+};
 
 // u = u* - dt grad p/rho on unknown faces, the given velocity on prescribed ones, q = grad p/rho; then u continued.
-// `divergence` is the largest |net flux|/volume of a cell with a row, 1/s.
 template <int Dim>
-Level<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                            const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                            const StepGeometry<Dim>& geometry, double& divergence);
+Restored<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                               const StepGeometry<Dim>& geometry);
 
 // Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
 template <int Dim>

@@ -53,6 +53,7 @@ struct State {
   std::int64_t step = 0;
   std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
   double dt_now = 0, dt_before = 0;                        // steps that led to `now` and to `before`
+  FaceField<Dim> film;                                     // motion of the liquid in slits: films.h
   CellField<Dim> phi;                                      // m, ghosts filled
   CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim

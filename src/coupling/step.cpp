@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "coupling/coupled_solve.h"
+#include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
@@ -143,6 +144,8 @@ struct StepInProgress {
   bool transport_velocity() {
     const auto timed = phases.timers.measure("velocity");
     u_star = seiche::transport_velocity(s, before, out.state.phi, dt);
+    set_film_velocity(s, out.geometry.faces, before.film, dt, u_star);
+    fill_velocity_ghosts(s.layout, s.halo, s.sides, u_star);
     out.failure = verify(s, out.state.phi, u_star);
     return out.failure.empty();
   }
@@ -170,8 +173,10 @@ struct StepInProgress {
   void restore() {
     const PhaseFault fault = phases.enter("restore");
     const auto timed = phases.timers.measure("restore");
-    auto level = std::make_shared<Level<Dim>>(
-        restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry, out.divergence));
+    Restored<Dim> restored = restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry);
+    auto level = std::make_shared<Level<Dim>>(std::move(restored.level));
+    out.state.film = std::move(restored.film);
+    out.divergence = restored.divergence;
     if (s.scene.liquid.separates) {
       advance_gaps(input(), solution.rows, out.state.pressure, u_star, out.state.parting);
       open_gaps(s, out.state);

@@ -1,0 +1,57 @@
+#include "coupling/films.h"
+
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Less open than least_open, and so are its neighbours on both sides across some axis: solids or walls are near there.
+template <int Dim>
+bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis, Site f, const IVec<Dim>& i) {
+  if (faces.kind_at(axis, f) != FaceKind::open || faces.open.at(axis, f) >= least_open) return false;
+  const Geometry<Dim>& g = layout.geometry();
+  for (int k = 1; k < Dim; ++k) {
+    const int b = (axis + k) % Dim;
+    const Site d = layout.stride(b);
+    const bool low_wall = !g.periodic[b] && i[b] == 0, high_wall = !g.periodic[b] && i[b] == g.cells[b] - 1;
+    if ((low_wall || faces.open.at(axis, f - d) < least_open) && (high_wall || faces.open.at(axis, f + d) < least_open))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <int Dim>
+FaceField<Dim> film_motion(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+                           const FaceField<Dim>& continued) {
+  FaceField<Dim> film(s.layout);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      const double open = faces.open.at(a, f);
+      film.at(a, f) = std::sqrt(open) * (open < least_open ? solved : continued).at(a, f);
+    });
+  return film;
+}
+
+// With sqrt(w) u kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as
+// it does in inviscid liquid that comes in from rest.
+template <int Dim>
+void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const FaceField<Dim>& film, double dt,
+                       FaceField<Dim>& u) {
+  const Vec<Dim> g = s.gravity();
+  for (int a = 0; a < Dim; ++a)
+    for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (is_slit(s.layout, faces, a, f, i)) u.at(a, f) = film.at(a, f) / std::sqrt(faces.open.at(a, f)) + dt * g[a];
+    });
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                              \
+  template FaceField<D> film_motion<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&,       \
+                                       const FaceField<D>&);                                               \
+  template void set_film_velocity<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&, double, \
+                                     FaceField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche
