@@ -46,8 +46,13 @@ void for_each_level_field(const std::string& level, const Visit& visit) {
     for (const char* field : {"u", "valid", "q"}) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
 }
 
-std::string film_name(int axis) {
-  return std::string("film[") + "xyz"[axis] + "]";
+// visit(name, field, axis) of a film's components.
+template <int Dim, class AnyFilm, class Visit>
+void for_each_film_field(AnyFilm& film, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a) {
+    visit(std::string("film.open[") + "xyz"[a] + "]", film.open[a], a);
+    visit(std::string("film.u[") + "xyz"[a] + "]", film.u[a], a);
+  }
 }
 
 template <int Dim>
@@ -111,7 +116,9 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
   if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
-  for (int a = 0; a < Dim; ++a) data.fields.push_back(record<Dim>(s, film_name(a), s.layout.faces(a), state.film[a]));
+  for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
+    data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
+  });
   const Level<Dim> none{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
   save_level(s, level_names[0], *state.now, data);
   save_level(s, level_names[1], state.before ? *state.before : none, data);
@@ -145,8 +152,9 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
     state.parting = Parting<Dim>(s.layout);
     restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
   }
-  state.film = FaceField<Dim>(s.layout);
-  for (int a = 0; a < Dim; ++a) restore<Dim>(s, data, film_name(a), s.layout.faces(a), state.film[a]);
+  state.film = {FaceField<Dim>(s.layout), FaceField<Dim>(s.layout)};
+  for_each_film_field<Dim>(
+      state.film, [&](const std::string& name, auto& f, int a) { restore<Dim>(s, data, name, s.layout.faces(a), f); });
   fill_level_set_ghosts(s.layout, s.halo, state.phi);
   s.halo.fill_ghosts(state.pressure);
   state.now = load_level(s, level_names[0], data);
@@ -160,7 +168,10 @@ std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
   std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
                                  empty_record<Dim>("pressure", s.layout.cells())};
   if (s.scene.liquid.separates) boxes.push_back(empty_record<Dim>("gap", s.layout.cells()));
-  for (int a = 0; a < Dim; ++a) boxes.push_back(empty_record<Dim>(film_name(a), s.layout.faces(a)));
+  const Film<Dim> film;
+  for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {
+    boxes.push_back(empty_record<Dim>(name, s.layout.faces(a)));
+  });
   for (const char* level : level_names)
     for_each_level_field<Dim>(level, [&](const std::string& field, char, int a) {
       boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));

@@ -23,34 +23,33 @@ bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis
 }  // namespace
 
 template <int Dim>
-FaceField<Dim> film_motion(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                           const FaceField<Dim>& continued) {
-  FaceField<Dim> film(s.layout);
+Film<Dim> measure_film(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+                       const FaceField<Dim>& continued) {
+  Film<Dim> film{faces.open, continued};
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      const double open = faces.open.at(a, f);
-      film.at(a, f) = std::sqrt(open) * (open < least_open ? solved : continued).at(a, f);
+      if (faces.open.at(a, f) < least_open) film.u.at(a, f) = solved.at(a, f);
     });
   return film;
 }
 
-// With sqrt(w) u kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as
-// it does in inviscid liquid that comes in from rest.
+// With w u^2 kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as it
+// does in inviscid liquid that comes in from rest.
 template <int Dim>
-void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const FaceField<Dim>& film, double dt,
+void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const Film<Dim>& film, double dt,
                        FaceField<Dim>& u) {
   const Vec<Dim> g = s.gravity();
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (is_slit(s.layout, faces, a, f, i)) u.at(a, f) = film.at(a, f) / std::sqrt(faces.open.at(a, f)) + dt * g[a];
+      const double before = film.open.at(a, f), open = faces.open.at(a, f);
+      if (open <= before || !is_slit(s.layout, faces, a, f, i)) return;
+      u.at(a, f) = film.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
     });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                              \
-  template FaceField<D> film_motion<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&,       \
-                                       const FaceField<D>&);                                               \
-  template void set_film_velocity<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&, double, \
-                                     FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template Film<D> measure_film<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&, const FaceField<D>&); \
+  template void set_film_velocity<D>(const Setup<D>&, const FaceGeometry<D>&, const Film<D>&, double, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

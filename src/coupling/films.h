@@ -1,7 +1,6 @@
 #pragma once
-// Liquid in slits narrower than a cell: between a body and the floor, or two bodies about to touch.
+// Liquid in slits narrower than a cell: between a body and the floor, or two bodies that come apart.
 #include "coupling/state.h"
-#include "fluid/face_geometry.h"
 
 namespace seiche {
 
@@ -9,15 +8,16 @@ namespace seiche {
 // projection uses them, transport takes the continued velocity there.
 constexpr double least_open = 0.2;
 
-// sqrt(w) u on all faces: w open fraction, u as solved for, else continued. Its square is the kinetic energy of a face.
+// The velocity as solved for on faces less open than least_open, else as continued.
 template <int Dim>
-FaceField<Dim> film_motion(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                           const FaceField<Dim>& continued);
+Film<Dim> measure_film(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+                       const FaceField<Dim>& continued);
 
-// On the faces of slits, u = film/sqrt(w) + dt g: the velocity continued from beside a slit knows nothing of the liquid
-// in it, whose inertia resists and carries on what opens and closes the slit.
+// On the faces of slits that have grown wider, w the open part, u = film.u sqrt(film.w/w) + dt g: what the velocity
+// continued from beside a slit does not know is that the liquid in it is under way, and its inertia is most of what a
+// body has that lifts off. Liquid pressed out of a narrowing slit leaves as a jet that the grid cannot carry.
 template <int Dim>
-void set_film_velocity(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const FaceField<Dim>& film, double dt,
+void set_film_velocity(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const Film<Dim>& film, double dt,
                        FaceField<Dim>& u);
 
 }  // namespace seiche

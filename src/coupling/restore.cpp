@@ -116,7 +116,7 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
   const FaceField<Dim> solved = next.u;
   continue_velocity(s, g, next.valid, next.u);
   s.halo.fill_ghosts(next.valid);
-  restored.film = film_motion(s, in.faces, solved, next.u);
+  restored.film = measure_film(s, in.faces, solved, next.u);
   restored.level = std::move(next);
   return restored;
 }

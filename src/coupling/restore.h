@@ -11,7 +11,7 @@ enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 template <int Dim>
 struct Restored {
   Level<Dim> level;
-  FaceField<Dim> film;    // films.h
+  Film<Dim> film;
   double divergence = 0;  // the largest |net flux|/volume of a cell with a row, 1/s
 };
 

@@ -210,7 +210,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
     });
   continue_velocity(s, g, level.valid, level.u);
   s.halo.fill_ghosts(level.valid);
-  state.film = film_motion(s, g.faces, level.u, level.u);
+  state.film = measure_film(s, g.faces, level.u, level.u);
   state.now = std::make_shared<Level<Dim>>(std::move(level));
   check_fixed_step(s, state);
   return state;

@@ -47,13 +47,19 @@ struct Level {
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
 };
 
+// The open part of the faces and their velocities, those of slits as they were solved for (films.h).
+template <int Dim>
+struct Film {
+  FaceField<Dim> open, u;
+};
+
 template <int Dim>
 struct State {
   double time = 0;
   std::int64_t step = 0;
   std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
   double dt_now = 0, dt_before = 0;                        // steps that led to `now` and to `before`
-  FaceField<Dim> film;                                     // motion of the liquid in slits: films.h
+  Film<Dim> film;                                          // now
   CellField<Dim> phi;                                      // m, ghosts filled
   CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim

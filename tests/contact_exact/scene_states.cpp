@@ -96,7 +96,7 @@ Scene coarse_scene(const std::filesystem::path& file) {
   bool even = true;
   for (int a = 0; a < scene.dimension; ++a) even = even && scene.domain.cells[a] % 2 == 0;
   if (even) scene = read_scene(file, {{"domain.cell_size", fmt::format("{:.17g}", 2 * scene.domain.cell_size)}});
-  const std::size_t most = scene.dimension == 2 ? 40 : 20;
+  const std::size_t most = scene.dimension == 2 ? 40 : 14;
   if (scene.solids.size() > most) scene.solids.resize(most);
   return scene;
 }

@@ -106,8 +106,8 @@ TEST_CASE("a resolution may have its own reference") {
       "level = \"0\"\nreference = \"1\"\n[[resolution]]\nname = \"a\"\n[[resolution]]\nname = \"b\"\nreference = "
       "\"2\"\n");
   const CaseSpec one = read_case(folder / "cases" / "one");
-  CHECK(reference_of(one, one.resolutions[0]) == "1");
-  CHECK(reference_of(one, one.resolutions[1]) == "2");
+  CHECK(reference_of(one, one.resolutions[0]) == "1.0");
+  CHECK(reference_of(one, one.resolutions[1]) == "2.0");
 }
 
 TEST_CASE("a measure takes only its own parameters, and all of them") {
