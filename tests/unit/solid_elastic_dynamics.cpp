@@ -82,7 +82,7 @@ double lowest_mode(const Strip& s, double size, Eigen::VectorXd& mode) {
 }  // namespace
 
 TEST_CASE("The flag of Turek and Hron hangs as in CSM1", "[elastic]") {
-  for (const IVec<2>& cells : {IVec<2>(35, 2), IVec<2>(70, 4)}) {
+  for (const IVec<2>& cells : {IVec<2>(70, 4), IVec<2>(140, 8)}) {
     const Strip flag = turek_hron_flag(cells);
     ElasticWorkspace workspace;
     Eigen::VectorXd u = Eigen::VectorXd::Zero(flag.body.size());
@@ -98,7 +98,7 @@ TEST_CASE("The flag of Turek and Hron hangs as in CSM1", "[elastic]") {
 
 // Reference: TH2006 amplitude 65.16 mm at 1.0995 Hz; the raw series of the same authors 65.64 mm.
 TEST_CASE("The flag of Turek and Hron swings as in CSM3", "[elastic]") {
-  const Strip flag = turek_hron_flag(IVec<2>(35, 2));
+  const Strip flag = turek_hron_flag(IVec<2>(70, 4));
   ElasticState state = at_rest(flag.body);
   int newton_steps = 0;
   const double dt = 0.005;
@@ -107,7 +107,7 @@ TEST_CASE("The flag of Turek and Hron swings as in CSM3", "[elastic]") {
   REQUIRE(e.size() >= 3);  // low, high, low
   const double amplitude = 500 * (e[1].value - e[0].value), mean = 500 * (e[1].value + e[0].value);
   const double frequency = 1 / (e[2].time - e[0].time);
-  WARN("CSM3, P2, 2 through the thickness, dt "
+  WARN("CSM3, P2, 4 through the thickness, dt "
        << dt << ": u_y " << mean << " +- " << amplitude << " mm at " << frequency
        << " Hz (-63.607 +- 65.16 at 1.0995; raw -64.087 +- 65.64), " << newton_steps << " Newton steps in 300");
   CHECK(std::abs(amplitude / 65.16 - 1) < 0.015);
@@ -155,17 +155,19 @@ TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and never gains energy", "[el
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(body.size());
     const double start = kinetic_energy(body, state.v);
     double energy = start, growth = 0;
+    int grown = 0;
     ElasticWorkspace workspace;
     for (int n = 0; n < 60; ++n) {
       REQUIRE(advance(body, scheme, 0.01, none, {}, {}, workspace, state).converged);
       const double now = kinetic_energy(body, state.v) + elastic_energy(body, state.u);
       growth = std::max(growth, now / energy - 1);
+      grown += now > energy * (1 + 1e-10);
       energy = now;
     }
     CHECK((momentum(state.v) - before).norm() < 1e-8 * before.norm());  // the tolerance of the steps
     WARN("free flight " << Dim << "D, " << (scheme == ElasticScheme::bdf2 ? "BDF2" : "backward Euler")
-                        << ": energy kept " << energy / start << " after 60 steps, largest growth in a step "
-                        << growth);
+                        << ": energy kept " << energy / start << " after 60 steps; it grew in " << grown
+                        << ", at most by " << growth);
     CHECK(energy < start);
   }
 }
