@@ -1,13 +1,28 @@
 #include "linalg/sparse_cholesky.h"
 
+#ifdef SEICHE_CHOLMOD
+#include <Eigen/CholmodSupport>
+#else
 #include <Eigen/SparseCholesky>
+#endif
 #include <algorithm>
 #include <vector>
 
 namespace seiche {
+namespace {
+
+#ifdef SEICHE_CHOLMOD
+struct Method : Eigen::CholmodSupernodalLLT<SparseMatrix> {
+  Method() { cholmod().print = 0; }  // it would print where a matrix is not positive definite
+};
+#else
+using Method = Eigen::SimplicialLLT<SparseMatrix>;
+#endif
+
+}  // namespace
 
 struct SparseCholesky::Factors {
-  Eigen::SimplicialLLT<SparseMatrix> llt;
+  Method llt;
   std::vector<int> outer, inner;  // the pattern that was ordered
 
   bool knows(const SparseMatrix& A) const {
