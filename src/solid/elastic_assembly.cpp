@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "solid/elastic_body.h"
-#include "solid/elastic_invariants.h"
+#include "solid/elastic_guard.h"
 
 namespace seiche {
 namespace {
@@ -20,10 +20,39 @@ Gradient<Dim> gradient_of(const ElasticBody<Dim>& body, int e, const ShapeGradie
   return D;
 }
 
-// F = 1 + sum_a u_a g_a'
+// A point where det F is watched: of quadrature, where the material has its energy, or (order 2) a node, where the
+// volume guard alone has some.
+enum class Role { quadrature, node };
+
 template <int Dim>
-Gradient<Dim> deformation(const ElasticBody<Dim>& body, int point, const Eigen::VectorXd& u) {
-  return Gradient<Dim>::Identity() + gradient_of(body, point / body.points_per_element, body.gradients[point], u);
+struct Point {
+  int element;
+  Role role;
+  double weight;  // volume that the point stands for, m^3
+  const ShapeGradients<Dim>& g;
+
+  Gradient<Dim> deformation(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) const {
+    return Gradient<Dim>::Identity() + gradient_of(body, element, g, u);
+  }
+};
+
+// Visits f(point) over the points of an element.
+template <int Dim, class Visit>
+void over_points(const ElasticBody<Dim>& body, int e, Visit visit) {
+  double volume = 0;
+  for (int q = e * body.points_per_element; q < (e + 1) * body.points_per_element; ++q) {
+    visit(Point<Dim>{e, Role::quadrature, body.weights[q], body.gradients[q]});
+    volume += body.weights[q];
+  }
+  const int count = body.node_gradients.empty() ? 0 : body.mesh.nodes_per_element();
+  for (int a = e * count; a < (e + 1) * count; ++a) {
+    visit(Point<Dim>{e, Role::node, volume / count, body.node_gradients[a]});
+  }
+}
+
+template <int Dim, class Visit>
+void over_points(const ElasticBody<Dim>& body, Visit visit) {
+  for (int e = 0; e < body.mesh.element_count(); ++e) over_points(body, e, visit);
 }
 
 // B, dF = B du: column Dim a + i holds g_a in the entries of row i of F.
@@ -83,54 +112,63 @@ double step_until_kept(const std::array<double, 4>& c, double limit) {
   return t;
 }
 
-// Visits f(element, shape gradients) at all points where det F is watched.
-template <int Dim, class Visit>
-void over_watched(const ElasticBody<Dim>& body, Visit visit) {
-  for (size_t q = 0; q < body.gradients.size(); ++q) visit(int(q) / body.points_per_element, body.gradients[q]);
-  for (size_t a = 0; a < body.node_gradients.size(); ++a) {
-    visit(int(a) / body.mesh.nodes_per_element(), body.node_gradients[a]);
-  }
-}
-
 }  // namespace
 
 template <int Dim>
 double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+  const Lame& lame = body.properties.lame;
   double Psi = 0;
-  for (size_t q = 0; q < body.weights.size(); ++q) {
-    Psi += body.weights[q] * body.material.energy(body.properties.lame, deformation(body, int(q), u));
-  }
+  over_points(body, [&](const Point<Dim>& p) {
+    const Gradient<Dim> F = p.deformation(body, u);
+    const double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
+    Psi += p.weight * (density + elastic::volume_guard(lame, F.determinant()).value);
+  });
   return Psi;
 }
 
-// dPsi/du_a = integral of P g_a
+// dPsi/du_a = integral of P g_a, the guard's part of P being b' dJ/dF
 template <int Dim>
 Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+  const Lame& lame = body.properties.lame;
   Eigen::VectorXd r = Eigen::VectorXd::Zero(body.size());
-  for (size_t q = 0; q < body.weights.size(); ++q) {
-    const Gradient<Dim> P = body.weights[q] * body.material.stress(body.properties.lame, deformation(body, int(q), u));
-    const int* n = body.mesh.element(int(q) / body.points_per_element);
-    const auto& g = body.gradients[q];
-    for (int a = 0; a < g.rows(); ++a) r.segment<Dim>(Dim * n[a]).noalias() += P * g.row(a).transpose();
-  }
+  over_points(body, [&](const Point<Dim>& p) {
+    const Gradient<Dim> F = p.deformation(body, u);
+    const double guard = elastic::volume_guard(lame, F.determinant()).slope;
+    if (p.role == Role::node && guard == 0) return;
+    Gradient<Dim> P = Gradient<Dim>::Zero();
+    if (p.role == Role::quadrature) P = body.material.stress(lame, F);
+    if (guard != 0) P += guard * elastic::cofactor<Dim>(F);
+    const int* n = body.mesh.element(p.element);
+    for (int a = 0; a < p.g.rows(); ++a) {
+      r.segment<Dim>(Dim * n[a]).noalias() += p.weight * (P * p.g.row(a).transpose());
+    }
+  });
   return r;
 }
 
-// K = integral of B' d2Psi/dF2 B
+// K = integral of B' H B, H = d2Psi/dF2 and the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2
 template <int Dim>
 void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K) {
   constexpr int most = Dim * (Dim + 1) * (Dim + 2) / 2;
+  const Lame& lame = body.properties.lame;
   const int size = Dim * body.mesh.nodes_per_element();
   for (int e = 0; e < body.mesh.element_count(); ++e) {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most> Ke(size, size);
     Ke.setZero();
-    for (int q = e * body.points_per_element; q < (e + 1) * body.points_per_element; ++q) {
-      Hessian<Dim> H = body.material.stiffness(body.properties.lame, deformation(body, q, u));
+    over_points(body, e, [&](const Point<Dim>& p) {
+      const Gradient<Dim> F = p.deformation(body, u);
+      const elastic::Guard guard = elastic::volume_guard(lame, F.determinant());
+      if (p.role == Role::node && guard.slope == 0) return;
+      Hessian<Dim> H = Hessian<Dim>::Zero();
+      if (p.role == Role::quadrature) H = body.material.stiffness(lame, F);
+      const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
+      if (guard.slope != 0)
+        H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
       if (curvature == Curvature::projected) H = project_positive<Dim>(H);
-      const Strain<Dim> B = strain_of<Dim>(body.gradients[q]);
-      const Strain<Dim> HB = body.weights[q] * H * B;
+      const Strain<Dim> B = strain_of<Dim>(p.g);
+      const Strain<Dim> HB = p.weight * H * B;
       Ke.noalias() += B.transpose() * HB;
-    }
+    });
     scatter(body, e, Ke, K);
   }
 }
@@ -138,19 +176,16 @@ void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curva
 template <int Dim>
 double least_volume_ratio(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
   double least = std::numeric_limits<double>::infinity();
-  over_watched(body, [&](int e, const ShapeGradients<Dim>& g) {
-    const Gradient<Dim> F = Gradient<Dim>::Identity() + gradient_of(body, e, g, u);
-    least = std::min(least, F.determinant());
-  });
+  over_points(body, [&](const Point<Dim>& p) { least = std::min(least, p.deformation(body, u).determinant()); });
   return least;
 }
 
 template <int Dim>
 double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d) {
   double bound = 1;
-  over_watched(body, [&](int e, const ShapeGradients<Dim>& g) {
-    const Gradient<Dim> F = Gradient<Dim>::Identity() + gradient_of(body, e, g, u);
-    bound = step_until_kept(volume_polynomial<Dim>(F, gradient_of(body, e, g, d)), bound);
+  over_points(body, [&](const Point<Dim>& p) {
+    const Gradient<Dim> D = gradient_of(body, p.element, p.g, d);
+    bound = step_until_kept(volume_polynomial<Dim>(p.deformation(body, u), D), bound);
   });
   return bound;
 }

@@ -42,7 +42,7 @@ template <int Dim>
 ElasticBody<Dim> make_elastic_body(ElasticMesh<Dim> mesh, const ElasticMaterial<Dim>& material,
                                    const ElasticProperties& properties);
 
-// Psi(u), J; infinite where the material is not defined.
+// Psi(u), J, with the guard of elastic_guard.h below a tenth of the volume at rest; infinite where det F <= 0.
 template <int Dim>
 double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u);
 
