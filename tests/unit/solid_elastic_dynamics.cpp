@@ -133,8 +133,9 @@ TEST_CASE("A beam vibrates freely at the frequency of beam theory", "[elastic]")
   CHECK(std::abs(period / 0.254032 - 1) < 0.01);
 }
 
-// A body that flies and tumbles freely keeps its momentum; energy does not grow.
-TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and never gains energy", "[elastic]", ((int Dim), Dim), 2, 3) {
+// A body that flies and tumbles freely keeps its momentum. Its energy falls: in each step with backward Euler, in all
+// with BDF2, whose single steps may gain.
+TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and ends with less energy", "[elastic]", ((int Dim), Dim), 2, 3) {
   for (const auto scheme : {ElasticScheme::backward_euler, ElasticScheme::bdf2}) {
     const auto body = elastic_body<Dim>(box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Constant(2), 2),
                                         "stable_neo_hookean", 1000, 1e5, 0.4);
@@ -169,6 +170,7 @@ TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and never gains energy", "[el
                         << ": energy kept " << energy / start << " after 60 steps; it grew in " << grown
                         << ", at most by " << growth);
     CHECK(energy < start);
+    if (scheme == ElasticScheme::backward_euler) CHECK(grown == 0);
   }
 }
 
