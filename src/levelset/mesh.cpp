@@ -30,17 +30,6 @@ constexpr std::array<Format, 3> formats{
   throw Error(ExitCode::bad_input, file.string() + ": " + message);
 }
 
-std::string read_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) fail(file, "is a folder, not a mesh");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, std::string("cannot be read: ") + std::strerror(errno));
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) fail(file, "cannot be read to its end");
-  if (bytes.empty()) fail(file, "is empty (0 bytes), not a mesh");
-  return bytes;
-}
-
 const Format& format_of_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -95,6 +84,18 @@ SurfaceMesh mend(SurfaceMesh mesh, std::vector<std::string>& notes) {
 }
 
 }  // namespace
+
+std::string read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) fail(file, "is a folder, not a mesh");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) fail(file, std::string("cannot be read: ") + std::strerror(errno));
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in.bad()) fail(file, "cannot be read to its end");
+  if (bytes.empty()) fail(file, "is empty (0 bytes), not a mesh");
+  return bytes;
+}
+
 }  // namespace mesh
 
 SurfaceMesh read_closed_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {

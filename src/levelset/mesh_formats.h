@@ -15,6 +15,9 @@ struct Source {
   std::string bytes;
 };
 
+// All of a file. Throws Error(bad_input) if it cannot be read or is empty.
+std::string read_bytes(const std::filesystem::path& file);
+
 // Each throws Error(bad_input) naming the line or byte where the file is wrong. Polygons become fans of triangles.
 SurfaceMesh parse_obj(const Source& source);
 SurfaceMesh parse_ply(const Source& source);

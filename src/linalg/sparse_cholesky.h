@@ -1,0 +1,27 @@
+#pragma once
+// Cholesky factors of a sparse symmetric positive definite matrix on one rank.
+#include <Eigen/SparseCore>
+#include <memory>
+
+namespace seiche {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+class SparseCholesky {
+ public:
+  SparseCholesky();
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  // False if A is not positive definite. Factors of matrices with the pattern of the one before reuse its ordering.
+  [[nodiscard]] bool factor(const SparseMatrix& A);
+  // x = A^-1 b; after a factor() that returned true.
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace seiche

@@ -1,0 +1,39 @@
+#pragma once
+// Shape functions and quadrature on the reference simplex: lambda_0 = 1 - sum xi, lambda_i = xi_i.
+#include <array>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace seiche::elastic {
+
+// Nodes of a simplex of dimension `dim`: its corners, and at order 2 the middles of its edges.
+constexpr int nodes_per_simplex(int dim, int order) {
+  return order == 1 ? dim + 1 : (dim + 1) * (dim + 2) / 2;
+}
+
+// The corners of the edge on which a quadratic simplex has its node dim + 1 + i; the order of VTK.
+constexpr std::array<std::array<int, 2>, 6> edge_corners{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+// A segment has one edge, a triangle three, a tetrahedron six.
+constexpr int edges_per_simplex(int dim) {
+  return dim * (dim + 1) / 2;
+}
+
+using ReferencePoint = Eigen::VectorXd;  // xi, `dim` numbers
+
+struct QuadraturePoint {
+  ReferencePoint xi;
+  double weight;  // of a simplex of volume 1/dim!
+};
+
+// Exact for polynomials of this degree; degree 1 and 2 with the fewest points, above by the conical product (Stroud).
+std::vector<QuadraturePoint> quadrature(int dim, int degree);
+
+// N_a(xi): lambda_a, or lambda_a (2 lambda_a - 1) at corners and 4 lambda_a lambda_b on edges.
+Eigen::VectorXd shape_values(int dim, int order, const ReferencePoint& xi);
+// Row a is dN_a / dxi.
+Eigen::MatrixXd shape_gradients(int dim, int order, const ReferencePoint& xi);
+// Of the nodes.
+std::vector<ReferencePoint> node_points(int dim, int order);
+
+}  // namespace seiche::elastic
