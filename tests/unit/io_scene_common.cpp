@@ -76,9 +76,9 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
           ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
   text += "[[solid]]\nkind = \"rigid\"\nshape = \"sphere\"\ncenter = " + v("0.5", "0.5", "0.5") +
-          "\nradius = 0.1\ndensity = 400\nvelocity = " + v("0.5", "0", "0") +
+          "\nradius = 0.1\ndensity = 400\nvelocity = " + v("0", "0.5", "0") +
           "\nangular_velocity = " + (dimension == 2 ? "2.5" : "[0, 2.5, 0]") +
-          "\nfixed = " + (dimension == 2 ? "[\"y\"]" : "[\"y\", \"rotation_x\", \"rotation_z\"]") +
+          "\nfixed = " + (dimension == 2 ? "[\"x\"]" : "[\"x\", \"rotation_x\", \"rotation_z\"]") +
           "\nfriction = 0.3\n";
   text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
