@@ -55,8 +55,9 @@ void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
 namespace {
 
 constexpr int most_corrections = 40;
-// Of what contact does to the velocities: contact itself is solved to that.
-constexpr double share_of_change = 1e-4;
+// Contact and liquid agree when velocities are known to this many tolerances of the liquid's solves, and never better
+// than rounding lets the model's factors tell.
+constexpr double tolerances = 100, least_tolerance = 1e-9;
 
 }  // namespace
 
@@ -64,7 +65,9 @@ template <int Dim>
 ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
                                         double horizon, double dt, const RigidCoupling<Dim>& coupling,
                                         const SpdSolver& solver, LiquidProblem<Dim>& problem,
-                                        const Eigen::VectorXd& speeds, const ContactOptions& options) {
+                                        const Eigen::VectorXd& speeds, double tolerance,
+                                        const ContactOptions& options) {
+  const double agreed = std::max(tolerances * tolerance, least_tolerance);
   ContactInLiquid r;
   const int n = problem.size();
   const InertiaResponse alone = problem.minimise(SmallMatrix(n, n), Eigen::VectorXd::Zero(n));
@@ -84,8 +87,8 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
     r.contact.newton_iterations = newton_iterations;
     if (!liquid.failure.empty()) return r;
     const double off = model.error(liquid.velocity, liquid.gradient).cwiseProduct(speeds).cwiseAbs().maxCoeff();
-    const double change = (liquid.velocity - alone.velocity).cwiseProduct(speeds).cwiseAbs().maxCoeff();
-    if (off <= std::max(options.speed_tolerance, share_of_change * change)) return r;
+    const double fastest = liquid.velocity.cwiseProduct(speeds).cwiseAbs().maxCoeff();
+    if (off <= agreed * (fastest + options.usual_speed)) return r;
     model.learn(liquid.velocity, liquid.gradient);
   }
   r.contact.failure = "contact and liquid do not come to agree";
@@ -95,7 +98,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
 #define SEICHE_INSTANTIATE(D)                                                                             \
   template ContactInLiquid solve_contact_in_liquid<D>(                                                    \
       const ContactScene<D>&, const std::vector<ContactMotion>&, double, double, const RigidCoupling<D>&, \
-      const SpdSolver&, LiquidProblem<D>&, const Eigen::VectorXd&, const ContactOptions&);
+      const SpdSolver&, LiquidProblem<D>&, const Eigen::VectorXd&, double, const ContactOptions&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

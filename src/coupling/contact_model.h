@@ -41,6 +41,6 @@ template <int Dim>
 ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
                                         double horizon, double dt, const RigidCoupling<Dim>& coupling,
                                         const SpdSolver& solver, LiquidProblem<Dim>& problem,
-                                        const Eigen::VectorXd& speeds, const ContactOptions& options);
+                                        const Eigen::VectorXd& speeds, double tolerance, const ContactOptions& options);
 
 }  // namespace seiche

@@ -68,7 +68,8 @@ ContactOptions contact_options(const Setup<Dim>& s) {
   ContactOptions o;
   o.reach = reach * h;
   o.acceleration = g;
-  o.creep_speed = 1e-4 * std::sqrt(g * h);
+  o.usual_speed = std::sqrt(g * h);
+  o.creep_speed = 1e-4 * o.usual_speed;
   o.speed_tolerance = 0.01 * o.creep_speed;
   return o;
 }

@@ -73,7 +73,7 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
   ContactReport contact;
   if (solver.sensed_components().empty()) {
     contact = solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, solver, problem,
-                                      unit_speeds(s, coupling), options)
+                                      unit_speeds(s, coupling), s.scene.solver.tolerance, options)
                   .contact;
   } else {
     contact = solve_contact(*s.contact, motions, horizon, dt, problem, options);

@@ -133,7 +133,6 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("geometry");
     out.geometry = s.solids.measure(place_bodies(s, out.state), out.state.time);
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
-    continue_surface_into_bodies(s, out.geometry, out.state.phi);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     out.state.corrected_volume +=

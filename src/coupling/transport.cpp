@@ -5,7 +5,6 @@
 #include "coupling/sources.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
-#include "levelset/extrapolate.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
 
@@ -203,29 +202,6 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
 }
 
 template <int Dim>
-void continue_surface_into_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (!s.has_rigid()) return;
-  constexpr int corners = 1 << Dim;
-  std::vector<char> known(std::size_t(s.layout.size()), 0);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    double mean = 0;
-    for (int k = 0; k < corners; ++k) {
-      Site node = c;
-      for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * s.layout.stride(a);
-      mean += g.psi[node] / corners;
-    }
-    known[std::size_t(c)] = mean >= 0 || g.body[c] < 0 || !s.bodies[std::size_t(g.body[c])].is_rigid();
-  });
-  double radius = 0;
-  for (const Body<Dim>& body : s.bodies) radius = std::max(radius, body.is_rigid() ? body.radius() : 0.0);
-  const int layers = int(std::ceil(radius / s.layout.h())) + 1;
-  std::vector<double> values(phi.data(), phi.data() + s.layout.size());
-  extrapolate(s.layout, s.halo, s.layout.cells(), {layers, 0}, values, known);
-  std::copy(values.begin(), values.end(), phi.data());
-  fill_level_set_ghosts(s.layout, s.halo, phi);
-}
-
-template <int Dim>
 double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double expected, double limit,
                       CellField<Dim>& phi) {
   fill_level_set_ghosts(s.layout, s.halo, phi);
@@ -248,7 +224,6 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
 #define SEICHE_INSTANTIATE(D)                                                                                 \
   template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                \
   template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);              \
-  template void continue_surface_into_bodies<D>(const Setup<D>&, const StepGeometry<D>&, CellField<D>&);      \
   template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                     \
   template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double); \
   template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);

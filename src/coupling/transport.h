@@ -10,11 +10,6 @@ namespace seiche {
 template <int Dim>
 CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, double dt, double& added);
 
-// Within rigid bodies phi says nothing of liquid: it takes the value of the nearest cell outside, so that films under a
-// body and the room it leaves behind are as wet as what is around.
-template <int Dim>
-void continue_surface_into_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, CellField<Dim>& phi);
-
 // u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
 // - q.
 template <int Dim>

@@ -36,6 +36,7 @@ struct ContactOptions {
   double reach = 1e-3;            // d^ (m): bodies push each other when nearer; 0.02 to 0.1 of a cell is meant
   double acceleration = 9.81;     // m/s^2: that of a body's weight; sets the stiffness
   double creep_speed = 1e-4;      // eps_v (m/s): below it contacts stick, but for a creep of at most this
+  double usual_speed = 1;         // m/s: what speeds are small against where all are at rest
   double speed_tolerance = 1e-5;  // m/s: a Newton step that moves no point faster ends the iteration
   int newton_limit = 200;         // iterations for one set of friction forces
   int friction_limit = 20;        // times that the friction forces are brought up to date

@@ -17,9 +17,9 @@ constexpr double tiny_gap = 1e-2, stiffening = 10;
 constexpr int stiffening_limit = 12;
 // Friction forces have settled when they move no point faster than this share of the creep speed, or of what contact
 // does to velocities: then friction is right to a thousandth.
-constexpr double settled_share = 0.1, settled_of_change = 1e-3;
+constexpr double settled_share = 0.1, settled_of_change = 1e-4;
 // Newton's tolerance as a share of what contact does to velocities, with new friction forces and with settled ones.
-constexpr double first_of_change = 1e-2, last_of_change = 1e-4;
+constexpr double first_of_change = 1e-2, last_of_change = 1e-6;
 
 // Newton iterations before friction is smoothed, and how fast it becomes sharp again.
 constexpr int patience = 12;

@@ -690,14 +690,14 @@ def bodies_overlap_at_start(bench):
     first = rigid("first", box((0.2, 0.2), (0.4, 0.4)))
     for other in (box((0.4 - 1e-9, 0.2), (0.6, 0.4)), box((0.4 - 1e-3, 0.25), (0.6, 0.35)), ball((0.3, 0.3), 0.05),
                   box((0.4, 0.2), (0.6, 0.4))):
-        bench.simulate(text=box_scene([16, 16], POOL, first + rigid("other", other))).needs(2, "first and other", " m")
+        bench.simulate(text=box_scene([16, 16], POOL, first + rigid("other", other))).needs(2, "'first' and 'other'", " m")
         expect(not bench.path("out/frames").exists(), "something was run")
 
 
 def body_overlaps_wall(bench):
     """Row 22: a body partly or wholly outside closed walls: 2; across or beyond an open side it may stand."""
     for shape in (box((-0.1, 0.2), (0.4, 0.4)), box((1.1, 0.2), (1.4, 0.4)), ball((0.5, 1.5), 0.2)):
-        bench.simulate(text=box_scene([16, 16], POOL, rigid("a", shape))).needs(2, "a and", "overlap")
+        bench.simulate(text=box_scene([16, 16], POOL, rigid("a", shape))).needs(2, "'a' and the side ", "overlap")
     for shape in (box((0.8, 0.2), (1.2, 0.4)), box((1.1, 0.2), (1.4, 0.4))):
         bench.simulate("--overwrite", text=box_scene([16, 16], POOL, OPEN_SIDE + rigid("a", shape))).needs(0)
 
@@ -709,7 +709,8 @@ def body_leaves_the_domain(bench):
         text = box_scene([16, 16], POOL, OPEN_SIDE + rigid("a", box((0.6, 0.7), (0.8, 0.9)), extra=extra), end=0.5)
         bench.simulate("--overwrite", text=text).needs(0)
         last = rest_of(bench)
-        expect(last["vx"] == speed, f"vx is {last['vx']}: nothing acted on it along x")
+        # rounding of a mass times a velocity over the same mass, a step
+        expect(abs(last["vx"] / speed - 1) < 1e-12, f"vx is {last['vx']}: nothing acted on it along x")
         expect(abs(last["x"] - 0.7 - 0.5 * speed) < 1e-9 * speed, f"x is {last['x']}")
         expect(len(stats(bench.path("out"))) < 200, f"{len(stats(bench.path('out')))} steps")
         # The momentum of the body that left is still in the sum.
