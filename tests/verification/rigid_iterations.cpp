@@ -89,8 +89,7 @@ TEST_CASE("iterations do not depend on the density of a sphere", "[ranks]") {
   check_ratios({32, 64});
 }
 
-// A minute: run by name.
-TEST_CASE("iterations do not depend on the density of a sphere in 96^3 cells", "[.]") {
+TEST_CASE("iterations do not depend on the density of a sphere in 96^3 cells") {
   check_ratios({96});
 }
 
