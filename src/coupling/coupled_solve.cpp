@@ -23,13 +23,6 @@ void refuse_impossible_motion(const Setup<Dim>& s, const StepGeometry<Dim>& g, c
                           -m.net, Dim, who));
 }
 
-// Components whose volume rigid bodies can make up for are left to them.
-NullSpace without(NullSpace closed, const std::vector<int>& components) {
-  for (int& c : closed.component)
-    if (std::find(components.begin(), components.end(), c) != components.end()) c = -1;
-  return closed;
-}
-
 // Speed of the farthest point of its body where a degree of freedom is one.
 template <int Dim>
 Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const RigidCoupling<Dim>& coupling) {
@@ -102,6 +95,7 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   const RowGrid grid = row_grid(in, r.rows);
   const SolveOptions options{.tolerance = s.scene.solver.tolerance, .preconditioner = s.scene.solver.preconditioner};
   SpdSolver solver(A, grid, closed, coupling.J, c1 * c2, options, s.ranks);
+  // Components whose volume rigid bodies can make up for are left to them.
   if (closed.count > 0)
     refuse_impossible_motion(s, g, worst_mismatch(in, r.rows, without(closed, solver.sensed_components())));
   Vector b = pressure_right_side(in, r.rows, u_star), p;

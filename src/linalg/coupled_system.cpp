@@ -5,12 +5,6 @@
 namespace seiche {
 namespace {
 
-NullSpace without(NullSpace null_space, const std::vector<int>& components) {
-  for (int& c : null_space.component)
-    if (std::find(components.begin(), components.end(), c) != components.end()) c = -1;
-  return null_space;
-}
-
 // J' chi of each component of the null space of A, and J' |.| as its scale: rounding decides what counts as zero.
 struct Felt {
   Eigen::MatrixXd sums, sizes;
@@ -40,6 +34,12 @@ Felt feel_components(const LinearSystem& A, const BlockColumns& J) {
 }
 
 }  // namespace
+
+NullSpace without(NullSpace null_space, const std::vector<int>& components) {
+  for (int& c : null_space.component)
+    if (std::find(components.begin(), components.end(), c) != components.end()) c = -1;
+  return null_space;
+}
 
 CoupledSystem::CoupledSystem(const LinearSystem& A, const BlockColumns& J, double c)
     : A_(A), J_(J), c_(c), unsensed_means_({}, A.ranks()) {

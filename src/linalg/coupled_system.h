@@ -9,6 +9,9 @@ namespace seiche {
 
 using SmallMatrix = Eigen::SparseMatrix<double>;
 
+// The null space with some of its components left out.
+NullSpace without(NullSpace null_space, const std::vector<int>& components);
+
 class CoupledSystem {
  public:
   // Keeps references. Collective.
