@@ -87,7 +87,7 @@ struct LiquidSpec {
   std::vector<LiquidSourceSpec> sources;
 };
 
-enum class SolidKind { fixed, kinematic, rigid };  // "static", "kinematic", "rigid"
+enum class SolidKind { fixed, kinematic, rigid, elastic };  // "static", "kinematic", "rigid", "elastic"
 enum class Slip { free_slip, no_slip };
 
 // Displacement of a kinematic solid from its rest pose: first rotate about center, then translate.
@@ -104,13 +104,33 @@ struct RigidSpec {
   std::array<bool, 3> fixed_position{false, false, false}, fixed_rotation{false, false, false};  // world axes
 };
 
+// A region of an elastic solid at rest whose nodes move as prescribed.
+struct PinSpec {
+  ShapeSpec shape;
+  MotionSpec motion;
+};
+
+// What an elastic solid is made of; its density and initial velocities are those of RigidSpec.
+struct ElasticSpec {
+  std::string model = "stable_neo_hookean";  // a name of the table in solid/elastic_material.h
+  double youngs_modulus = 0;                 // Pa
+  double poisson_ratio = 0;
+  double damping = 0;                       // Rayleigh's beta (stiffness), s
+  double mass_damping = 0;                  // Rayleigh's alpha, 1/s
+  double element_size = 0;                  // m
+  int element_order = 2;                    // 1: linear, 2: quadratic
+  std::vector<PinSpec> pinned;              // at rest unless they have a motion
+  VectorFormula body_force{"0", "0", "0"};  // N/m^3 at rest, in x, y, z at rest and t
+};
+
 struct SolidSpec {
   std::string name;
   SolidKind kind = SolidKind::fixed;
   ShapeSpec shape;
   Slip slip = Slip::free_slip;
   MotionSpec motion;               // kinematic
-  RigidSpec rigid;                 // rigid
+  RigidSpec rigid;                 // rigid and elastic
+  ElasticSpec elastic;             // elastic
   std::optional<double> friction;  // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
 };
 
