@@ -12,14 +12,17 @@
 
 namespace seiche {
 
-enum class BodyControl { free, prescribed };
+enum class BodyControl { free, prescribed, deformable };
 
 struct ContactBody {
   SurfaceMesh surface;  // closed, in the rest pose; empty: the body touches nothing
   BodyControl control = BodyControl::free;
-  double mass = 0;                 // kg (kg/m in 2D) of a free body
+  double mass = 0;                 // kg (kg/m in 2D) of a free or deformable body
   std::optional<double> friction;  // Coulomb's coefficient
   std::string name;
+  // Of a deformable body: the mesh node of each point of `surface`, and how many nodes the mesh has.
+  std::vector<int> nodes = {};
+  int node_count = 0;
 };
 
 // The half-space that bodies keep out of lies behind the plane; its friction counts as unset.
@@ -27,9 +30,11 @@ struct ContactWall {
   Vec3 point, normal;  // the normal points into the domain
 };
 
-// Of a free body: `start`, with the centre of mass at rest as its pivot. Of a prescribed one also `end`.
+// Of a free body: `start`, with the centre of mass at rest as its pivot. Of a prescribed one also `end`. Of a
+// deformable one the displacements of its nodes at the start (m), Dim numbers a node.
 struct ContactMotion {
   Pose start, end;
+  Eigen::VectorXd displacement = {};
 };
 
 struct ContactOptions {

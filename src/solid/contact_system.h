@@ -2,6 +2,7 @@
 // Barrier and friction of all pairs as functions of the velocities.
 #include "solid/contact_friction.h"
 #include "solid/contact_search.h"
+#include "solid/curvature.h"
 
 namespace seiche::contact {
 
@@ -11,9 +12,6 @@ struct Weights {
 
 template <int Dim>
 using Scene = typename ContactScene<Dim>::Data;
-
-// `convex`: without the negative eigenvalues of the contacts between each two bodies.
-enum class Curvature : char { exact, convex };
 
 // C(v) = dt/H B(x(v)) + dt D(v) (J). K is its Hessian over the free velocities (but for what the change of J_l adds);
 // drag is the product of the Hessian's mixed part with what the prescribed velocities still lack.

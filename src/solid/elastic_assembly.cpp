@@ -164,7 +164,7 @@ void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curva
       const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
       if (guard.slope != 0)
         H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
-      if (curvature == Curvature::projected) H = project_positive<Dim>(H);
+      if (curvature == Curvature::convex) H = project_positive<Dim>(H);
       const Strain<Dim> B = strain_of<Dim>(p.g);
       const Strain<Dim> HB = p.weight * H * B;
       Ke.noalias() += B.transpose() * HB;

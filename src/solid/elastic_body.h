@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "linalg/sparse_cholesky.h"
+#include "solid/curvature.h"
 #include "solid/elastic_material.h"
 #include "solid/elastic_mesh.h"
 
@@ -50,9 +51,8 @@ double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u);
 template <int Dim>
 Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u);
 
-enum class Curvature { exact, projected };  // projected: each quadrature point's stiffness made positive semi-definite
-
-// Adds d2Psi/du2 (N/m) to a matrix of the body's pattern.
+// Adds d2Psi/du2 (N/m) to a matrix of the body's pattern; convex: that of each quadrature point made positive
+// semi-definite.
 template <int Dim>
 void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K);
 

@@ -47,14 +47,14 @@ template <int Dim>
 bool newton_step(const Descent<Dim>& s, const Eigen::VectorXd& u, const Eigen::VectorXd& g, Eigen::VectorXd& d) {
   Eigen::VectorXd missing = Eigen::VectorXd::Zero(u.size());
   for (size_t i = 0; i < s.pins.dofs.size(); ++i) missing[s.pins.dofs[i]] = s.pins.targets[i] - u[s.pins.dofs[i]];
-  for (const Curvature curvature : {Curvature::exact, Curvature::projected}) {
+  for (const Curvature curvature : {Curvature::exact, Curvature::convex}) {
     SparseMatrix H = potential_hessian(s.potential, u, curvature);
     Eigen::VectorXd rhs = -g - hold(H, s.pins.dofs, missing);
     for (int i : s.pins.dofs) rhs[i] = missing[i];
     if (!s.workspace.cholesky.factor(H)) continue;
     d = s.workspace.cholesky.solve(rhs);
     if (!d.allFinite()) continue;
-    s.report.projected += curvature == Curvature::projected;
+    s.report.projected += curvature == Curvature::convex;
     return true;
   }
   return false;

@@ -1,5 +1,5 @@
 #pragma once
-// What stands behind the rigid bodies of one contact solve (inertia, and liquid where there is any), as a quadratic
+// What stands behind the bodies of one contact solve (inertia, and liquid where there is any), as a quadratic
 // energy.
 #include <string>
 #include <vector>
@@ -22,7 +22,8 @@ struct InertiaResponse {
   Eigen::VectorXd velocity, gradient;
 };
 
-// e(v), a convex quadratic in the stacked generalised velocities of the free bodies (J).
+// e(v), a convex quadratic in the stacked generalised velocities of the free bodies and of the nodes of deformable ones
+// (J).
 class InertiaProblem {
  public:
   virtual ~InertiaProblem();
@@ -31,23 +32,29 @@ class InertiaProblem {
   // factor): K is not always positive semi-definite.
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
+  // Whether the degrees of freedom that are held have their prescribed velocities at v; those that minimise() returns
+  // do.
+  virtual bool holds(const Eigen::VectorXd& v) const;
 };
 
 enum class Freedom : char { free, fixed };
 
-// Bodies without liquid: e = 1/2 (v - v*)'M(v - v*). Fixed degrees of freedom stay at zero; their gradient is the
-// impulse that would hold them.
+// Bodies without liquid: e = 1/2 (v - v*)'M(v - v*). Fixed degrees of freedom have the velocities `held` (m/s, rad/s;
+// of the size of v, or empty: zero); their gradient is the impulse that would hold them.
 class DryProblem : public InertiaProblem {
  public:
-  DryProblem(Eigen::SparseMatrix<double> mass, Eigen::VectorXd target, std::vector<Freedom> freedom = {});
+  DryProblem(Eigen::SparseMatrix<double> mass, Eigen::VectorXd target, std::vector<Freedom> freedom = {},
+             Eigen::VectorXd held = {});
   int size() const override { return static_cast<int>(target_.size()); }
   InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
+  bool holds(const Eigen::VectorXd& v) const override;
 
  private:
   Eigen::SparseMatrix<double> mass_;
   Eigen::VectorXd target_;
   std::vector<Freedom> freedom_;
+  Eigen::VectorXd held_;
 };
 
 }  // namespace seiche
