@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+
 #include "base/error.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -96,6 +98,49 @@ void for_each_number(State& r, const std::string& body, const Visit& visit) {
   visit(fmt::format("rigid.{}.horizon", body), r.horizon);
 }
 
+// visit(name, vector) of what an elastic body's state is made of.
+template <class Motion, class Visit>
+void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
+  visit("elastic." + body + ".u", m.state.u);
+  visit("elastic." + body + ".v", m.state.v);
+  visit("elastic." + body + ".u_old", m.state.u_old);
+  visit("elastic." + body + ".v_old", m.state.v_old);
+  visit("elastic." + body + ".velocity", m.velocity);
+}
+
+// Vectors as texts: their bytes.
+template <int Dim>
+void save_elastic(const Setup<Dim>& s, const State<Dim>& state, CheckpointData& data) {
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    data.scalars[fmt::format("elastic.{}.dt_old", k)] = state.elastic[k].state.dt_old;
+    for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, const Eigen::VectorXd& v) {
+      data.texts[name] = std::string(reinterpret_cast<const char*>(v.data()), std::size_t(v.size()) * sizeof(double));
+    });
+  }
+}
+
+template <int Dim>
+void load_elastic(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
+  state.elastic.resize(s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    const std::string dt_old = fmt::format("elastic.{}.dt_old", k);
+    const auto size = std::size_t(s.bodies[k].elastic().body.size());
+    if (!data.scalars.contains(dt_old)) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + dt_old + "'");
+    state.elastic[k].state.dt_old = data.scalars.at(dt_old);
+    for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, Eigen::VectorXd& v) {
+      const auto found = data.texts.find(name);
+      if (found == data.texts.end() || found->second.size() != size * sizeof(double))
+        throw Error(
+            ExitCode::bad_checkpoint,
+            fmt::format("the checkpoint lacks '{}' of {} numbers; the solid's mesh is another one", name, size));
+      v.resize(Eigen::Index(size));
+      std::memcpy(v.data(), found->second.data(), found->second.size());
+    });
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -113,6 +158,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (s.bodies[k].is_rigid())
       for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double x) { data.scalars[n] = x; });
+  save_elastic(s, state, data);
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
   if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
@@ -144,6 +190,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (s.bodies[k].is_rigid())
       for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
+  load_elastic(s, data, state);
   state.phi = CellField<Dim>(s.layout);
   state.pressure = CellField<Dim>(s.layout);
   restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);

@@ -63,7 +63,7 @@ constexpr double tolerances = 100, least_tolerance = 1e-9;
 
 template <int Dim>
 ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
-                                        double horizon, double dt, const RigidCoupling<Dim>& coupling,
+                                        double horizon, double dt, const SolidCoupling<Dim>& coupling,
                                         const SpdSolver& solver, LiquidProblem<Dim>& problem,
                                         const Eigen::VectorXd& speeds, double tolerance,
                                         const ContactOptions& options) {
@@ -97,7 +97,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
 
 #define SEICHE_INSTANTIATE(D)                                                                             \
   template ContactInLiquid solve_contact_in_liquid<D>(                                                    \
-      const ContactScene<D>&, const std::vector<ContactMotion>&, double, double, const RigidCoupling<D>&, \
+      const ContactScene<D>&, const std::vector<ContactMotion>&, double, double, const SolidCoupling<D>&, \
       const SpdSolver&, LiquidProblem<D>&, const Eigen::VectorXd&, double, const ContactOptions&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

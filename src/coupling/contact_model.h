@@ -39,7 +39,7 @@ struct ContactInLiquid {
 // `speeds` holds, for each degree of freedom, the speed of the body's farthest point where it is one.
 template <int Dim>
 ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
-                                        double horizon, double dt, const RigidCoupling<Dim>& coupling,
+                                        double horizon, double dt, const SolidCoupling<Dim>& coupling,
                                         const SpdSolver& solver, LiquidProblem<Dim>& problem,
                                         const Eigen::VectorXd& speeds, double tolerance, const ContactOptions& options);
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "coupling/rigid_coupling.h"
+#include "coupling/solid_coupling.h"
 
 namespace seiche {
 namespace {
@@ -36,8 +36,14 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<
   for (const Body<Dim>& body : bodies) {
     ContactBody& c = contact.emplace_back();
     c.surface = body.contact_surface();
-    c.control = body.is_rigid() ? BodyControl::free : BodyControl::prescribed;
-    c.mass = body.is_rigid() ? body.mass().mass : 0;
+    c.control = body.is_elastic() ? BodyControl::deformable
+                : body.is_rigid() ? BodyControl::free
+                                  : BodyControl::prescribed;
+    c.mass = body.is_rigid() || body.is_elastic() ? body.mass().mass : 0;
+    if (body.is_elastic()) {
+      c.nodes = body.elastic().surface.nodes;
+      c.node_count = int(body.elastic().body.mesh.nodes.size());
+    }
     c.friction = body.spec().friction;
     c.name = body.spec().name;
   }
@@ -45,15 +51,16 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<
 }
 
 template <int Dim>
-std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const std::vector<RigidState>& rigid, double t,
-                                           double horizon) {
+std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const State<Dim>& state, double horizon) {
   std::vector<ContactMotion> motions;
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     const Body<Dim>& body = s.bodies[k];
-    if (body.is_rigid())
-      motions.push_back({rigid_pose(body, rigid[k]), {}});
+    if (body.is_elastic())
+      motions.push_back({{}, {}, state.elastic[k].state.u});
+    else if (body.is_rigid())
+      motions.push_back({rigid_pose(body, state.rigid[k]), {}, {}});
     else
-      motions.push_back({body.pose(t), body.pose(t + horizon)});
+      motions.push_back({body.pose(state.time), body.pose(state.time + horizon), {}});
   }
   return motions;
 }
@@ -85,48 +92,40 @@ std::string other_name(const Setup<Dim>& s, const Overlap& o) {
 
 template <int Dim>
 std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
-  if (!s.has_rigid()) return {};
+  if (!s.contact) return {};
   std::string names;
-  const auto motions = contact_motions(s, state.rigid, state.time, 0);
+  const auto motions = contact_motions(s, state, 0);
   for (const Overlap& o : find_initial_overlaps(*s.contact, motions, 0.1 * reach * s.layout.h()))
     names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", s.bodies[o.body].spec().name, other_name(s, o));
   return names;
 }
 
 template <int Dim>
-void refuse_overlaps(const Setup<Dim>& s, const std::vector<RigidState>& rigid) {
-  if (!s.has_rigid()) return;
+void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
+  if (!s.contact) return;
   std::string all;
   const double least = clearance * reach * s.layout.h();
-  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, rigid, 0, 0), least)) {
-    const std::string state = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
-                                          : fmt::format("touch or are closer than {:.3g} m", least);
+  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, state, 0), least)) {
+    const std::string how = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
+                                        : fmt::format("touch or are closer than {:.3g} m", least);
     all += fmt::format("{}{}: solid '{}' and {} {} at the start; move them apart", all.empty() ? "" : "\n",
-                       s.bodies[o.body].spec().shape.where, s.bodies[o.body].spec().name, other_name(s, o), state);
+                       s.bodies[o.body].spec().shape.where, s.bodies[o.body].spec().name, other_name(s, o), how);
   }
   if (!all.empty()) throw Error(ExitCode::bad_input, all);
 }
 
 template <int Dim>
 double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  if (!s.has_rigid()) return 1;
-  std::vector<double> velocity;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_rigid()) continue;
-    const auto v = stacked<Dim>(state.rigid[k].velocity, state.rigid[k].angular_velocity);
-    velocity.insert(velocity.end(), v.begin(), v.end());
-  }
-  const Eigen::Map<const Eigen::VectorXd> v(velocity.data(), Eigen::Index(velocity.size()));
-  return largest_safe_fraction(*s.contact, contact_motions(s, state.rigid, state.time, dt), dt, v);
+  if (!s.contact) return 1;
+  return largest_safe_fraction(*s.contact, contact_motions(s, state, dt), dt, present_velocities(s, state));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&);                      \
-  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                                       \
-  template void refuse_overlaps<D>(const Setup<D>&, const std::vector<RigidState>&);                              \
-  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const std::vector<RigidState>&, double, \
-                                                         double);                                                 \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                                    \
+#define SEICHE_INSTANTIATE(D)                                                                       \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&);        \
+  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                         \
+  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                               \
+  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const State<D>&, double); \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                      \
   template double safe_share<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -8,14 +8,14 @@ namespace seiche {
 template <int Dim>
 ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies);
 
-// Refuses rigid bodies that touch or overlap something at the start: Error(bad_input) naming the pairs and depths.
+// Refuses rigid and elastic bodies that touch or overlap something at the start: Error(bad_input) naming the pairs and
+// depths.
 template <int Dim>
-void refuse_overlaps(const Setup<Dim>& setup, const std::vector<RigidState>& rigid);
+void refuse_overlaps(const Setup<Dim>& setup, const State<Dim>& state);
 
-// From where the solids stand at time t to where the prescribed ones stand after the horizon.
+// From where the solids stand to where the prescribed ones stand after the horizon.
 template <int Dim>
-std::vector<ContactMotion> contact_motions(const Setup<Dim>& setup, const std::vector<RigidState>& rigid, double t,
-                                           double horizon);
+std::vector<ContactMotion> contact_motions(const Setup<Dim>& setup, const State<Dim>& state, double horizon);
 
 // Reach, stiffness and speeds of contact on this grid.
 template <int Dim>
@@ -25,7 +25,8 @@ ContactOptions contact_options(const Setup<Dim>& setup);
 template <int Dim>
 std::string nearest_solids(const Setup<Dim>& setup, const State<Dim>& state);
 
-// The largest share of dt that the solids can move without touching, rigid ones as the last solve left them.
+// The largest share of dt that the solids can move without touching, rigid and elastic ones as the last solve left
+// them.
 template <int Dim>
 double safe_share(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 

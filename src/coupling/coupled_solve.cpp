@@ -6,6 +6,7 @@
 #include "coupling/contact_model.h"
 #include "coupling/contact_setup.h"
 #include "coupling/liquid_problem.h"
+#include "coupling/rigid_coupling.h"
 
 namespace seiche {
 namespace {
@@ -25,52 +26,56 @@ void refuse_impossible_motion(const Setup<Dim>& s, const StepGeometry<Dim>& g, c
 
 // Speed of the farthest point of its body where a degree of freedom is one.
 template <int Dim>
-Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const RigidCoupling<Dim>& coupling) {
+Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling) {
   constexpr int n = twist_size<Dim>;
-  Eigen::VectorXd speeds = Eigen::VectorXd::Ones(n * Eigen::Index(coupling.bodies.size()));
-  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
-    speeds.segment(n * Eigen::Index(b) + Dim, n - Dim).setConstant(s.bodies[coupling.bodies[b]].radius());
+  Eigen::VectorXd speeds = Eigen::VectorXd::Ones(coupling.size());
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
+    const Body<Dim>& body = s.bodies[coupling.bodies[b]];
+    if (body.is_rigid()) speeds.segment(coupling.first[b] + Dim, n - Dim).setConstant(body.radius());
+  }
   return speeds;
 }
 
 // The last pressure belongs to the last trial, not to what the line search made of it; and what liquid that bodies
 // close off has as its mean follows from their balance alone. So once more, with the impulses of contact as given.
 template <int Dim>
-std::string settle(const RigidCoupling<Dim>& coupling, LiquidProblem<Dim>& problem, ContactReport& contact) {
+std::string settle(const SolidCoupling<Dim>& coupling, LiquidProblem<Dim>& problem, ContactReport& contact) {
   constexpr int n = twist_size<Dim>;
   Eigen::VectorXd impulse(problem.size());
   for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
     const BodyImpulse& i = contact.impulses[std::size_t(coupling.bodies[b])];
-    impulse.template segment<n>(n * Eigen::Index(b)) = stacked<Dim>(i.linear, i.angular);
+    impulse.template segment<n>(coupling.first[b]) = stacked<Dim>(i.linear, i.angular);
   }
-  const InertiaResponse r = problem.minimise(SmallMatrix(problem.size(), problem.size()), impulse);
+  const InertiaResponse r = problem.minimise(SparseMatrix(problem.size(), problem.size()), impulse);
   if (r.failure.empty()) contact.velocity = r.velocity;
   return r.failure;
 }
 
-// Velocities of the rigid bodies; the pressure that goes with them is left in the problem. Bodies that close off liquid
-// are beyond the model of the added mass: contact then asks the liquid at every turn.
+// Velocities of the bodies; the pressure that goes with them is left in the problem. Bodies that close off liquid are
+// beyond the model of the added mass, and elastic ones have too many unknowns for it: contact then asks the liquid at
+// every turn.
 template <int Dim>
 Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon,
-                         const RigidCoupling<Dim>& coupling, const SpdSolver& solver, LiquidProblem<Dim>& problem,
+                         const SolidCoupling<Dim>& coupling, const SpdSolver& solver, LiquidProblem<Dim>& problem,
                          CoupledSolution<Dim>& r) {
   Eigen::VectorXd v = Eigen::VectorXd::Zero(problem.size());
   if (!s.contact) {
-    const InertiaResponse response = problem.minimise(SmallMatrix(0, 0), v);
+    const InertiaResponse response = problem.minimise(SparseMatrix(0, 0), v);
     r.failure = response.failure;
     r.report = problem.report();
     return r.failure.empty() ? response.velocity : v;
   }
-  const auto motions = contact_motions(s, state.rigid, state.time, horizon);
+  const auto motions = contact_motions(s, state, horizon);
   const ContactOptions options = contact_options(s);
   ContactReport contact;
-  if (solver.sensed_components().empty()) {
+  if (!coupling.potential && solver.sensed_components().empty()) {
     contact = solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, solver, problem,
                                       unit_speeds(s, coupling), s.scene.solver.tolerance, options)
                   .contact;
   } else {
     contact = solve_contact(*s.contact, motions, horizon, dt, problem, options);
-    if (contact.failure.empty() && contact.newton_iterations > 0) contact.failure = settle(coupling, problem, contact);
+    const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
+    if (touched && !coupling.potential) contact.failure = settle(coupling, problem, contact);
   }
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
@@ -89,9 +94,10 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   r.pressure = CellField<Dim>(s.layout);
   const NullSpace closed = find_closed_components(in, r.rows);
   r.closed_component = closed.component;
-  const RigidCoupling<Dim> coupling = couple_rigid_bodies(s, g, r.rows, state.rigid, in.dt, horizon);
+  const SolidCoupling<Dim> coupling = couple_solids(s, g, r.rows, state, in.dt, horizon);
+  set_held_velocities(s, coupling, g);
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
-  const SparseMatrix A = assemble_pressure_matrix(in, r.rows);
+  const DistributedMatrix A = assemble_pressure_matrix(in, r.rows);
   const RowGrid grid = row_grid(in, r.rows);
   const SolveOptions options{.tolerance = s.scene.solver.tolerance, .preconditioner = s.scene.solver.preconditioner};
   SpdSolver solver(A, grid, closed, coupling.J, c1 * c2, options, s.ranks);
@@ -109,7 +115,7 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
     refuse_impossible_motion(s, g, worst_mismatch(in, r.rows, closed));
   for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
   s.halo.fill_ghosts(r.pressure);
-  if (r.failure.empty()) set_velocities(s, coupling, v, g, state.rigid);
+  if (r.failure.empty()) set_velocities(s, coupling, v, g, state);
   for (RigidState& body : state.rigid) body.horizon = horizon;
   return r;
 }
@@ -135,12 +141,14 @@ CoupledSolution<Dim> solve_coupled(const Setup<Dim>& s, const ProjectionInput<Di
   start_parting(in, state.parting);
   const StepGeometry<Dim> still = g;
   const std::vector<RigidState> rigid = state.rigid;
+  const std::vector<ElasticMotion> elastic = state.elastic;
   CoupledSolution<Dim> r;
   CellField<Dim> from = guess;
   CellField<Dim, char> eligible;
   for (int k = 0; k < most_policies; ++k) {
     g = still;
     state.rigid = rigid;
+    state.elastic = elastic;
     CoupledSolution<Dim> trial = solve_once(s, in, g, state, from, u_star, horizon, fault);
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);

@@ -14,8 +14,8 @@ struct CoupledSolution {
   std::string failure;  // empty: accepted
 };
 
-// The pressure that leaves no liquid cell with a net flux, and the velocities of the rigid bodies that go with it,
-// which are set in the geometry and the states. `guess` is the first guess of the pressure. Throws
+// The pressure that leaves no liquid cell with a net flux, and the velocities of the rigid and elastic bodies that go
+// with it, which are set in the geometry and the states. `guess` is the first guess of the pressure. Throws
 // Error(cannot_continue) where the solids prescribe what closed liquid cannot do.
 template <int Dim>
 CoupledSolution<Dim> solve_coupled(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, StepGeometry<Dim>& geometry,

@@ -65,6 +65,11 @@ class FlowSimulation : public Simulation {
 
   SurfaceMesh solid_surface(std::size_t k) const override {
     SurfaceMesh mesh = surfaces_.at(k);
+    if (setup_.bodies[k].is_elastic()) {
+      const auto points = surface_points(setup_.bodies[k].elastic(), state_.elastic[k].state.u);
+      std::transform(points.begin(), points.end(), mesh.points.begin(), extend<Dim>);
+      return mesh;
+    }
     const Pose& pose = geometry_.placed[k].pose;
     for (Vec3& x : mesh.points) x = pose.apply(x);
     return mesh;
@@ -89,6 +94,7 @@ class FlowSimulation : public Simulation {
       const RigidState& r = state_.rigid[k];
       if (setup_.bodies[k].is_rigid())
         set_twist(setup_.layout, int(k), Twist{r.velocity, r.angular_velocity, r.center}, g);
+      if (setup_.bodies[k].is_elastic()) set_node_velocity(setup_.layout, int(k), state_.elastic[k].velocity, g);
     }
     return g;
   }
@@ -127,6 +133,7 @@ class FlowSimulation : public Simulation {
     stats_.dt = state_.dt_now;
     measure_liquid(setup_, state_, geometry_.psi, stats_);
     measure_rigid(setup_, state_, stats_);
+    measure_elastic(setup_, state_, stats_);
     stats_.max_divergence = divergence_;
     stats_.newton_iterations = newton_iterations_;
     stats_.contacts = contacts_;
@@ -139,7 +146,7 @@ class FlowSimulation : public Simulation {
     const DomainSpec& d = setup_.scene.domain;
     std::vector<SurfaceMesh> surfaces;
     for (const Body<Dim>& body : setup_.bodies) {
-      if (body.is_rigid()) {
+      if (body.is_rigid() || body.is_elastic()) {
         surfaces.push_back(body.contact_surface());
         continue;
       }

@@ -16,32 +16,53 @@ InertiaResponse indefinite() {
 }  // namespace
 
 template <int Dim>
-LiquidProblem<Dim>::LiquidProblem(const RigidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b,
+LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b,
                                   Vector& pressure, double c1, double c2, const Communicator& ranks)
-    : coupling_(coupling), solver_(solver), b_(b), pressure_(pressure), c1_(c1), c2_(c2), ranks_(ranks) {
+    : coupling_(coupling),
+      solver_(solver),
+      b_(b),
+      pressure_(pressure),
+      c1_(c1),
+      c2_(c2),
+      ranks_(ranks),
+      H_(ranks),
+      none_(ranks) {
   Vector moved(b.size());
   add_multiplied(coupling.J, c1 * coupling.free, moved);
   scale_ = norm(b, ranks) + norm(moved, ranks);
 }
 
+// v where it is free, zero where it is held.
 template <int Dim>
-Eigen::VectorXd LiquidProblem<Dim>::masked(Eigen::VectorXd v) const {
+Eigen::VectorXd LiquidProblem<Dim>::free_part(Eigen::VectorXd v) const {
   for (Eigen::Index i = 0; i < v.size(); ++i)
-    if (coupling_.freedom[i] == Freedom::fixed) v[i] = 0;
+    if (coupling_.freedom[std::size_t(i)] == Freedom::fixed) v[i] = 0;
   return v;
 }
 
+// H v = r with v known where it is held: H_ff v_f = r_f - H_fh v_h. Rows of what is held keep their diagonal.
 template <int Dim>
-SmallMatrix LiquidProblem<Dim>::masked(const SmallMatrix& K) const {
-  SmallMatrix kept = K;
-  kept.prune([&](Eigen::Index i, Eigen::Index j, double) {
-    return coupling_.freedom[i] == Freedom::free && coupling_.freedom[j] == Freedom::free;
-  });
+SparseMatrix LiquidProblem<Dim>::uncouple_held(const SparseMatrix& H, Eigen::VectorXd& r) const {
+  const auto is_held = [&](Eigen::Index i) { return coupling_.freedom[std::size_t(i)] == Freedom::fixed; };
+  if (std::none_of(coupling_.freedom.begin(), coupling_.freedom.end(), [](Freedom f) { return f == Freedom::fixed; }))
+    return H;
+  r -= H * coupling_.held;
+  SparseMatrix kept = H;
+  kept.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!is_held(i) && !is_held(j)); });
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    if (is_held(i)) r[i] = kept.coeff(i, i) * coupling_.held[i];
   return kept;
 }
 
 template <int Dim>
-std::string LiquidProblem<Dim>::solve(const SmallMatrix& H, const Vector& b) {
+bool LiquidProblem<Dim>::holds(const Eigen::VectorXd& v) const {
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (coupling_.freedom[std::size_t(i)] == Freedom::fixed && v[i] != coupling_.held[i]) return false;
+  return true;
+}
+
+template <int Dim>
+std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
   const SolveReport r = solver_.solve(H, b, pressure_, scale_);
   report_.converged = r.converged;
   report_.iterations += r.iterations;
@@ -65,28 +86,31 @@ Eigen::VectorXd LiquidProblem<Dim>::impulse_of_pressure() const {
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
-  return {{}, Shape::convex, v, coupling_.mass * (v - coupling_.target) - force};
+  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - force};
 }
 
 template <int Dim>
-InertiaResponse LiquidProblem<Dim>::minimise(const SmallMatrix& K, const Eigen::VectorXd& r) {
-  const SmallMatrix H = K.nonZeros() > 0 ? SmallMatrix(coupling_.mass + masked(K)) : coupling_.mass;
-  const Eigen::SimplicialLLT<SmallMatrix> factor(H);
-  if (size() > 0 && factor.info() != Eigen::Success) return indefinite();
-  const Eigen::VectorXd push = coupling_.mass * coupling_.target + masked(r);
-  const Eigen::VectorXd dry = factor.solve(push);
+InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
+  Eigen::VectorXd push = coupling_.push + r;
+  if (!H_.set(uncouple_held(K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
+    return indefinite();
+  const Eigen::VectorXd dry = H_.solve(push);
   Vector b = b_;
-  add_multiplied(coupling_.J, -c1_ * dry, b);
-  if (std::string failure = solve(H, b); !failure.empty()) return failed(failure);
+  add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
+  if (std::string failure = solve(H_, b); !failure.empty()) return failed(failure);
   const Eigen::VectorXd force = impulse_of_pressure();
-  return respond_with_pressure(dry + factor.solve(force), force);
+  Eigen::VectorXd v = dry + H_.solve(force);
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (coupling_.freedom[std::size_t(i)] == Freedom::fixed) v[i] = coupling_.held[i];
+  return respond_with_pressure(v, force);
 }
 
+// While what is held is under way, b counts it as arrived.
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
   Vector b = b_;
-  add_multiplied(coupling_.J, -c1_ * v, b);
-  if (std::string failure = solve({}, b); !failure.empty()) return failed(failure);
+  add_multiplied(coupling_.J, -c1_ * free_part(v), b);
+  if (std::string failure = solve(none_, b); !failure.empty()) return failed(failure);
   return respond_with_pressure(v, impulse_of_pressure());
 }
 

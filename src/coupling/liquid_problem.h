@@ -1,37 +1,41 @@
 #pragma once
 // What contacts push against: the bodies' inertia and the liquid's pressure, as one quadratic energy.
-#include "coupling/rigid_coupling.h"
+#include "coupling/solid_coupling.h"
 
 namespace seiche {
 
 // e(v) = 1/2 (v - v*)'M(v - v*) + the kinetic energy the liquid must gain to make room, A p + c1 J v = b:
 //   grad e = M (v - v*) - c2 J'p,  c1 = rho h/dt, c2 = dt A_f.
-// With a contact Hessian K, H = M + K:  (A + c1 c2 J H^-1 J') p = b - c1 J H^-1 (M v* + r),  H v = M v* + r + c2 J'p.
+// With a Hessian K of contact and elastic forces, H = M + K:
+//   (A + c1 c2 J H^-1 J') p = b - c1 J H^-1 (M v* + r),  H v = M v* + r + c2 J'p.
+// What is held has its velocity, and b knows of it.
 template <int Dim>
 class LiquidProblem : public InertiaProblem {
  public:
   // Keeps references; `pressure` is the first guess and holds the last solution.
-  LiquidProblem(const RigidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
+  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
                 double c2, const Communicator& ranks);
-  int size() const override { return int(coupling_.target.size()); }
+  int size() const override { return coupling_.size(); }
   InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
+  bool holds(const Eigen::VectorXd& v) const override;
 
   const SolveReport& report() const { return report_; }  // of all solves so far
 
  private:
-  Eigen::VectorXd masked(Eigen::VectorXd v) const;
-  SmallMatrix masked(const SmallMatrix& K) const;
-  std::string solve(const SmallMatrix& H, const Vector& b);
+  Eigen::VectorXd free_part(Eigen::VectorXd v) const;
+  SparseMatrix uncouple_held(const SparseMatrix& H, Eigen::VectorXd& right_side) const;
+  std::string solve(const BodyMatrix& H, const Vector& b);
   Eigen::VectorXd impulse_of_pressure() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
-  const RigidCoupling<Dim>& coupling_;
+  const SolidCoupling<Dim>& coupling_;
   SpdSolver& solver_;
   const Vector& b_;
   Vector& pressure_;
   double c1_, c2_;
   Communicator ranks_;
+  BodyMatrix H_, none_;
   // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side,
   // which grows without bound for ever lighter bodies.
   double scale_ = 0;

@@ -68,6 +68,33 @@ void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stat
   }
 }
 
+// E = 1/2 v'Mv + Psi(u) and -g'M x with the velocities that led to u; the momentum is that of the velocities the liquid
+// has just been solved with, w.
+template <int Dim>
+void measure_elastic(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    const ElasticBody<Dim>& body = s.bodies[k].elastic().body;
+    const ElasticMotion& m = state.elastic[k];
+    const BodyAverage now = average(body, m.state.u, m.velocity);
+    stats.kinetic_energy += kinetic_energy(body, m.state.v);
+    stats.elastic_energy += elastic_energy(body, m.state.u);
+    stats.potential_energy -= s.bodies[k].mass().mass * s.scene.gravity.dot(now.center);
+    stats.momentum += s.bodies[k].mass().mass * now.velocity;
+  }
+}
+
+// How an elastic body stands and moves on the average.
+template <int Dim>
+void describe_elastic(const Body<Dim>& body, const ElasticMotion& m, SolidState& out) {
+  const BodyAverage now = average(body.elastic().body, m.state.u, m.velocity);
+  const Eigen::Quaterniond q(now.rotation);
+  out.position = now.center;
+  out.orientation = {q.w(), q.x(), q.y(), q.z()};
+  out.velocity = now.velocity;
+  out.angular_velocity = now.angular_velocity;
+}
+
 // F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
@@ -82,10 +109,11 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     out.position = pose.apply(s.bodies[k].reference_point());
     out.orientation = {q.w(), q.x(), q.y(), q.z()};
     // Before the first step there is no mean over a step; the share of a frame bounds error and cancellation by 1e-8.
-    const bool prescribed = state.step == 0 && !s.bodies[k].is_rigid();
+    const bool prescribed = state.step == 0 && s.bodies[k].spec().kind == SolidKind::kinematic;
     const Twist v = prescribed ? s.bodies[k].velocity(state.time, 1e-4 / s.scene.time.frame_rate) : g.placed[k].twist;
     out.velocity = v.at(out.position);
     out.angular_velocity = v.angular;
+    if (s.bodies[k].is_elastic()) describe_elastic(s.bodies[k], state.elastic[k], out);
     for (const FaceShare& share : *g.shares[k]) {
       const double jump = state.pressure[share.face - s.layout.stride(share.axis)] - state.pressure[share.face];
       const IVec<Dim> i = s.layout.index(share.face);
@@ -109,6 +137,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
 #define SEICHE_INSTANTIATE(D)                                                                         \
   template void measure_liquid<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
   template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                       \
+  template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                     \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

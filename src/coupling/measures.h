@@ -8,11 +8,15 @@ namespace seiche {
 template <int Dim>
 void measure_liquid(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
 
-// Pose, velocity and the liquid's force and torque on every solid. Collective.
 // Adds the rigid bodies' energies and momentum.
 template <int Dim>
 void measure_rigid(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);
 
+// Adds those of the elastic bodies.
+template <int Dim>
+void measure_elastic(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);
+
+// Pose, velocity and the liquid's force and torque on every solid. Collective.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state,
                                        const StepGeometry<Dim>& geometry);

@@ -76,8 +76,7 @@ ColumnBlock make_block(const PressureRows<Dim>& rows, const Generalised<Dim>& ma
     const bool has_row = rows.row[cell] >= 0;
     if (area > rounding) sums.surface += area, sums.wet += has_row ? area : 0;
     if (!has_row) continue;
-    block.row.push_back(int(rows.row[cell] - rows.first));
-    for (int k = 0; k < block.width; ++k) block.value.push_back(mask[k] * mode[k]);
+    for (int k = 0; k < block.width; ++k) block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
   }
   return block;
 }
@@ -164,71 +163,59 @@ Twist unstacked(const Eigen::VectorXd& v, int first, const Vec3& about) {
 }
 
 template <int Dim>
-RigidCoupling<Dim> couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                                       const std::vector<RigidState>& rigid, double dt, double horizon) {
-  RigidCoupling<Dim> c;
-  std::vector<Sums<Dim>> sums;
-  std::vector<Eigen::Triplet<double>> mass;
+void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                         const std::vector<RigidState>& rigid, double dt, double horizon, CouplingParts<Dim>& parts) {
   constexpr int n = twist_size<Dim>;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_rigid()) continue;
-    const Generalised<Dim> mask = freedom_mask<Dim>(s.bodies[k].spec().rigid);
-    for (int i = 0; i < n; ++i) c.freedom.push_back(mask[i] != 0 ? Freedom::free : Freedom::fixed);
-    sums.push_back(add_up(s, *g.shares[k], rigid[k].center));
-    c.J.blocks.push_back(make_block(rows, mask, sums.back()));
-    const auto M = mass_block<Dim>(s.bodies[k].mass().mass, world_inertia(s.bodies[k], rigid[k]));
-    add_mass<Dim>(M, mask, n * int(c.bodies.size()), mass);
-    c.bodies.push_back(int(k));
-  }
-  sum_over_ranks(sums, s.ranks);
-  const int size = n * int(c.bodies.size());
-  c.mass.resize(size, size);
-  c.mass.setFromTriplets(mass.begin(), mass.end());
-  c.target.resize(size), c.free.resize(size), c.buoyancy_correction.setZero(size);
+  SolidCoupling<Dim>& c = parts.coupling;
+  std::vector<Sums<Dim>> sums;
+  std::vector<std::size_t> places;
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
     const Body<Dim>& body = s.bodies[c.bodies[b]];
     const RigidState& r = rigid[c.bodies[b]];
-    const Twist v = free_twist(body, r, s.scene.gravity, dt, horizon);
-    c.free.template segment<n>(n * b) = stacked<Dim>(v.linear, v.angular);
-    if (lies_within<Dim>(s.scene.domain, body, g.placed[std::size_t(c.bodies[b])].pose))
-      c.buoyancy_correction.template segment<n>(n * b) =
-          buoyancy_difference(s, sums[b], body.mass().volume).cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
+    if (!body.is_rigid()) continue;
+    const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
+    for (int i = 0; i < n; ++i) c.freedom[c.first[b] + i] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
+    sums.push_back(add_up(s, *g.shares[c.bodies[b]], r.center));
+    places.push_back(b);
+    c.J.blocks[b] = make_block(rows, mask, sums.back());
+    add_mass<Dim>(mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, c.first[b], parts.mass);
   }
-  make_identical(c.buoyancy_correction, s.ranks);
-  const Eigen::SimplicialLDLT<SmallMatrix> factor(c.mass);
-  c.target = c.free;
-  if (size > 0) c.target += dt * factor.solve(c.buoyancy_correction);
-  return c;
+  sum_over_ranks(sums, s.ranks);
+  for (std::size_t m = 0; m < places.size(); ++m) {
+    const int k = c.bodies[places[m]], first = c.first[places[m]];
+    const Body<Dim>& body = s.bodies[k];
+    const Twist v = free_twist(body, rigid[k], s.scene.gravity, dt, horizon);
+    c.free.template segment<n>(first) = stacked<Dim>(v.linear, v.angular);
+    if (lies_within<Dim>(s.scene.domain, body, g.placed[std::size_t(k)].pose))
+      c.buoyancy_correction.template segment<n>(first) =
+          buoyancy_difference(s, sums[m], body.mass().volume).cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
+  }
 }
 
 // L += I (omega - omega*): what liquid and contact added to the free rotation.
 template <int Dim>
-void set_velocities(const Setup<Dim>& s, const RigidCoupling<Dim>& c, const Eigen::VectorXd& v, StepGeometry<Dim>& g,
-                    std::vector<RigidState>& rigid) {
-  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    const int k = c.bodies[b], first = twist_size<Dim> * int(b);
-    RigidState& r = rigid[k];
-    const Twist now = unstacked<Dim>(v, first, r.center), free = unstacked<Dim>(c.free, first, r.center);
-    const Eigen::Matrix3d inertia = world_inertia(s.bodies[k], r);
-    r.angular_momentum = turns_freely(s.bodies[k].spec().rigid)
-                             ? Vec3(r.angular_momentum + inertia * (now.angular - free.angular))
-                             : Vec3(inertia * now.angular);
-    r.velocity = now.linear;
-    r.angular_velocity = now.angular;
-    const Twist extra = unstacked<Dim>(c.buoyancy_correction, first, r.center);
-    r.extra_force = extra.linear;
-    r.extra_torque = extra.angular;
-    set_twist(s.layout, k, now, g);
-  }
+void set_rigid_velocity(const Setup<Dim>& s, const SolidCoupling<Dim>& c, int k, int first, const Eigen::VectorXd& v,
+                        StepGeometry<Dim>& g, RigidState& r) {
+  const Twist now = unstacked<Dim>(v, first, r.center), free = unstacked<Dim>(c.free, first, r.center);
+  const Eigen::Matrix3d inertia = world_inertia(s.bodies[k], r);
+  r.angular_momentum = turns_freely(s.bodies[k].spec().rigid)
+                           ? Vec3(r.angular_momentum + inertia * (now.angular - free.angular))
+                           : Vec3(inertia * now.angular);
+  r.velocity = now.linear;
+  r.angular_velocity = now.angular;
+  const Twist extra = unstacked<Dim>(c.buoyancy_correction, first, r.center);
+  r.extra_force = extra.linear;
+  r.extra_torque = extra.angular;
+  set_twist(s.layout, k, now, g);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);                              \
-  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                                              \
-  template RigidCoupling<D> couple_rigid_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,   \
-                                                   const std::vector<RigidState>&, double, double);                   \
-  template void set_velocities<D>(const Setup<D>&, const RigidCoupling<D>&, const Eigen::VectorXd&, StepGeometry<D>&, \
-                                  std::vector<RigidState>&);
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);                          \
+  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                                          \
+  template void couple_rigid_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,           \
+                                       const std::vector<RigidState>&, double, double, CouplingParts<D>&);        \
+  template void set_rigid_velocity<D>(const Setup<D>&, const SolidCoupling<D>&, int, int, const Eigen::VectorXd&, \
+                                      StepGeometry<D>&, RigidState&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

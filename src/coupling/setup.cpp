@@ -37,7 +37,8 @@ constexpr double least_density_ratio = 1e-7;
 
 SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std::string>& notes) {
   const double least = least_density_ratio * liquid.density;
-  if (spec.kind != SolidKind::rigid || spec.rigid.density >= least) return spec;
+  const bool floats = spec.kind == SolidKind::rigid || spec.kind == SolidKind::elastic;
+  if (!floats || spec.rigid.density >= least) return spec;
   notes.push_back(fmt::format("solid '{}': density {:g} kg/m^3 is taken as {:g}, {:g} of the liquid's", spec.name,
                               spec.rigid.density, least, least_density_ratio));
   spec.rigid.density = least;
@@ -52,7 +53,8 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   std::string thin;
   for (const SolidSpec& spec : scene.solids) {
     bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
-    if (is_thinner_than(bodies.back(), h, lower, upper)) thin += (thin.empty() ? "'" : ", '") + spec.name + "'";
+    if (!bodies.back().is_elastic() && is_thinner_than(bodies.back(), h, lower, upper))
+      thin += (thin.empty() ? "'" : ", '") + spec.name + "'";
   }
   if (!thin.empty())
     notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid may pass through", h, thin));
@@ -150,7 +152,7 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
       bodies(make_bodies<Dim>(sc, notes)),
       solids(layout, sides, bodies),
       sources(make_sources<Dim>(sc, notes)) {
-  if (has_rigid()) contact.emplace(make_contact_scene(sc, bodies));
+  if (has_rigid() || has_elastic()) contact.emplace(make_contact_scene(sc, bodies));
 }
 
 template <int Dim>
@@ -159,8 +161,19 @@ bool Setup<Dim>::has_rigid() const {
 }
 
 template <int Dim>
+bool Setup<Dim>::has_elastic() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) { return b.is_elastic(); });
+}
+
+template <int Dim>
 std::vector<Placement> place_bodies(const Setup<Dim>& s, const State<Dim>& state) {
-  return place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
+  auto placed = place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    placed[k].displacement = state.elastic[k].state.u;
+    placed[k].velocity = Eigen::VectorXd::Zero(placed[k].displacement.size());
+  }
+  return placed;
 }
 
 // What a pinned step will meet is known at the start as far as the initial velocity and the solids' motions go; of
@@ -177,9 +190,11 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
   for (int n = 0; fault.empty() && n < looks; ++n) {
     const double t = time.end * n / looks;
     auto placed = place_bodies(s.bodies, start.rigid, t, t + dt);
-    for (std::size_t k = 0; n == 0 && k < placed.size(); ++k)
+    for (std::size_t k = 0; n == 0 && k < placed.size(); ++k) {
       if (s.bodies[k].is_rigid())
         placed[k].twist = {start.rigid[k].velocity, start.rigid[k].angular_velocity, start.rigid[k].center};
+      placed[k].velocity = start.elastic[k].velocity;
+    }
     fault = fault_of_pinned_solids(s, placed, t, dt);
   }
   if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
@@ -194,8 +209,11 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
   if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
-  for (const Body<Dim>& body : s.bodies) state.rigid.push_back(initial_rigid_state(body));
-  refuse_overlaps(s, state.rigid);
+  for (const Body<Dim>& body : s.bodies) {
+    state.rigid.push_back(initial_rigid_state(body));
+    state.elastic.push_back(initial_elastic_motion(body));
+  }
+  refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
 

@@ -6,6 +6,7 @@
 #include "coupling/step_geometry.h"
 #include "fluid/pressure.h"
 #include "solid/contact.h"
+#include "solid/elastic_motion.h"
 
 namespace seiche {
 
@@ -26,11 +27,15 @@ struct Setup {
   Sides<Dim> sides;
   std::vector<Body<Dim>> bodies;
   SolidGeometry<Dim> solids;
-  std::optional<ContactScene<Dim>> contact;  // where there are rigid bodies
+  std::optional<ContactScene<Dim>> contact;  // where there are rigid or elastic bodies
   std::vector<Source<Dim>> sources;
 
   Setup(const Scene& scene, const Communicator& ranks);
   bool has_rigid() const;
+  bool has_elastic() const;
+  ElasticScheme elastic_scheme() const {
+    return scene.time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
+  }
   Vec<Dim> gravity() const { return truncate<Dim>(scene.gravity); }
   double density() const { return scene.liquid.density; }
   // Half width of the level-set band, m: what a step can cross, and the reach of the stencils.
@@ -65,6 +70,7 @@ struct State {
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;                             // restored by the volume control so far
   std::vector<RigidState> rigid;                           // one a solid; of the rigid ones
+  std::vector<ElasticMotion> elastic;                      // one a solid; of the elastic ones
   Parting<Dim> parting;                                    // where the scene lets liquid part from solids
 };
 
@@ -88,7 +94,8 @@ struct Phases {
   PhaseFault enter(const std::string& name) const { return hook ? hook(name) : PhaseFault::none; }
 };
 
-// All solids at the state's time, those that move as prescribed with their motion over the step that led there.
+// All solids at the state's time, those that move as prescribed with their motion over the step that led there; rigid
+// and elastic ones at rest.
 template <int Dim>
 std::vector<Placement> place_bodies(const Setup<Dim>& setup, const State<Dim>& state);
 

@@ -117,6 +117,8 @@ struct StepInProgress {
   void move_bodies() {
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
       if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], dt);
+    for (ElasticMotion& m : out.state.elastic)
+      if (m.velocity.size() > 0) advance(s.elastic_scheme(), dt, m);
   }
 
   void transport_surface() {

@@ -2,6 +2,7 @@
 
 #include "grid/loops.h"
 #include "levelset/fractions.h"
+#include "solid/elastic_motion.h"
 
 namespace seiche {
 namespace {
@@ -10,7 +11,7 @@ constexpr double far_away = 1e30;
 // Cells: nodes nearer than this to a solid count as on it, and gaps between two solids narrower than this as closed, so
 // that no sliver faces arise.
 constexpr double snap = 1e-3;
-constexpr int margin = 4;  // cells around a moving body within which its distance is known
+constexpr int margin = 4;  // cells around a rigid body within which its distance is known
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
 template <int Dim>
@@ -66,6 +67,14 @@ void for_each_static_share(const Layout<Dim>& layout, const StepGeometry<Dim>& g
   }
 }
 
+template <int Dim>
+double fastest_node(const Eigen::VectorXd& velocity) {
+  double fastest = 0;
+  for (Eigen::Index n = 0; n + Dim <= velocity.size(); n += Dim)
+    fastest = std::max(fastest, velocity.segment<Dim>(n).norm());
+  return fastest;
+}
+
 // One entry a face and body, in the order of the faces.
 void add_share(FaceShares& shares, const FaceShare& s) {
   if (!shares.empty() && shares.back().face == s.face && shares.back().axis == s.axis)
@@ -83,7 +92,8 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);
   still_.faces = FaceGeometry<Dim>(layout);
-  for (const Body<Dim>& body : bodies) radius_.push_back(body.moves() ? surface_radius(layout, body) : 0);
+  for (const Body<Dim>& body : bodies)
+    radius_.push_back(body.moves() && !body.is_elastic() ? surface_radius(layout, body) : 0);
   measure_static();
 }
 
@@ -129,13 +139,43 @@ Box<Dim> SolidGeometry<Dim>::reach(int body, const Pose& pose) const {
 
 // Shares as if no other moving body were there.
 template <int Dim>
-FaceShares SolidGeometry<Dim>::measure_moving(int k, const Pose& pose, NodeField<Dim>& scratch,
+FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, NodeField<Dim>& scratch,
                                               StepGeometry<Dim>& g) const {
-  FaceShares shares;
-  const Box<Dim> box = reach(k, pose);
-  if (box.empty()) return shares;
+  if (bodies_[k].is_elastic()) return measure_elastic(k, placed, scratch, g);
+  const Box<Dim> box = reach(k, placed.pose);
   for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>& i) {
-    scratch[s] = snapped(bodies_[k].distance_in(pose, layout_.position(i, node_offset<Dim>())), layout_.h());
+    scratch[s] = bodies_[k].distance_in(placed.pose, layout_.position(i, node_offset<Dim>()));
+  });
+  return take_in(k, box, scratch, g);
+}
+
+template <int Dim>
+FaceShares SolidGeometry<Dim>::measure_elastic(int k, const Placement& placed, NodeField<Dim>& scratch,
+                                               StepGeometry<Dim>& g) const {
+  const ElasticSolid<Dim>& solid = bodies_[k].elastic();
+  const std::vector<Vec<Dim>> points = surface_points(solid, placed.displacement);
+  const SurfaceDistance<Dim> surface(layout_, solid.surface.facets, points);
+  surface.fill(scratch);
+  const FaceShares shares = take_in(k, surface.box(), scratch, g);
+  Attachments<Dim> attached(shares.size());
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    const Vec<Dim> x = layout_.position(layout_.index(shares[n].face), face_offset<Dim>(shares[n].axis));
+    if (!surface.nearest(x, attached[n])) continue;
+    for (int& corner : attached[n].corners) corner = solid.surface.nodes[std::size_t(corner)];
+  }
+  g.attached[k] = std::make_shared<const Attachments<Dim>>(std::move(attached));
+  return shares;
+}
+
+// Takes the distances of a body to the nodes of a box into psi, and the parts of faces it closes. Leaves the scratch as
+// it was.
+template <int Dim>
+FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim>& scratch,
+                                       StepGeometry<Dim>& g) const {
+  FaceShares shares;
+  if (box.empty()) return shares;
+  for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>&) {
+    scratch[s] = snapped(scratch[s], layout_.h());
     if (scratch[s] >= g.psi[s]) return;
     g.psi[s] = scratch[s];
     g.body[s] = std::int16_t(k);
@@ -187,15 +227,19 @@ template <int Dim>
 StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& placed, double t) const {
   StepGeometry<Dim> g = still_;
   g.placed = placed;
-  for (Placement& p : g.placed) p.twist = {};
+  g.attached.resize(bodies_.size());
+  for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
   NodeField<Dim> scratch(layout_, far_away);
   std::vector<FaceShares> shares(bodies_.size());
   for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (bodies_[k].moves()) shares[k] = measure_moving(int(k), placed[k].pose, scratch, g);
+    if (bodies_[k].moves()) shares[k] = measure_moving(int(k), placed[k], scratch, g);
   close_faces(shares, g);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (bodies_[k].moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
-  for (std::size_t k = 0; k < bodies_.size(); ++k) set_twist(layout_, int(k), placed[k].twist, g);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    set_twist(layout_, int(k), placed[k].twist, g);
+    if (bodies_[k].is_elastic()) set_node_velocity(layout_, int(k), placed[k].velocity, g);
+  }
   set_sides(t, g);
   return g;
 }
@@ -210,6 +254,26 @@ void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeom
     g.faces.closed_flux.at(s.axis, s.face) += s.closed * (twist.at(x)[s.axis] - present.at(x)[s.axis]);
   }
   present = twist;
+}
+
+template <int Dim>
+double velocity_at(const SurfacePoint<Dim>& point, int axis, const Eigen::VectorXd& node_velocity) {
+  double v = 0;
+  for (int i = 0; i < Dim; ++i) v += point.weights[i] * node_velocity[Dim * point.corners[i] + axis];
+  return v;
+}
+
+template <int Dim>
+void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velocity, StepGeometry<Dim>& g) {
+  Eigen::VectorXd& present = g.placed[body].velocity;
+  const FaceShares& shares = *g.shares[body];
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    const int axis = shares[n].axis;
+    const SurfacePoint<Dim>& point = (*g.attached[body])[n];
+    g.faces.closed_flux.at(axis, shares[n].face) +=
+        shares[n].closed * (velocity_at(point, axis, velocity) - velocity_at(point, axis, present));
+  }
+  present = velocity;
 }
 
 template <int Dim>
@@ -238,12 +302,17 @@ double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& pl
   double largest = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const Twist& v = placed[k].twist;
+    if (bodies_[k].is_elastic()) largest = std::max(largest, dt * fastest_node<Dim>(placed[k].velocity));
     if (bodies_[k].is_rigid() && is_leaving(placed[k], radius_[k])) continue;
     largest = std::max(largest, dt * (v.linear.norm() + v.angular.norm() * radius_[k]));
   }
   return largest;
 }
 
+template double velocity_at<2>(const SurfacePoint<2>&, int, const Eigen::VectorXd&);
+template double velocity_at<3>(const SurfacePoint<3>&, int, const Eigen::VectorXd&);
+template void set_node_velocity<2>(const Layout<2>&, int, const Eigen::VectorXd&, StepGeometry<2>&);
+template void set_node_velocity<3>(const Layout<3>&, int, const Eigen::VectorXd&, StepGeometry<3>&);
 template void set_twist<2>(const Layout<2>&, int, const Twist&, StepGeometry<2>&);
 template void set_twist<3>(const Layout<3>&, int, const Twist&, StepGeometry<3>&);
 template struct StepGeometry<2>;

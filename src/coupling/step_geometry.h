@@ -5,6 +5,7 @@
 
 #include "fluid/face_geometry.h"
 #include "fluid/sides.h"
+#include "levelset/surface_distance.h"
 #include "solid/rigid_state.h"
 
 namespace seiche {
@@ -17,18 +18,31 @@ struct FaceShare {
 };
 using FaceShares = std::vector<FaceShare>;
 
+// Where a face share of an elastic body hangs: the nearest point of its surface; weights zero where there is none near.
+template <int Dim>
+using Attachments = std::vector<SurfacePoint<Dim>>;  // corners are nodes of the body's mesh; one a share
+
 template <int Dim>
 struct StepGeometry {
   NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
   NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
   FaceGeometry<Dim> faces;
   std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
-  std::vector<Placement> placed;                          // of each body, at the end of the step
+  std::vector<std::shared_ptr<const Attachments<Dim>>> attached;  // of each elastic body
+  std::vector<Placement> placed;                                  // of each body, at the end of the step
 };
 
 // Lets a body move with a twist: its share of each face pushes volume through it.
 template <int Dim>
 void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeometry<Dim>& g);
+
+// The same of an elastic body and the velocities of its nodes.
+template <int Dim>
+void set_node_velocity(const Layout<Dim>& layout, int body, const Eigen::VectorXd& velocity, StepGeometry<Dim>& g);
+
+// The velocity along an axis of what a share hangs on.
+template <int Dim>
+double velocity_at(const SurfacePoint<Dim>& point, int axis, const Eigen::VectorXd& node_velocity);
 
 template <int Dim>
 class SolidGeometry {
@@ -43,7 +57,9 @@ class SolidGeometry {
 
  private:
   void measure_static();
-  FaceShares measure_moving(int body, const Pose& pose, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
+  FaceShares measure_moving(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
+  FaceShares measure_elastic(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
+  FaceShares take_in(int body, const Box<Dim>& box, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
   void close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const;
   void set_sides(double t, StepGeometry<Dim>& g) const;
   Box<Dim> reach(int body, const Pose& pose) const;

@@ -63,6 +63,7 @@ std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const RigidState& r = state.rigid[k];
     if (s.bodies[k].is_rigid()) placed[k].twist = {r.velocity, r.angular_velocity, r.center};
+    placed[k].velocity = state.elastic[k].velocity;
   }
   return placed;
 }
@@ -70,7 +71,7 @@ std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state
 // Moving solids go at most one cell a step.
 template <int Dim>
 double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  if (s.has_rigid() && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
+  if (s.contact && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
   for (int n = 0; n < 60 && s.solids.largest_displacement(motion_ahead(s, state, dt), dt) > s.layout.h(); ++n) dt /= 2;
   return dt;
 }

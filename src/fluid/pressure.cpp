@@ -74,8 +74,8 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
 }
 
 template <int Dim>
-SparseMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) {
-  SparseMatrix m;
+DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) {
+  DistributedMatrix m;
   m.first_row = rows.first;
   m.global_rows = rows.global;
   m.column.reserve(rows.cells.size() * (2 * Dim + 1));
@@ -177,7 +177,7 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template PressureRows<D> number_rows<D>(const ProjectionInput<D>&);                                                 \
-  template SparseMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);               \
+  template DistributedMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);               \
   template std::vector<double> pressure_right_side<D>(const ProjectionInput<D>&, const PressureRows<D>&,              \
                                                       const FaceField<D>&);                                           \
   template double face_pressure_slope<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, int, \

@@ -50,7 +50,7 @@ double surface_distance(double phi_liquid, double phi_air);
 // sum_f w (p_i - p_j)/theta = -(rho h/dt) sum_f +-(w u* + closed flux), p = 0 at the surface (Gibou et al. 2002; Ng,
 // Min, Gibou 2009). Scaled by h^(2-Dim) rho/dt.
 template <int Dim>
-SparseMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
+DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 template <int Dim>
 std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                         const FaceField<Dim>& u);

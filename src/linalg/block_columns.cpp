@@ -4,6 +4,13 @@
 
 namespace seiche {
 
+void ColumnBlock::add(int in_row, int in_column, double entry) {
+  if (row.empty() || row.back() != in_row) row.push_back(in_row), start.push_back(start.back());
+  column.push_back(in_column);
+  value.push_back(entry);
+  ++start.back();
+}
+
 std::vector<int> BlockColumns::first_columns() const {
   std::vector<int> first{0};
   for (const ColumnBlock& b : blocks) first.push_back(first.back() + b.width);
@@ -21,7 +28,8 @@ void add_multiplied(const BlockColumns& J, const Eigen::VectorXd& v, Vector& y) 
   for (const ColumnBlock& b : J.blocks) {
     for (std::size_t i = 0; i < b.row.size(); ++i) {
       double sum = 0;
-      for (int k = 0; k < b.width; ++k) sum += b.value[i * b.width + k] * v[first + k];
+      for (int n = b.start[i]; n < b.start[i + 1]; ++n)
+        sum += b.value[std::size_t(n)] * v[first + b.column[std::size_t(n)]];
       y[b.row[i]] += sum;
     }
     first += b.width;
@@ -30,12 +38,7 @@ void add_multiplied(const BlockColumns& J, const Eigen::VectorXd& v, Vector& y) 
 
 Eigen::VectorXd local_transposed(const BlockColumns& J, const Vector& x) {
   Eigen::VectorXd v = Eigen::VectorXd::Zero(J.columns());
-  int first = 0;
-  for (const ColumnBlock& b : J.blocks) {
-    for (std::size_t i = 0; i < b.row.size(); ++i)
-      for (int k = 0; k < b.width; ++k) v[first + k] += b.value[i * b.width + k] * x[b.row[i]];
-    first += b.width;
-  }
+  J.for_each([&](int i, int k, double value) { v[k] += value * x[i]; });
   return v;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Tall matrices with few columns, in blocks that each touch few rows: how bodies, six numbers each, act on the liquid.
+// Tall matrices in blocks that each touch few rows: how bodies act on the liquid.
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,11 +9,26 @@
 
 namespace seiche {
 
-// This rank's rows of `width` columns; value[i * width + k] stands in row[i], column k of the block. Rows ascend.
+// This rank's rows of `width` columns: entries start[i] up to start[i + 1] stand in row[i]. Rows ascend.
 struct ColumnBlock {
   int width = 0;
   std::vector<int> row;
+  std::vector<int> start{0};
+  std::vector<int> column;  // of each entry, within the block
   std::vector<double> value;
+  // Combinations of the columns, one a column of this matrix, that a preconditioner had better know: of a body's nodes
+  // its rigid motions. Empty: each column by itself.
+  Eigen::MatrixXd modes;
+
+  // Entries of one row come one after the other.
+  void add(int in_row, int in_column, double entry);
+  int mode_count() const { return modes.size() > 0 ? int(modes.cols()) : width; }
+  // Visits f(row, column, value).
+  template <class Visit>
+  void for_each(const Visit& f) const {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      for (int n = start[i]; n < start[i + 1]; ++n) f(row[i], column[std::size_t(n)], value[std::size_t(n)]);
+  }
 };
 
 struct BlockColumns {
@@ -21,6 +36,15 @@ struct BlockColumns {
   int columns() const;
   // First column of each block, and the number of columns.
   std::vector<int> first_columns() const;
+  // Visits f(row, column, value), the column counted over all blocks.
+  template <class Visit>
+  void for_each(const Visit& f) const {
+    int first = 0;
+    for (const ColumnBlock& b : blocks) {
+      b.for_each([&](int i, int k, double value) { f(i, first + k, value); });
+      first += b.width;
+    }
+  }
 };
 
 // y += J v, v the same on all ranks.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int request_tag = 7101, value_tag = 7102;
 
-std::vector<Row> foreign_columns(const SparseMatrix& A) {
+std::vector<Row> foreign_columns(const DistributedMatrix& A) {
   std::vector<Row> ghosts;
   for (const Row c : A.column) {
     if (c < A.first_row || c >= A.first_row + A.rows()) ghosts.push_back(c);
@@ -30,7 +30,7 @@ std::vector<Row> gather_row_starts(int owned, const Communicator& ranks) {
 
 }  // namespace
 
-ColumnHalo::ColumnHalo(const SparseMatrix& A, const Communicator& ranks)
+ColumnHalo::ColumnHalo(const DistributedMatrix& A, const Communicator& ranks)
     : ranks_(ranks), first_row_(A.first_row), owned_(A.rows()), ghost_rows_(foreign_columns(A)) {
   if (ranks.size() == 1) {
     assert(ghost_rows_.empty());

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "base/communicator.h"
-#include "linalg/sparse_matrix.h"
+#include "linalg/distributed_matrix.h"
 
 namespace seiche {
 
 class ColumnHalo {
  public:
   // Collective. Rows must be numbered in the order of the ranks, without gaps.
-  ColumnHalo(const SparseMatrix& A, const Communicator& ranks);
+  ColumnHalo(const DistributedMatrix& A, const Communicator& ranks);
 
   int owned() const { return owned_; }
   int ghosts() const { return int(ghost_rows_.size()); }

@@ -13,17 +13,12 @@ struct Felt {
 Felt feel_components(const LinearSystem& A, const BlockColumns& J) {
   const NullSpace& null_space = A.null_space();
   Felt felt{Eigen::MatrixXd::Zero(J.columns(), null_space.count), Eigen::MatrixXd::Zero(J.columns(), null_space.count)};
-  int first = 0;
-  for (const ColumnBlock& b : J.blocks) {
-    for (std::size_t i = 0; i < b.row.size(); ++i) {
-      const int c = null_space.component.empty() ? -1 : null_space.component[b.row[i]];
-      for (int k = 0; c >= 0 && k < b.width; ++k) {
-        felt.sums(first + k, c) += b.value[i * b.width + k];
-        felt.sizes(first + k, c) += std::abs(b.value[i * b.width + k]);
-      }
-    }
-    first += b.width;
-  }
+  J.for_each([&](int i, int k, double value) {
+    const int c = null_space.component.empty() ? -1 : null_space.component[i];
+    if (c < 0) return;
+    felt.sums(k, c) += value;
+    felt.sizes(k, c) += std::abs(value);
+  });
   if (felt.sums.size() == 0) return felt;
   A.ranks().global_sum(std::span<double>(felt.sums.data(), std::size_t(felt.sums.size())));
   A.ranks().global_sum(std::span<double>(felt.sizes.data(), std::size_t(felt.sizes.size())));
@@ -68,15 +63,8 @@ void CoupledSystem::find_sensed() {
   combinations_ = eigen.eigenvectors().leftCols(zeros);
 }
 
-bool CoupledSystem::set_small(const SmallMatrix& H) {
-  H_ = H;
-  if (H.rows() == 0) return true;
-  factor_.compute(H_);
-  return factor_.info() == Eigen::Success && (factor_.vectorD().array() > 0).all();
-}
-
 Eigen::VectorXd CoupledSystem::weigh(const Eigen::VectorXd& w) const {
-  return c_ * factor_.solve(w);
+  return c_ * H_->solve(w);
 }
 
 void CoupledSystem::multiply(const Vector& x, Vector& y) const {

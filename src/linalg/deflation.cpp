@@ -109,12 +109,12 @@ void Deflation::make_columns() {
   const auto& color = regions.color;
   const int colors = color.empty() ? 0 : 1 + *std::max_element(color.begin(), color.end());
   int modes = 0;
-  for (const ColumnBlock& block : S_.columns().blocks) modes = std::max(modes, block.width);
+  for (const ColumnBlock& block : S_.columns().blocks) modes = std::max(modes, block.mode_count());
   for (int c = 0; c < colors; ++c)
     for (int mode = 0; mode < modes; ++mode) {
       std::vector<std::size_t> members;
       for (std::size_t b = 0; b < color.size(); ++b)
-        if (color[b] == c && mode < S_.columns().blocks[b].width) members.push_back(b);
+        if (color[b] == c && mode < S_.columns().blocks[b].mode_count()) members.push_back(b);
       add_columns(regions, members, mode);
     }
 }
@@ -126,10 +126,9 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
   bool any = false;
   for (const std::size_t b : members) {
     const ColumnBlock& block = S_.columns().blocks[b];
-    for (std::size_t i = 0; i < block.row.size(); ++i) {
-      r[block.row[i]] = block.value[i * block.width + mode];
-      any = any || r[block.row[i]] != 0;
-    }
+    const bool combined = block.modes.size() > 0;
+    block.for_each([&](int i, int k, double value) { r[i] += value * (combined ? block.modes(k, mode) : k == mode); });
+    for (const int i : block.row) any = any || r[i] != 0;
   }
   if (!S_.ranks().any(any)) return;
   A.project(r);
@@ -165,13 +164,9 @@ void Deflation::multiply_out() {
   for (std::size_t i = 0; i < z_rows.size(); ++i)
     for (const ColumnValue& a : z_rows[i])
       for (const ColumnValue& b : az_rows[i]) zaz.add(a.column, b.column, a.value * b.value);
-  int first = 0;
-  for (const ColumnBlock& block : S_.columns().blocks) {
-    for (std::size_t i = 0; i < block.row.size(); ++i)
-      for (const ColumnValue& z : z_rows[block.row[i]])
-        for (int k = 0; k < block.width; ++k) jz.add(first + k, z.column, block.value[i * block.width + k] * z.value);
-    first += block.width;
-  }
+  S_.columns().for_each([&](int i, int k, double value) {
+    for (const ColumnValue& z : z_rows[i]) jz.add(k, z.column, value * z.value);
+  });
   zaz_ = zaz.total(ranks);
   jz_ = jz.total(ranks);
   double trace = 0;
@@ -192,11 +187,30 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
   return 0.5 * (schur + schur.transpose());
 }
 
-// E = Z'AZ + c (J'Z)' H^-1 (J'Z) is the Schur complement of the factored matrix, which is quasi-definite and sparse.
-// Without H there is nothing to deflate.
+// E = Z'AZ + c (J'Z)' H^-1 (J'Z). Without H there is nothing to deflate.
 bool Deflation::refresh() {
+  if (Z_.empty() || !S_.is_coupled()) return true;
+  const auto& blocks = S_.columns().blocks;
+  const bool combined = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.modes.size() > 0; });
+  return combined ? multiply_small() : factor_extended();
+}
+
+// Where H is large: column by column.
+bool Deflation::multiply_small() {
+  const auto n = Eigen::Index(Z_.size());
+  Eigen::MatrixXd JZ = Eigen::MatrixXd::Zero(S_.columns().columns(), n), E = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& t : jz_) JZ(t.row(), t.col()) += t.value();
+  for (const auto& t : zaz_) E(t.row(), t.col()) += t.value();
+  E.diagonal().array() += regularization_;
+  for (Eigen::Index k = 0; k < n; ++k) E.col(k) += JZ.transpose() * S_.weigh(JZ.col(k));
+  small_.emplace(0.5 * (E + E.transpose()));
+  return small_->info() == Eigen::Success && E.allFinite();
+}
+
+// Where H is small, but bodies are many: E is the Schur complement of the factored matrix, which is quasi-definite and
+// sparse.
+bool Deflation::factor_extended() {
   const int n = int(Z_.size()), m = S_.columns().columns();
-  if (n == 0 || !S_.is_coupled()) return true;
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& t : zaz_) entries.emplace_back(t.row(), t.col(), t.value());
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, regularization_);
@@ -204,20 +218,21 @@ bool Deflation::refresh() {
     entries.emplace_back(n + t.row(), t.col(), t.value());
     entries.emplace_back(t.col(), n + t.row(), t.value());
   }
-  const SmallMatrix& H = S_.small();
+  const SparseMatrix& H = S_.bodies();
   for (int k = 0; k < H.outerSize(); ++k)
-    for (SmallMatrix::InnerIterator it(H, k); it; ++it)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it)
       entries.emplace_back(n + int(it.row()), n + int(it.col()), -it.value() / S_.scale());
-  SmallMatrix E(n + m, n + m);
+  SparseMatrix E(n + m, n + m);
   E.setFromTriplets(entries.begin(), entries.end());
-  factor_.compute(E);
-  return factor_.info() == Eigen::Success;
+  extended_.compute(E);
+  return extended_.info() == Eigen::Success;
 }
 
 Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
+  if (small_) return small_->solve(f);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(f.size() + S_.columns().columns());
   all.head(f.size()) = f;
-  return factor_.solve(all).head(f.size());
+  return extended_.solve(all).head(f.size());
 }
 
 Eigen::VectorXd Deflation::transposed(const std::vector<SparseColumn>& columns, const Vector& x) const {
@@ -241,7 +256,7 @@ void Deflation::apply(const Vector& r, Vector& z) {
   Eigen::VectorXd sums(n + m);  // (AZ)'z - Z'r, J'z
   sums << transposed(AZ_, z) - transposed(Z_, r), local_transposed(S_.columns(), z);
   S_.ranks().global_sum(std::span<double>(sums.data(), std::size_t(sums.size())));
-  // (S Z)' z = (A Z)' z + (J'Z)' c H^-1 J'z: E q = f and -H/c w + J'Z q = J'z solved together.
+  // (S Z)' z = (A Z)' z + (J'Z)' c H^-1 J'z
   Eigen::VectorXd f = sums.head(n);
   const Eigen::VectorXd w = S_.weigh(sums.tail(m));
   for (const auto& t : jz_) f[t.col()] += t.value() * w[t.row()];

@@ -2,6 +2,9 @@
 // Makes a preconditioner B of A serve for S = A + c J H^-1 J', whatever H: the directions Z = B J, cut to the
 // neighbourhood of each body, are solved for exactly (A-DEF2 of Tang, Nabben, Vuik, Erlangga 2009). With uncut Z and
 // H -> infinity nothing changes; with H -> 0 (massless bodies) Z spans what A alone does not know.
+#include <optional>
+
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
 #include "linalg/body_regions.h"
@@ -51,6 +54,8 @@ class Deflation {
   void add_component_columns();
   void multiply_out();
   Eigen::VectorXd transposed(const std::vector<SparseColumn>& columns, const Vector& x) const;
+  bool multiply_small();
+  bool factor_extended();
   Eigen::VectorXd solve_small(const Eigen::VectorXd& f) const;
   void subtract(const Eigen::VectorXd& q, Vector& z) const;
 
@@ -61,7 +66,8 @@ class Deflation {
   int body_columns_ = 0;                          // the first of Z; closed components follow
   double regularization_ = 0;
   int applications_ = 0;
-  Eigen::SimplicialLDLT<SmallMatrix> factor_;  // of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
+  std::optional<Eigen::LDLT<Eigen::MatrixXd>> small_;  // of E
+  Eigen::SimplicialLDLT<SparseMatrix> extended_;       // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
 };
 
 }  // namespace seiche

@@ -36,23 +36,19 @@ std::vector<T> gather(const std::vector<T>& items, const Communicator& ranks) {
 // Of A and, where bodies are coupled in, of J and J', whose unknowns follow those of A.
 std::vector<Entry> local_entries(const CoupledSystem& coupled) {
   const LinearSystem& system = coupled.liquid();
-  const SparseMatrix& A = system.pattern();
+  const DistributedMatrix& A = system.pattern();
   std::vector<Entry> entries;
   for (int i = 0; i < A.rows(); ++i) {
     for (int k = A.row_start[i]; k < A.row_start[i + 1]; ++k) {
       entries.push_back({std::int32_t(A.first_row + i), std::int32_t(A.column[k]), system.values()[k]});
     }
   }
-  std::int64_t first = A.global_rows;
-  for (const ColumnBlock& block : coupled.columns().blocks) {
-    for (std::size_t i = 0; coupled.is_coupled() && i < block.row.size(); ++i)
-      for (int k = 0; k < block.width; ++k) {
-        const auto row = std::int32_t(A.first_row + block.row[i]), column = std::int32_t(first + k);
-        entries.push_back({row, column, block.value[i * block.width + k]});
-        entries.push_back({column, row, block.value[i * block.width + k]});
-      }
-    first += block.width;
-  }
+  if (!coupled.is_coupled()) return entries;
+  coupled.columns().for_each([&](int i, int k, double value) {
+    const auto row = std::int32_t(A.first_row + i), column = std::int32_t(A.global_rows + k);
+    entries.push_back({row, column, value});
+    entries.push_back({column, row, value});
+  });
   return entries;
 }
 
@@ -71,10 +67,11 @@ std::vector<RowData> local_rows(const CoupledSystem& coupled, const Vector& b) {
 
 // -H/c
 void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std::vector<RowData>& rows) {
-  const SmallMatrix& H = coupled.small();
+  if (!coupled.is_coupled()) return;
+  const SparseMatrix& H = coupled.bodies();
   const auto first = std::int32_t(rows.size());
   for (int k = 0; k < H.outerSize(); ++k)
-    for (SmallMatrix::InnerIterator it(H, k); it; ++it)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it)
       entries.push_back(
           {first + std::int32_t(it.row()), first + std::int32_t(it.col()), -it.value() / coupled.scale()});
   rows.resize(rows.size() + std::size_t(H.rows()), RowData{0, -1});
@@ -126,7 +123,7 @@ std::vector<double> solve_gathered(const std::vector<Entry>& entries, const std:
 }  // namespace
 
 std::string solve_directly(const CoupledSystem& system, const Vector& b, Vector& x) {
-  const SparseMatrix& A = system.liquid().pattern();
+  const DistributedMatrix& A = system.liquid().pattern();
   const Communicator& ranks = system.ranks();
   if (A.global_rows > direct_solve_limit) return "too many rows for elimination";
   std::vector<Entry> entries = gather(local_entries(system), ranks);

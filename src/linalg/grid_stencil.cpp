@@ -45,7 +45,7 @@ int neighbour_axis(const std::array<Vector, 3>& x, const std::array<int, 3>& per
 // Enters the couplings towards higher cells; those towards lower cells are the same by symmetry. False if some pair of
 // rows is not a pair of neighbours.
 bool fill_couplings(const LinearSystem& system, const std::array<Vector, 3>& x, int row, double* entry) {
-  const SparseMatrix& A = system.pattern();
+  const DistributedMatrix& A = system.pattern();
   for (int k = A.row_start[row] + 1; k < A.row_start[row + 1]; ++k) {
     if (system.values()[k] == 0) continue;
     const int axis = neighbour_axis(x, system.grid().periodic, row, system.halo().local_index(A.column[k]));

@@ -103,7 +103,7 @@ class BoomerAmg : public Preconditioner {
 
  private:
   void assemble(const LinearSystem& system) {
-    const SparseMatrix& A = system.pattern();
+    const DistributedMatrix& A = system.pattern();
     const auto first = HYPRE_BigInt(A.first_row), last = first + A.rows() - 1;
     HYPRE_IJMatrixCreate(comm_, first, last, first, last, matrix_.address());
     HYPRE_IJMatrixSetObjectType(matrix_, HYPRE_PARCSR);

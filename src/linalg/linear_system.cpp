@@ -7,7 +7,7 @@ namespace seiche {
 namespace {
 
 // An isolated cell with no open face: no equation, and no constant of its own to remove either.
-NullSpace without_rows(NullSpace null_space, const SparseMatrix& A) {
+NullSpace without_rows(NullSpace null_space, const DistributedMatrix& A) {
   for (int i = 0; i < A.rows() && !null_space.component.empty(); ++i) {
     if (A.value[A.row_start[i]] == 0) null_space.component[i] = -1;
   }
@@ -16,7 +16,7 @@ NullSpace without_rows(NullSpace null_space, const SparseMatrix& A) {
 
 }  // namespace
 
-LinearSystem::LinearSystem(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space,
+LinearSystem::LinearSystem(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space,
                            const Communicator& ranks)
     : pattern_(A),
       grid_(grid),

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "linalg/column_halo.h"
+#include "linalg/distributed_matrix.h"
 #include "linalg/null_space.h"
-#include "linalg/sparse_matrix.h"
 #include "linalg/vector_ops.h"
 
 namespace seiche {
@@ -14,10 +14,10 @@ namespace seiche {
 class LinearSystem {
  public:
   // Collective.
-  LinearSystem(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space, const Communicator& ranks);
+  LinearSystem(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, const Communicator& ranks);
 
   int rows() const { return pattern_.rows(); }
-  const SparseMatrix& pattern() const { return pattern_; }  // rows and columns; for values see values()
+  const DistributedMatrix& pattern() const { return pattern_; }  // rows and columns; for values see values()
   const RowGrid& grid() const { return grid_; }
   const NullSpace& null_space() const { return null_space_; }
   const Communicator& ranks() const { return ranks_; }
@@ -40,7 +40,7 @@ class LinearSystem {
   void replace_zero_diagonals();
   const double* with_ghosts(const Vector& x) const;
 
-  const SparseMatrix& pattern_;
+  const DistributedMatrix& pattern_;
   const RowGrid& grid_;
   NullSpace null_space_;
   Communicator ranks_;

@@ -2,7 +2,7 @@
 // Removes the constants that a singular system does not see: one per component without a Dirichlet face.
 #include <vector>
 
-#include "linalg/sparse_matrix.h"
+#include "linalg/distributed_matrix.h"
 #include "linalg/vector_ops.h"
 
 namespace seiche {

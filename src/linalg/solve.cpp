@@ -10,6 +10,7 @@
 #include "linalg/deflation.h"
 #include "linalg/direct_solve.h"
 #include "linalg/krylov.h"
+#include "linalg/lumped_coupling.h"
 #include "linalg/preconditioners.h"
 
 namespace seiche {
@@ -39,7 +40,7 @@ void spoil(Vector& x, int rung) {
   std::fill(x.begin(), x.end(), wrong);
 }
 
-const SparseMatrix& checked_size(const SparseMatrix& A) {
+const DistributedMatrix& checked_size(const DistributedMatrix& A) {
   constexpr Row limit = std::numeric_limits<std::int32_t>::max();
   if (A.global_rows <= limit) return A;
   throw Error(ExitCode::machine, fmt::format("the pressure system has {} rows, but hypre as built here counts to {}; "
@@ -69,12 +70,14 @@ struct SpdSolver::Problem {
 };
 
 struct SpdSolver::Built {
+  std::unique_ptr<DistributedMatrix> matrix;  // what it was made from, unless it was A
+  std::unique_ptr<LinearSystem> system;
   PreconditionerOrFailure made;
   std::unique_ptr<Deflation> deflation;
 };
 
-SpdSolver::SpdSolver(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J, double c,
-                     const SolveOptions& options, const Communicator& ranks)
+SpdSolver::SpdSolver(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J,
+                     double c, const SolveOptions& options, const Communicator& ranks)
     : options_(options), J_(std::move(J)), liquid_(checked_size(A), grid, null_space, ranks), system_(liquid_, J_, c) {}
 
 SpdSolver::~SpdSolver() = default;
@@ -105,13 +108,29 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
   return ladder;
 }
 
+// Preconditioners that need not keep to the grid's stencil know of deformable bodies.
+void SpdSolver::make(const std::string& name, Built& built) const {
+  const LinearSystem* system = &liquid_;
+  if (deforms() && system_.is_coupled() && name != "multigrid") {
+    built.matrix =
+        std::make_unique<DistributedMatrix>(add_lumped_coupling(liquid_, J_, system_.bodies(), system_.scale()));
+    built.system = std::make_unique<LinearSystem>(*built.matrix, liquid_.grid(), liquid_.null_space(), system_.ranks());
+    system = built.system.get();
+  }
+  built.made = make_preconditioner(name, *system);
+}
+
 SpdSolver::Built& SpdSolver::build(const std::string& name) {
   std::unique_ptr<Built>& built = built_[name];
-  if (!built) built.reset(new Built{make_preconditioner(name, liquid_), nullptr});
+  if (!built) make(name, *(built = std::make_unique<Built>()));
   if (!built->made.preconditioner) return *built;
   last_built_ = name;
   if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
   return *built;
+}
+
+bool SpdSolver::deforms() const {
+  return std::any_of(J_.blocks.begin(), J_.blocks.end(), [](const ColumnBlock& b) { return b.modes.size() > 0; });
 }
 
 double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
@@ -151,7 +170,7 @@ SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vect
 // any the columns of J seen through a hierarchy are a model of their added mass, seen through a diagonal they are not.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  const bool poor = chosen == "none" || (chosen == "multigrid" && J_.blocks.size() > few_bodies);
+  const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || deforms()));
   return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
 }
 
@@ -196,16 +215,17 @@ double SpdSolver::make_compatible(Vector& b) const {
   return before > 0 ? norm(removed, system_.ranks()) / before : 0;
 }
 
-SolveReport SpdSolver::solve(const SmallMatrix& H, const Vector& b, Vector& x, double scale) {
+SolveReport SpdSolver::solve(const BodyMatrix& H, const Vector& b, Vector& x, double scale) {
   const Communicator& ranks = system_.ranks();
   SolveReport report;
   report.used = "none";
   report.identity_rows = liquid_.identity_rows();
   report.converged = liquid_.pattern().global_rows == 0;
   if (report.converged) return report;
-  if (!all_finite(liquid_.values(), ranks) || !all_finite(b, ranks) || !system_.set_small(H)) {
+  system_.set_bodies(H);
+  if (!all_finite(liquid_.values(), ranks) || !all_finite(b, ranks)) {
     report.residual = std::numeric_limits<double>::infinity();
-    report.ladder.push_back("the matrix or the right-hand side is not finite, or the bodies' matrix not definite");
+    report.ladder.push_back("the matrix or the right-hand side is not finite");
     return report;
   }
   Problem problem{b, norm(b, ranks), options_.tolerance};
@@ -222,9 +242,9 @@ SolveReport SpdSolver::solve(const SmallMatrix& H, const Vector& b, Vector& x, d
   return report;
 }
 
-SolveReport solve_spd(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space, const Vector& b,
+SolveReport solve_spd(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, const Vector& b,
                       Vector& x, const SolveOptions& options, const Communicator& ranks) {
-  return SpdSolver(A, grid, null_space, {}, 0, options, ranks).solve({}, b, x);
+  return SpdSolver(A, grid, null_space, {}, 0, options, ranks).solve(BodyMatrix(ranks), b, x);
 }
 
 }  // namespace seiche

@@ -8,7 +8,7 @@
 
 #include "base/communicator.h"
 #include "linalg/coupled_system.h"
-#include "linalg/sparse_matrix.h"
+#include "linalg/distributed_matrix.h"
 
 namespace seiche {
 
@@ -40,15 +40,15 @@ class Preconditioner;
 class SpdSolver {
  public:
   // Takes copies of J, references to the rest. Collective. Throws Error(machine) for more rows than hypre can index.
-  SpdSolver(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J, double c,
+  SpdSolver(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J, double c,
             const SolveOptions& options, const Communicator& ranks);
   ~SpdSolver();
 
   // From the initial x. b is made compatible first (what no x can reach removed), x keeps out of the null space. Tries
   // the preconditioner asked for, then the rungs of the ladder; never returns a result whose recomputed residual was
-  // not checked. An empty H leaves the second term out. The tolerance is relative to `scale`, or to |b| where that is
-  // 0.
-  [[nodiscard]] SolveReport solve(const SmallMatrix& H, const Vector& b, Vector& x, double scale = 0);
+  // not checked. H without rows leaves the second term out. The tolerance is relative to `scale`, or to |b| where that
+  // is 0.
+  [[nodiscard]] SolveReport solve(const BodyMatrix& H, const Vector& b, Vector& x, double scale = 0);
 
   // Closed components of A that bodies feel: their mean pressure is what H and J decide.
   const std::vector<int>& sensed_components() const { return system_.sensed_components(); }
@@ -60,7 +60,9 @@ class SpdSolver {
   struct Built;  // a preconditioner, or why there is none
   struct Problem;
   struct Rung;
+  void make(const std::string& name, Built& built) const;
   Built& build(const std::string& name);
+  bool deforms() const;
   double true_residual(const Problem& problem, const Vector& x) const;
   double make_compatible(Vector& b) const;
   std::string choose() const;
@@ -82,7 +84,7 @@ class SpdSolver {
 };
 
 // Solves A x = b once, as SpdSolver does.
-[[nodiscard]] SolveReport solve_spd(const SparseMatrix& A, const RowGrid& grid, const NullSpace& null_space,
+[[nodiscard]] SolveReport solve_spd(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space,
                                     const std::vector<double>& b, std::vector<double>& x, const SolveOptions& options,
                                     const Communicator& ranks);
 

@@ -22,7 +22,12 @@ Vec3 shape_center(const ShapeSpec& s) {
 
 template <int Dim>
 Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper)
-    : spec_(spec), shape_(make_shape<Dim>(spec.shape, options)) {
+    : spec_(spec) {
+  if (spec.kind == SolidKind::elastic) {
+    make_elastic(options);
+    return;
+  }
+  shape_ = make_shape<Dim>(spec.shape, options);
   surface_ = seiche::contact_surface<Dim>(spec.shape, options, lower, upper);
   if (is_rigid()) {
     mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
@@ -31,6 +36,22 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
   if (spec.kind != SolidKind::kinematic) return;
   const MotionSpec& m = spec.motion;
   motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
+}
+
+template <int Dim>
+void Body<Dim>::make_elastic(const ShapeOptions& options) {
+  elastic_ = std::make_unique<ElasticSolid<Dim>>(make_elastic_solid<Dim>(spec_, options));
+  surface_ = elastic_->surface.facets;
+  const ElasticBody<Dim>& body = elastic_->body;
+  // Row sums of M: what each node has of the mass.
+  const Eigen::VectorXd masses = body.mass * Eigen::VectorXd::Ones(body.size());
+  for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+    const double m = masses[Dim * Eigen::Index(n)];
+    mass_.mass += m;
+    mass_.center += m * extend<Dim>(body.mesh.nodes[n]);
+  }
+  mass_.center /= mass_.mass;
+  mass_.volume = mass_.mass / spec_.rigid.density;
 }
 
 template <int Dim>
@@ -65,6 +86,7 @@ double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
 
 template <int Dim>
 Vec3 Body<Dim>::reference_point() const {
+  if (is_elastic()) return mass_.center;
   const TransformSpec& t = spec_.shape.transform;
   const Vec3 axis = t.rotate.axis.normalized();
   return t.translate + Eigen::AngleAxisd(radians(t.rotate.degrees), axis) * Vec3(t.scale * shape_center(spec_.shape));

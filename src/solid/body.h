@@ -1,5 +1,5 @@
 #pragma once
-// A solid of rigid shape: static, moved as prescribed, or moved by forces.
+// A solid of a scene: static, moved as prescribed, or moved by forces; elastic ones change their shape, too.
 #include <memory>
 #include <optional>
 
@@ -7,6 +7,7 @@
 
 #include "base/expression.h"
 #include "levelset/shapes.h"
+#include "solid/elastic_solid.h"
 #include "solid/mass_properties.h"
 
 namespace seiche {
@@ -34,8 +35,10 @@ class Body {
 
   const SolidSpec& spec() const { return spec_; }
   bool is_rigid() const { return spec_.kind == SolidKind::rigid; }
-  bool moves() const { return motion_.has_value() || is_rigid(); }
-  const MassProperties& mass() const { return mass_; }             // of a rigid body
+  bool is_elastic() const { return elastic_ != nullptr; }
+  bool moves() const { return motion_.has_value() || is_rigid() || is_elastic(); }
+  const ElasticSolid<Dim>& elastic() const { return *elastic_; }   // of an elastic one
+  const MassProperties& mass() const { return mass_; }             // of a rigid or elastic one at rest
   const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
   double radius() const { return radius_; }                        // of a rigid body about its centre of mass, m
   // As prescribed.
@@ -45,7 +48,7 @@ class Body {
   // Velocity at time t from the motion at t and up to 2 tau later: -3/2, 2, -1/2 (second order, one-sided, since a
   // motion need not be defined before the start).
   Twist velocity(double t, double tau) const;
-  // Signed distance, negative inside (m).
+  // Signed distance, negative inside (m); not of an elastic one.
   double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
   double distance_in(const Pose& pose, const Vec<Dim>& x) const;
   // The point that solids.csv reports and torques are taken about, at rest.
@@ -57,8 +60,11 @@ class Body {
     Expression degrees;
     Vec3 axis, center;
   };
+  void make_elastic(const ShapeOptions& options);
+
   SolidSpec spec_;
   std::unique_ptr<ShapeField<Dim>> shape_;
+  std::unique_ptr<ElasticSolid<Dim>> elastic_;
   std::optional<Motion> motion_;
   MassProperties mass_;
   SurfaceMesh surface_;

@@ -48,13 +48,22 @@ IncrementalPotential<Dim> begin_step(const ElasticBody<Dim>& body, const Elastic
           rayleigh_damping(body, state.u)};
 }
 
-template <int Dim>
-void end_step(const IncrementalPotential<Dim>& potential, double dt, const Eigen::VectorXd& u, ElasticState& state) {
+static void take(double gamma, const Eigen::VectorXd& base, double dt, const Eigen::VectorXd& u, ElasticState& state) {
   state.u_old = state.u;
   state.v_old = state.v;
   state.u = u;
-  state.v = (u - potential.base) / potential.gamma;
+  state.v = (u - base) / gamma;
   state.dt_old = dt;
+}
+
+template <int Dim>
+void end_step(const IncrementalPotential<Dim>& potential, double dt, const Eigen::VectorXd& u, ElasticState& state) {
+  take(potential.gamma, potential.base, dt, u, state);
+}
+
+void end_step(ElasticScheme scheme, double dt, const Eigen::VectorXd& u, ElasticState& state) {
+  const auto [now, old, gamma] = weights(scheme, dt, state.dt_old);
+  take(gamma, now * state.u + old * state.u_old, dt, u, state);
 }
 
 template <int Dim>

@@ -24,6 +24,9 @@ IncrementalPotential<Dim> begin_step(const ElasticBody<Dim>& body, const Elastic
 template <int Dim>
 void end_step(const IncrementalPotential<Dim>& potential, double dt, const Eigen::VectorXd& u, ElasticState& state);
 
+// The same where only the scheme is at hand.
+void end_step(ElasticScheme scheme, double dt, const Eigen::VectorXd& u, ElasticState& state);
+
 // begin, minimize from the displacements before the step, end. On failure the state is left as it was.
 template <int Dim>
 [[nodiscard]] MinimizeReport advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt,

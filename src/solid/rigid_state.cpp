@@ -73,9 +73,9 @@ std::vector<Placement> place_bodies(const std::vector<Body<Dim>>& bodies, const 
   std::vector<Placement> placed;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (bodies[k].is_rigid())
-      placed.push_back({rigid_pose(bodies[k], rigid[k]), Twist{{0, 0, 0}, {0, 0, 0}, rigid[k].center}});
+      placed.push_back({rigid_pose(bodies[k], rigid[k]), Twist{{0, 0, 0}, {0, 0, 0}, rigid[k].center}, {}, {}});
     else
-      placed.push_back({bodies[k].pose(t1), bodies[k].twist(t0, t1)});
+      placed.push_back({bodies[k].pose(t1), bodies[k].twist(t0, t1), {}, {}});
   }
   return placed;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/communicator.h"
-#include "linalg/sparse_matrix.h"
+#include "linalg/distributed_matrix.h"
 
 namespace seiche::cases {
 
@@ -27,7 +27,7 @@ struct Poisson {
 };
 
 struct System {
-  SparseMatrix A;
+  DistributedMatrix A;
   RowGrid grid;
   NullSpace null_space;
 };
@@ -149,7 +149,7 @@ inline double noise(std::int64_t n) {
   return double(h >> 11) / double(1ull << 52) - 1;
 }
 
-inline std::vector<double> noise_vector(const SparseMatrix& A, int seed) {
+inline std::vector<double> noise_vector(const DistributedMatrix& A, int seed) {
   std::vector<double> v(A.rows());
   for (int i = 0; i < A.rows(); ++i) v[i] = noise(A.first_row + i + std::int64_t(seed) * 100000007);
   return v;

@@ -175,7 +175,7 @@ TEST_CASE("a start that is not finite is replaced by a cold one") {
 
 TEST_CASE("more rows than hypre counts are refused in words") {
   const Communicator ranks;
-  SparseMatrix A;
+  DistributedMatrix A;
   A.global_rows = Row(1) << 31;
   Vector x;
   try {

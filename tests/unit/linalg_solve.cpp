@@ -14,7 +14,7 @@ using cases::Kind;
 namespace {
 
 // |b - A x| / |b| by sums over the entries of A, with x and b known on every rank: no code of src/linalg.
-double residual_by_hand(const SparseMatrix& A, const Vector& b, const Vector& x, const Communicator& ranks) {
+double residual_by_hand(const DistributedMatrix& A, const Vector& b, const Vector& x, const Communicator& ranks) {
   Vector all(A.global_rows, 0.0);
   std::copy(x.begin(), x.end(), all.begin() + A.first_row);
   ranks.global_sum(all);

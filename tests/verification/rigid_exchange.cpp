@@ -62,7 +62,7 @@ struct Projection {
   FaceField<Dim> u_star;
   std::vector<RigidState> before;
   PressureRows<Dim> rows;
-  RigidCoupling<Dim> coupling;
+  SolidCoupling<Dim> coupling;
 
   Projection(const Scene& scene, Filling filling, int seed) : setup(scene, Communicator()), u_star(setup.layout) {
     setup.contact.reset();
@@ -73,13 +73,16 @@ struct Projection {
       const Vec<Dim> x = setup.layout.position(i, cell_offset<Dim>());
       if (filling == Filling::surface) state.phi[c] = x[1] - 0.71 + 0.1 * std::sin(7 * x[0]);
     });
-    for (const Body<Dim>& body : setup.bodies) state.rigid.push_back(initial_rigid_state(body));
+    for (const Body<Dim>& body : setup.bodies) {
+      state.rigid.push_back(initial_rigid_state(body));
+      state.elastic.push_back(initial_elastic_motion(body));
+    }
     before = state.rigid;
     geometry = setup.solids.measure(place_bodies(setup, state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
     rows = number_rows(input());
-    coupling = couple_rigid_bodies(setup, geometry, rows, state.rigid, dt, dt);
+    coupling = couple_solids(setup, geometry, rows, state, dt, dt);
   }
 
   ProjectionInput<Dim> input() const {
@@ -250,7 +253,7 @@ template <int Dim>
 Eigen::VectorXd saddle_pressures(const Projection<Dim>& p) {
   const ProjectionInput<Dim> in = p.input();
   const double h = p.setup.layout.h(), c1 = p.setup.density() * h / dt, c2 = dt * std::pow(h, Dim - 1);
-  const SparseMatrix A = assemble_pressure_matrix(in, p.rows);
+  const DistributedMatrix A = assemble_pressure_matrix(in, p.rows);
   const Vector b = pressure_right_side(in, p.rows, p.u_star);
   const int n = A.rows(), m = int(p.coupling.target.size());
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + m, n + m);

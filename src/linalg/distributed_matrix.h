@@ -9,7 +9,7 @@ namespace seiche {
 
 using Row = std::int64_t;
 
-struct SparseMatrix {
+struct DistributedMatrix {
   Row first_row = 0;
   Row global_rows = 0;
   std::vector<int> row_start{0};  // size rows() + 1

@@ -1,0 +1,123 @@
+#include "coupling/elastic_coupling.h"
+
+#include <algorithm>
+
+#include "solid/elastic_potential.h"
+
+namespace seiche {
+namespace {
+
+struct Entry {
+  int row, column;
+  double value;
+};
+
+// Shares spread to the nodes of the surface points that they hang on.
+template <int Dim>
+std::vector<Entry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
+                                 const PressureRows<Dim>& rows) {
+  std::vector<Entry> entries;
+  const Layout<Dim>& l = s.layout;
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    const FaceShare& share = shares[n];
+    const IVec<Dim> i = l.index(share.face);
+    IVec<Dim> low = i;
+    low[share.axis] -= 1;
+    const auto add = [&](Site cell, double sign) {
+      if (rows.row[cell] < 0) return;
+      for (int k = 0; k < Dim; ++k)
+        entries.push_back({int(rows.row[cell] - rows.first), Dim * attached[n].corners[k] + share.axis,
+                           sign * share.closed * attached[n].weights[k]});
+    };
+    if (l.cells().contains(i)) add(share.face, -1);
+    if (l.cells().contains(low)) add(share.face - l.stride(share.axis), 1);
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+  });
+  return entries;
+}
+
+// Columns of held unknowns are left empty.
+ColumnBlock make_block(const std::vector<Entry>& entries, const std::vector<Freedom>& freedom, int first, int width) {
+  ColumnBlock block;
+  block.width = width;
+  for (std::size_t n = 0; n < entries.size();) {
+    double sum = 0;
+    const Entry& e = entries[n];
+    for (; n < entries.size() && entries[n].row == e.row && entries[n].column == e.column; ++n) sum += entries[n].value;
+    if (sum != 0 && freedom[std::size_t(first + e.column)] == Freedom::free) block.add(e.row, e.column, sum);
+  }
+  return block;
+}
+
+// Gravity on each node, and the scene's own forces.
+template <int Dim>
+Eigen::VectorXd forces(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, double t) {
+  const Eigen::VectorXd g = s.gravity().replicate(solid.body.size() / Dim, 1), own = body_force_at(solid, t);
+  const Eigen::VectorXd weight = solid.body.mass * g;
+  return own.size() > 0 ? Eigen::VectorXd(weight + own) : weight;
+}
+
+template <int Dim>
+void hold_pins(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, double end, double horizon, int first,
+               SolidCoupling<Dim>& c) {
+  const Pins pins = pins_at(solid, end);
+  for (std::size_t n = 0; n < pins.dofs.size(); ++n) {
+    c.freedom[std::size_t(first + pins.dofs[n])] = Freedom::fixed;
+    c.held[first + pins.dofs[n]] = (pins.targets[n] - u[pins.dofs[n]]) / horizon;
+  }
+}
+
+void add_matrix(const SparseMatrix& Q, double factor, int first, std::vector<Eigen::Triplet<double>>& entries) {
+  for (int k = 0; k < Q.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(Q, k); it; ++it)
+      entries.emplace_back(first + int(it.row()), first + k, factor * it.value());
+}
+
+// With v = v_a + H w/gamma, v_a = (u - u0)/gamma, the incremental potential (dt/H) Phi(u + H w) without its elastic
+// energy is 1/2 w'Q w - w'push:
+//   Q = dt H (M/gamma^2 + C/gamma),  push = dt (f - M (v_a - v*)/gamma - C v_a).
+template <int Dim>
+void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, double dt, double horizon, int first,
+                 CouplingParts<Dim>& parts) {
+  const Eigen::VectorXd va = (u - p.base) / p.gamma;
+  Eigen::VectorXd push = p.force - p.body->mass * (va - p.target) / p.gamma;
+  add_matrix(p.body->mass, dt * horizon / (p.gamma * p.gamma), first, parts.mass);
+  if (p.damping.size() > 0) {
+    push -= p.damping * va;
+    add_matrix(p.damping, dt * horizon / p.gamma, first, parts.mass);
+  }
+  parts.coupling.push.segment(first, push.size()) = dt * push;
+}
+
+}  // namespace
+
+template <int Dim>
+void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                           const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  std::vector<ElasticShare<Dim>> shares;
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    const int k = c.bodies[b], first = c.first[b];
+    if (!s.bodies[k].is_elastic()) continue;
+    const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+    const ElasticState& e = state.elastic[k].state;
+    hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
+    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(s, solid, state.time + horizon));
+    add_inertia(p, e.u, dt, horizon, first, parts);
+    c.free.segment(first, e.v.size()) = e.v + dt * s.gravity().replicate(e.v.size() / Dim, 1);
+    c.J.blocks[b] = make_block(spread_shares(s, *g.shares[k], *g.attached[k], rows), c.freedom, first, int(e.u.size()));
+    c.J.blocks[b].modes = rigid_modes<Dim>(solid.body, e.u, truncate<Dim>(s.bodies[k].mass().center));
+    shares.push_back({&solid.body, &e.u, first});
+  }
+  if (!shares.empty()) c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), dt, horizon);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
+                                         const State<D>&, double, double, CouplingParts<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

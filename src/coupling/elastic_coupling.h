@@ -1,0 +1,12 @@
+#pragma once
+// The part of elastic bodies in the coupling of solids and liquid.
+#include "coupling/solid_coupling.h"
+
+namespace seiche {
+
+// Fills in what concerns the elastic bodies. Their new displacements are u + H w.
+template <int Dim>
+void couple_elastic_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
+                           const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts);
+
+}  // namespace seiche

@@ -1,0 +1,56 @@
+#pragma once
+// How rigid and elastic bodies and liquid act on each other through the faces that the bodies close.
+#include "coupling/state.h"
+#include "solid/rigid_problem.h"
+#include "solid/velocity_potential.h"
+
+namespace seiche {
+
+// The unknowns are the velocities of the bodies in the order of the scene: of a rigid one (v, omega), of an elastic one
+// those of its nodes over the horizon. e(v) = 1/2 v'Mv - v'push is the energy of their inertia without liquid.
+template <int Dim>
+struct SolidCoupling {
+  std::vector<int> bodies;    // indices of the rigid and elastic ones
+  std::vector<int> first{0};  // first unknown of each, and the number of unknowns
+  // (J v)_c = sum_f +- s_f v(x_f).e_f: volume that the bodies' motion takes out of cell c, per face area. A_f J' p is
+  // what the pressure p does to each unknown. Columns of what is held are zero.
+  BlockColumns J;
+  SparseMatrix mass;     // M; of elastic bodies dt H (M/gamma^2 + C/gamma), see IncrementalPotential
+  Eigen::VectorXd push;  // M v*, v* the velocities without liquid, contact and elastic forces
+  Eigen::VectorXd free;  // velocities that the bodies would have about, for scale
+  // Of rigid bodies: v*, and the force and torque that make up for the difference between a body's volume and the one
+  // its face shares add up to, so that wet bodies feel exactly rho g times their volume, at their centre (N, N m).
+  Eigen::VectorXd target, buoyancy_correction;
+  std::vector<Freedom> freedom;
+  Eigen::VectorXd held;                                // velocities of what is held
+  std::shared_ptr<const VelocityPotential> potential;  // of the elastic forces; null: none
+
+  int size() const { return first.back(); }
+};
+
+// What the parts of a coupling are gathered in.
+template <int Dim>
+struct CouplingParts {
+  SolidCoupling<Dim>& coupling;
+  std::vector<Eigen::Triplet<double>> mass;
+};
+
+// Collective.
+template <int Dim>
+SolidCoupling<Dim> couple_solids(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                                 const PressureRows<Dim>& rows, const State<Dim>& state, double dt, double horizon);
+
+// The bodies after a solve gave them the velocities v.
+template <int Dim>
+void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v,
+                    StepGeometry<Dim>& geometry, State<Dim>& state);
+
+// What is held moves the liquid whatever the solve finds: into the geometry before the solve.
+template <int Dim>
+void set_held_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
+
+// The unknowns' values as the last solve left them.
+template <int Dim>
+Eigen::VectorXd present_velocities(const Setup<Dim>& setup, const State<Dim>& state);
+
+}  // namespace seiche

@@ -1,0 +1,37 @@
+#pragma once
+// How an elastic solid of a scene stands and moves: as the last solve left it.
+#include "solid/body.h"
+#include "solid/elastic_step.h"
+
+namespace seiche {
+
+struct ElasticMotion {
+  ElasticState state;        // displacements and velocities now, and one step earlier
+  Eigen::VectorXd velocity;  // w: mean velocity of the nodes over the coming step, m/s
+};
+
+// The rest shape, moving as the scene says.
+template <int Dim>
+ElasticMotion initial_elastic_motion(const Body<Dim>& body);
+
+// u + dt w, and the velocity that the scheme has there.
+void advance(ElasticScheme scheme, double dt, ElasticMotion& motion);
+
+// Positions of the surface's points (ElasticSurface::facets) after displacements u of the nodes.
+template <int Dim>
+std::vector<Vec<Dim>> surface_points(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u);
+
+// The rigid motions of a body that is displaced by u, about a point, one a column: translations, then rotations
+// (1 m/s at a distance of 1 m).
+template <int Dim>
+Eigen::MatrixXd rigid_modes(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Vec<Dim>& about);
+
+// M, sums over the nodes of mass times position, and times velocity: centre of mass and mean motion.
+struct BodyAverage {
+  Vec3 center{0, 0, 0}, velocity{0, 0, 0}, angular_velocity{0, 0, 0};
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // nearest to the deformation (Mueller et al. 2005)
+};
+template <int Dim>
+BodyAverage average(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& v);
+
+}  // namespace seiche
