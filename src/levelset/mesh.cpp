@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "levelset/mesh_formats.h"
+#include "levelset/mesh_intersections.h"
 #include "levelset/mesh_topology.h"
 
 namespace seiche {
@@ -74,11 +75,37 @@ SurfaceMesh parse(const std::filesystem::path& file) {
   return mesh;
 }
 
+// Place in the file of a triangle that may have been turned since, counted from 1.
+std::size_t number_in(const std::vector<std::array<int, 3>>& as_read, const std::array<int, 3>& t) {
+  const auto same = [&](const std::array<int, 3>& r) { return std::is_permutation(r.begin(), r.end(), t.begin()); };
+  return 1 + std::size_t(std::find_if(as_read.begin(), as_read.end(), same) - as_read.begin());
+}
+
+std::string named(const SurfaceMesh& mesh, const std::array<int, 3>& t,
+                  const std::vector<std::array<int, 3>>& as_read) {
+  const Vec3 c = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3;
+  return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", number_in(as_read, t), c[0], c[1], c[2]);
+}
+
+void require_simple(const SurfaceMesh& mesh, const std::vector<std::array<int, 3>>& as_read) {
+  const auto pairs = self_intersections(mesh);
+  if (pairs.empty()) return;
+  const auto [first, second] = pairs.front();
+  throw Error(
+      ExitCode::bad_input,
+      fmt::format("the surface intersects itself in {} pairs of triangles, the first {} and {} (triangles in the "
+                  "order of the file, from 1); join the parts into one surface or remesh it",
+                  pairs.size(), named(mesh, mesh.triangles[first], as_read),
+                  named(mesh, mesh.triangles[second], as_read)));
+}
+
 SurfaceMesh mend(SurfaceMesh mesh, std::vector<std::string>& notes) {
   weld(mesh);
+  const auto as_read = mesh.triangles;
   drop_degenerate_and_duplicate(mesh, notes);
   require_closed(mesh);
   orient(mesh, notes);
+  require_simple(mesh, as_read);
   drop_slivers(mesh, notes);
   return mesh;
 }

@@ -15,8 +15,8 @@ struct SurfaceMesh {
 };
 
 // Reads a closed triangle mesh (OBJ, PLY, STL; text or binary), welds equal points, drops degenerate and duplicate
-// triangles with a note, orients it outwards and checks that it is closed and manifold.
-// Throws Error(bad_input) naming the file and line or count and place of what is wrong.
+// triangles with a note, orients it outwards and checks that it is closed, manifold and nowhere crosses or touches
+// itself. Throws Error(bad_input) naming the file and line or count and place of what is wrong.
 SurfaceMesh read_closed_mesh(const std::filesystem::path& file, std::vector<std::string>& notes);
 
 }  // namespace seiche
