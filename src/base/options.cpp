@@ -8,23 +8,26 @@ Range any_number() {
   return {};
 }
 Range positive(double high) {
-  return {0, high, Bound::excluded};
+  return {0, high, Bound::excluded, Bound::included};
 }
 Range between(double low, double high) {
-  return {low, high, Bound::included};
+  return {low, high, Bound::included, Bound::included};
 }
 
 // False for NaN.
 bool contains(const Range& range, double value) {
   const bool above = range.low_bound == Bound::included ? value >= range.low : value > range.low;
-  return above && value <= range.high;
+  return above && (range.high_bound == Bound::included ? value <= range.high : value < range.high);
 }
 
 std::string describe(const Range& range) {
   std::string text;
   if (range.low > -number_limit)
     text = fmt::format("{} {}", range.low_bound == Bound::included ? ">=" : ">", range.low);
-  if (range.high < number_limit) text += fmt::format("{}<= {}", text.empty() ? "" : " and ", range.high);
+  if (range.high < number_limit) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : " and ", range.high_bound == Bound::included ? "<=" : "<",
+                        range.high);
+  }
   return text;
 }
 

@@ -34,7 +34,7 @@ enum class Bound { included, excluded };
 
 struct Range {
   double low = -number_limit, high = number_limit;
-  Bound low_bound = Bound::included;
+  Bound low_bound = Bound::included, high_bound = Bound::included;
 };
 
 Range any_number();

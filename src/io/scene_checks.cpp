@@ -138,15 +138,18 @@ void check_probes(const Checker& c, const Scene& scene) {
 }
 
 // Bodies do not come back on the other side.
-void check_rigid_solids(const Checker& c, const Scene& scene) {
+void check_moving_solids(const Checker& c, const Scene& scene) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const SolidSpec& solid = scene.solids[i];
-    for (int axis = 0; axis < scene.dimension && solid.kind == SolidKind::rigid; ++axis) {
+    const bool is_rigid = solid.kind == SolidKind::rigid;
+    const bool is_loose = solid.kind == SolidKind::elastic && solid.elastic.pinned.empty();
+    for (int axis = 0; axis < scene.dimension && (is_rigid || is_loose); ++axis) {
       if (scene.domain.sides[axis][0].type != SideType::periodic || solid.rigid.fixed_position[axis]) continue;
       c.report(fmt::format("solid.{}.kind", i),
-               fmt::format("rigid solid \"{0}\" may move along {1}, but the domain is periodic along {1}, where bodies "
-                           "cannot come back; close these sides, or give fixed = [\"{1}\"]",
-                           solid.name, "xyz"[axis]));
+               fmt::format("{0} solid \"{1}\" may move along {2}, but the domain is periodic along {2}, where bodies "
+                           "cannot come back; close these sides, or {3}",
+                           is_rigid ? "rigid" : "elastic", solid.name, "xyz"[axis],
+                           is_rigid ? fmt::format("give fixed = [\"{}\"]", "xyz"[axis]) : "pin a part of it"));
     }
   }
 }
@@ -161,7 +164,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("probe")) check_names(c, scene.probes, "probe");
   if (!context.clean("domain") || context.dimension == 0) return;
   check_probes(c, scene);
-  if (context.clean("solid")) check_rigid_solids(c, scene);
+  if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("time")) check_motions(context, root, scene);
 }
 

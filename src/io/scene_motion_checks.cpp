@@ -13,6 +13,7 @@ namespace {
 
 // The fewest samples see a leap that lasts; the most bound the time it takes to look.
 constexpr int most_samples = 2000, fewest_samples = 50;
+constexpr double start_tolerance = 1e-9;  // m, degrees; round-off of formulas that are zero at t = 0
 constexpr int sample_budget = 2'000'000;  // of all solids together
 
 struct Sampling {
@@ -47,22 +48,60 @@ bool at_rest(const MotionSpec& motion) {
          std::all_of(t.begin(), t.end(), [](const Formula& part) { return Expression(part).is_constant(); });
 }
 
+enum class Start { anywhere, at_rest_pose };
+
+struct Moving {
+  std::string path, subject;
+  const MotionSpec* motion;
+  Start start;
+};
+
+// An elastic solid is at rest in shape as the run begins, its pinned part too.
+std::string fault_of_start(const Moving& moving) {
+  if (moving.start == Start::anywhere) return "";
+  const Vec3 moved = VectorExpression(moving.motion->translate)(Vec3::Zero(), 0);
+  const double turned = Expression(moving.motion->degrees)(Vec3::Zero(), 0);
+  if (moved.norm() <= start_tolerance && std::abs(turned) <= start_tolerance) return "";
+  return fmt::format(
+      "the motion must begin at the rest pose; at t = 0 it moves by {:.4g} m and turns by {:.4g} degrees", moved.norm(),
+      turned);
+}
+
+// The motions of a kinematic solid or of an elastic one's pins.
+std::vector<Moving> motions_of(const SolidSpec& solid, const std::string& path) {
+  std::vector<Moving> all;
+  const std::string subject = fmt::format("solid \"{}\"", solid.name);
+  if (solid.kind == SolidKind::kinematic) all.push_back({path + ".motion", subject, &solid.motion, Start::anywhere});
+  const auto& pins = solid.elastic.pinned;
+  for (std::size_t n = 0; n < pins.size(); ++n) {
+    const std::string entry = pins.size() > 1 ? fmt::format(".{}", n) : "";
+    all.push_back(
+        {fmt::format("{}.pinned{}.motion", path, entry), subject + ", pinned", &pins[n].motion, Start::at_rest_pose});
+  }
+  return all;
+}
+
 }  // namespace
 
 void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene) {
-  std::vector<std::size_t> moving;
+  std::vector<Moving> moving;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-    const SolidSpec& solid = scene.solids[i];
-    const bool readable = solid.kind == SolidKind::kinematic && context.clean(fmt::format("solid.{}", i));
-    if (readable && !at_rest(solid.motion)) moving.push_back(i);
+    const std::string path = fmt::format("solid.{}", i);
+    if (!context.clean(path)) continue;
+    for (Moving& m : motions_of(scene.solids[i], path)) {
+      const std::string fault = fault_of_start(m);
+      if (!fault.empty()) {
+        context.report(m.path, line_of(root, m.path), m.subject + ": " + fault);
+      } else if (!at_rest(*m.motion)) {
+        moving.push_back(std::move(m));
+      }
+    }
   }
   Sampling sampling{scene.time.end, (scene.domain.upper - scene.domain.lower).norm(), most_samples};
   if (!moving.empty()) sampling.count = std::clamp(sample_budget / int(moving.size()), fewest_samples, most_samples);
-  for (const std::size_t i : moving) {
-    const std::string fault = fault_of_motion(scene.solids[i].motion, sampling);
-    if (fault.empty()) continue;
-    const std::string path = fmt::format("solid.{}.motion", i);
-    context.report(path, line_of(root, path), fmt::format("solid \"{}\": {}", scene.solids[i].name, fault));
+  for (const Moving& m : moving) {
+    const std::string fault = fault_of_motion(*m.motion, sampling);
+    if (!fault.empty()) context.report(m.path, line_of(root, m.path), m.subject + ": " + fault);
   }
 }
 

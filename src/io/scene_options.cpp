@@ -238,7 +238,9 @@ Key<Scene> dimension_key() {
 bool has_files(const Scene& scene) {
   const auto named = [](const auto& s) { return !s.shape.file.empty(); };
   const auto any = [&](const auto& list) { return std::any_of(list.begin(), list.end(), named); };
-  return any(scene.liquid.regions) || any(scene.liquid.sources) || any(scene.solids);
+  const auto has_pin = [&](const SolidSpec& s) { return any(s.elastic.pinned); };
+  return any(scene.liquid.regions) || any(scene.liquid.sources) || any(scene.solids) ||
+         std::any_of(scene.solids.begin(), scene.solids.end(), has_pin);
 }
 
 // A normalised scene names its files by absolute paths, so it asks for the permission if it has any.

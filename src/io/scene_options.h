@@ -13,15 +13,24 @@ Section<ShapeSpec> shape_section();
 Section<LiquidSpec> liquid_section();
 Section<SolidSpec> solid_section();
 Section<RigidSpec> rigid_section();
+Section<ElasticSpec> elastic_section();
+Section<MotionSpec> motion_section();
 
 // Reports a rotation axis that is missing (3D), zero or not along z (2D) in the table at `place`.
 void check_axis(SceneContext& context, const Place& place, const Vec3& axis);
 
-// Sets shape.where and checks what concerns several keys of a shape.
-void finish_shape(SceneContext& context, const Place& place, ShapeSpec& shape);
+// What a shape's mesh file may hold: a closed surface alone, or also the elements of an elastic solid.
+enum class MeshFiles { surfaces, surfaces_and_elements };
 
-// Checks what concerns several keys of a rigid solid.
+// Sets shape.where and checks what concerns several keys of a shape.
+void finish_shape(SceneContext& context, const Place& place, ShapeSpec& shape, MeshFiles files = MeshFiles::surfaces);
+
+// Check what concerns several keys of a rigid or an elastic solid.
 void finish_rigid(SceneContext& context, const Place& place, const SolidSpec& solid);
+void finish_elastic(SceneContext& context, const Place& place, const SolidSpec& solid);
+
+// Reports shapes that have no bounds: planes and inverted ones. `what` is "a rigid solid".
+void check_bounded(SceneContext& context, const Place& place, const ShapeSpec& shape, const std::string& what);
 
 // Every key with its full path ("solid[].rotate.degrees"), in the order of the scene file.
 std::vector<Option> scene_options();

@@ -124,15 +124,19 @@ Section<RigidSpec> rigid_section() {
   return s;
 }
 
-void finish_rigid(SceneContext& c, const Place& p, const SolidSpec& solid) {
-  const std::string subject = "a rigid solid must be bounded: ", remedy = ", or make the solid static";
-  if (solid.shape.kind == "plane") c.report(p, subject + "a plane is not; write it as a box" + remedy);
-  if (solid.shape.invert) {
+void check_bounded(SceneContext& c, const Place& p, const ShapeSpec& shape, const std::string& what) {
+  const std::string subject = what + " must be bounded: ", remedy = ", or make the solid static";
+  if (shape.kind == "plane") c.report(p, subject + "a plane is not; write it as a box" + remedy);
+  if (shape.invert) {
     c.report(p, subject +
                     "an inverted shape is not; write a hollow body as an expression (phi = \"max(outer, "
                     "-inner)\") or a mesh" +
                     remedy);
   }
+}
+
+void finish_rigid(SceneContext& c, const Place& p, const SolidSpec& solid) {
+  check_bounded(c, p, solid.shape, "a rigid solid");
   check_held(c, p, "velocity", solid.rigid.velocity, solid.rigid.fixed_position);
   check_held(c, p, "angular_velocity", solid.rigid.angular_velocity, solid.rigid.fixed_rotation);
 }

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "io/scene_options.h"
+#include "solid/elastic_mesh_file.h"
 
 namespace seiche {
 namespace {
@@ -58,7 +59,8 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
       geometry_key({"mesh", "level_set"},
                    {.key = "file",
                     .type = T::file,
-                    .doc = "mesh: closed triangles (.obj, .ply, .stl); level_set: a frame of ours (.vdb)"},
+                    .doc = "mesh: closed triangles (.obj, .ply, .stl), for elastic solids also elements (.msh, .vtu, "
+                           ".mesh); level_set: a frame of ours (.vdb)"},
                    &S::file),
       geometry_key(
           {"expression"},
@@ -67,7 +69,7 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
   };
 }
 
-void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape) {
+void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape, MeshFiles files) {
   std::string ending = shape.file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char ch) { return std::tolower(ch); });
   const std::string path = join_path(p.path, "file");
@@ -80,11 +82,21 @@ void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape) {
              fmt::format("{}: a level_set is read from a .vdb file, not '{}'", path, shape.file.filename().string()));
   }
   if (shape.kind != "mesh" || is_any({".obj", ".ply", ".stl"})) return;
-  const bool volume = is_any({".msh", ".vtu", ".mesh"});
+  const bool elements = holds_elements(shape.file);
+  if (elements && files == MeshFiles::surfaces_and_elements) return;
   c.report(path, line,
-           fmt::format("{}: {}; a mesh is a closed triangle surface in .obj, .ply or .stl", path,
-                       volume ? "tetrahedra are for elastic solids, which this version does not have"
-                              : "cannot read a mesh from '" + shape.file.filename().string() + "'"));
+           fmt::format("{}: {}; a mesh is a closed triangle surface in .obj, .ply or .stl{}", path,
+                       elements ? "tetrahedra are for elastic solids"
+                                : "cannot read a mesh from '" + shape.file.filename().string() + "'",
+                       files == MeshFiles::surfaces ? "" : ", or elements in .msh, .vtu or .mesh"));
+}
+
+// There are no surfaces of triangles in 2D, but elements.
+void check_flat_mesh(SceneContext& c, const Place& p, const ShapeSpec& shape, MeshFiles files) {
+  const bool may_hold_elements = files == MeshFiles::surfaces_and_elements;
+  if (may_hold_elements && (shape.file.empty() || holds_elements(shape.file))) return;
+  c.report(p, fmt::format("{}: triangle meshes are for dimension = 3; in 2D use {}an expression or a level_set",
+                          section_title(p.path), may_hold_elements ? "elements in .msh, .vtu or .mesh, " : ""));
 }
 
 void check_extent(SceneContext& c, const Place& p, const ShapeSpec& shape) {
@@ -108,12 +120,9 @@ void check_axis(SceneContext& c, const Place& p, const Vec3& axis) {
   if (c.dimension == 2 && axis.head<2>().norm() != 0) c.report(place, path + " must be [0, 0, 1] in 2D, or left out");
 }
 
-void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape) {
+void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape, MeshFiles files) {
   shape.where = c.where(p.node->line);
-  if (shape.kind == "mesh" && c.dimension == 2) {
-    c.report(p,
-             section_title(p.path) + ": triangle meshes are for dimension = 3; in 2D use an expression or a level_set");
-  }
+  if (shape.kind == "mesh" && c.dimension == 2) check_flat_mesh(c, p, shape, files);
   if (!c.clean(p.path) || c.dimension == 0) return;
   if (shape.kind == "box") check_extent(c, p, shape);
   if (shape.kind == "plane" && shape.normal.norm() == 0) c.report(p, join_path(p.path, "normal") + " must not be zero");
@@ -122,7 +131,7 @@ void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape) {
     c.report(
         p, fmt::format("the {} of {} has no axis: from and to are the same point", shape.kind, section_title(p.path)));
   }
-  if (shape.kind == "mesh" || shape.kind == "level_set") check_extension(c, p, shape);
+  if (shape.kind == "mesh" || shape.kind == "level_set") check_extension(c, p, shape, files);
 }
 
 Section<ShapeSpec> shape_section() {

@@ -26,6 +26,20 @@ Section<MotionSpec> motion_rotation_section() {
   return s;
 }
 
+Key<SolidSpec> kind_key() {
+  return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
+      {.key = "kind",
+       .doc = "static: at rest; kinematic: moves as prescribed; rigid: moved by the liquid, gravity and contacts; "
+              "elastic: deformed by them"},
+      &SolidSpec::kind,
+      {{"static", SolidKind::fixed},
+       {"kinematic", SolidKind::kinematic},
+       {"rigid", SolidKind::rigid},
+       {"elastic", SolidKind::elastic}});
+}
+
+}  // namespace
+
 Section<MotionSpec> motion_section() {
   Section<MotionSpec> s;
   const auto itself = [](auto& m) -> auto& {
@@ -44,26 +58,6 @@ Section<MotionSpec> motion_section() {
   };
   return s;
 }
-
-Key<SolidSpec> kind_key() {
-  return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
-      {.key = "kind",
-       .refused = {{"elastic", "this version does not deform solids by the flow"}},
-       .doc = "static: at rest; kinematic: moves as prescribed; rigid: moved by the liquid, gravity and contacts"},
-      &SolidSpec::kind,
-      {{"static", SolidKind::fixed}, {"kinematic", SolidKind::kinematic}, {"rigid", SolidKind::rigid}});
-}
-
-std::vector<Key<SolidSpec>> later_keys() {
-  std::vector<Key<SolidSpec>> keys;
-  for (const char* name : {"material", "element_size", "pinned"}) {
-    keys.push_back(
-        later_key<SolidSpec>({.key = name, .only_for = {"kind", {"elastic"}}, .doc = "a property of elastic solids"}));
-  }
-  return keys;
-}
-
-}  // namespace
 
 Section<SolidSpec> solid_section() {
   Section<SolidSpec> s;
@@ -86,10 +80,12 @@ Section<SolidSpec> solid_section() {
                                          .unset = "that of the other solid; 0 if both leave it out",
                                          .doc = "Coulomb's coefficient in contacts with other solids"},
                                         &SolidSpec::friction));
-  for (Key<SolidSpec>& key : later_keys()) s.keys.push_back(std::move(key));
+  for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
-    finish_shape(c, p, solid.shape);
+    const bool is_elastic = solid.kind == SolidKind::elastic;
+    finish_shape(c, p, solid.shape, is_elastic ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
     if (solid.kind == SolidKind::rigid && c.clean(p.path)) finish_rigid(c, p, solid);
+    if (is_elastic && c.clean(p.path)) finish_elastic(c, p, solid);
   };
   return s;
 }

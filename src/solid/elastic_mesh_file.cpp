@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "base/error.h"
 
@@ -19,14 +20,21 @@ constexpr std::array<Format, 3> formats{{{".msh", parse_msh}, {".vtu", parse_vtu
   throw Error(ExitCode::bad_input, file.string() + ": " + message);
 }
 
+const Format* format_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  const auto format = std::find_if(formats.begin(), formats.end(), [&](auto& f) { return extension == f.extension; });
+  return format == formats.end() ? nullptr : &*format;
+}
+
 RawMesh parse(const std::filesystem::path& file) {
-  for (const Format& format : formats) {
-    if (file.extension() != format.extension) continue;
+  if (const Format* format = format_of(file)) {
     const mesh::Source source{file, mesh::read_bytes(file)};
     if (source.bytes.rfind("version https://git-lfs", 0) == 0) {
       fail(file, "is a Git LFS pointer, not the mesh itself; fetch it with 'git lfs pull'");
     }
-    return format.parse(source);
+    return format->parse(source);
   }
   fail(file, "the extension '" + file.extension().string() + "' is not a mesh of elements; use .msh, .vtu or .mesh");
 }
@@ -81,6 +89,10 @@ long long count_token(const mesh::Source& source, mesh::Tokens& tokens, const ch
 }
 
 }  // namespace elastic
+
+bool holds_elements(const std::filesystem::path& file) {
+  return elastic::format_of(file) != nullptr;
+}
 
 template <int Dim>
 ElasticMesh<Dim> read_elastic_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {

@@ -12,6 +12,9 @@ namespace seiche {
 template <int Dim>
 ElasticMesh<Dim> read_elastic_mesh(const std::filesystem::path& file, std::vector<std::string>& notes);
 
+// Whether the file's name ends like one of these formats.
+bool holds_elements(const std::filesystem::path& file);
+
 namespace elastic {
 
 enum class CellKind : int { triangle, quadratic_triangle, tetrahedron, quadratic_tetrahedron, other };

@@ -32,7 +32,7 @@ TEST_CASE("a full scene is read as it is written") {
   CHECK(s.liquid.sources.at(0).from == 0.5);
   CHECK(s.liquid.sources.at(0).until == 1.5);
   CHECK(s.liquid.separates);
-  REQUIRE(s.solids.size() == 3);
+  REQUIRE(s.solids.size() == 4);
   CHECK(s.solids[0].slip == Slip::no_slip);
   CHECK(s.solids[1].name == "solid2");
   CHECK(s.solids[1].kind == SolidKind::kinematic);
