@@ -73,7 +73,7 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
                                       unit_speeds(s, coupling), s.scene.solver.tolerance, options)
                   .contact;
   } else {
-    contact = solve_contact(*s.contact, motions, horizon, dt, problem, options);
+    contact = solve_contact(*s.contact, motions, horizon, dt, problem, options, {}, coupling.potential.get());
     const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
     if (touched && !coupling.potential) contact.failure = settle(coupling, problem, contact);
   }

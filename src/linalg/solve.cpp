@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "linalg/deflation.h"
 #include "linalg/direct_solve.h"
+#include "linalg/hypre_adapter.h"
 #include "linalg/krylov.h"
 #include "linalg/lumped_coupling.h"
 #include "linalg/preconditioners.h"
@@ -111,21 +112,24 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
 // Preconditioners that need not keep to the grid's stencil know of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
   const LinearSystem* system = &liquid_;
-  if (deforms() && system_.is_coupled() && name != "multigrid") {
+  const bool lumped = deforms() && system_.is_coupled() && name != "multigrid";
+  if (lumped) {
     built.matrix =
         std::make_unique<DistributedMatrix>(add_lumped_coupling(liquid_, J_, system_.bodies(), system_.scale()));
     built.system = std::make_unique<LinearSystem>(*built.matrix, liquid_.grid(), liquid_.null_space(), system_.ranks());
     system = built.system.get();
   }
-  built.made = make_preconditioner(name, *system);
+  // Rows that deformable bodies fill are coarsened badly by aggressive coarsening: twice the iterations.
+  built.made = lumped && name == "boomeramg" ? make_boomeramg(*system, {.aggressive_levels = 0})
+                                             : make_preconditioner(name, *system);
 }
 
 SpdSolver::Built& SpdSolver::build(const std::string& name) {
-  std::unique_ptr<Built>& built = built_[name];
+  std::unique_ptr<Built>& built = built_[deforms() && system_.is_coupled() ? name + ", coupled" : name];
   if (!built) make(name, *(built = std::make_unique<Built>()));
   if (!built->made.preconditioner) return *built;
-  last_built_ = name;
   if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
+  last_built_ = built->deflation.get();
   return *built;
 }
 
@@ -175,10 +179,8 @@ std::string SpdSolver::choose() const {
 }
 
 Eigen::MatrixXd SpdSolver::added_mass_estimate() const {
-  const auto found = built_.find(last_built_);
-  const bool none = found == built_.end() || !found->second->deflation;
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(J_.columns(), J_.columns());
-  return none ? zero : Eigen::MatrixXd(system_.scale() * found->second->deflation->estimate_schur());
+  if (!last_built_) return Eigen::MatrixXd::Zero(J_.columns(), J_.columns());
+  return system_.scale() * last_built_->estimate_schur();
 }
 
 // x keeps the best finite vector met.

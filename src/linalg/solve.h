@@ -80,7 +80,7 @@ class SpdSolver {
   LinearSystem liquid_;
   CoupledSystem system_;
   std::map<std::string, std::unique_ptr<Built>> built_;
-  std::string last_built_;
+  const Deflation* last_built_ = nullptr;
 };
 
 // Solves A x = b once, as SpdSolver does.
