@@ -1,6 +1,6 @@
 #pragma once
-// Contact and friction between rigid bodies: incremental potential contact (Li et al. 2020; rigid bodies: Ferguson et
-// al. 2021) over one interval of time. Impacts are inelastic. docs/contact.md has the equations.
+// Contact and friction between rigid and deformable bodies: incremental potential contact (Li et al. 2020; rigid
+// bodies: Ferguson et al. 2021) over one interval of time. Impacts are inelastic. docs/contact.md has the equations.
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +9,7 @@
 #include "levelset/mesh.h"
 #include "solid/body.h"
 #include "solid/rigid_problem.h"
+#include "solid/velocity_potential.h"
 
 namespace seiche {
 
@@ -55,7 +56,7 @@ enum class FrictionState { none, settled, unsettled };
 
 struct ContactReport {
   std::string failure;                 // empty if the velocities are an intersection-free minimum
-  Eigen::VectorXd velocity, gradient;  // of e, free bodies stacked
+  Eigen::VectorXd velocity, gradient;  // of e, stacked
   int active = 0;                      // pairs within reach
   int newton_iterations = 0, solves = 0, friction_updates = 0;
   double smallest_gap = 0;  // m, of the pairs within reach; `reach` if there are none
@@ -80,34 +81,36 @@ class ContactScene {
   std::shared_ptr<const Data> data_;
 };
 
-// The accepted velocities of the free bodies over the interval: the minimum of
-//   e(v) + dt/H B(x(v)) + dt D(v),
-// B the barrier energy of all near pairs in the pose that v leads to after H, D the friction. `start` may give the
-// velocities that an earlier solve found for the same bodies and motions: Newton's method then goes on from there.
+// The accepted velocities over the interval, stacked in the order of the bodies: twists of free ones, velocities of all
+// nodes of deformable ones (Dim numbers each), none of prescribed ones. They are the minimum of
+//   e(v) + dt/H B(x(v)) + dt D(v) + P(v),
+// B the barrier energy of all near pairs where v leads to after H, D the friction, P the potential. `start` may give
+// the velocities that an earlier solve found for the same bodies and motions: Newton's method then goes on from there.
 template <int Dim>
 ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                             double dt, InertiaProblem& inertia, const ContactOptions& options,
-                            const Eigen::VectorXd& start = {});
+                            const Eigen::VectorXd& start = {}, const VelocityPotential* potential = nullptr);
 
 // The pose of a free body after moving for `horizon` with the generalised velocity `twist`.
 template <int Dim>
 Pose moved_pose(const Pose& start, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist, double horizon);
 
 // The share of the motion (0 to 1) that surely is free of collisions, leaving a share of each gap. Free bodies move
-// with `velocity` (stacked), prescribed ones to their end poses.
+// and deformable ones with `velocity` (stacked), prescribed ones to their end poses.
 template <int Dim>
 double largest_safe_fraction(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                              const Eigen::VectorXd& velocity);
 
 struct Overlap {
-  int body;   // index of a free body
-  int other;  // index of a body, or of a wall
+  int body;   // index of a free or deformable body
+  int other;  // index of a body (the same: it intersects itself), or of a wall
   enum class With { body, wall } with;
-  double depth;         // m; negative: apart by less than the clearance
+  double depth;         // m; negative: apart by less than the clearance; 0 where a body intersects itself
   std::string message;  // names both
 };
 
-// Pairs with at least one free body that intersect, contain one another's matter or are closer than `clearance` (m).
+// Pairs with at least one body that moves freely that intersect, contain one another's matter or are closer than
+// `clearance` (m); deformable bodies that intersect themselves.
 template <int Dim>
 std::vector<Overlap> find_initial_overlaps(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
                                            double clearance);

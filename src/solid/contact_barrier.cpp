@@ -9,18 +9,20 @@ namespace {
 // Edges whose squared sine is below this count less, so that the energy of parallel ones is smooth (Li et al. 2020).
 constexpr double parallel_share = 1e-3;
 
-// m(c) = (2 - c/eps) c/eps below eps, 1 above, of c = |u x v|^2; |u||v| of rigid edges is constant, so eps is.
+// m(c) = (2 - c/eps) c/eps below eps, 1 above, of c = |u x v|^2; eps is constant: |u||v| of rigid edges is, of others
+// that at rest is taken.
 struct Mollifier {
   double value = 1, slope = 0, curvature = 0;
   Vec3 u, v, cross;
 };
 
-Mollifier mollify(const PairPoints<3>& x) {
+Mollifier mollify(const PairPoints<3>& x, double at_rest) {
   Mollifier m;
   m.u = x[1] - x[0];
   m.v = x[3] - x[2];
   m.cross = m.u.cross(m.v);
-  const double c = m.cross.squaredNorm(), eps = parallel_share * m.u.squaredNorm() * m.v.squaredNorm();
+  const double c = m.cross.squaredNorm();
+  const double eps = at_rest > 0 ? parallel_share * at_rest : parallel_share * m.u.squaredNorm() * m.v.squaredNorm();
   if (!(c < eps)) return m;
   m.value = (2 - c / eps) * c / eps;
   m.slope = (2 - 2 * c / eps) / eps;
@@ -104,12 +106,12 @@ double stiffness_for(double force, double reach) {
 
 template <int Dim>
 PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separation<Dim>& apart, double reach,
-                            double stiffness) {
+                            double stiffness, double edges_at_rest) {
   PairEnergy<Dim> e;
   const Barrier b = barrier(apart.distance, reach, stiffness);
   Mollifier m;
   if constexpr (Dim == 3)
-    if (kind == PairKind::edge_edge) m = mollify(x);
+    if (kind == PairKind::edge_edge) m = mollify(x, edges_at_rest);
   PointVector<Dim> gradient;
   for (int i = 0; i < 4; ++i) gradient.template segment<Dim>(Dim * i) = apart.weight[i] * apart.normal;
   e.value = m.value * b.value;
@@ -123,16 +125,17 @@ PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separ
 }
 
 template <int Dim>
-double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness) {
+double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness,
+                  double edges_at_rest) {
   double share = 1;
   if constexpr (Dim == 3)
-    if (kind == PairKind::edge_edge) share = mollify(x).value;
+    if (kind == PairKind::edge_edge) share = mollify(x, edges_at_rest).value;
   return share * barrier(distance, reach, stiffness).value;
 }
 
-template double pair_value<2>(PairKind, const PairPoints<2>&, double, double, double);
-template double pair_value<3>(PairKind, const PairPoints<3>&, double, double, double);
-template PairEnergy<2> pair_energy<2>(PairKind, const PairPoints<2>&, const Separation<2>&, double, double);
-template PairEnergy<3> pair_energy<3>(PairKind, const PairPoints<3>&, const Separation<3>&, double, double);
+template double pair_value<2>(PairKind, const PairPoints<2>&, double, double, double, double);
+template double pair_value<3>(PairKind, const PairPoints<3>&, double, double, double, double);
+template PairEnergy<2> pair_energy<2>(PairKind, const PairPoints<2>&, const Separation<2>&, double, double, double);
+template PairEnergy<3> pair_energy<3>(PairKind, const PairPoints<3>&, const Separation<3>&, double, double, double);
 
 }  // namespace seiche::contact

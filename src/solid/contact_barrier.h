@@ -24,13 +24,14 @@ struct PairEnergy {
   Hessian hessian = Hessian::Zero();  // may have negative eigenvalues
 };
 
-// Of the pair whose points are x.
+// Of the pair whose points are x. edges_at_rest: |u|^2 |v|^2 of two edges u, v at rest (m^4); 0 where both are rigid.
 template <int Dim>
 PairEnergy<Dim> pair_energy(PairKind kind, const PairPoints<Dim>& x, const Separation<Dim>& apart, double reach,
-                            double stiffness);
+                            double stiffness, double edges_at_rest = 0);
 
 // Its value alone.
 template <int Dim>
-double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness);
+double pair_value(PairKind kind, const PairPoints<Dim>& x, double distance, double reach, double stiffness,
+                  double edges_at_rest = 0);
 
 }  // namespace seiche::contact

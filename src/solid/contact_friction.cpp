@@ -31,12 +31,22 @@ Eigen::Matrix<double, 3, 2> tangents<3>(const Vec<3>& n) {
 }
 
 template <int Dim>
-Eigen::Matrix<double, Dim - 1, 1> slip(const FrictionPoint<Dim>& at, const Twists<Dim>& twists) {
-  const auto speed = [&](int body, const Vec<Dim>& arm) -> Vec<Dim> {
-    return twists[body].template head<Dim>() + turned<Dim>(twists[body].template tail<turn_size<Dim>>(), arm);
+Eigen::Matrix<double, Dim - 1, 1> slip(const FrictionPoint<Dim>& at, const Velocities<Dim>& velocities) {
+  const auto rigid = [&](int body, const Vec<Dim>& arm) -> Vec<Dim> {
+    const auto& twist = velocities.twists[body];
+    return twist.template head<Dim>() + turned<Dim>(twist.template tail<turn_size<Dim>>(), arm);
   };
-  Vec<Dim> u = speed(at.first, at.arm_first);
-  if (at.second >= 0) u -= speed(at.second, at.arm_second);
+  const auto nearest = [&](int begin, int end) {  // the weights of the second side are negative
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int i = begin; i < end; ++i) sum += at.weight[i] * velocities.points[at.pair.points[i]];
+    return sum;
+  };
+  const int split = points_of_first(at.pair.kind);
+  Vec<Dim> u = at.first_deforms ? nearest(0, split) : rigid(at.first, at.arm_first);
+  if (at.second_deforms)
+    u += nearest(split, points_of(at.pair.kind, Dim));
+  else if (at.second >= 0)
+    u -= rigid(at.second, at.arm_second);
   return at.tangent.transpose() * u;
 }
 
@@ -54,8 +64,8 @@ SlipEnergy<Dim> slip_energy(const FrictionPoint<Dim>& at, const Eigen::Matrix<do
   return e;
 }
 
-template Eigen::Matrix<double, 1, 1> slip<2>(const FrictionPoint<2>&, const Twists<2>&);
-template Eigen::Matrix<double, 2, 1> slip<3>(const FrictionPoint<3>&, const Twists<3>&);
+template Eigen::Matrix<double, 1, 1> slip<2>(const FrictionPoint<2>&, const Velocities<2>&);
+template Eigen::Matrix<double, 2, 1> slip<3>(const FrictionPoint<3>&, const Velocities<3>&);
 template SlipEnergy<2> slip_energy<2>(const FrictionPoint<2>&, const Eigen::Matrix<double, 1, 1>&, double);
 template SlipEnergy<3> slip_energy<3>(const FrictionPoint<3>&, const Eigen::Matrix<double, 2, 1>&, double);
 

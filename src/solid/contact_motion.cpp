@@ -50,6 +50,45 @@ Eigen::Matrix3d left_jacobian<3>(const Turn<3>& angle) {
   return Eigen::Matrix3d::Identity() + first * cross + second * cross * cross;
 }
 
+namespace {
+
+// The middle of the volume within a closed surface, by the divergence theorem; of one without volume, of its points.
+template <int Dim>
+Vec<Dim> center_of(const Surface<Dim>& surface, const Vec<Dim>* points) {
+  Vec<Dim> mean = Vec<Dim>::Zero(), sum = Vec<Dim>::Zero();
+  double volume = 0;
+  for (size_t p = 0; p < surface.points.size(); ++p) mean += points[p] / surface.points.size();
+  for (const Element<Dim>& element : surface.elements) {
+    Square<Dim> corners;
+    for (int i = 0; i < Dim; ++i) corners.col(i) = points[element[i]] - mean;
+    const double part = corners.determinant();
+    volume += part;
+    sum += part * corners.rowwise().sum() / (Dim + 1);
+  }
+  return volume > 0 ? Vec<Dim>(mean + sum / volume) : mean;
+}
+
+template <int Dim>
+void add_deformable(const typename ContactScene<Dim>::Data& scene, int b, const ContactMotion& motion,
+                    Interval<Dim>& r) {
+  const Surface<Dim>& surface = scene.surfaces[b];
+  const int begin = scene.point_begin[b];
+  for (size_t p = 0; p < surface.points.size(); ++p) {
+    Vec<Dim> x = surface.points[p];
+    if (motion.displacement.size() > 0)
+      x += motion.displacement.template segment<Dim>(Dim * scene.node(b, begin + static_cast<int>(p)));
+    r.arms.push_back(x);
+  }
+  r.centers.push_back(center_of<Dim>(surface, r.arms.data() + begin));
+  r.radius.push_back(0);
+  for (size_t p = begin; p < r.arms.size(); ++p) {
+    r.arms[p] -= r.centers.back();
+    r.radius.back() = std::max(r.radius.back(), r.arms[p].norm());
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 Interval<Dim> make_interval(const typename ContactScene<Dim>::Data& scene, const std::vector<ContactMotion>& motions,
                             double horizon) {
@@ -57,11 +96,15 @@ Interval<Dim> make_interval(const typename ContactScene<Dim>::Data& scene, const
   r.horizon = horizon;
   r.prescribed.resize(motions.size());
   for (size_t b = 0; b < motions.size(); ++b) {
+    r.prescribed[b].setZero();
+    if (scene.deforms(static_cast<int>(b))) {
+      add_deformable<Dim>(scene, static_cast<int>(b), motions[b], r);
+      continue;
+    }
     const Pose& start = motions[b].start;
     const Eigen::Matrix3d& R = start.rotation;
     r.centers.push_back(truncate<Dim>(start.pivot + start.displacement));
     r.radius.push_back(0);
-    r.prescribed[b].setZero();
     for (const Vec<Dim>& rest : scene.surfaces[b].points) {
       r.arms.push_back(truncate<Dim>(R * (extend<Dim>(rest) - start.pivot)));
       r.radius.back() = std::max(r.radius.back(), r.arms.back().norm());
@@ -76,40 +119,61 @@ Interval<Dim> make_interval(const typename ContactScene<Dim>::Data& scene, const
 
 template <int Dim>
 Placement<Dim> place(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
-                     const Twists<Dim>& twists) {
-  Placement<Dim> r{twists, interval.centers, interval.arms};
-  for (size_t b = 0; b < twists.size(); ++b) {
-    r.centers[b] += interval.horizon * twists[b].template head<Dim>();
-    const Square<Dim> R = rotation_by<Dim>(interval.horizon * twists[b].template tail<turn_size<Dim>>());
-    for (int p = scene.point_begin[b]; p < scene.point_begin[b + 1]; ++p)
-      r.points[p] = r.centers[b] + R * interval.arms[p];
+                     const Velocities<Dim>& velocities) {
+  Placement<Dim> r{velocities, interval.centers, interval.arms};
+  for (size_t b = 0; b < velocities.twists.size(); ++b) {
+    const int begin = scene.point_begin[b], end = scene.point_begin[b + 1];
+    if (scene.deforms(static_cast<int>(b))) {
+      for (int p = begin; p < end; ++p)
+        r.points[p] = r.centers[b] + interval.arms[p] + interval.horizon * velocities.points[p];
+      continue;
+    }
+    r.centers[b] += interval.horizon * velocities.twists[b].template head<Dim>();
+    const Square<Dim> R = rotation_by<Dim>(interval.horizon * velocities.twists[b].template tail<turn_size<Dim>>());
+    for (int p = begin; p < end; ++p) r.points[p] = r.centers[b] + R * interval.arms[p];
   }
   return r;
 }
 
 template <int Dim>
-double speed_bound(const Interval<Dim>& interval, int b, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist) {
-  return twist.template head<Dim>().norm() + interval.radius[b] * twist.template tail<turn_size<Dim>>().norm();
+double fastest(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval, const Eigen::VectorXd& v) {
+  double speed = 0;
+  for (size_t b = 0; b < scene.surfaces.size(); ++b) {
+    const int first = scene.first_dof[b];
+    if (scene.control[b] == BodyControl::free) {
+      const auto twist = v.template segment<twist_size<Dim>>(first);
+      speed = std::max(
+          speed, twist.template head<Dim>().norm() + interval.radius[b] * twist.template tail<turn_size<Dim>>().norm());
+    }
+    for (int n = 0; n < scene.node_count[b]; ++n)
+      speed = std::max(speed, v.template segment<Dim>(first + Dim * n).norm());
+  }
+  return speed;
 }
 
 template <int Dim>
-Twists<Dim> all_twists(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
-                       const Eigen::VectorXd& v, double share) {
-  Twists<Dim> r(interval.prescribed.size());
-  for (size_t b = 0; b < r.size(); ++b) {
-    r[b] = share * interval.prescribed[b];
-    if (scene.block[b] >= 0) r[b] = v.template segment<twist_size<Dim>>(twist_size<Dim> * scene.block[b]);
+Velocities<Dim> all_velocities(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
+                               const Eigen::VectorXd& v, double share) {
+  Velocities<Dim> r;
+  r.twists.resize(interval.prescribed.size());
+  for (size_t b = 0; b < r.twists.size(); ++b) {
+    r.twists[b] = share * interval.prescribed[b];
+    if (scene.control[b] == BodyControl::free) r.twists[b] = v.template segment<twist_size<Dim>>(scene.first_dof[b]);
   }
+  if (!scene.any_deforms()) return r;
+  r.points.assign(interval.arms.size(), Vec<Dim>::Zero());
+  for (size_t p = 0; p < r.points.size(); ++p)
+    if (scene.point_dof[p] >= 0) r.points[p] = v.template segment<Dim>(scene.point_dof[p]);
   return r;
 }
 
-#define SEICHE_INSTANTIATE(Dim)                                                                                      \
-  template Interval<Dim> make_interval<Dim>(const ContactScene<Dim>::Data&, const std::vector<ContactMotion>&,       \
-                                            double);                                                                 \
-  template Placement<Dim> place<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Twists<Dim>&);      \
-  template double speed_bound<Dim>(const Interval<Dim>&, int, const Eigen::Matrix<double, twist_size<Dim>, 1>&);     \
-  template Twists<Dim> all_twists<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Eigen::VectorXd&, \
-                                       double);
+#define SEICHE_INSTANTIATE(Dim)                                                                                     \
+  template Interval<Dim> make_interval<Dim>(const ContactScene<Dim>::Data&, const std::vector<ContactMotion>&,      \
+                                            double);                                                                \
+  template Placement<Dim> place<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Velocities<Dim>&); \
+  template double fastest<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Eigen::VectorXd&);       \
+  template Velocities<Dim> all_velocities<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&,                \
+                                               const Eigen::VectorXd&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 #undef SEICHE_INSTANTIATE

@@ -37,38 +37,45 @@ Turn<Dim> moment(const Vec<Dim>& arm, const Vec<Dim>& force) {
     return arm.cross(force);
 }
 
+// The velocities of all bodies.
+template <int Dim>
+struct Velocities {
+  Twists<Dim> twists;            // of rigid bodies; zero for deformable ones
+  std::vector<Vec<Dim>> points;  // of all points, zero for those of rigid bodies; empty where all are rigid
+};
+
 // The interval: where everything starts, and the velocities that take prescribed bodies to their end poses.
 template <int Dim>
 struct Interval {
   double horizon = 0;             // s
-  std::vector<Vec<Dim>> centers;  // of each body at the start
+  std::vector<Vec<Dim>> centers;  // of each body at the start; of a deformable one that of its volume
   std::vector<Vec<Dim>> arms;     // of all points from the centre of their body, at the start
   std::vector<double> radius;     // of each body: its longest arm
-  Twists<Dim> prescribed;         // zero for free bodies
+  Twists<Dim> prescribed;         // zero for others
 };
 
 template <int Dim>
 Interval<Dim> make_interval(const typename ContactScene<Dim>::Data& scene, const std::vector<ContactMotion>& motions,
                             double horizon);
 
-// x = c + H v + exp(H omega) r.
+// x = c + H v + exp(H omega) r; of deformable bodies x = c + r + H v, v of the point.
 template <int Dim>
 struct Placement {
-  Twists<Dim> twists;
+  Velocities<Dim> velocities;
   std::vector<Vec<Dim>> centers, points;
 };
 
 template <int Dim>
 Placement<Dim> place(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
-                     const Twists<Dim>& twists);
+                     const Velocities<Dim>& velocities);
 
-// The fastest that a point of body b moves with the twist (m/s), and its rotation over the interval.
+// The fastest that a point of a rigid body, or a node of a deformable one, can move with the stacked v (m/s).
 template <int Dim>
-double speed_bound(const Interval<Dim>& interval, int b, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist);
+double fastest(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval, const Eigen::VectorXd& v);
 
-// The velocities of all bodies when free ones have theirs of the stacked v and prescribed ones `share` of theirs.
+// The velocities of all bodies when prescribed ones have `share` of theirs and others those of the stacked v.
 template <int Dim>
-Twists<Dim> all_twists(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
-                       const Eigen::VectorXd& v, double share);
+Velocities<Dim> all_velocities(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
+                               const Eigen::VectorXd& v, double share);
 
 }  // namespace seiche::contact

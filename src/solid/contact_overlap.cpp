@@ -64,27 +64,28 @@ class Overlaps {
   Overlaps(const typename ContactScene<Dim>::Data& scene, const std::vector<ContactMotion>& motions, double clearance)
       : scene_(scene), clearance_(clearance) {
     const Interval<Dim> interval = make_interval<Dim>(scene, motions, 1);
-    points_ = place<Dim>(scene, interval, all_twists<Dim>(scene, interval, zero(), 0)).points;
+    points_ = place<Dim>(scene, interval, all_velocities<Dim>(scene, interval, zero(), 0)).points;
   }
 
   std::vector<Overlap> run() {
     for (const Candidate& pair : find_candidates<Dim>(scene_, points_, points_, clearance_)) {
       const Separation<Dim> apart = separate<Dim>(scene_, pair, gather<Dim>(pair, points_));
-      if (apart.distance >= clearance_) continue;
+      if (apart.distance >= pair.reach(clearance_)) continue;
       auto& depths = pair.kind == PairKind::point_wall ? walls_ : near_;
       deepen(depths, pair.first, pair.second, -apart.distance);
     }
     for (const ElementPair& p : find_element_pairs<Dim>(scene_, points_, clearance_))
-      if (crosses(corners(p.first_body, p.first), corners(p.second_body, p.second)))
+      if (p.first_body == p.second_body ? crosses_itself(p)
+                                        : crosses(corners(p.first_body, p.first), corners(p.second_body, p.second)))
         crossing_.insert(std::minmax(p.first_body, p.second_body));
-    for (const auto& [a, b] : crossing_) deepen(near_, a, b, std::max({0., depth(a, b), depth(b, a)}));
+    for (const auto& [a, b] : crossing_) deepen(near_, a, b, a == b ? 0 : std::max({0., depth(a, b), depth(b, a)}));
     contained();
     return report();
   }
 
  private:
   using Depths = std::map<std::pair<int, int>, double>;
-  Eigen::VectorXd zero() const { return Eigen::VectorXd::Zero(twist_size<Dim> * scene_.free_count); }
+  Eigen::VectorXd zero() const { return Eigen::VectorXd::Zero(scene_.size); }
 
   void deepen(Depths& depths, int a, int b, double depth) {
     const std::pair<int, int> key = &depths == &walls_ ? std::pair(a, b) : std::pair<int, int>(std::minmax(a, b));
@@ -96,6 +97,21 @@ class Overlaps {
     Corners<Dim> c;
     for (int i = 0; i < Dim; ++i) c[i] = points_[scene_.point_begin[body] + scene_.surfaces[body].elements[element][i]];
     return c;
+  }
+
+  // Elements with one point in common meet elsewhere only where the side opposite to it pierces the other one.
+  bool crosses_itself(const ElementPair& p) const {
+    const auto& elements = scene_.surfaces[p.first_body].elements;
+    const Corners<Dim> s = corners(p.first_body, p.first), t = corners(p.second_body, p.second);
+    int common = 0, at_s = 0, at_t = 0;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j)
+        if (elements[p.first][i] == elements[p.second][j]) ++common, at_s = i, at_t = j;
+    if (common == 0) return crosses(s, t);
+    if constexpr (Dim == 3)
+      if (common == 1)
+        return pierces(s[(at_s + 1) % 3], s[(at_s + 2) % 3], t) || pierces(t[(at_t + 1) % 3], t[(at_t + 2) % 3], s);
+    return false;
   }
 
   // The winding number is 1 in a solid; in the cavity of an inverted one -1, outside it 0.
@@ -147,7 +163,7 @@ class Overlaps {
     }
     for (int a = 0; a < count; ++a)
       for (int b = a + 1; b < count; ++b) {
-        if (boxes[a].isEmpty() || boxes[b].isEmpty() || (scene_.block[a] < 0 && scene_.block[b] < 0)) continue;
+        if (boxes[a].isEmpty() || boxes[b].isEmpty() || (!scene_.moves(a) && !scene_.moves(b))) continue;
         if (!boxes[a].intersects(boxes[b]) && !inverted(a) && !inverted(b)) continue;
         if (crossing_.count({a, b})) continue;
         const bool inside = any_in(b, parts[a]) || any_in(a, parts[b]);
@@ -178,7 +194,7 @@ class Overlaps {
   std::vector<Overlap> report() const {
     std::vector<Overlap> list;
     for (const auto& [pair, depth] : near_) {
-      const bool swap = scene_.block[pair.first] < 0;
+      const bool swap = !scene_.moves(pair.first);
       const int body = swap ? pair.second : pair.first, other = swap ? pair.first : pair.second;
       list.push_back({body, other, Overlap::With::body, depth, say(scene_.names[body], scene_.names[other], depth)});
     }
@@ -189,6 +205,7 @@ class Overlaps {
   }
 
   std::string say(const std::string& a, const std::string& b, double depth) const {
+    if (a == b && depth >= 0) return fmt::format("{} intersects itself", a);
     if (depth < 0) return fmt::format("{} and {} are {:.3g} m apart, nearer than {:.3g} m", a, b, -depth, clearance_);
     return fmt::format("{} and {} overlap by {:.3g} m", a, b, depth);
   }

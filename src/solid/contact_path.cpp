@@ -30,9 +30,10 @@ double advance(PairKind kind, const PairPoints<Dim>& x, const PairPoints<Dim>& r
 }
 
 template <int Dim>
-Twists<Dim> between(const Twists<Dim>& from, const Twists<Dim>& to, double share) {
-  Twists<Dim> r = from;
-  for (size_t b = 0; b < r.size(); ++b) r[b] += share * (to[b] - from[b]);
+Velocities<Dim> between(const Velocities<Dim>& from, const Velocities<Dim>& to, double share) {
+  Velocities<Dim> r = from;
+  for (size_t b = 0; b < r.twists.size(); ++b) r.twists[b] += share * (to.twists[b] - from.twists[b]);
+  for (size_t p = 0; p < r.points.size(); ++p) r.points[p] += share * (to.points[p] - from.points[p]);
   return r;
 }
 
@@ -56,12 +57,12 @@ double least_share(const typename ContactScene<Dim>::Data& scene, const std::vec
 // One attempt; the share is that of the straight paths, good only if it is 1 (a turning body does not stay on them).
 template <int Dim>
 Walk<Dim> attempt(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
-                  const Placement<Dim>& from, const Twists<Dim>& target, double reach) {
-  const int legs = legs_of<Dim>(interval, from.twists, target);
+                  const Placement<Dim>& from, const Velocities<Dim>& target, double reach) {
+  const int legs = legs_of<Dim>(interval, from.velocities.twists, target.twists);
   Walk<Dim> r{0, from, {}};
   for (int leg = 1; leg <= legs; ++leg) {
-    const Twists<Dim> twists = leg == legs ? target : between<Dim>(from.twists, target, double(leg) / legs);
-    Placement<Dim> next = place<Dim>(scene, interval, twists);
+    Placement<Dim> next =
+        place<Dim>(scene, interval, leg == legs ? target : between<Dim>(from.velocities, target, double(leg) / legs));
     r.near = find_candidates<Dim>(scene, r.end.points, next.points, reach);
     const double share = least_share<Dim>(scene, r.near, r.end.points, next.points, reach);
     r.share = (leg - 1 + share) / legs;
@@ -76,7 +77,8 @@ Walk<Dim> attempt(const typename ContactScene<Dim>::Data& scene, const Interval<
 
 template <int Dim>
 double pair_share(const typename ContactScene<Dim>::Data& scene, const Candidate& pair, const PairPoints<Dim>& from,
-                  const PairPoints<Dim>& to, double reach) {
+                  const PairPoints<Dim>& to, double scene_reach) {
+  const double reach = pair.reach(scene_reach);
   PairPoints<Dim> x = from, rate;
   for (int i = 0; i < 4; ++i) rate[i] = to[i] - from[i];
   Separation<Dim> apart = separate<Dim>(scene, pair, x);
@@ -99,10 +101,10 @@ double pair_share(const typename ContactScene<Dim>::Data& scene, const Candidate
 
 template <int Dim>
 Walk<Dim> walk(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval, const Placement<Dim>& from,
-               const Twists<Dim>& target, double reach) {
+               const Velocities<Dim>& target, double reach) {
   double share = 1;
   for (int i = 0; i < retreat_limit; ++i) {
-    const Twists<Dim> goal = share == 1 ? target : between<Dim>(from.twists, target, share);
+    const Velocities<Dim> goal = share == 1 ? target : between<Dim>(from.velocities, target, share);
     Walk<Dim> r = attempt<Dim>(scene, interval, from, goal, reach);
     if (r.share == 1) {
       r.share = share;
@@ -117,7 +119,7 @@ Walk<Dim> walk(const typename ContactScene<Dim>::Data& scene, const Interval<Dim
   template double pair_share<Dim>(const ContactScene<Dim>::Data&, const Candidate&, const PairPoints<Dim>&, \
                                   const PairPoints<Dim>&, double);                                          \
   template Walk<Dim> walk<Dim>(const ContactScene<Dim>::Data&, const Interval<Dim>&, const Placement<Dim>&, \
-                               const Twists<Dim>&, double);
+                               const Velocities<Dim>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 #undef SEICHE_INSTANTIATE
@@ -129,10 +131,10 @@ template <int Dim>
 double largest_safe_fraction(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                              const Eigen::VectorXd& velocity) {
   const auto interval = contact::make_interval<Dim>(scene.data(), motions, horizon);
-  const auto start =
-      contact::place<Dim>(scene.data(), interval,
-                          contact::all_twists<Dim>(scene.data(), interval, Eigen::VectorXd::Zero(velocity.size()), 0));
-  const auto target = contact::all_twists<Dim>(scene.data(), interval, velocity, 1);
+  const auto start = contact::place<Dim>(
+      scene.data(), interval,
+      contact::all_velocities<Dim>(scene.data(), interval, Eigen::VectorXd::Zero(velocity.size()), 0));
+  const auto target = contact::all_velocities<Dim>(scene.data(), interval, velocity, 1);
   return contact::walk<Dim>(scene.data(), interval, start, target, 0).share;
 }
 

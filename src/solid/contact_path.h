@@ -12,14 +12,14 @@ double pair_share(const typename ContactScene<Dim>::Data& scene, const Candidate
 
 template <int Dim>
 struct Walk {
-  double share = 0;  // of the way to the target twists
+  double share = 0;  // of the way to the target
   Placement<Dim> end;
   std::vector<Candidate> near;  // all pairs within reach at the end, and others
 };
 
-// Goes from a placement towards the target twists, as far as that surely is free of collisions.
+// Goes from a placement towards the target velocities, as far as that surely is free of collisions.
 template <int Dim>
 Walk<Dim> walk(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval, const Placement<Dim>& from,
-               const Twists<Dim>& target, double reach);
+               const Velocities<Dim>& target, double reach);
 
 }  // namespace seiche::contact

@@ -35,6 +35,9 @@ class Search {
         if constexpr (Dim == 3) edges(a, e, way, b, f);
       });
     }
+    for (size_t b = 0; b < body_boxes_.size(); ++b)
+      if (scene_.deforms(static_cast<int>(b)) && !body_boxes_[b].isEmpty()) meet_itself(static_cast<int>(b));
+    if (scene_.any_deforms()) measure_edges();
     return std::move(found_);
   }
 
@@ -42,6 +45,12 @@ class Search {
     std::vector<ElementPair> pairs;
     for (const auto& [a, b] : near_bodies())
       meet(a, b, drift_[a] - drift_[b], [&, a = a, b = b](int e, int f) { pairs.push_back({a, e, b, f}); });
+    const Vec<Dim> none = Vec<Dim>::Zero();
+    for (int b = 0; b < static_cast<int>(body_boxes_.size()); ++b)
+      if (scene_.deforms(b) && !body_boxes_[b].isEmpty())
+        meet(b, b, none, [&](int e, int f) {
+          if (e < f) pairs.push_back({b, e, b, f});
+        });
     return pairs;
   }
 
@@ -80,7 +89,7 @@ class Search {
     for (const auto& [start, b] : starts) {
       std::erase_if(open, [&, at = start](int a) { return body_boxes_[a].max()[0] < at; });
       for (int a : open)
-        if ((scene_.block[a] >= 0 || scene_.block[b] >= 0) && body_boxes_[a].intersects(body_boxes_[b]))
+        if ((scene_.moves(a) || scene_.moves(b)) && body_boxes_[a].intersects(body_boxes_[b]))
           pairs.emplace_back(std::min(a, b), std::max(a, b));
       open.push_back(b);
     }
@@ -90,7 +99,7 @@ class Search {
 
   void near_walls() {
     for (size_t b = 0; b < body_boxes_.size(); ++b) {
-      if (scene_.block[b] < 0 || body_boxes_[b].isEmpty()) continue;
+      if (!scene_.moves(static_cast<int>(b)) || body_boxes_[b].isEmpty()) continue;
       for (size_t w = 0; w < scene_.walls.size(); ++w) near_wall(static_cast<int>(b), static_cast<int>(w));
     }
   }
@@ -156,6 +165,47 @@ class Search {
         if (box.intersects(path(scene_.point_begin[b], two.elements[f]))) visit(e, f);
       }
     }
+  }
+
+  // The pairs of a body with itself; each pair of elements is met twice, once in each order.
+  void meet_itself(int b) {
+    const Vec<Dim> none = Vec<Dim>::Zero();
+    const auto first = static_cast<std::ptrdiff_t>(found_.size());
+    meet(b, b, none, [&](int e, int f) {
+      if (e == f) return;
+      points_and_element(b, e, none, b, f, none);
+      if constexpr (Dim == 3)
+        if (e < f) edges(b, e, none, b, f);
+    });
+    found_.erase(std::remove_if(found_.begin() + first, found_.end(), share_a_point), found_.end());
+    std::for_each(found_.begin() + first, found_.end(),
+                  [&](Candidate& c) { c.apart_at_rest = separate<Dim>(c.kind, at_rest(c)).distance; });
+  }
+
+  void measure_edges() {
+    for (Candidate& c : found_) {
+      if (c.kind != PairKind::edge_edge || (!scene_.deforms(c.first) && !scene_.deforms(c.second))) continue;
+      const PairPoints<Dim> x = at_rest(c);
+      c.edges_at_rest = (x[1] - x[0]).squaredNorm() * (x[3] - x[2]).squaredNorm();
+    }
+  }
+
+  static bool share_a_point(const Candidate& c) {
+    const int count = points_of(c.kind, Dim), first = points_of_first(c.kind);
+    for (int i = 0; i < first; ++i)
+      for (int j = first; j < count; ++j)
+        if (c.points[i] == c.points[j]) return true;
+    return false;
+  }
+
+  PairPoints<Dim> at_rest(const Candidate& c) const {
+    PairPoints<Dim> x;
+    for (Vec<Dim>& point : x) point.setZero();
+    for (int i = 0; i < points_of(c.kind, Dim); ++i) {
+      const int body = i < points_of_first(c.kind) ? c.first : c.second;
+      x[i] = scene_.surfaces[body].points[c.points[i] - scene_.point_begin[body]];
+    }
+    return x;
   }
 
   void points_and_element(int a, int e, const Vec<Dim>& way, int b, int f, const Vec<Dim>& other_way) {

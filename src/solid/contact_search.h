@@ -1,5 +1,7 @@
 #pragma once
 // Which pairs of primitives can come near one another along linear paths of their points.
+#include <limits>
+
 #include "solid/contact_distance.h"
 #include "solid/contact_motion.h"
 
@@ -9,18 +11,24 @@ struct Candidate {
   PairKind kind;
   int first, second;          // bodies; second is a wall for point_wall
   std::array<int, 4> points;  // in the list of all points
+  // Of two parts of one body: how far apart they are at rest (m). What is near by its shape does not push.
+  double apart_at_rest = std::numeric_limits<double>::infinity();
+  double edges_at_rest = 0;  // as pair_energy() takes it
+
+  double reach(double reach) const { return std::min(reach, 0.5 * apart_at_rest); }
 };
 
 template <int Dim>
 using Points = std::vector<Vec<Dim>>;
 
-// All pairs of which one body is free and that may be within `margin` while points move from one place to the other
-// (the start and the end included), in an order that depends on nothing but the input.
+// All pairs, also those of parts of one deformable body without a point in common, of which one body moves freely and
+// that may be within `margin` while points move from one place to the other (the start and the end included), in an
+// order that depends on nothing but the input.
 template <int Dim>
 std::vector<Candidate> find_candidates(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& from,
                                        const Points<Dim>& to, double margin);
 
-// Elements of two bodies whose boxes are within `margin` of one another.
+// Elements of two bodies, or of one deformable one, whose boxes are within `margin` of one another.
 struct ElementPair {
   int first_body, first, second_body, second;
 };

@@ -1,4 +1,4 @@
-// Newton's method on e(v) + C(v) with a line search that never lets surfaces touch (Li et al. 2020).
+// Newton's method on e(v) + C(v) + P(v) with a line search that never lets surfaces touch (Li et al. 2020).
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +31,8 @@ template <int Dim>
 class Solver {
  public:
   Solver(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon, double dt,
-         InertiaProblem& inertia, const ContactOptions& options)
-      : scene_(scene.data()), inertia_(inertia), options_(options) {
+         InertiaProblem& inertia, const ContactOptions& options, const VelocityPotential* potential)
+      : scene_(scene.data()), inertia_(inertia), options_(options), potential_(potential) {
     interval_ = make_interval<Dim>(scene_, motions, horizon);
     weights_ = {dt, options.reach, stiffness_for(heaviest() * options.acceleration, options.reach),
                 options.creep_speed};
@@ -55,7 +55,7 @@ class Solver {
   double heaviest() const {
     double mass = 0;
     for (size_t b = 0; b < scene_.mass.size(); ++b)
-      if (scene_.block[b] >= 0) mass = std::max(mass, scene_.mass[b]);
+      if (scene_.moves(static_cast<int>(b))) mass = std::max(mass, scene_.mass[b]);
     return mass > 0 ? mass : 1;
   }
 
@@ -70,18 +70,22 @@ class Solver {
     return report_.failure.empty() ? Outcome::converged : Outcome::failed;
   }
 
-  Twists<Dim> twists(const Eigen::VectorXd& v, double share) const {
-    return all_twists<Dim>(scene_, interval_, v, share);
+  Velocities<Dim> velocities(const Eigen::VectorXd& v, double share) const {
+    return all_velocities<Dim>(scene_, interval_, v, share);
   }
 
-  // The motion without contact is the answer if it meets nothing: e has no lower value.
+  // Prescribed bodies or held degrees of freedom do not yet move as they shall.
+  bool under_way() const { return share_ < 1 || !inertia_.holds(e_.velocity); }
+
+  // The motion by e alone is the answer if it meets nothing: e has no lower value.
   bool free_of_contact() {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
     const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
-    at_ = place<Dim>(scene_, interval_, twists(zero, share_));
+    at_ = place<Dim>(scene_, interval_, velocities(zero, share_));
     if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
     free_velocity_ = e_.velocity;
-    const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, twists(e_.velocity, 1), weights_.reach);
+    if (potential_) return false;
+    const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, velocities(e_.velocity, 1), weights_.reach);
     if (way.share < 1) return false;
     if (contact_energy<Dim>(scene_, interval_, way.end, way.near, {}, weights_) > 0) return false;
     report_.velocity = e_.velocity;
@@ -96,10 +100,12 @@ class Solver {
   bool begin(const Eigen::VectorXd& start) {
     const Eigen::VectorXd v = start.size() > 0 ? start : Eigen::VectorXd::Zero(inertia_.size());
     if (start.size() > 0) share_ = 1;
-    at_ = place<Dim>(scene_, interval_, twists(v, share_));
+    at_ = place<Dim>(scene_, interval_, velocities(v, share_));
     pairs_ = find_candidates<Dim>(scene_, at_.points, at_.points, weights_.reach);
     const double energy = contact_energy<Dim>(scene_, interval_, at_, pairs_, {}, weights_);
     if (!std::isfinite(energy)) report_.failure = "bodies touch or overlap at the start of the step";
+    if (potential_ && !std::isfinite(potential_->energy(v)))
+      report_.failure = "elements of elastic bodies are inverted at the start of the step";
     return report_.failure.empty() && take(inertia_.respond(v), e_) == Outcome::converged;
   }
 
@@ -148,7 +154,7 @@ class Solver {
       const double speed = fastest(goal.velocity - e_.velocity);
       if (i == 0) first_step = speed;
       const double tolerance = std::max(options_.speed_tolerance, share_of_change * change());
-      const bool last = speed <= tolerance && share_ == 1;
+      const bool last = speed <= tolerance && !under_way();
       const double step = search(goal);
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
@@ -157,10 +163,12 @@ class Solver {
     return fail("contact: Newton's method does not converge");
   }
 
-  // The minimum of e and the quadratic model of C at the present iterate. The model is made convex where there is none.
+  // The minimum of e and the quadratic model of C and P at the present iterate. The model is made convex where there is
+  // none.
   Outcome aim(InertiaResponse& goal) {
     for (Curvature curvature : {Curvature::exact, Curvature::convex}) {
       terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, curvature);
+      if (potential_) add_potential(curvature);
       const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
       if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
       if (goal.shape == Shape::convex) return Outcome::converged;
@@ -168,20 +176,21 @@ class Solver {
     return fail("contact: the energy of the bodies' inertia is not convex");
   }
 
+  void add_potential(Curvature curvature) {
+    std::vector<Eigen::Triplet<double>> entries;
+    potential_->add_terms(e_.velocity, curvature, terms_.gradient, entries);
+    Eigen::SparseMatrix<double> K(e_.velocity.size(), e_.velocity.size());
+    K.setFromTriplets(entries.begin(), entries.end());
+    terms_.K += K;
+    terms_.energy += potential_->energy(e_.velocity);
+  }
+
   Outcome fail(const std::string& why) {
     report_.failure = why;
     return Outcome::failed;
   }
 
-  double fastest(const Eigen::VectorXd& v) const {
-    double speed = 0;
-    for (size_t b = 0; b < scene_.surfaces.size(); ++b)
-      if (scene_.block[b] >= 0)
-        speed =
-            std::max(speed, speed_bound<Dim>(interval_, static_cast<int>(b),
-                                             v.template segment<twist_size<Dim>>(twist_size<Dim> * scene_.block[b])));
-    return speed;
-  }
+  double fastest(const Eigen::VectorXd& v) const { return contact::fastest<Dim>(scene_, interval_, v); }
 
   // e(v + s p) - e(v) of a quadratic whose gradients at v and v + p are known.
   double inertia_change(const InertiaResponse& goal, double s) const {
@@ -189,26 +198,34 @@ class Solver {
     return s * p.dot(e_.gradient + 0.5 * s * (goal.gradient - e_.gradient));
   }
 
-  // Goes towards the goal as far as is free of collisions and downhill; the share of the way, 0 if it stays. While
-  // prescribed bodies are under way energies cannot be compared.
+  // Goes towards the goal as far as is free of collisions and inversion, and downhill; the share of the way, 0 if it
+  // stays. While prescribed bodies and held degrees of freedom are under way energies cannot be compared.
   double search(const InertiaResponse& goal) {
     const Eigen::VectorXd p = goal.velocity - e_.velocity;
     const double slope = p.dot(e_.gradient + terms_.gradient), left = 1 - share_;
-    for (double s = 1; s > least_step; s *= 0.5) {
-      Walk<Dim> way = walk<Dim>(scene_, interval_, at_, twists(e_.velocity + s * p, share_ + s * left), weights_.reach);
+    const bool compares = !under_way();
+    for (double s = potential_ ? potential_->step_bound(e_.velocity, p) : 1; s > least_step; s *= 0.5) {
+      Walk<Dim> way =
+          walk<Dim>(scene_, interval_, at_, velocities(e_.velocity + s * p, share_ + s * left), weights_.reach);
       s *= way.share;
       if (s <= least_step) break;
-      const double energy = contact_energy<Dim>(scene_, interval_, way.end, way.near, friction_, weights_);
+      const double energy = energy_after(way, s * p);
       const double inertia = inertia_change(goal, s);
-      const double noise = energy_round_off * (std::abs(inertia) + energy + terms_.energy);
+      double noise = energy_round_off * (std::abs(inertia) + energy + terms_.energy);
+      if (potential_) noise += potential_->round_off();
       if (!std::isfinite(energy)) continue;
-      if (left == 0 && inertia + energy - terms_.energy > sufficient_decrease * s * std::min(slope, 0.) + noise)
+      if (compares && inertia + energy - terms_.energy > sufficient_decrease * s * std::min(slope, 0.) + noise)
         continue;
       accept(std::move(way), goal, s);
       share_ = s == 1 ? 1 : share_ + s * left;
       return s;
     }
     return 0;
+  }
+
+  double energy_after(const Walk<Dim>& way, const Eigen::VectorXd& step) const {
+    const double contact = contact_energy<Dim>(scene_, interval_, way.end, way.near, friction_, weights_);
+    return potential_ ? contact + potential_->energy(e_.velocity + step) : contact;
   }
 
   void accept(Walk<Dim> way, const InertiaResponse& goal, double s) {
@@ -220,14 +237,15 @@ class Solver {
 
   bool stiffen() {
     terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
-    if (terms_.smallest_gap >= tiny_gap * weights_.reach) return false;
+    if (terms_.tightest >= tiny_gap * weights_.reach) return false;
     weights_.stiffness *= stiffening;
     return true;
   }
 
   void finish() {
-    const Twists<Dim> still = twists(Eigen::VectorXd::Zero(inertia_.size()), 0);
-    report_.straight_share = walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.twists, 0).share;
+    const Velocities<Dim> still = velocities(Eigen::VectorXd::Zero(inertia_.size()), 0);
+    report_.straight_share =
+        walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.velocities, 0).share;
     friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
     terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
     report_.velocity = e_.velocity;
@@ -241,10 +259,11 @@ class Solver {
   const Scene<Dim>& scene_;
   InertiaProblem& inertia_;
   const ContactOptions& options_;
+  const VelocityPotential* potential_;
   Interval<Dim> interval_;
   Weights weights_;
   ContactReport report_;
-  // The present iterate: free velocities with the gradient of e, the share of the prescribed motion, what follows.
+  // The present iterate: stacked velocities with the gradient of e, the share of the prescribed motion, what follows.
   InertiaResponse e_;
   Eigen::VectorXd free_velocity_;  // without contact
   double share_ = 1;
@@ -260,13 +279,15 @@ class Solver {
 template <int Dim>
 ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                             double dt, InertiaProblem& inertia, const ContactOptions& options,
-                            const Eigen::VectorXd& start) {
-  return contact::Solver<Dim>(scene, motions, horizon, dt, inertia, options).run(start);
+                            const Eigen::VectorXd& start, const VelocityPotential* potential) {
+  return contact::Solver<Dim>(scene, motions, horizon, dt, inertia, options, potential).run(start);
 }
 
 template ContactReport solve_contact<2>(const ContactScene<2>&, const std::vector<ContactMotion>&, double, double,
-                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&);
+                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&,
+                                        const VelocityPotential*);
 template ContactReport solve_contact<3>(const ContactScene<3>&, const std::vector<ContactMotion>&, double, double,
-                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&);
+                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&,
+                                        const VelocityPotential*);
 
 }  // namespace seiche

@@ -30,6 +30,7 @@ void copy_used_points(const SurfaceMesh& mesh, const std::string& name, Surface<
       if (place[p] < 0) {
         place[p] = static_cast<int>(s.points.size());
         s.points.push_back(truncate<Dim>(mesh.points[p]));
+        s.source.push_back(p);
       }
       p = place[p];
     }
@@ -122,6 +123,29 @@ Surface<Dim> prepare_surface(const SurfaceMesh& mesh, const std::string& name) {
 template Surface<2> prepare_surface<2>(const SurfaceMesh&, const std::string&);
 template Surface<3> prepare_surface<3>(const SurfaceMesh&, const std::string&);
 
+namespace {
+
+// The degrees of freedom of a body and of its points.
+template <int Dim>
+void number(const ContactBody& body, typename ContactScene<Dim>::Data& data) {
+  const Surface<Dim>& surface = data.surfaces.back();
+  const int begin = data.size;
+  const bool deforms = body.control == BodyControl::deformable;
+  data.first_dof.push_back(body.control == BodyControl::prescribed ? -1 : begin);
+  data.node_count.push_back(deforms ? body.node_count : 0);
+  if (body.control == BodyControl::free) data.size += twist_size<Dim>;
+  if (deforms) data.size += Dim * body.node_count;
+  for (const int p : surface.source) {
+    const int node = !deforms ? 0 : p < static_cast<int>(body.nodes.size()) ? body.nodes[p] : -1;
+    if (deforms && (node < 0 || node >= body.node_count))
+      throw Error(ExitCode::bad_input,
+                  data.names.back() + ": point " + std::to_string(p) + " of its surface is at no node of its mesh");
+    data.point_dof.push_back(deforms ? begin + Dim * node : -1);
+  }
+}
+
+}  // namespace
+
 }  // namespace contact
 
 template <int Dim>
@@ -135,7 +159,7 @@ ContactScene<Dim>::ContactScene(const std::vector<ContactBody>& bodies, const st
     data->mass.push_back(b.mass);
     data->friction.push_back(b.friction);
     data->point_begin.push_back(data->point_begin.back() + static_cast<int>(data->surfaces.back().points.size()));
-    data->block.push_back(b.control == BodyControl::free ? data->free_count++ : -1);
+    contact::number<Dim>(b, *data);
   }
   for (const ContactWall& w : walls)
     data->walls.push_back({truncate<Dim>(w.point), truncate<Dim>(w.normal).normalized()});

@@ -1,5 +1,6 @@
 #pragma once
 // Surfaces of bodies and walls, prepared for the search of near pairs.
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct TreeNode {
 template <int Dim>
 struct Surface {
   std::vector<Vec<Dim>> points;  // at rest; those of no element are left out
+  std::vector<int> source;       // of each the one in the mesh
   std::vector<Element<Dim>> elements;
   std::vector<std::array<int, 2>> edges;                // none in 2D
   std::vector<std::vector<int>> own_points, own_edges;  // of each element
@@ -49,8 +51,18 @@ struct ContactScene<Dim>::Data {
   std::vector<double> mass;
   std::vector<std::optional<double>> friction;
   std::vector<int> point_begin;  // of each body in the list of all points; one more entry than bodies
-  std::vector<int> block;        // of each free body among the free ones; -1 for others
-  int free_count = 0;
+  // In the stacked velocities: where those of each body begin (-1: prescribed) and, of deformable bodies, of each point
+  // in the list of all points (-1: of a rigid body).
+  std::vector<int> first_dof, point_dof;
+  std::vector<int> node_count;  // of each deformable body's mesh; 0 for others
+  int size = 0;                 // of the stacked velocities
+
+  bool moves(int body) const { return first_dof[body] >= 0; }
+  bool deforms(int body) const { return control[body] == BodyControl::deformable; }
+  bool any_deforms() const {
+    return std::find(control.begin(), control.end(), BodyControl::deformable) != control.end();
+  }
+  int node(int body, int point) const { return (point_dof[point] - first_dof[body]) / Dim; }
 };
 
 }  // namespace seiche

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "solid/contact_deformable.h"
+
 namespace seiche::contact {
 namespace {
 
@@ -27,15 +29,15 @@ template <int Dim>
 class Assembly {
  public:
   static constexpr int n = twist_size<Dim>;
-  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left)
-      : scene_(scene), interval_(interval), left_(share_left) {
-    gradient_.setZero(n * scene.free_count);
-    drag_.setZero(n * scene.free_count);
+  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left, Curvature curvature)
+      : scene_(scene), interval_(interval), left_(share_left), curvature_(curvature) {
+    gradient_.setZero(scene.size);
+    drag_.setZero(scene.size);
   }
 
   void add(int a, int b, const PairVector<Dim>& gradient) {
-    if (block(a) >= 0) gradient_.template segment<n>(n * block(a)) += gradient.template head<n>();
-    if (block(b) >= 0) gradient_.template segment<n>(n * block(b)) += gradient.template tail<n>();
+    if (first_dof(a) >= 0) gradient_.template segment<n>(first_dof(a)) += gradient.template head<n>();
+    if (first_dof(b) >= 0) gradient_.template segment<n>(first_dof(b)) += gradient.template tail<n>();
   }
 
   void add(int a, int b, const PairMatrix<Dim>& hessian) {
@@ -43,10 +45,24 @@ class Assembly {
     if (!fresh) place->second += hessian;
   }
 
-  void finish(Curvature curvature, ContactTerms& terms) {
-    std::vector<Eigen::Triplet<double>> entries;
+  // Of a pair with a deformable side.
+  void add(const PairDofs<Dim>& dofs, const typename PairDofs<Dim>::Vector& gradient,
+           const typename PairDofs<Dim>::Matrix& exact) {
+    const typename PairDofs<Dim>::Matrix hessian = curvature_ == Curvature::exact ? exact : without_negative(exact);
+    const typename PairDofs<Dim>::Vector drag = hessian * (left_ * dofs.prescribed);
+    for (int i = 0; i < dofs.count; ++i) {
+      if (dofs.dof[i] < 0) continue;
+      gradient_[dofs.dof[i]] += gradient[i];
+      drag_[dofs.dof[i]] += drag[i];
+      for (int j = 0; j < dofs.count; ++j)
+        if (dofs.dof[j] >= 0) entries_.emplace_back(dofs.dof[i], dofs.dof[j], hessian(i, j));
+    }
+  }
+
+  void finish(ContactTerms& terms) {
+    std::vector<Eigen::Triplet<double>>& entries = entries_;
     for (const auto& [bodies, sum] : hessians_) {
-      const PairMatrix<Dim> hessian = curvature == Curvature::exact ? sum : without_negative(sum);
+      const PairMatrix<Dim> hessian = curvature_ == Curvature::exact ? sum : without_negative(sum);
       const std::array<int, 2> body{bodies.first, bodies.second};
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) scatter(body[i], body[j], hessian.template block<n, n>(n * i, n * j), entries);
@@ -58,24 +74,26 @@ class Assembly {
   }
 
  private:
-  int block(int body) const { return body < 0 ? -1 : scene_.block[body]; }
+  int first_dof(int body) const { return body < 0 ? -1 : scene_.first_dof[body]; }
 
   void scatter(int row, int column, const Eigen::Matrix<double, n, n>& part,
                std::vector<Eigen::Triplet<double>>& entries) {
-    const int i = block(row), j = block(column);
+    const int i = first_dof(row), j = first_dof(column);
     if (i < 0 || column < 0) return;
     if (j < 0) {
-      drag_.template segment<n>(n * i) += part * (left_ * interval_.prescribed[column]);
+      drag_.template segment<n>(i) += part * (left_ * interval_.prescribed[column]);
       return;
     }
     for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c) entries.emplace_back(n * i + r, n * j + c, part(r, c));
+      for (int c = 0; c < n; ++c) entries.emplace_back(i + r, j + c, part(r, c));
   }
 
   const Scene<Dim>& scene_;
   const Interval<Dim>& interval_;
   double left_;
+  Curvature curvature_;
   Eigen::VectorXd gradient_, drag_;
+  std::vector<Eigen::Triplet<double>> entries_;
   std::map<std::pair<int, int>, PairMatrix<Dim>> hessians_;
 };
 
@@ -154,15 +172,83 @@ Eigen::Matrix<double, 2 * twist_size<Dim>, Dim - 1> slip_derivative(const Fricti
 }
 
 template <int Dim>
-void add_friction(const std::vector<FrictionPoint<Dim>>& friction, const Placement<Dim>& at, const Weights& w,
+void add_friction(const Scene<Dim>& scene, const Interval<Dim>& interval,
+                  const std::vector<FrictionPoint<Dim>>& friction, const Placement<Dim>& at, const Weights& w,
                   ContactTerms& terms, Assembly<Dim>& assembly) {
   for (const FrictionPoint<Dim>& f : friction) {
-    const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed);
-    const auto derivative = slip_derivative<Dim>(f);
+    const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.velocities), w.creep_speed);
     terms.energy += w.dt * e.value;
+    if (f.deforms()) {
+      const PairDofs<Dim> dofs = pair_dofs<Dim>(scene, interval, f.pair);
+      const auto derivative = slip_derivative<Dim>(f, dofs);
+      assembly.add(dofs, w.dt * derivative * e.gradient, w.dt * derivative * e.hessian * derivative.transpose());
+      continue;
+    }
+    const auto derivative = slip_derivative<Dim>(f);
     assembly.add(f.first, f.second, PairVector<Dim>(w.dt * derivative * e.gradient));
     assembly.add(f.first, f.second, PairMatrix<Dim>(w.dt * derivative * e.hessian * derivative.transpose()));
   }
+}
+
+// The barrier of two rigid bodies, or of a rigid one and a wall.
+template <int Dim>
+void add_rigid(const Interval<Dim>& interval, const Placement<Dim>& at, const TurnJacobians<Dim>& jacobians,
+               const Candidate& pair, const PairPoints<Dim>& x, const PairEnergy<Dim>& e, const Weights& w,
+               Assembly<Dim>& assembly) {
+  const PointMatrix<Dim> J = point_derivative<Dim>(pair, at, x);
+  const PairMatrix<Dim> turns = turns_by_twists<Dim>(pair, jacobians);
+  PairMatrix<Dim> hessian = J.transpose() * e.hessian * J;
+  add_turning<Dim>(pair, at, x, e.gradient, hessian);
+  assembly.add(pair.first, second_body(pair),
+               PairVector<Dim>(w.dt * turns.transpose() * flat_product<Dim>(J, e.gradient)));
+  assembly.add(pair.first, second_body(pair),
+               PairMatrix<Dim>(w.dt * interval.horizon * turns.transpose() * hessian * turns));
+}
+
+template <int Dim>
+void add_deformable(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
+                    const Candidate& pair, const PairPoints<Dim>& x, const PairEnergy<Dim>& e, const Weights& w,
+                    Assembly<Dim>& assembly) {
+  const PairDofs<Dim> dofs = pair_dofs<Dim>(scene, interval, pair);
+  const PairTerms<Dim> terms = pair_terms<Dim>(scene, interval, at, pair, dofs, x, e);
+  assembly.add(dofs, w.dt * terms.gradient, w.dt * interval.horizon * terms.hessian);
+}
+
+// Without its bound.
+template <int Dim>
+FrictionPoint<Dim> friction_point(const Scene<Dim>& scene, const Placement<Dim>& at, const Candidate& pair,
+                                  const PairPoints<Dim>& x, const Separation<Dim>& apart) {
+  const int second = second_body(pair);
+  const bool first_deforms = scene.deforms(pair.first), second_deforms = second >= 0 && scene.deforms(second);
+  const double first_share = first_deforms ? 0 : second_deforms ? 1 : 0.5;  // of the gap, from the first body
+  const double second_share = second_deforms ? 1 : first_deforms ? 0 : 0.5;
+  const auto arm = [&](int body, double share) -> Vec<Dim> {
+    if (body < 0) return Vec<Dim>::Zero();
+    Vec<Dim> point = -share * apart.distance * apart.normal;
+    for (int i = 0; i < points_of_first(pair.kind); ++i) point += apart.weight[i] * x[i];
+    return point - at.centers[body];
+  };
+  return {pair.first,
+          second,
+          0,
+          arm(pair.first, first_share),
+          arm(second, second_share),
+          tangents<Dim>(apart.normal),
+          first_deforms,
+          second_deforms,
+          pair,
+          apart.weight};
+}
+
+template <int Dim>
+bool deforms(const Scene<Dim>& scene, const Candidate& pair) {
+  return scene.deforms(pair.first) || (second_body(pair) >= 0 && scene.deforms(pair.second));
+}
+
+template <int Dim>
+PairEnergy<Dim> energy_of(const Candidate& pair, const PairPoints<Dim>& x, const Separation<Dim>& apart,
+                          const Weights& w) {
+  return pair_energy<Dim>(pair.kind, x, apart, pair.reach(w.reach), w.stiffness, pair.edges_at_rest);
 }
 
 template <int Dim>
@@ -170,7 +256,8 @@ double share_left(const Scene<Dim>& scene, const Interval<Dim>& interval, const 
   double left = 0;
   for (size_t b = 0; b < twists.size(); ++b) {
     const double whole = interval.prescribed[b].squaredNorm();
-    if (scene.block[b] < 0 && whole > 0) left = std::max(left, 1 - twists[b].dot(interval.prescribed[b]) / whole);
+    if (!scene.moves(static_cast<int>(b)) && whole > 0)
+      left = std::max(left, 1 - twists[b].dot(interval.prescribed[b]) / whole);
   }
   return left;
 }
@@ -185,12 +272,13 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
   for (const Candidate& pair : pairs) {
     const PairPoints<Dim> x = gather<Dim>(pair, at.points);
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
-    if (apart.distance >= w.reach) continue;
+    if (apart.distance >= pair.reach(w.reach)) continue;
     if (apart.distance <= 0) return std::numeric_limits<double>::infinity();
-    energy += w.dt / interval.horizon * pair_value<Dim>(pair.kind, x, apart.distance, w.reach, w.stiffness);
+    energy += w.dt / interval.horizon *
+              pair_value<Dim>(pair.kind, x, apart.distance, pair.reach(w.reach), w.stiffness, pair.edges_at_rest);
   }
   for (const FrictionPoint<Dim>& f : friction)
-    energy += w.dt * slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed).value;
+    energy += w.dt * slip_energy<Dim>(f, slip<Dim>(f, at.velocities), w.creep_speed).value;
   return energy;
 }
 
@@ -199,28 +287,25 @@ ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interva
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
                            const Weights& w, Curvature curvature) {
   ContactTerms terms;
-  terms.smallest_gap = w.reach;
-  Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.twists));
-  const TurnJacobians<Dim> jacobians = turn_jacobians<Dim>(interval, at.twists);
+  terms.smallest_gap = terms.tightest = w.reach;
+  Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.velocities.twists), curvature);
+  const TurnJacobians<Dim> jacobians = turn_jacobians<Dim>(interval, at.velocities.twists);
   for (const Candidate& pair : pairs) {
     const PairPoints<Dim> x = gather<Dim>(pair, at.points);
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
-    if (apart.distance >= w.reach) continue;
-    const PairEnergy<Dim> e = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness);
-    const PointMatrix<Dim> J = point_derivative<Dim>(pair, at, x);
-    const PairMatrix<Dim> turns = turns_by_twists<Dim>(pair, jacobians);
-    PairMatrix<Dim> hessian = J.transpose() * e.hessian * J;
-    add_turning<Dim>(pair, at, x, e.gradient, hessian);
+    if (apart.distance >= pair.reach(w.reach)) continue;
+    const PairEnergy<Dim> e = energy_of<Dim>(pair, x, apart, w);
     ++terms.active;
     terms.smallest_gap = std::min(terms.smallest_gap, apart.distance);
+    terms.tightest = std::min(terms.tightest, w.reach / pair.reach(w.reach) * apart.distance);
     terms.energy += w.dt / interval.horizon * e.value;
-    assembly.add(pair.first, second_body(pair),
-                 PairVector<Dim>(w.dt * turns.transpose() * flat_product<Dim>(J, e.gradient)));
-    assembly.add(pair.first, second_body(pair),
-                 PairMatrix<Dim>(w.dt * interval.horizon * turns.transpose() * hessian * turns));
+    if (deforms<Dim>(scene, pair))
+      add_deformable<Dim>(scene, interval, at, pair, x, e, w, assembly);
+    else
+      add_rigid<Dim>(interval, at, jacobians, pair, x, e, w, assembly);
   }
-  add_friction<Dim>(friction, at, w, terms, assembly);
-  assembly.finish(curvature, terms);
+  add_friction<Dim>(scene, interval, friction, at, w, terms, assembly);
+  assembly.finish(terms);
   return terms;
 }
 
@@ -234,14 +319,11 @@ std::vector<FrictionPoint<Dim>> friction_points(const Scene<Dim>& scene, const P
     if (mu == 0) continue;
     const PairPoints<Dim> x = gather<Dim>(pair, at.points);
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
-    if (apart.distance >= w.reach) continue;
-    const double force = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness).force;
+    if (apart.distance >= pair.reach(w.reach)) continue;
+    const double force = energy_of<Dim>(pair, x, apart, w).force;
     if (force <= 0) continue;
-    Vec<Dim> middle = -0.5 * apart.distance * apart.normal;
-    for (int i = 0; i < points_of_first(pair.kind); ++i) middle += apart.weight[i] * x[i];
-    const Vec<Dim> arm = second < 0 ? Vec<Dim>::Zero() : Vec<Dim>(middle - at.centers[second]);
-    found.push_back(
-        {pair.first, second, mu * force, middle - at.centers[pair.first], arm, tangents<Dim>(apart.normal)});
+    found.push_back(friction_point<Dim>(scene, at, pair, x, apart));
+    found.back().bound = mu * force;
   }
   return found;
 }
@@ -264,12 +346,12 @@ std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placeme
   for (const Candidate& pair : pairs) {
     const PairPoints<Dim> x = gather<Dim>(pair, at.points);
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);
-    if (apart.distance >= w.reach) continue;
-    const PairEnergy<Dim> e = pair_energy<Dim>(pair.kind, x, apart, w.reach, w.stiffness);
+    if (apart.distance >= pair.reach(w.reach)) continue;
+    const PairEnergy<Dim> e = energy_of<Dim>(pair, x, apart, w);
     add_pair(pair.first, second_body(pair), flat_product<Dim>(point_derivative<Dim>(pair, at, x), e.gradient));
   }
   for (const FrictionPoint<Dim>& f : friction) {
-    const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.twists), w.creep_speed);
+    const SlipEnergy<Dim> e = slip_energy<Dim>(f, slip<Dim>(f, at.velocities), w.creep_speed);
     add_pair(f.first, f.second, slip_derivative<Dim>(f) * e.gradient);
   }
   return impulses;

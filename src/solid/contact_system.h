@@ -13,10 +13,11 @@ struct Weights {
 template <int Dim>
 using Scene = typename ContactScene<Dim>::Data;
 
-// C(v) = dt/H B(x(v)) + dt D(v) (J). K is its Hessian over the free velocities (but for what the change of J_l adds);
-// drag is the product of the Hessian's mixed part with what the prescribed velocities still lack.
+// C(v) = dt/H B(x(v)) + dt D(v) (J). K is its Hessian over the stacked velocities (but for what the change of J_l
+// adds); drag is the product of the Hessian's mixed part with what the prescribed velocities still lack.
 struct ContactTerms {
   double energy = 0, smallest_gap = 0;
+  double tightest = 0;  // the smallest gap where each is measured in reaches of its pair, times the reach (m)
   int active = 0;
   Eigen::VectorXd gradient, drag;
   Eigen::SparseMatrix<double> K;

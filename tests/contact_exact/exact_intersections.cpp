@@ -4,6 +4,7 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace seiche::exact {
 namespace {
@@ -15,6 +16,7 @@ struct Element {
   std::size_t surface;
   Mobility mobility;
   Shape shape;
+  std::vector<int> corners;  // points of the surface
 };
 
 std::vector<Element<Kernel::Triangle_3>> triangles(const std::vector<PlacedSurface>& surfaces) {
@@ -23,7 +25,10 @@ std::vector<Element<Kernel::Triangle_3>> triangles(const std::vector<PlacedSurfa
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const auto& points = surfaces[k].mesh.points;
     for (const auto& t : surfaces[k].mesh.triangles)
-      list.push_back({k, surfaces[k].mobility, {point(points[t[0]]), point(points[t[1]]), point(points[t[2]])}});
+      list.push_back({k,
+                      surfaces[k].mobility,
+                      {point(points[t[0]]), point(points[t[1]]), point(points[t[2]])},
+                      {t.begin(), t.end()}});
   }
   return list;
 }
@@ -34,9 +39,34 @@ std::vector<Element<Kernel::Segment_2>> segments(const std::vector<PlacedSurface
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     const auto& points = surfaces[k].mesh.points;
     for (const auto& s : surfaces[k].mesh.segments)
-      list.push_back({k, surfaces[k].mobility, {point(points[s[0]]), point(points[s[1]])}});
+      list.push_back({k, surfaces[k].mobility, {point(points[s[0]]), point(points[s[1]])}, {s.begin(), s.end()}});
   }
   return list;
+}
+
+template <class Shape>
+std::vector<int> common_corners(const Element<Shape>& a, const Element<Shape>& b) {
+  std::vector<int> common;
+  for (int corner : a.corners)
+    if (std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end()) common.push_back(corner);
+  return common;
+}
+
+Kernel::Segment_3 side_opposite(const Element<Kernel::Triangle_3>& a, int corner) {
+  const int at = int(std::find(a.corners.begin(), a.corners.end(), corner) - a.corners.begin());
+  return {a.shape.vertex(at + 1), a.shape.vertex(at + 2)};
+}
+
+// Two elements of one surface.
+bool crosses_itself(const Element<Kernel::Triangle_3>& a, const Element<Kernel::Triangle_3>& b) {
+  const std::vector<int> common = common_corners(a, b);
+  if (common.empty()) return CGAL::do_intersect(a.shape, b.shape);
+  if (common.size() > 1) return false;
+  return CGAL::do_intersect(side_opposite(a, common[0]), b.shape) ||
+         CGAL::do_intersect(side_opposite(b, common[0]), a.shape);
+}
+bool crosses_itself(const Element<Kernel::Segment_2>& a, const Element<Kernel::Segment_2>& b) {
+  return common_corners(a, b).empty() && CGAL::do_intersect(a.shape, b.shape);
 }
 
 template <int Dim, class Shape>
@@ -47,7 +77,10 @@ int intersecting_pairs(const std::vector<Element<Shape>>& list) {
   for (auto e = list.begin(); e != list.end(); ++e) boxes.emplace_back(e->shape.bbox(), e);
   int found = 0;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    if (a.handle()->surface == b.handle()->surface) return;
+    if (a.handle()->surface == b.handle()->surface) {
+      found += a.handle()->mobility == Mobility::deformable && crosses_itself(*a.handle(), *b.handle());
+      return;
+    }
     if (a.handle()->mobility == Mobility::prescribed && b.handle()->mobility == Mobility::prescribed) return;
     if (CGAL::do_intersect(a.handle()->shape, b.handle()->shape)) ++found;
   });
@@ -84,7 +117,7 @@ int intersections(const std::vector<PlacedSurface>& surfaces) {
 int points_outside(const std::vector<PlacedSurface>& surfaces, const Scene& scene) {
   int found = 0;
   for (const PlacedSurface& s : surfaces)
-    for (const Vec3& x : s.mobility == Mobility::free ? s.mesh.points : std::vector<Vec3>())
+    for (const Vec3& x : s.mobility != Mobility::prescribed ? s.mesh.points : std::vector<Vec3>())
       for (int a = 0; a < scene.dimension; ++a)
         for (int side = 0; side < 2; ++side) {
           const SideType type = scene.domain.sides[a][side].type;
@@ -97,7 +130,7 @@ int points_outside(const std::vector<PlacedSurface>& surfaces, const Scene& scen
 std::vector<int> windings(const std::vector<PlacedSurface>& surfaces) {
   std::vector<int> list;
   for (const PlacedSurface& free : surfaces) {
-    if (free.mobility != Mobility::free || free.mesh.points.empty()) continue;
+    if (free.mobility == Mobility::prescribed || free.mesh.points.empty()) continue;
     for (const PlacedSurface& other : surfaces)
       if (&other != &free) list.push_back(winding(other.mesh, free.mesh.points[0]));
   }

@@ -43,7 +43,7 @@ struct Crowd {
   }
   contact::Placement<Dim> at(const Eigen::VectorXd& u) {
     const auto& scene = world.scene().data();
-    return contact::place<Dim>(scene, interval, contact::all_twists<Dim>(scene, interval, u, 1));
+    return contact::place<Dim>(scene, interval, contact::all_velocities<Dim>(scene, interval, u, 1));
   }
   std::vector<contact::Candidate> pairs(const Eigen::VectorXd& u) {
     const auto points = at(u).points;

@@ -37,9 +37,9 @@ contact::Points<Dim> points_of(DryWorld<Dim>& world, double way) {
   std::vector<ContactMotion> motions;
   for (const auto& b : world.bodies) motions.push_back({b.pose, b.pose});
   const auto interval = contact::make_interval<Dim>(scene, motions, 1);
-  auto twists = contact::all_twists<Dim>(scene, interval, Eigen::VectorXd::Zero(twist_size<Dim> * scene.free_count), 0);
-  for (size_t b = 0; b < twists.size(); ++b) twists[b].setConstant(way * (b % 3 - 1.));
-  return contact::place<Dim>(scene, interval, twists).points;
+  auto velocities = contact::all_velocities<Dim>(scene, interval, Eigen::VectorXd::Zero(scene.size), 0);
+  for (size_t b = 0; b < velocities.twists.size(); ++b) velocities.twists[b].setConstant(way * (b % 3 - 1.));
+  return contact::place<Dim>(scene, interval, velocities).points;
 }
 
 using Key = std::tuple<char, std::array<int, 4>>;
