@@ -17,12 +17,19 @@ struct FaceShare {
 };
 using FaceShares = std::vector<FaceShare>;
 
+// A face between cells that a thin body parts, or one of which lies within it.
+struct SealedFace {
+  Site face;
+  int axis, body;
+};
+
 template <int Dim>
 struct StepGeometry {
   NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
   NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
   FaceGeometry<Dim> faces;
   std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
+  std::vector<SealedFace> sealed;                         // likewise
   std::vector<Placement> placed;                          // of each body, at the end of the step
 };
 
@@ -43,6 +50,8 @@ class SolidGeometry {
 
  private:
   void measure_static();
+  FaceField<Dim, std::int16_t> seal_static() const;
+  bool seals(int body, const Pose& pose, double distance, int axis, const IVec<Dim>& face) const;
   FaceShares measure_moving(int body, const Pose& pose, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
   void close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const;
   void set_sides(double t, StepGeometry<Dim>& g) const;
