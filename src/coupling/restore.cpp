@@ -83,6 +83,12 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
       u.at(a, f) = g.faces.prescribed.at(a, f);
       if (u.at(a, f) != 0) reached.at(a, f) = 1;
     });
+    for (const SealedFace& f : g.sealed)
+      if (f.axis == a && !valid.at(a, f.face)) {
+        const Vec3 x = extend<Dim>(s.layout.position(s.layout.index(f.face), face_offset<Dim>(a)));
+        u.at(a, f.face) = g.placed[f.body].twist.at(x)[a];
+        reached.at(a, f.face) = 1;
+      }
     extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 2}, u[a], reached[a]);
   }
   keep_prescribed(s, g, u);

@@ -9,7 +9,6 @@
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
-#include "solid/thinness.h"
 
 namespace seiche {
 namespace {
@@ -53,11 +52,10 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   std::string thin;
   for (const SolidSpec& spec : scene.solids) {
     bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
-    if (!bodies.back().is_elastic() && is_thinner_than(bodies.back(), h, lower, upper))
-      thin += (thin.empty() ? "'" : ", '") + spec.name + "'";
+    if (bodies.back().is_thin()) thin += (thin.empty() ? "'" : ", '") + spec.name + "'";
   }
   if (!thin.empty())
-    notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid may pass through", h, thin));
+    notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid sees steps of whole cells there", h, thin));
   return bodies;
 }
 

@@ -6,6 +6,7 @@
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
+#include "coupling/thin_solids.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -140,6 +141,7 @@ struct StepInProgress {
     out.state.corrected_volume +=
         control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
                        0.05 * s.layout.h(), out.state.phi);
+    keep_sides_apart(s, before, out.geometry, out.state.phi);
   }
 
   bool transport_velocity() {

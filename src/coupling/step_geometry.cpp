@@ -97,6 +97,30 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   measure_static();
 }
 
+// `distance` is that of the face's low corner.
+template <int Dim>
+bool SolidGeometry<Dim>::seals(int k, const Pose& pose, double distance, int axis, const IVec<Dim>& face) const {
+  if (!bodies_[k].is_thin() || std::abs(distance) > 2 * layout_.h()) return false;
+  IVec<Dim> below = face;
+  below[axis] -= 1;
+  const Vec<Dim> high = layout_.position(face, cell_offset<Dim>()), low = layout_.position(below, cell_offset<Dim>());
+  return bodies_[k].lies_between(pose, low, high) || bodies_[k].distance_in(pose, low) < 0 ||
+         bodies_[k].distance_in(pose, high) < 0;
+}
+
+// The static body that seals each face, -1 where none does.
+template <int Dim>
+FaceField<Dim, std::int16_t> SolidGeometry<Dim>::seal_static() const {
+  FaceField<Dim, std::int16_t> seal(layout_, -1);
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    for (int a = 0; a < Dim && bodies_[k].is_thin() && !bodies_[k].moves(); ++a)
+      for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>& i) {
+        const double distance = bodies_[k].distance_at_rest(layout_.position(i, node_offset<Dim>()));
+        if (seals(int(k), {}, distance, a, i)) seal.at(a, f) = std::int16_t(k);
+      });
+  return seal;
+}
+
 template <int Dim>
 void SolidGeometry<Dim>::measure_static() {
   bool any = false;
@@ -111,13 +135,21 @@ void SolidGeometry<Dim>::measure_static() {
     });
   }
   std::vector<FaceShares> shares(bodies_.size());
+  const FaceField<Dim, std::int16_t> seal = seal_static();
   for (int a = 0; a < Dim && any; ++a)
     for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>&) {
       const double open = open_part_of_face(layout_, still_.psi, a, f);
-      if (open == 1) return;
+      const int sealing = seal.at(a, f);
+      if (open == 1 && sealing < 0) return;
       still_.faces.open.at(a, f) = open;
-      still_.faces.kind.at(a, f) = char(open == 0 ? FaceKind::closed : FaceKind::open);
-      for_each_static_share(layout_, still_, a, f, [&](int k, double part) { add_share(shares[k], {f, a, part}); });
+      if (open < 1)
+        for_each_static_share(layout_, still_, a, f, [&](int k, double part) { add_share(shares[k], {f, a, part}); });
+      if (sealing >= 0) {
+        add_share(shares[sealing], {f, a, open});
+        still_.sealed.push_back({f, a, sealing});
+        still_.faces.open.at(a, f) = 0;
+      }
+      still_.faces.kind.at(a, f) = char(still_.faces.open.at(a, f) == 0 ? FaceKind::closed : FaceKind::open);
     });
   for (FaceShares& s : shares) still_.shares.push_back(std::make_shared<const FaceShares>(std::move(s)));
 }
@@ -182,9 +214,11 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim
   });
   const Box<Dim> faces = measured_faces(layout_).cut({box.lower, box.upper.array() - 1});
   for (int a = 0; a < Dim && !faces.empty(); ++a)
-    for_each_index_in_order(layout_, faces, [&](Site f, const IVec<Dim>&) {
-      const double closed = 1 - open_part_of_face(layout_, scratch, a, f);
+    for_each_index_in_order(layout_, faces, [&](Site f, const IVec<Dim>& i) {
+      const bool sealed = seals(k, g.placed[k].pose, scratch[f], a, i);
+      const double closed = sealed ? 1 : 1 - open_part_of_face(layout_, scratch, a, f);
       if (closed > 0) shares.push_back({f, a, closed});
+      if (sealed) g.sealed.push_back({f, a, k});
     });
   for_each_site(layout_, box, [&](Site s) { scratch[s] = far_away; });
   return shares;

@@ -22,6 +22,12 @@ using FaceShares = std::vector<FaceShare>;
 template <int Dim>
 using Attachments = std::vector<SurfacePoint<Dim>>;  // corners are nodes of the body's mesh; one a share
 
+// A face between cells that a thin body parts, or one of which lies within it.
+struct SealedFace {
+  Site face;
+  int axis, body;
+};
+
 template <int Dim>
 struct StepGeometry {
   NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
@@ -29,6 +35,7 @@ struct StepGeometry {
   FaceGeometry<Dim> faces;
   std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
   std::vector<std::shared_ptr<const Attachments<Dim>>> attached;  // of each elastic body
+  std::vector<SealedFace> sealed;                         // likewise
   std::vector<Placement> placed;                                  // of each body, at the end of the step
 };
 
@@ -57,6 +64,8 @@ class SolidGeometry {
 
  private:
   void measure_static();
+  FaceField<Dim, std::int16_t> seal_static() const;
+  bool seals(int body, const Pose& pose, double distance, int axis, const IVec<Dim>& face) const;
   FaceShares measure_moving(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
   FaceShares measure_elastic(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
   FaceShares take_in(int body, const Box<Dim>& box, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;

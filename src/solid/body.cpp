@@ -1,6 +1,8 @@
 #include "solid/body.h"
 
 #include "solid/closed_surface.h"
+#include "solid/thin_surface.h"
+#include "solid/thinness.h"
 
 namespace seiche {
 namespace {
@@ -33,6 +35,8 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
     mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
     for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
   }
+  if (is_thinner_than(*this, options.cell_size, lower, upper))
+    thin_ = std::make_shared<const ThinSurface<Dim>>(surface_);
   if (spec.kind != SolidKind::kinematic) return;
   const MotionSpec& m = spec.motion;
   motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
@@ -82,6 +86,11 @@ Twist Body<Dim>::velocity(double t, double tau) const {
 template <int Dim>
 double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
   return (*shape_)(truncate<Dim>(pose.to_rest(extend<Dim>(x))));
+}
+
+template <int Dim>
+bool Body<Dim>::lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const {
+  return thin_->meets(truncate<Dim>(pose.to_rest(extend<Dim>(x))), truncate<Dim>(pose.to_rest(extend<Dim>(y))));
 }
 
 template <int Dim>

@@ -28,6 +28,9 @@ struct Twist {
 };
 
 template <int Dim>
+class ThinSurface;
+
+template <int Dim>
 class Body {
  public:
   // lower and upper: the corners of the domain.
@@ -41,6 +44,10 @@ class Body {
   const MassProperties& mass() const { return mass_; }             // of a rigid or elastic one at rest
   const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
   double radius() const { return radius_; }                        // of a rigid body about its centre of mass, m
+  // Whether a grid can miss it (solid/thinness.h).
+  bool is_thin() const { return thin_ != nullptr; }
+  // Of a thin body in this pose: whether the segment from x to y meets its surface.
+  bool lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const;
   // As prescribed.
   Pose pose(double t) const;
   // The rigid motion that takes the body from its pose at t0 to that at t1 in t1 - t0.
@@ -69,6 +76,7 @@ class Body {
   MassProperties mass_;
   SurfaceMesh surface_;
   double radius_ = 0;
+  std::shared_ptr<const ThinSurface<Dim>> thin_;
 };
 
 }  // namespace seiche

@@ -3,7 +3,8 @@
 namespace seiche {
 namespace {
 
-constexpr double most_samples = 3e5;  // some seconds, where each asks a large mesh
+// A second or so.
+constexpr double most_samples = 2e7, most_samples_of_mesh = 2e6;
 
 }  // namespace
 
@@ -17,7 +18,8 @@ bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, con
   }
   low = low.cwiseMax(lower), high = high.cwiseMin(upper);
   const Vec<Dim> count = ((high - low) / (h / 4)).array().ceil() + 1;
-  if (count.minCoeff() < 1 || count.prod() > most_samples) return false;
+  if (count.minCoeff() < 1 || count.prod() > (body.spec().shape.kind == "mesh" ? most_samples_of_mesh : most_samples))
+    return false;
   for (int n = 0; n < int(count.prod()); ++n) {
     Vec<Dim> x = low;
     for (int a = 0, rest = n; a < Dim; rest /= int(count[a]), ++a)
