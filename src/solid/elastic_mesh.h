@@ -52,6 +52,10 @@ ElasticMesh<Dim> promote_to_quadratic(const ElasticMesh<Dim>& linear);
 template <int Dim>
 ElasticMesh<Dim> box_mesh(const Vec<Dim>& lower, const Vec<Dim>& upper, const IVec<Dim>& cells, int order);
 
+// det dX/dxi at least, over the points at which the element's energy is taken and its nodes, over longest edge^Dim.
+template <int Dim>
+double least_jacobian(const ElasticMesh<Dim>& mesh, int element);
+
 struct MeshQuality {
   int nodes = 0, elements = 0;
   double volume = 0;                           // m^3; in 2D m^2

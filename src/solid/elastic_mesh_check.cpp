@@ -82,21 +82,6 @@ double longest_edge(const ElasticMesh<Dim>& mesh, int e) {
   return r;
 }
 
-// det dX/dxi at least, over the points that the element's energy and the inversion bound look at, over longest
-// edge^Dim.
-template <int Dim>
-double least_jacobian(const ElasticMesh<Dim>& mesh, int e) {
-  const auto X = element_nodes(mesh, e);
-  auto points = elastic::node_points(Dim, mesh.order);
-  for (const auto& q : elastic::quadrature(Dim, mesh.order)) points.push_back(q.xi);
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& xi : points) {
-    const Eigen::Matrix<double, Dim, Dim> map = X * elastic::shape_gradients(Dim, mesh.order, xi);
-    least = std::min(least, map.determinant());
-  }
-  return least / std::pow(longest_edge(mesh, e), Dim);
-}
-
 // Elements that cannot be reached from the first over shared corners.
 template <int Dim>
 std::vector<int> apart(const ElasticMesh<Dim>& mesh) {
@@ -130,6 +115,19 @@ Eigen::Matrix<double, Dim, Dim> corner_edges(const ElasticMesh<Dim>& mesh, int e
 }
 
 }  // namespace
+
+template <int Dim>
+double least_jacobian(const ElasticMesh<Dim>& mesh, int element) {
+  const auto X = element_nodes(mesh, element);
+  auto points = elastic::node_points(Dim, mesh.order);
+  for (const auto& q : elastic::quadrature(Dim, mesh.order)) points.push_back(q.xi);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& xi : points) {
+    const Eigen::Matrix<double, Dim, Dim> map = X * elastic::shape_gradients(Dim, mesh.order, xi);
+    least = std::min(least, map.determinant());
+  }
+  return least / std::pow(longest_edge(mesh, element), Dim);
+}
 
 template <int Dim>
 void check_mesh(ElasticMesh<Dim>& mesh, const std::string& where, std::vector<std::string>& notes) {
@@ -170,6 +168,8 @@ MeshQuality mesh_quality(const ElasticMesh<Dim>& mesh) {
 
 template void check_mesh<2>(ElasticMesh<2>&, const std::string&, std::vector<std::string>&);
 template void check_mesh<3>(ElasticMesh<3>&, const std::string&, std::vector<std::string>&);
+template double least_jacobian<2>(const ElasticMesh<2>&, int);
+template double least_jacobian<3>(const ElasticMesh<3>&, int);
 template MeshQuality mesh_quality<2>(const ElasticMesh<2>&);
 template MeshQuality mesh_quality<3>(const ElasticMesh<3>&);
 

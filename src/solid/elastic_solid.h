@@ -9,7 +9,7 @@ namespace seiche {
 
 // Nodes that move together as prescribed.
 struct PinnedNodes {
-  std::vector<int> nodes;
+  std::vector<int> nodes;  // ascending; no node is in two sets
   MotionSpec motion;
 };
 
@@ -21,17 +21,26 @@ struct ElasticSolid {
   VectorFormula body_force;  // N/m^3
 };
 
-// Meshes the solid's shape at its element size, or reads its mesh, and finds the nodes that are pinned. Throws
-// Error(bad_input) naming spec.shape.where.
+// Meshes the solid's shape at its element size, or reads its mesh, and finds the nodes that are pinned. [lower, upper]
+// is the domain. Equal on all ranks. Throws Error(bad_input) naming spec.shape.where, or the pin's where, if the shape
+// cannot be meshed, a pin holds no node, or two pins with different motions hold the same one.
 template <int Dim>
-ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& options);
+ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
+                                     const Vec<Dim>& upper);
 
-// The displacements that the pins prescribe at time t, each degree of freedom once, ascending.
+// The displacements (m) that the pins prescribe at time t, each degree of freedom once, ascending.
 template <int Dim>
 Pins pins_at(const ElasticSolid<Dim>& solid, double t);
 
 // The impressed forces at time t beside gravity (N), stacked node by node; empty where there are none.
 template <int Dim>
 Eigen::VectorXd body_force_at(const ElasticSolid<Dim>& solid, double t);
+
+// What the Cholesky factors of a body with this many unknowns take, bytes, roughly.
+double factor_bytes(int dim, int unknowns);
+
+// One line for the log: nodes, elements, their quality and edges.
+template <int Dim>
+std::string describe_mesh(const std::string& name, const ElasticMesh<Dim>& mesh);
 
 }  // namespace seiche
