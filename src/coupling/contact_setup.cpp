@@ -28,6 +28,15 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
   return walls;
 }
 
+// Whether each point of the surface is pinned.
+template <int Dim>
+std::vector<char> pinned_points(const ElasticSolid<Dim>& solid) {
+  std::vector<char> node(solid.body.mesh.nodes.size(), 0), point;
+  for (const int dof : pins_at(solid, 0).dofs) node[std::size_t(dof / Dim)] = 1;
+  for (const int n : solid.surface.nodes) point.push_back(node[std::size_t(n)]);
+  return point;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,6 +52,7 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<
     if (body.is_elastic()) {
       c.nodes = body.elastic().surface.nodes;
       c.node_count = int(body.elastic().body.mesh.nodes.size());
+      c.pinned = pinned_points(body.elastic());
     }
     c.friction = body.spec().friction;
     c.name = body.spec().name;

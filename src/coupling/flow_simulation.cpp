@@ -178,12 +178,6 @@ class FlowSimulation : public Simulation {
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks) {
-  for (const SolidSpec& solid : scene.solids) {
-    if (solid.kind != SolidKind::elastic) continue;
-    throw Error(ExitCode::bad_input, solid.shape.where +
-                                         ": this version does not deform solids by the flow; it has kind = \"static\", "
-                                         "\"kinematic\" or \"rigid\"");
-  }
   if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks);
   return std::make_unique<FlowSimulation<3>>(scene, ranks);
 }

@@ -26,7 +26,7 @@ template <int Dim>
 Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper)
     : spec_(spec) {
   if (spec.kind == SolidKind::elastic) {
-    make_elastic(options);
+    make_elastic(options, lower, upper);
     return;
   }
   shape_ = make_shape<Dim>(spec.shape, options);
@@ -43,8 +43,8 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
 }
 
 template <int Dim>
-void Body<Dim>::make_elastic(const ShapeOptions& options) {
-  elastic_ = std::make_unique<ElasticSolid<Dim>>(make_elastic_solid<Dim>(spec_, options));
+void Body<Dim>::make_elastic(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  elastic_ = std::make_unique<ElasticSolid<Dim>>(make_elastic_solid<Dim>(spec_, options, lower, upper));
   surface_ = elastic_->surface.facets;
   const ElasticBody<Dim>& body = elastic_->body;
   // Row sums of M: what each node has of the mass.

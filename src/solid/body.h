@@ -67,7 +67,7 @@ class Body {
     Expression degrees;
     Vec3 axis, center;
   };
-  void make_elastic(const ShapeOptions& options);
+  void make_elastic(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   SolidSpec spec_;
   std::unique_ptr<ShapeField<Dim>> shape_;

@@ -24,6 +24,9 @@ struct ContactBody {
   // Of a deformable body: the mesh node of each point of `surface`, and how many nodes the mesh has.
   std::vector<int> nodes = {};
   int node_count = 0;
+  // Whether each of those points is pinned (empty: none). What is pinned altogether does not collide with walls and
+  // prescribed bodies: it may stand on them.
+  std::vector<char> pinned = {};
 };
 
 // The half-space that bodies keep out of lies behind the plane; its friction counts as unset.

@@ -38,6 +38,7 @@ class Search {
     for (size_t b = 0; b < body_boxes_.size(); ++b)
       if (scene_.deforms(static_cast<int>(b)) && !body_boxes_[b].isEmpty()) meet_itself(static_cast<int>(b));
     if (scene_.any_deforms()) measure_edges();
+    std::erase_if(found_, [&](const Candidate& c) { return stands_pinned(c); });
     return std::move(found_);
   }
 
@@ -180,6 +181,16 @@ class Search {
     found_.erase(std::remove_if(found_.begin() + first, found_.end(), share_a_point), found_.end());
     std::for_each(found_.begin() + first, found_.end(),
                   [&](Candidate& c) { c.apart_at_rest = separate<Dim>(c.kind, at_rest(c)).distance; });
+  }
+
+  // All points of the one body are pinned, the other one is prescribed.
+  bool stands_pinned(const Candidate& c) const {
+    const bool wall = c.kind == PairKind::point_wall, other_prescribed = wall || !scene_.moves(c.second);
+    if (!other_prescribed && scene_.moves(c.first)) return false;
+    const int count = points_of(c.kind, Dim), first = points_of_first(c.kind);
+    const auto pinned = [&](int p) { return scene_.pinned[std::size_t(p)] != 0; };
+    return other_prescribed ? std::all_of(c.points.begin(), c.points.begin() + first, pinned)
+                            : std::all_of(c.points.begin() + first, c.points.begin() + count, pinned);
   }
 
   void measure_edges() {

@@ -141,6 +141,7 @@ void number(const ContactBody& body, typename ContactScene<Dim>::Data& data) {
       throw Error(ExitCode::bad_input,
                   data.names.back() + ": point " + std::to_string(p) + " of its surface is at no node of its mesh");
     data.point_dof.push_back(deforms ? begin + Dim * node : -1);
+    data.pinned.push_back(std::size_t(p) < body.pinned.size() ? body.pinned[std::size_t(p)] : 0);
   }
 }
 

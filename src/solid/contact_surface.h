@@ -54,6 +54,7 @@ struct ContactScene<Dim>::Data {
   // In the stacked velocities: where those of each body begin (-1: prescribed) and, of deformable bodies, of each point
   // in the list of all points (-1: of a rigid body).
   std::vector<int> first_dof, point_dof;
+  std::vector<char> pinned;     // of each point
   std::vector<int> node_count;  // of each deformable body's mesh; 0 for others
   int size = 0;                 // of the stacked velocities
 
