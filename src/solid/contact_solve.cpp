@@ -1,8 +1,6 @@
 // Newton's method on e(v) + C(v) + P(v) with a line search that never lets surfaces touch (Li et al. 2020).
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "solid/contact_path.h"
 #include "solid/contact_system.h"
@@ -26,10 +24,6 @@ constexpr double first_of_change = 1e-2, last_of_change = 1e-6;
 // Newton iterations before friction is smoothed, and how fast it becomes sharp again.
 constexpr int patience = 12;
 constexpr double sharpening = 0.2;
-// New friction forces that move points not less than this share of what the ones before did go round in circles: from
-// then on they are averaged with those of the last two times, with these weights.
-constexpr double circling = 0.5;
-constexpr std::array<double, 3> averaging = {0.5, 0.25, 0.25};
 
 enum class Outcome { converged, slow, failed };
 
@@ -121,11 +115,8 @@ class Solver {
     report_.friction = FrictionState::none;
     int limit = patience;
     weights_.creep_speed = options_.creep_speed;
-    double step_before = std::numeric_limits<double>::infinity();
-    average_ = false;
-    int calm = 0;  // updates in a row that moved nothing
     for (int i = 0; i < options_.friction_limit; ++i) {
-      update_friction();
+      friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
       if (i > 0 && friction_.empty()) return Outcome::converged;
       if (!friction_.empty()) ++report_.friction_updates;
       const bool sharp = weights_.creep_speed <= options_.creep_speed;
@@ -140,34 +131,11 @@ class Solver {
       } else if (!sharp) {
         weights_.creep_speed = std::max(options_.creep_speed, sharpening * weights_.creep_speed);
       } else if (i > 0 && first_step <= std::max(settled_share * options_.creep_speed, settled_of_change * change())) {
-        if (++calm >= (average_ ? static_cast<int>(averaging.size()) - 1 : 1)) {
-          report_.friction = FrictionState::settled;
-          return Outcome::converged;
-        }
-      } else {
-        calm = 0;
-      }
-      if (sharp) {
-        if (potential_ && first_step > circling * step_before) average_ = true;
-        step_before = first_step;
+        report_.friction = FrictionState::settled;
+        return Outcome::converged;
       }
     }
     return Outcome::converged;
-  }
-
-  // The friction of the present state; of deformable bodies averaged over the last states if it goes round in circles.
-  void update_friction() {
-    friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
-    if (!potential_) return;
-    friction_before_.insert(friction_before_.begin(), friction_);
-    if (friction_before_.size() > averaging.size()) friction_before_.pop_back();
-    if (!average_ || friction_before_.size() < averaging.size()) return;
-    friction_.clear();
-    for (size_t k = 0; k < averaging.size(); ++k)
-      for (FrictionPoint<Dim> f : friction_before_[k]) {
-        f.bound *= averaging[k];
-        friction_.push_back(f);
-      }
   }
 
   // What contact does to velocities: by how much they differ from those without (m/s). With a potential these are only
@@ -306,8 +274,6 @@ class Solver {
   Placement<Dim> at_;
   std::vector<Candidate> pairs_;
   std::vector<FrictionPoint<Dim>> friction_;
-  std::vector<std::vector<FrictionPoint<Dim>>> friction_before_;  // those of the last states, the last one first
-  bool average_ = false;
   ContactTerms terms_;
 };
 
