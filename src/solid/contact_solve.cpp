@@ -138,8 +138,12 @@ class Solver {
     return Outcome::converged;
   }
 
-  // What contact does to velocities: by how much they differ from those without (m/s).
-  double change() const { return fastest(e_.velocity - free_velocity_); }
+  // What contact does to velocities: by how much they differ from those without (m/s). With a potential these are only
+  // inertia's; what elastic forces alone would do to a squeezed body is no measure.
+  double change() const {
+    const double all = fastest(e_.velocity - free_velocity_);
+    return potential_ ? std::min(all, fastest(e_.velocity) + options_.usual_speed) : all;
+  }
 
   bool may_rub() const {
     return std::any_of(scene_.friction.begin(), scene_.friction.end(),

@@ -1,5 +1,5 @@
-// No accepted state of the program's own steps has surfaces that intersect: the scenes of scenes/ with rigid bodies,
-// and random dam breaks onto boxes, balls and meshes between obstacles and a paddle.
+// No accepted state of the program's own steps has surfaces that intersect: the scenes of scenes/ with rigid or elastic
+// solids, and random dam breaks onto boxes, balls and meshes between obstacles and a paddle.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <functional>
@@ -17,7 +17,8 @@ using exact::PlacedSurface;
 
 namespace {
 
-// The surfaces of a simulation's solids: of rigid ones where it says they are, of others where their motion puts them.
+// The surfaces of a simulation's solids: of rigid and elastic ones where it says they are, of others where their motion
+// puts them.
 class Surfaces {
  public:
   explicit Surfaces(const Scene& scene) : dimension_(scene.dimension) {
@@ -39,8 +40,10 @@ class Surfaces {
   static std::vector<PlacedSurface> placed(const std::vector<Body<Dim>>& bodies, const Simulation& sim) {
     std::vector<PlacedSurface> list;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-      if (bodies[k].is_rigid()) {
-        list.push_back({sim.solid_surface(k), Mobility::free});
+      const SolidKind kind = bodies[k].spec().kind;
+      if (kind == SolidKind::rigid || kind == SolidKind::elastic) {
+        const auto mobility = kind == SolidKind::rigid ? Mobility::free : Mobility::deformable;
+        list.push_back({sim.solid_surface(k), mobility});
         continue;
       }
       list.push_back({bodies[k].contact_surface(), Mobility::prescribed});
@@ -85,9 +88,9 @@ void check(const std::string& name, const Scene& scene, int steps) {
   CHECK(faults.wound == 0);
 }
 
-bool has_rigid(const Scene& scene) {
+bool has_free_solids(const Scene& scene) {
   return std::any_of(scene.solids.begin(), scene.solids.end(),
-                     [](const SolidSpec& s) { return s.kind == SolidKind::rigid; });
+                     [](const SolidSpec& s) { return s.kind == SolidKind::rigid || s.kind == SolidKind::elastic; });
 }
 
 // A scene on cells twice as large, where the domain takes them, with as many solids as this test has time for.
@@ -175,7 +178,7 @@ TEST_CASE("no accepted state of the scenes has solids that intersect") {
     if (entry.path().extension() == ".toml") files.insert(entry.path());
   for (const auto& file : files) {
     const Scene scene = coarse_scene(file);
-    if (!has_rigid(scene)) continue;
+    if (!has_free_solids(scene)) continue;
     DYNAMIC_SECTION(file.stem().string()) {
       check(file.stem().string(), scene, scene.dimension == 2 ? 100 : 50);
     }

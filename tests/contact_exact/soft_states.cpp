@@ -41,6 +41,7 @@ SoftWorld<Dim> heap() {
   SoftWorld<Dim> world;
   world.gravity = Vec3(0, -9.81, 0);
   world.options.acceleration = 100;
+  world.options.creep_speed = 0.01;  // violent piles take many iterations where it is far below their speeds
   world.walls = {{Vec3::Zero(), Vec3::UnitY()},
                  {Vec3(-0.2, 0, 0), Vec3::UnitX()},
                  {Vec3(0.2, 0, 0), -Vec3::UnitX()},
@@ -107,7 +108,7 @@ TEMPLATE_TEST_CASE_SIG("a heap of soft and rigid bodies never intersects", "", (
   SoftWorld<Dim> world = heap<Dim>();
   REQUIRE(intersections(world) == 0);
   int active = 0, most = 0;
-  for (int n = 0; n < (Dim == 2 ? 60 : 40); ++n) {
+  for (int n = 0; n < (Dim == 2 ? 60 : 15); ++n) {
     world.step(0.01);
     active = std::max(active, world.report.active);
     most = std::max(most, world.report.newton_iterations);

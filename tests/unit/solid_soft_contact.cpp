@@ -233,3 +233,26 @@ TEST_CASE("a deformable surface off its mesh's nodes is refused", "[soft]") {
   ContactBody body{box<2>(Vec3::Ones()), BodyControl::deformable, 1, {}, "jelly", {0, 1, 4, 3}, 4};
   CHECK_THROWS_WITH(ContactScene<2>({body}, {}), "jelly: point 2 of its surface is at no node of its mesh");
 }
+
+TEMPLATE_TEST_CASE_SIG("soft bodies go straight as far as is surely free, and a solve goes on from an earlier one",
+                       "[soft]", ((int Dim), Dim), 2, 3) {
+  SoftWorld<Dim> world;
+  world.walls = {{Vec3(0, -0.1, 0), Vec3(0, 1, 0)}};
+  auto& s = world.add(box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Constant(2), 1), 1000, 1e5, 0.3);
+  for (int i = 1; i < s.body.size(); i += Dim) s.state.v[i] = -2;
+  const double dt = 0.1, share = largest_safe_fraction<Dim>(world.scene(), world.motions(), dt, s.state.v);
+  CHECK(share <= 0.4);  // a fifth of the gap of 0.1 m is kept of a way of 0.2 m
+  CHECK(share > 0.39);
+  DryProblem inertia = world.problem(dt);
+  const auto potential = world.potential(dt, inertia.size());
+  const auto solve = [&](const Eigen::VectorXd& start) {
+    return solve_contact<Dim>(world.scene(), world.motions(), dt, dt, inertia, world.options, start, &potential);
+  };
+  const ContactReport cold = solve({}), warm = solve(cold.velocity);
+  REQUIRE(cold.failure.empty());
+  REQUIRE(warm.failure.empty());
+  CHECK(cold.active > 0);
+  CHECK(cold.straight_share == 1);
+  CHECK(warm.newton_iterations < cold.newton_iterations);
+  CHECK((warm.velocity - cold.velocity).template lpNorm<Eigen::Infinity>() < world.options.speed_tolerance);
+}
