@@ -86,6 +86,11 @@ ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& 
   r.surface = surface_of(r.body.mesh);
   r.pins = find_pins<Dim>(spec, r.body.mesh, options);
   r.body_force = e.body_force;
+  if (!body_force_at(r, 0).allFinite())
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: body_force of solid '{}' is not a finite number everywhere in it at "
+                            "t = 0",
+                            spec.shape.where, spec.name));
   return r;
 }
 
