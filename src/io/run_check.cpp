@@ -112,6 +112,7 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
   if (!small) log.note("note: formulas are evaluated as the run begins; the grid is too large to try them here");
   for (const std::string& text : found.meshes) log.note(text);
   log.note(report(scene, cost, around.ranks.size()));
+  if (!found.meshes.empty()) log.note("note: the time is that of the liquid; elastic solids take theirs on top");
   return ExitCode::done;
 }
 
