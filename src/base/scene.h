@@ -134,13 +134,15 @@ struct SolidSpec {
   std::optional<double> friction;  // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
 };
 
-enum class ProbeKind { pressure, velocity, surface_height, front };
+enum class ProbeKind { pressure, velocity, surface_height, front, displacement };
 
 struct ProbeSpec {
   std::string name;
   ProbeKind kind = ProbeKind::pressure;
   Vec3 position{0, 0, 0};
   std::optional<double> every;  // s; unset: each step
+  std::string solid{};          // displacement: the elastic solid, of which position is a point at rest
+  std::string where{};          // "scene.toml:14" for messages
 };
 
 struct SolverSpec {

@@ -124,6 +124,10 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
     case ProbeKind::front:
       take(front(s, state));
       break;
+    case ProbeKind::displacement:
+      out.is_vector = true;
+      out.defined = false;
+      break;
   }
   return out;
 }

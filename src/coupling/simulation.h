@@ -10,6 +10,7 @@
 #include "base/scene.h"
 #include "base/timers.h"
 #include "levelset/mesh.h"
+#include "solid/volume_frame.h"
 
 namespace seiche {
 
@@ -82,7 +83,11 @@ class Simulation {
   virtual StepStats stats() const = 0;                             // of the present state
   virtual std::vector<SolidState> solids() const = 0;              // equal on all ranks
   virtual SurfaceMesh solid_surface(std::size_t index) const = 0;  // at the present time
-  virtual ProbeSample probe(std::size_t index) const = 0;          // collective; equal on all ranks
+  // The elements of an elastic solid at the present time, with their fields; empty for other solids. Not collective:
+  // called on rank 0 alone. Its surface_nodes are the points of solid_surface(index).
+  virtual VolumeFrame solid_volume(std::size_t /*index*/) const { return {}; }
+  virtual std::vector<std::string> describe_solids() const { return {}; }  // for the log: a line a mesh
+  virtual ProbeSample probe(std::size_t index) const = 0;                  // collective; equal on all ranks
   virtual FrameField frame_field(const std::string& name) const = 0;
   virtual double expected_volume() const = 0;  // initial + sources + net inflow, m^3
   virtual CheckpointData save() const = 0;

@@ -119,6 +119,14 @@ void write_file(const fs::path& path, std::string_view bytes) {
   sync_folder(path.parent_path());
 }
 
+void overwrite_start(const fs::path& path, std::string_view bytes) {
+  Handle file(open_retrying(path, O_WRONLY));
+  if (file.number() < 0) fail(path, "open", errno);
+  if (const int error = write_all(file.number(), bytes)) fail(path, "write", error);
+  if (const int error = sync_handle(file.number())) fail(path, "sync", error);
+  if (file.close_checked() != 0) fail(path, "close", errno);
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

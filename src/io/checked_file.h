@@ -12,6 +12,9 @@ namespace seiche {
 // and Error(output_failed) names the path, the cause and the free bytes; an older file at `path` is left as it was.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+// Replaces the first bytes of an existing file and syncs. Throws Error(output_failed).
+void overwrite_start(const std::filesystem::path& path, std::string_view bytes);
+
 // Creates the folder and its parents where missing; throws Error(output_failed).
 void make_folder(const std::filesystem::path& folder);
 

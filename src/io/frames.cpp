@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "io/checked_file.h"
+#include "io/point_cache.h"
 #include "io/run_agree.h"
 
 namespace seiche {
@@ -58,6 +59,24 @@ vdb::GridKind grid_kind(FrameField::Kind kind) {
     default:
       return vdb::GridKind::scalar;
   }
+}
+
+std::vector<std::string> names_of(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SolidSpec& solid : scene.solids) names.push_back(solid.name);
+  return names;
+}
+
+// "displacement at node 3" of the first value that is not finite, or "".
+std::string first_not_finite(const VolumeFrame& solid) {
+  for (std::size_t n = 0; n < solid.rest.size(); ++n) {
+    if (!solid.displacement[n].allFinite()) return fmt::format("displacement at node {}", n);
+    if (!solid.velocity[n].allFinite()) return fmt::format("velocity at node {}", n);
+  }
+  for (std::size_t n = 0; n < solid.rest.size(); ++n) {
+    if (!std::isfinite(solid.von_mises[n])) return fmt::format("von Mises stress at node {}", n);
+  }
+  return {};
 }
 
 void check_finite(const FrameField& field, const FrameLabel& label, const Communicator& ranks) {
@@ -122,11 +141,13 @@ vdb::Frame FrameWriter::gather(const FrameLabel& label, const Simulation& simula
 void FrameWriter::write(const FrameLabel& label, const Simulation& simulation, PhaseFault fault) {
   const vdb::Frame frame = gather(label, simulation, fault);
   agree_on_root(ranks_, fmt::format("writing frame {}", label.number), [&] {
+    const std::vector<VolumeFrame> volumes = elastic_volumes(label, simulation);
     if (wants(scene_.output.formats, "vdb")) {
       write_file(paths_.frames() / frame_file("frame", label.number, "vdb"), vdb::encode(frame));
     }
     if (wants(scene_.output.formats, "vtk")) write_fluid(frame);
     if (!scene_.solids.empty()) write_solids(label, simulation);
+    if (!volumes.empty()) write_elastic(label, volumes);
   });
 }
 
@@ -140,10 +161,41 @@ void FrameWriter::write_solids(const FrameLabel& label, const Simulation& simula
     const bool moves = scene_.solids[n].kind != SolidKind::fixed;
     if (moves || surfaces_[n].points.empty()) surfaces_[n] = simulation.solid_surface(n);
   }
-  std::vector<std::string> names;
-  for (const SolidSpec& solid : scene_.solids) names.push_back(solid.name);
-  write_file(paths_.frames() / frame_file("solids", label.number, "vtu"), vtk::surfaces(surfaces_, names, label.time));
+  write_file(paths_.frames() / frame_file("solids", label.number, "vtu"),
+             vtk::surfaces(surfaces_, names_of(scene_), label.time));
   write_file(paths_.frames() / "solids.pvd", vtk::series("solids", "vtu", label.number, scene_.time.frame_rate));
+}
+
+// One entry a solid of the scene, or none at all if nothing is elastic. Checked before anything is written.
+std::vector<VolumeFrame> FrameWriter::elastic_volumes(const FrameLabel& label, const Simulation& simulation) const {
+  std::vector<VolumeFrame> volumes(scene_.solids.size());
+  bool any = false;
+  for (std::size_t n = 0; n < volumes.size(); ++n) {
+    if (scene_.solids[n].kind != SolidKind::elastic) continue;
+    volumes[n] = simulation.solid_volume(n);
+    any = any || !volumes[n].elements.empty();
+    const std::string bad = first_not_finite(volumes[n]);
+    if (bad.empty()) continue;
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("frame {} at t = {:g} s: {} of solid '{}' is not a number; the frame was not written",
+                            label.number, label.time, bad, scene_.solids[n].name));
+  }
+  return any ? volumes : std::vector<VolumeFrame>{};
+}
+
+void FrameWriter::write_elastic(const FrameLabel& label, const std::vector<VolumeFrame>& volumes) const {
+  write_file(paths_.frames() / frame_file("elastic", label.number, "vtu"),
+             vtk::volumes(volumes, names_of(scene_), label.time));
+  write_file(paths_.frames() / "elastic.pvd", vtk::series("elastic", "vtu", label.number, scene_.time.frame_rate));
+  const std::vector<std::string> stems = point_cache::stems(names_of(scene_));
+  for (std::size_t n = 0; n < volumes.size(); ++n) {
+    if (volumes[n].elements.empty()) continue;
+    const std::filesystem::path stem = paths_.frames() / stems[n];
+    const std::filesystem::path mesh = stem.string() + ".obj";
+    if (label.number == 0 || !std::filesystem::exists(mesh))
+      write_file(mesh, point_cache::rest_surface(volumes[n], surfaces_[n]));
+    point_cache::add_sample(stem.string() + ".pc2", label.number, point_cache::surface_points(volumes[n]));
+  }
 }
 
 }  // namespace seiche

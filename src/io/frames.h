@@ -39,6 +39,8 @@ class FrameWriter {
  private:
   vdb::Frame gather(const FrameLabel& label, const Simulation& simulation, PhaseFault fault) const;
   void write_solids(const FrameLabel& label, const Simulation& simulation);
+  std::vector<VolumeFrame> elastic_volumes(const FrameLabel& label, const Simulation& simulation) const;
+  void write_elastic(const FrameLabel& label, const std::vector<VolumeFrame>& volumes) const;
   void write_fluid(const vdb::Frame& frame) const;
   bool wants(const std::vector<std::string>& list, const std::string& name) const;
 

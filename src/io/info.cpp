@@ -12,9 +12,11 @@
 #include "io/checkpoint_commit.h"
 #include "io/checkpoint_crc.h"
 #include "io/checkpoint_file.h"
+#include "io/point_cache.h"
 #include "io/render_frame.h"
 #include "io/run_directory.h"
 #include "io/scene_reader.h"
+#include "io/vtu_reader.h"
 
 namespace seiche {
 namespace {
@@ -151,6 +153,22 @@ void add_scene(const fs::path& file, Lines& lines) {
   }
 }
 
+// Surfaces of elastic solids over time.
+Lines list_caches(const fs::path& folder) {
+  Lines lines;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing)) {
+    if (entry.path().extension() != ".pc2") continue;
+    const auto facts = point_cache::read_facts(entry.path());
+    const std::string what =
+        facts ? fmt::format("{} points in {} frames from frame {}", facts->points, facts->samples, facts->first_frame)
+              : std::string("no point cache of ours");
+    lines.push_back(fmt::format("  deforming surface {}: {}", entry.path().filename().string(), what));
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
 std::string last_row_of(const fs::path& file) {
   std::ifstream in(file);
   std::string row, last;
@@ -198,6 +216,22 @@ Lines describe_frame(const fs::path& file) {
   return lines;
 }
 
+Lines describe_grid(const fs::path& file) {
+  const render::GridSummary grid = render::summarize_grid(file);
+  Lines lines{fmt::format("{}: solids at t = {:g} s", file.string(), grid.time)};
+  for (const render::SolidSummary& solid : grid.solids) {
+    std::string line = fmt::format("  {}: {} points, {} {}", solid.name.empty() ? "a solid" : solid.name, solid.points,
+                                   solid.cells, grid.has_fields ? "elements" : "facets");
+    if (grid.has_fields) {
+      line += fmt::format("; at most {:.4g} m displaced, {:.4g} m/s, {:.4g} Pa of von Mises stress",
+                          solid.largest_displacement, solid.largest_speed, solid.largest_stress);
+    }
+    lines.push_back(line);
+  }
+  if (grid.solids.empty()) lines.push_back("  no solids");
+  return lines;
+}
+
 Lines describe_checkpoint(const fs::path& folder) {
   const Verified verified = verify(folder);
   const CheckpointFile& first = verified.first;
@@ -222,6 +256,7 @@ Lines describe_run(const fs::path& folder) {
   lines.push_back(frames.empty() ? std::string("  no frames")
                                  : fmt::format("  {} frame{}, {} to {}", frames.size(), frames.size() == 1 ? "" : "s",
                                                frames.front(), frames.back()));
+  for (const std::string& line : list_caches(paths.frames())) lines.push_back(line);
   std::istringstream last(last_row_of(paths.stats()));
   std::string step, time;
   if (std::getline(last, step, ',') && std::getline(last, time, ',') && step != "step") {
@@ -235,10 +270,13 @@ Lines describe_path(const fs::path& path) {
   std::error_code failed;
   const bool folder = fs::is_directory(path, failed), file = fs::is_regular_file(path, failed);
   if (file && path.extension() == ".vdb") return describe_frame(path);
+  if (file && path.extension() == ".vtu") return describe_grid(path);
   if (folder && fs::exists(path / "COMMIT")) return describe_checkpoint(path);
   if (file && fs::exists(path.parent_path() / "COMMIT")) return describe_checkpoint(path.parent_path());
   if (folder && (fs::exists(path / "scene.toml") || fs::exists(path / "frames"))) return describe_run(path);
-  const std::string what = folder ? "holds no run and no checkpoint" : file ? "is not a frame (.vdb)" : "is not there";
+  const std::string what = folder ? "holds no run and no checkpoint"
+                           : file ? "is not a frame (.vdb, .vtu)"
+                                  : "is not there";
   throw Error(ExitCode::bad_input,
               fmt::format("{}: {}; give a frame, a folder of checkpoints/, or a run directory", path.string(), what));
 }

@@ -8,6 +8,8 @@
 #include "io/run_loop.h"
 #include "io/run_memory.h"
 #include "levelset/shapes.h"
+#include "solid/elastic_point.h"
+#include "solid/elastic_solid.h"
 
 namespace seiche {
 namespace {
@@ -18,28 +20,47 @@ constexpr double cells_a_core_second = 3e5;
 // Grids up to this size are set up as a run would, within a few seconds.
 constexpr std::int64_t most_cells_set_up = 2'000'000;
 
+// What the solids of a scene turned out to be.
+struct Verified {
+  std::vector<std::string> notes, meshes;
+};
+
 std::vector<const ShapeSpec*> shapes_of(const Scene& scene) {
   std::vector<const ShapeSpec*> shapes;
   for (const auto& region : scene.liquid.regions) shapes.push_back(&region.shape);
   for (const auto& source : scene.liquid.sources) shapes.push_back(&source.shape);
-  for (const auto& solid : scene.solids) shapes.push_back(&solid.shape);
+  for (const auto& solid : scene.solids) {
+    if (solid.kind != SolidKind::elastic) shapes.push_back(&solid.shape);
+  }
   return shapes;
 }
 
+// Meshes an elastic solid as a run would, and finds the points of it that probes follow.
 template <int Dim>
-void build_shapes(const Scene& scene, std::vector<std::string>& notes) {
-  const ShapeOptions options{scene.domain.cell_size, &notes};
-  for (const ShapeSpec* shape : shapes_of(scene)) make_shape<Dim>(*shape, options);
+void verify_elastic(const Scene& scene, const SolidSpec& solid, const ShapeOptions& options, Verified& found) {
+  const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
+  const ElasticSolid<Dim> elastic = make_elastic_solid<Dim>(solid, options, lower, upper);
+  for (const ProbeSpec& probe : scene.probes) {
+    if (probe.kind == ProbeKind::displacement && probe.solid == solid.name)
+      point_of_probe<Dim>(elastic.body.mesh, probe);
+  }
+  found.meshes.push_back(fmt::format("{}; its factors take about {}", describe_mesh<Dim>(solid.name, elastic.body.mesh),
+                                     readable_bytes(factor_bytes(Dim, elastic.body.size()))));
 }
 
-std::vector<std::string> verify_shapes(const Scene& scene) {
-  std::vector<std::string> notes;
-  if (scene.dimension == 2) {
-    build_shapes<2>(scene, notes);
-  } else {
-    build_shapes<3>(scene, notes);
+template <int Dim>
+void verify_shapes(const Scene& scene, Verified& found) {
+  const ShapeOptions options{scene.domain.cell_size, &found.notes};
+  for (const ShapeSpec* shape : shapes_of(scene)) make_shape<Dim>(*shape, options);
+  for (const SolidSpec& solid : scene.solids) {
+    if (solid.kind == SolidKind::elastic) verify_elastic<Dim>(scene, solid, options, found);
   }
-  return notes;
+}
+
+Verified verify_solids(const Scene& scene) {
+  Verified found;
+  scene.dimension == 2 ? verify_shapes<2>(scene, found) : verify_shapes<3>(scene, found);
+  return found;
 }
 
 // Steps if the liquid falls freely through the domain: v = sqrt(2 g H), dt = cfl h / v. At least one step a frame.
@@ -76,20 +97,22 @@ std::string report(const Scene& scene, const Cost& cost, int ranks) {
 ExitCode check_command(const CheckOptions& options, const Surroundings& around) {
   RunLog log(around.ranks, around.console, Verbosity::normal);
   Scene scene;
-  std::vector<std::string> notes;
+  Verified found;
   agree(around.ranks, "checking the scene", [&] {
     scene = read_scene(options.scene, options.overrides);
     check_memory(estimate_cost(scene, around.ranks.size()), 1, 1, machine_memory());
-    notes = verify_shapes(scene);
+    found = verify_solids(scene);
   });
-  for (const std::string& text : notes) log.warn(text);
+  for (const std::string& text : found.notes) log.warn(text);
   const Cost cost = estimate_cost(scene, around.ranks.size());
   // The initial state evaluates the formulas wherever a run would.
   const bool small = cost.cells <= most_cells_set_up;
   if (small) make_simulation(scene, around.ranks);
   log.note(fmt::format("{}: no errors", options.scene.string()));
   if (!small) log.note("note: formulas are evaluated as the run begins; the grid is too large to try them here");
+  for (const std::string& text : found.meshes) log.note(text);
   log.note(report(scene, cost, around.ranks.size()));
+  if (!found.meshes.empty()) log.note("note: the time is that of the liquid; elastic solids take theirs on top");
   return ExitCode::done;
 }
 

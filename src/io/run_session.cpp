@@ -130,6 +130,7 @@ ExitCode run_session(const Session& session, const Restore& restore) {
     prepare_files(session);
     watchdog.beat("restoring");
     const RunState start = restore ? restore(*simulation) : RunState{};
+    for (const std::string& text : simulation->describe_solids()) session.log.note(text);
     for (const std::string& text : simulation->take_warnings()) session.log.warn(text);
     return run_loop_to_end(session, threads, *simulation, start, watchdog, signals);
   } catch (const std::bad_alloc&) {

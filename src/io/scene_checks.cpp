@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <set>
 
+#include "base/options.h"
+#include "io/suggest.h"
+
 namespace seiche {
 namespace {
 
@@ -137,6 +140,25 @@ void check_probes(const Checker& c, const Scene& scene) {
   }
 }
 
+// A displacement probe names an elastic solid.
+void check_followed_solids(const Checker& c, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SolidSpec& solid : scene.solids) {
+    if (solid.kind == SolidKind::elastic) names.push_back(solid.name);
+  }
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const ProbeSpec& probe = scene.probes[i];
+    const bool is_known = std::find(names.begin(), names.end(), probe.solid) != names.end();
+    if (probe.kind != ProbeKind::displacement || is_known || !c.context.clean(fmt::format("probe.{}", i))) continue;
+    const auto near = suggest(probe.solid, names);
+    c.report(fmt::format("probe.{}.solid", i),
+             fmt::format("probe \"{}\" follows \"{}\", which is no elastic solid; {}", probe.name, probe.solid,
+                         near            ? "did you mean \"" + *near + "\"?"
+                         : names.empty() ? "the scene has none"
+                                         : "there is " + quoted_list(names)));
+  }
+}
+
 // Bodies do not come back on the other side.
 void check_moving_solids(const Checker& c, const Scene& scene) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -164,6 +186,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("probe")) check_names(c, scene.probes, "probe");
   if (!context.clean("domain") || context.dimension == 0) return;
   check_probes(c, scene);
+  if (context.clean("solid")) check_followed_solids(c, scene);
   if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("time")) check_motions(context, root, scene);
 }

@@ -143,21 +143,18 @@ Section<ProbeSpec> probe_section() {
       value_key<S>({.key = "name", .type = T::text, .unset = "`probe1`, `probe2`, ...", .doc = "unique name"},
                    &S::name),
       choice_key<S, ProbeKind S::*, ProbeKind>(
-          {.key = "kind",
-           .refused = {{"displacement", "it follows elastic solids, which this version does not have"}},
-           .presence = Presence::required,
-           .doc = "what is measured"},
-          &S::kind,
+          {.key = "kind", .presence = Presence::required, .doc = "what is measured"}, &S::kind,
           {{"pressure", ProbeKind::pressure},
            {"velocity", ProbeKind::velocity},
            {"surface_height", ProbeKind::surface_height},
-           {"front", ProbeKind::front}}),
+           {"front", ProbeKind::front},
+           {"displacement", ProbeKind::displacement}}),
       value_key<S>({.key = "position",
                     .type = T::vector,
                     .unit = "m",
-                    .only_for = {"kind", {"pressure", "velocity", "surface_height"}},
+                    .only_for = {"kind", {"pressure", "velocity", "surface_height", "displacement"}},
                     .presence = Presence::required,
-                    .doc = "where it is measured"},
+                    .doc = "where it is measured; displacement: a point of the solid at rest, which is followed"},
                    &S::position),
       value_key<S>({.key = "every",
                     .unit = "s",
@@ -165,11 +162,14 @@ Section<ProbeSpec> probe_section() {
                     .unset = "each step",
                     .doc = "time between samples"},
                    &S::every),
-      later_key<S>({.key = "solid",
+      value_key<S>({.key = "solid",
                     .type = T::text,
                     .only_for = {"kind", {"displacement"}},
-                    .doc = "the solid that a displacement probe follows"}),
+                    .presence = Presence::required,
+                    .doc = "name of the elastic solid"},
+                   &S::solid),
   };
+  s.finish = [](SceneContext& c, const Place& p, ProbeSpec& probe) { probe.where = c.where(p.node->line); };
   return s;
 }
 

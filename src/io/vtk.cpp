@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <cstring>
 
+#include "solid/elastic_shape.h"
+
 namespace seiche::vtk {
 namespace {
 
-constexpr int vtk_line = 3, vtk_triangle = 5;
+constexpr int vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10, vtk_quadratic_triangle = 22,
+              vtk_quadratic_tetrahedron = 24;
 
 template <class T>
 constexpr const char* type_name();
@@ -135,6 +138,47 @@ Elements collect(const std::vector<SurfaceMesh>& solids) {
   return all;
 }
 
+void add_vectors(const std::vector<Vec3>& vectors, std::vector<double>& numbers) {
+  for (const Vec3& v : vectors) numbers.insert(numbers.end(), {v[0], v[1], v[2]});
+}
+
+constexpr int cell_type(int dimension, int order) {
+  if (dimension == 2) return order == 1 ? vtk_triangle : vtk_quadratic_triangle;
+  return order == 1 ? vtk_tetrahedron : vtk_quadratic_tetrahedron;
+}
+
+Elements collect(const std::vector<VolumeFrame>& solids) {
+  Elements all;
+  for (std::size_t n = 0; n < solids.size(); ++n) {
+    const VolumeFrame& solid = solids[n];
+    const std::int64_t first = std::int64_t(all.points.size() / 3);
+    for (std::size_t i = 0; i < solid.rest.size(); ++i)
+      add_vectors({Vec3(solid.rest[i] + solid.displacement[i])}, all.points);
+    const std::size_t size = std::size_t(elastic::nodes_per_simplex(solid.dimension, solid.order));
+    for (std::size_t at = 0; at + size <= solid.elements.size(); at += size) {
+      for (std::size_t a = 0; a < size; ++a) all.connectivity.push_back(first + solid.elements[at + a]);
+      all.offsets.push_back(std::int64_t(all.connectivity.size()));
+      all.types.push_back(std::uint8_t(cell_type(solid.dimension, solid.order)));
+      all.solid.push_back(std::int32_t(n));
+    }
+  }
+  return all;
+}
+
+std::string grid(const Elements& all, const std::string& point_data, const std::vector<std::string>& names,
+                 double time) {
+  std::string body = fmt::format(
+      "<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
+      "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n{}</FieldData>\n",
+      time, text_array("solid_names", names));
+  body += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n{}<CellData>\n", all.points.size() / 3,
+                      all.offsets.size(), point_data);
+  body +=
+      array("solid", all.solid) + "</CellData>\n<Points>\n" + array("Points", all.points, 3) + "</Points>\n<Cells>\n";
+  body += array("connectivity", all.connectivity) + array("offsets", all.offsets) + array("types", all.types);
+  return file("UnstructuredGrid", body + "</Cells>\n</Piece>\n</UnstructuredGrid>\n");
+}
+
 }  // namespace
 
 std::string base64(const std::string& bytes) {
@@ -166,17 +210,19 @@ std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
 }
 
 std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<std::string>& names, double time) {
-  const Elements all = collect(solids);
-  std::string body = fmt::format(
-      "<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-      "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n{}</FieldData>\n",
-      time, text_array("solid_names", names));
-  body += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<CellData>\n", all.points.size() / 3,
-                      all.offsets.size());
-  body +=
-      array("solid", all.solid) + "</CellData>\n<Points>\n" + array("Points", all.points, 3) + "</Points>\n<Cells>\n";
-  body += array("connectivity", all.connectivity) + array("offsets", all.offsets) + array("types", all.types);
-  return file("UnstructuredGrid", body + "</Cells>\n</Piece>\n</UnstructuredGrid>\n");
+  return grid(collect(solids), "", names, time);
+}
+
+std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<std::string>& names, double time) {
+  std::vector<double> displacement, velocity, von_mises;
+  for (const VolumeFrame& solid : solids) {
+    add_vectors(solid.displacement, displacement);
+    add_vectors(solid.velocity, velocity);
+    von_mises.insert(von_mises.end(), solid.von_mises.begin(), solid.von_mises.end());
+  }
+  const std::string fields = "<PointData>\n" + array("displacement", displacement, 3) + array("velocity", velocity, 3) +
+                             array("von_mises", von_mises) + "</PointData>\n";
+  return grid(collect(solids), fields, names, time);
 }
 
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate) {

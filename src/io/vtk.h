@@ -6,6 +6,7 @@
 
 #include "levelset/mesh.h"
 #include "levelset/openvdb_adapter.h"
+#include "solid/volume_frame.h"
 
 namespace seiche::vtk {
 
@@ -16,6 +17,11 @@ std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells);
 // A .vtu with the surfaces of all solids; the cell array `solid` counts them from 0, the field array `solid_names` has
 // their names in that order.
 std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<std::string>& names, double time);
+
+// A .vtu with the elements of elastic solids, deformed; point arrays `displacement` (m), `velocity` (m/s) and
+// `von_mises` (Pa), the cell array `solid` counts all solids of the scene from 0, the field array `solid_names` has
+// their names. Entries without elements are left out.
+std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<std::string>& names, double time);
 
 // A .pvd that names the files <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate);

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
@@ -199,17 +202,88 @@ SolidMesh assemble(const Document& document) {
   return solids;
 }
 
-}  // namespace
+// The texts that text_array of vtk.cpp wrote: codes of bytes, each text ended by a zero.
+std::vector<std::string> read_texts(const Document& document, const std::string& name) {
+  std::vector<std::string> texts{""};
+  for (const Element& array : find_elements(document.xml, "Array")) {
+    if (array.attribute("Name") != name) continue;
+    std::istringstream codes{std::string(array.text)};
+    codes.imbue(std::locale::classic());
+    for (int code = 0; codes >> code;) {
+      if (code == 0) {
+        texts.emplace_back();
+      } else {
+        texts.back() += char(code);
+      }
+    }
+  }
+  return texts;
+}
 
-SolidMesh read_solids(const std::filesystem::path& file) {
+double length_at(const std::vector<double>& vectors, std::size_t point) {
+  if (3 * point + 3 > vectors.size()) return 0;
+  return std::hypot(vectors[3 * point], vectors[3 * point + 1], vectors[3 * point + 2]);
+}
+
+GridSummary summarize(const Document& document) {
+  const auto corners = find_array(document, "Cells", "connectivity"), ends = find_array(document, "Cells", "offsets");
+  const auto numbers = find_array(document, "CellData", "solid"), time = find_array(document, "FieldData", "TimeValue");
+  const auto displacement = find_array(document, "PointData", "displacement"),
+             velocity = find_array(document, "PointData", "velocity"),
+             stress = find_array(document, "PointData", "von_mises");
+  const auto names = read_texts(document, "solid_names");
+  if (numbers.size() != ends.size()) fail("the arrays of the cells differ in length");
+  std::map<int, std::pair<SolidSummary, std::set<std::size_t>>> found;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const double start = i > 0 ? ends[i - 1] : 0;
+    if (!(start >= 0 && ends[i] >= start && ends[i] <= double(corners.size())))
+      fail(fmt::format("cell {} has no corners", i));
+    auto& [solid, points] = found[int(numbers[i])];
+    ++solid.cells;
+    for (auto c = std::size_t(start); c < std::size_t(ends[i]); ++c) {
+      if (!(corners[c] >= 0)) fail(fmt::format("there is no point {}", corners[c]));
+      points.insert(std::size_t(corners[c]));
+    }
+  }
+  GridSummary summary{time.empty() ? 0 : time[0], !stress.empty(), {}};
+  for (auto& [number, entry] : found) {
+    auto& [solid, points] = entry;
+    if (number >= 0 && std::size_t(number) < names.size()) solid.name = names[std::size_t(number)];
+    solid.points = points.size();
+    for (const std::size_t p : points) {
+      solid.largest_displacement = std::max(solid.largest_displacement, length_at(displacement, p));
+      solid.largest_speed = std::max(solid.largest_speed, length_at(velocity, p));
+      if (p < stress.size()) solid.largest_stress = std::max(solid.largest_stress, stress[p]);
+    }
+    summary.solids.push_back(solid);
+  }
+  return summary;
+}
+
+std::string read_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) fail(fmt::format("{}: cannot be read", file.string()));
-  const std::string bytes = text.str();
+  return text.str();
+}
+
+}  // namespace
+
+SolidMesh read_solids(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
   try {
     return assemble(open_document(bytes));
   } catch (const Error& error) {
     fail(fmt::format("{}: {}; expected surfaces as 'seiche run' writes them", file.string(), error.what()));
+  }
+}
+
+GridSummary summarize_grid(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  try {
+    return summarize(open_document(bytes));
+  } catch (const Error& error) {
+    fail(fmt::format("{}: {}; expected solids as 'seiche run' writes them", file.string(), error.what()));
   }
 }
 

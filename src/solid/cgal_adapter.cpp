@@ -144,7 +144,7 @@ ElasticMesh<3> tetrahedralize(const SurfaceMesh& surface, const TetrahedraOption
   namespace p = CGAL::parameters;
   try {
     space::Domain domain(space::polyhedron(surface));
-    domain.detect_features(sharp);
+    if (options.edges == SharpEdges::kept) domain.detect_features(sharp);
     const auto complex =
         CGAL::make_mesh_3<space::Complex>(domain, space::criteria(options), p::manifold(), p::no_odt(), p::no_lloyd(),
                                           p::perturb(p::time_limit = 0), p::exude(p::time_limit = 0));

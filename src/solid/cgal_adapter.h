@@ -8,13 +8,16 @@ namespace seiche::cgal {
 // 1995). The outline's points stay; its segments may be split. Throws Error(bad_input), without place.
 ElasticMesh<2> triangulate(const SurfaceMesh& outline, double size);
 
+enum class SharpEdges { rounded, kept };
+
 struct TetrahedraOptions {
   double size = 0;      // edges, about (m)
   double distance = 0;  // of the mesh's surface from the given one, at most (m)
+  SharpEdges edges = SharpEdges::kept;
 };
 
-// Tetrahedra inside a closed surface, whose edges of more than 60 degrees are kept: Delaunay refinement, then slivers
-// perturbed and exuded (Cheng et al. 2000). Throws Error(bad_input), without place.
+// Tetrahedra inside a closed surface, whose edges of more than 60 degrees may be kept: Delaunay refinement, then
+// slivers perturbed and exuded (Cheng et al. 2000). Throws Error(bad_input), without place.
 ElasticMesh<3> tetrahedralize(const SurfaceMesh& surface, const TetrahedraOptions& options);
 
 }  // namespace seiche::cgal

@@ -87,12 +87,16 @@ double measure(const SurfaceMesh& surface) {
   return volume;
 }
 
+// A contour has its edges cut into notches of a sample's size, which are not to be kept.
+bool is_sampled(const ShapeSpec& s) {
+  return s.kind == "expression" || s.kind == "level_set";
+}
+
 // Formulas and level sets are sampled all over the domain, to a share of an element.
 template <int Dim>
 double sampling(const SolidSpec& spec, const Vec<Dim>& domain) {
   const double spacing = sample_share * spec.elastic.element_size;
-  const bool is_sampled = spec.shape.kind == "expression" || spec.shape.kind == "level_set";
-  if (is_sampled && (domain / spacing).prod() > most_samples) {
+  if (is_sampled(spec.shape) && (domain / spacing).prod() > most_samples) {
     fail(spec, fmt::format("element_size = {:g} m is too small for a shape without bounds of its own, which is looked "
                            "for at points {:g} m apart all over the domain; raise it",
                            spec.elastic.element_size, spacing));
@@ -121,11 +125,14 @@ bool is_curved(const ShapeSpec& s) {
 }
 
 template <int Dim>
-ElasticMesh<Dim> fill(const SurfaceMesh& surface, double size, double distance) {
+ElasticMesh<Dim> fill(const SurfaceMesh& surface, const SolidSpec& spec) {
+  const double size = spec.elastic.element_size;
   if constexpr (Dim == 2) {
     return cgal::triangulate(resample_outline(surface, size), size);
   } else {
-    return cgal::tetrahedralize(surface, {size, distance * size});
+    const double distance = (is_curved(spec.shape) ? fitted_distance : kept_distance) * size;
+    return cgal::tetrahedralize(
+        surface, {size, distance, is_sampled(spec.shape) ? cgal::SharpEdges::rounded : cgal::SharpEdges::kept});
   }
 }
 
@@ -134,7 +141,7 @@ ElasticMesh<Dim> mesh_surface(const SolidSpec& spec, const ShapeOptions& options
                               const Vec<Dim>& upper) {
   const SurfaceMesh surface = surface_to_mesh<Dim>(spec, options, lower, upper);
   try {
-    return fill<Dim>(surface, spec.elastic.element_size, is_curved(spec.shape) ? fitted_distance : kept_distance);
+    return fill<Dim>(surface, spec);
   } catch (const Error& e) {
     fail(spec, e.what());
   }

@@ -823,6 +823,45 @@ def prescribed_motion_jumps(bench):
 
 # --- the command line ------------------------------------------------------------------------------------------------
 
+def elastic(shape, material="youngs_modulus = 1e6, poisson_ratio = 0.3", extra="element_size = 0.05"):
+    return (f'[[solid]]\nname = "soft"\nkind = "elastic"\ndensity = 1100.0\n{shape}\n'
+            f'material = {{ {material} }}\n{extra}\n')
+
+
+def elastic_out_of_range(bench):
+    """Rows 9 and 39: materials that do not exist and elements that cannot be: 2 from any number of ranks, and why."""
+    block = box((0.3, 0.1), (0.5, 0.4))
+    pin = 'pinned = { shape = "sphere", center = [0.4, 0.8], radius = 0.1 }'
+    for said, solid in {
+            "youngs_modulus must be > 0 Pa": elastic(block, "youngs_modulus = 0, poisson_ratio = 0.3"),
+            "modulus E / (3 (1 - 2 nu)) is infinite": elastic(block, "youngs_modulus = 1e6, poisson_ratio = 0.5"),
+            "poisson_ratio must be below 0.5": elastic(block, "youngs_modulus = 1e6, poisson_ratio = 0.6"),
+            "element_size must be > 0 m": elastic(block, extra="element_size = 0"),
+            "element_size = 0.5 m is larger than the solid": elastic(block, extra="element_size = 0.5"),
+            "would make about": elastic(block, extra="element_size = 1e-5"),
+            "nodes; the nearest lies 0.3 m outside it": elastic(block, extra="element_size = 0.05\n" + pin)}.items():
+        bench.run("check", bench.scene(box_scene([16, 16], POOL, solid))).needs(2, "scene.toml:", said)
+
+
+def elastic_meshes_at_fault(bench):
+    """Row 20: inverted and flat elements, apart, without a node: 2 with the first ids."""
+    corners = ["0.3 0.1 0", "0.5 0.1 0", "0.5 0.4 0", "0.3 0.4 0", "0.8 0.8 0", "0.9 0.8 0", "0.9 0.9 0", "0.4 0.1 0"]
+
+    def mesh(*triangles):
+        nodes = "".join(f"{n + 1} {x}\n" for n, x in enumerate(corners))
+        cells = "".join(f"{n + 1} 2 2 0 0 {' '.join(map(str, t))}\n" for n, t in enumerate(triangles))
+        return (f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(corners)}\n{nodes}$EndNodes\n"
+                f"$Elements\n{len(triangles)}\n{cells}$EndElements\n")
+
+    scene = bench.scene(box_scene([16, 16], POOL, elastic('shape = "mesh"\nfile = "body.msh"', extra="")))
+    for said, triangles in {"1 elements are inverted: 1": [(1, 2, 3), (1, 4, 3)],
+                            "1 elements have no volume: 1": [(1, 2, 3), (1, 8, 2)],
+                            "1 elements do not hang together with element 0: 1": [(1, 2, 3), (5, 6, 7)],
+                            "there is no node 9": [(1, 2, 3), (1, 3, 9)]}.items():
+        bench.path("body.msh").write_text(mesh(*triangles))
+        bench.run("check", scene).needs(2, "body.msh", said)
+
+
 def command_line(bench):
     """Help and version succeed everywhere; mistakes are 2 in one message, on any number of ranks."""
     for verb in ([], ["run"], ["resume"], ["check"]):
@@ -858,6 +897,7 @@ TABLES = {
     "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_leaves_the_domain, body_thinner_than_a_cell,
               body_smaller_than_a_cell, too_many_bodies, fast_body_and_thin_wall, body_squeezed_between_solids, piston_in_a_full_tank,
               density_ratios, no_gravity_and_too_much, prescribed_motion_jumps],
+    "elastic": [elastic_out_of_range, elastic_meshes_at_fault],
 }
 
 if __name__ == "__main__":

@@ -80,13 +80,14 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           "\nangular_velocity = " + (dimension == 2 ? "2.5" : "[0, 2.5, 0]") +
           "\nfixed = " + (dimension == 2 ? "[\"x\"]" : "[\"x\", \"rotation_x\", \"rotation_z\"]") +
           "\nfriction = 0.3\n";
-  text += "[[solid]]\nkind = \"elastic\"\nshape = \"sphere\"\ncenter = " + v("0.5", "0.5", "0.5") +
+  text += "[[solid]]\nname = \"soft\"\nkind = \"elastic\"\nshape = \"sphere\"\ncenter = " + v("0.5", "0.5", "0.5") +
           "\nradius = 0.1\ndensity = 1100\nelement_size = 0.05\nelement_order = 2\nbody_force = " +
           v("\"10*sin(x+t)\"", "0", "0") +
           "\nmaterial = { model = \"corotated\", youngs_modulus = 1e6, poisson_ratio = 0.4, damping = 1e-3, "
           "mass_damping = 0.1 }\n[solid.pinned]\n" +
           placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n";
   text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
+  if (probe == "displacement") text += "solid = \"soft\"\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
   text += "[tracking]\nmethod = \"level_set\"\n[solver]\ntolerance = 1e-9\npreconditioner = \"boomeramg\"\n";
   return text + "[output]\nframes = [\"surface\", \"pressure\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";

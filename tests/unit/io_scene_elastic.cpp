@@ -139,10 +139,10 @@ TEST_CASE("pins must be shapes and their motions continuous") {
   check_refused(ball("pinned = { shape = \"box\" }\n"), "needs 'lower' with shape = \"box\"");
   check_refused(ball("pinned = { shape = \"box\", lower = [0, 0, 0], upper = [0, 1, 1] }\n"),
                 "must have lower < upper");
-  check_refused(
-      ball("pinned = { shape = \"sphere\", center = [0, 0, 0], radius = 1, motion = { translate = [\"1/(t-0.5)+2\","
-           " 0, 0] } }\n"),
-      "solid \"solid1\", pinned: the motion is not finite at t = 0.5 s");
+  check_refused(ball("pinned = { shape = \"sphere\", center = [0, 0, 0], radius = 1, motion = { translate = "
+                     "[\"sqrt(0.5-t)-sqrt(0.5)\","
+                     " 0, 0] } }\n"),
+                "solid \"solid1\", pinned: the motion is not finite at t = 0.5005 s");
   check_refused(
       ball("pinned = { shape = \"sphere\", center = [0, 0, 0], radius = 1, motion = { translate = [0.1, 0, 0] "
            "} }\n"),
@@ -217,4 +217,20 @@ TEST_CASE("a run does not go on with another elastic solid than it began with") 
     CHECK(changed == std::vector<std::string>{named});
     CHECK(forbidden_changes(changed, EditPolicy::force) == changed);
   }
+}
+
+TEST_CASE("a displacement probe follows a point of an elastic solid") {
+  const std::string probe = "\n[[probe]]\nkind = \"displacement\"\nposition = [0.5, 0.6, 0.5]\n";
+  const Scene scene = parse(ball("name = \"gate\"" + probe + "solid = \"gate\"\n"));
+  CHECK(scene.probes[0].kind == ProbeKind::displacement);
+  CHECK(scene.probes[0].solid == "gate");
+  CHECK(scene.probes[0].where == "scene.toml:15");
+  CHECK(parse(write_scene(scene)).probes[0].solid == "gate");
+  check_refused(ball(probe), "needs 'solid' with kind = \"displacement\"");
+  check_refused(ball("name = \"gate\"" + probe + "solid = \"gat\"\n"),
+                "probe \"probe1\" follows \"gat\", which is no elastic solid; did you mean \"gate\"?");
+  check_refused(ball(probe + "solid = \"x\"\n"), "there is \"solid1\"");
+  check_refused(small_scene + probe + "solid = \"x\"\n", "the scene has none");
+  check_refused(small_scene + "[[probe]]\nkind = \"pressure\"\nposition = [0, 0, 0]\nsolid = \"x\"\n",
+                "'solid' in [[probe]] is only for kind = \"displacement\"");
 }

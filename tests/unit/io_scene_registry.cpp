@@ -41,6 +41,7 @@ std::string scene_for(const Option& option) {
   const Condition& condition = option.only_for;
   if (condition.key == "shape") shape = condition.values[0];
   if (condition.key == "type") side = condition.values[0];
+  if (condition.key == "kind" && option.path.rfind("probe[]", 0) == 0) probe = condition.values[0];
   return rich_scene(3, shape, side, probe);
 }
 

@@ -11,7 +11,7 @@ namespace {
 const std::vector<std::string> shapes{"box",   "sphere", "cylinder",   "capsule",
                                       "plane", "mesh",   "expression", "level_set"};
 const std::vector<std::string> sides{"free_slip", "no_slip", "periodic", "inflow", "outflow", "moving_wall"};
-const std::vector<std::string> probes{"pressure", "velocity", "surface_height", "front"};
+const std::vector<std::string> probes{"pressure", "velocity", "surface_height", "front", "displacement"};
 
 }  // namespace
 

@@ -276,6 +276,8 @@ TEST_CASE("Forces on an elastic solid add up", "[elastic][meshing]") {
   CHECK(sum[0] == Approx(0).margin(1e-12));
   CHECK(sum[1] == Approx(200 * 0.008));
   CHECK(sum[2] == Approx(0.05 * 0.008));
+  spec.elastic.body_force = {"0", "1/(x-x)", "0"};
+  CHECK_THAT(fault<3>(spec), Contains("body_force of solid 'body' is not a finite number"));
 }
 
 TEST_CASE("An outline keeps its corners and its length", "[elastic][meshing]") {
