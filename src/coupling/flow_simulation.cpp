@@ -5,6 +5,7 @@
 #include "coupling/checkpoint_state.h"
 #include "coupling/contact_setup.h"
 #include "coupling/measures.h"
+#include "solid/elastic_output.h"
 
 namespace seiche {
 namespace {
@@ -73,6 +74,19 @@ class FlowSimulation : public Simulation {
     const Pose& pose = geometry_.placed[k].pose;
     for (Vec3& x : mesh.points) x = pose.apply(x);
     return mesh;
+  }
+
+  VolumeFrame solid_volume(std::size_t k) const override {
+    if (!setup_.bodies.at(k).is_elastic()) return {};
+    const ElasticSolid<Dim>& solid = setup_.bodies[k].elastic();
+    return volume_frame(solid.body, solid.surface, state_.elastic[k].state.u, state_.elastic[k].velocity);
+  }
+
+  std::vector<std::string> describe_solids() const override {
+    std::vector<std::string> lines;
+    for (const Body<Dim>& body : setup_.bodies)
+      if (body.is_elastic()) lines.push_back(describe_mesh(body.spec().name, body.elastic().body.mesh));
+    return lines;
   }
 
  private:

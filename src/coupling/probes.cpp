@@ -95,7 +95,29 @@ std::optional<double> front(const Setup<Dim>& s, const State<Dim>& state) {
   return best;
 }
 
+template <int Dim>
+std::size_t index_of(const Setup<Dim>& s, const std::string& solid) {
+  const auto named = [&](const Body<Dim>& b) { return b.spec().name == solid; };
+  return std::size_t(std::find_if(s.bodies.begin(), s.bodies.end(), named) - s.bodies.begin());
+}
+
+template <int Dim>
+Vec3 displacement_of(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
+  const std::size_t k = index_of(s, probe.solid);
+  return extend<Dim>(
+      interpolate<Dim>(s.bodies[k].elastic().body.mesh, s.followed.at(probe.name), state.elastic[k].state.u));
+}
+
 }  // namespace
+
+template <int Dim>
+std::map<std::string, MaterialPoint> find_followed_points(const Setup<Dim>& s) {
+  std::map<std::string, MaterialPoint> points;
+  for (const ProbeSpec& probe : s.scene.probes)
+    if (probe.kind == ProbeKind::displacement)
+      points[probe.name] = point_of_probe<Dim>(s.bodies[index_of(s, probe.solid)].elastic().body.mesh, probe);
+  return points;
+}
 
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
@@ -126,12 +148,14 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
       break;
     case ProbeKind::displacement:
       out.is_vector = true;
-      out.defined = false;
+      out.vector = displacement_of(s, state, probe);
       break;
   }
   return out;
 }
 
+template std::map<std::string, MaterialPoint> find_followed_points<2>(const Setup<2>&);
+template std::map<std::string, MaterialPoint> find_followed_points<3>(const Setup<3>&);
 template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const ProbeSpec&);
 template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const ProbeSpec&);
 

@@ -151,6 +151,7 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
       solids(layout, sides, bodies),
       sources(make_sources<Dim>(sc, notes)) {
   if (has_rigid() || has_elastic()) contact.emplace(make_contact_scene(sc, bodies));
+  followed = find_followed_points(*this);
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #pragma once
 // What a simulation is made of (Setup, fixed) and where it stands (State, replaced by each accepted step).
+#include <map>
 #include <memory>
 
 #include "coupling/simulation.h"
@@ -7,6 +8,7 @@
 #include "fluid/pressure.h"
 #include "solid/contact.h"
 #include "solid/elastic_motion.h"
+#include "solid/elastic_point.h"
 
 namespace seiche {
 
@@ -29,6 +31,7 @@ struct Setup {
   SolidGeometry<Dim> solids;
   std::optional<ContactScene<Dim>> contact;  // where there are rigid or elastic bodies
   std::vector<Source<Dim>> sources;
+  std::map<std::string, MaterialPoint> followed;  // by displacement probes, by their names
 
   Setup(const Scene& scene, const Communicator& ranks);
   bool has_rigid() const;
@@ -98,6 +101,10 @@ struct Phases {
 // and elastic ones at rest.
 template <int Dim>
 std::vector<Placement> place_bodies(const Setup<Dim>& setup, const State<Dim>& state);
+
+// The points that displacement probes follow. Throws Error(bad_input) where one lies outside its solid.
+template <int Dim>
+std::map<std::string, MaterialPoint> find_followed_points(const Setup<Dim>& setup);
 
 // The initial state of a scene.
 template <int Dim>

@@ -35,7 +35,7 @@ struct StepGeometry {
   FaceGeometry<Dim> faces;
   std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
   std::vector<std::shared_ptr<const Attachments<Dim>>> attached;  // of each elastic body
-  std::vector<SealedFace> sealed;                         // likewise
+  std::vector<SealedFace> sealed;                                 // likewise
   std::vector<Placement> placed;                                  // of each body, at the end of the step
 };
 
