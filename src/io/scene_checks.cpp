@@ -159,6 +159,22 @@ void check_followed_solids(const Checker& c, const Scene& scene) {
   }
 }
 
+// Contact in liquid keeps matrices of all rigid bodies together: 6000 x 6000 in 3D, some GB and minutes a factor.
+constexpr int most_rigid_solids = 1000;
+
+void check_rigid_count(const Checker& c, const Scene& scene) {
+  int count = 0;
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    count += scene.solids[i].kind == SolidKind::rigid;
+    if (scene.solids[i].kind != SolidKind::rigid || count != most_rigid_solids + 1) continue;
+    c.report(
+        fmt::format("solid.{}.kind", i),
+        fmt::format("more rigid solids than one contact solve can take: at most {} can be rigid (a few hundred are "
+                    "practical, fewer where they pile up); use fewer, or kind = \"static\"",
+                    most_rigid_solids));
+  }
+}
+
 // Bodies do not come back on the other side.
 void check_moving_solids(const Checker& c, const Scene& scene) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
@@ -188,6 +204,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   check_probes(c, scene);
   if (context.clean("solid")) check_followed_solids(c, scene);
   if (context.clean("solid")) check_moving_solids(c, scene);
+  if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("time")) check_motions(context, root, scene);
 }
 

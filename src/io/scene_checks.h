@@ -6,8 +6,8 @@
 namespace seiche {
 
 // Reports extents that are no whole number of cells, grids too small or too large, one-sided periodicity, times that do
-// not fit together, names used twice, probes outside the domain and motions that jump. Fills domain.cells and the
-// default names. Groups with problems of their own are left out.
+// not fit together, names used twice, probes outside the domain, more rigid solids than can be solved for and motions
+// that jump. Fills domain.cells and the default names. Groups with problems of their own are left out.
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene);
 
 // Part of the above: prescribed motions must be finite and must not leap further than the domain is long.

@@ -749,6 +749,8 @@ def too_many_bodies(bench):
     """Row 25: more bodies than the limit: 2, the limit stated."""
     many = "".join(rigid(f"b{n}", ball((0.005 * (n % 200), 0.005 * (n // 200)), 0.002)) for n in range(30000))
     bench.simulate(text=box_scene([16, 16], POOL, many)).needs(2, "at most 20000")
+    many = "".join(rigid(f"b{n}", ball((0.01 * (n % 100), 0.01 * (n // 100)), 0.004)) for n in range(10000))
+    bench.simulate(text=box_scene([16, 16], POOL, many)).needs(2, "at most 1000 can be rigid", ".toml:")
 
 
 def fast_body_and_thin_wall(bench):
