@@ -150,6 +150,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
                   {"step", double(state.step)},
                   {"dt_now", state.dt_now},
                   {"dt_before", state.dt_before},
+                  {"horizon", state.horizon},
                   {"levels", state.earlier  ? 3.0
                              : state.before ? 2.0
                                             : 1.0},
@@ -184,6 +185,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.step = std::int64_t(scalar("step"));
   state.dt_now = scalar("dt_now");
   state.dt_before = scalar("dt_before");
+  state.horizon = scalar("horizon");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
   state.rigid.resize(s.bodies.size());

@@ -74,6 +74,7 @@ struct State {
   double corrected_volume = 0;                             // restored by the volume control so far
   std::vector<RigidState> rigid;                           // one a solid; of the rigid ones
   std::vector<ElasticMotion> elastic;                      // one a solid; of the elastic ones
+  double horizon = 0;                                      // s ahead that the solids' velocities were solved for
   Parting<Dim> parting;                                    // where the scene lets liquid part from solids
 };
 
@@ -126,6 +127,11 @@ template <int Dim>
 std::string fault_of_pinned_flow(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 template <int Dim>
 std::string fault_of_pinned_solids(const Setup<Dim>& setup, const std::vector<Placement>& placed, double t, double dt);
+
+// How far ahead a step that led to `next` after dt solves for the solids' velocities. Where there are elastic solids
+// the coming step is meant to be just that long: their motion is second order in time then.
+template <int Dim>
+double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt);
 
 // dt, or as much shorter as it takes that no rigid body meets another solid on the way; 0 where nothing is short
 // enough.

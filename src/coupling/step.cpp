@@ -158,13 +158,11 @@ struct StepInProgress {
     return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting};
   }
 
-  // Contact is solved for as far ahead as the next step may reach.
-  double horizon() const { return s.scene.time.fixed_step ? std::max(dt, *s.scene.time.fixed_step) : step_growth * dt; }
-
   bool solve() {
     const PhaseFault fault = phases.enter("solve");
     const auto timed = phases.timers.measure("solve");
-    solution = solve_coupled(s, input(), out.geometry, out.state, before.pressure, u_star, horizon(), fault);
+    out.state.horizon = choose_horizon(s, out.state, dt);
+    solution = solve_coupled(s, input(), out.geometry, out.state, before.pressure, u_star, out.state.horizon, fault);
     out.solve = solution.report;
     out.newton_iterations = solution.newton_iterations;
     out.contacts = solution.contacts;

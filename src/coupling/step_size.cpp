@@ -76,6 +76,30 @@ double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) 
   return dt;
 }
 
+// A step that would leave less than another one to go is evened out.
+double land(double dt, double remaining) {
+  if (dt >= remaining * (1 - 1e-9)) return remaining;
+  return 2 * dt > remaining ? remaining / 2 : dt;
+}
+
+// From t to the next frame, or to the end.
+double until_frame(const TimeSpec& spec, double t) {
+  const double frame = std::floor(t * spec.frame_rate * (1 + 1e-12) + 1e-9) + 1;
+  const double next = frame / spec.frame_rate;
+  return t < spec.end * (1 - 1e-12) ? std::min(next, spec.end) - t : next - t;
+}
+
+// Whether no element turns inside out on the straight way of a step other than the one solved for.
+template <int Dim>
+double share_without_inversion(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  double share = 1;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_elastic())
+      share = std::min(share, inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
+                                                   Eigen::VectorXd(dt * state.elastic[k].velocity)));
+  return share;
+}
+
 std::string too_short(double dt, double remaining, double h, const std::string& held) {
   return fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {} steps); {}", dt,
                      remaining, most_steps_a_frame,
@@ -89,10 +113,11 @@ std::string too_short(double dt, double remaining, double h, const std::string& 
 // it is looked at again.
 template <int Dim>
 double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  if (s.has_elastic() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
   constexpr int most_looks = 40;
   constexpr double margin = 0.9;  // so that the next look finds the share of gaps it wants left
   for (int n = 0; n < most_looks; ++n) {
-    const double share = safe_share(s, state, dt);
+    const double share = std::min(safe_share(s, state, dt), share_without_inversion(s, state, dt));
     if (share >= 1) return dt;
     dt *= margin * share;
   }
@@ -119,6 +144,19 @@ std::string fault_of_pinned_solids(const Setup<Dim>& s, const std::vector<Placem
       pinned_step(s, t, dt), crossed, h);
 }
 
+// Where the flow may speed up, 0.9 of what it allows now: then the coming step can be taken as it was solved for.
+template <int Dim>
+double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
+  const TimeSpec& spec = s.scene.time;
+  if (!s.has_elastic()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
+  const double remaining = until_frame(spec, next.time);
+  if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
+  constexpr double margin = 0.9;
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next));
+  if (spec.max_step) plan = std::min(plan, *spec.max_step);
+  return land(limit_of_solids(s, next, plan), remaining);
+}
+
 template <int Dim>
 double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const TimeSpec& spec = s.scene.time;
@@ -128,13 +166,15 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
+  if (s.has_elastic() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
     std::string fault = fault_of_pinned_flow(s, state, dt);
     if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(s, state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   }
-  if (dt < remaining && 2 * dt > remaining && !spec.fixed_step) dt = remaining / 2;
+  const bool as_planned = s.has_elastic() && dt == state.horizon;
+  if (!as_planned && !spec.fixed_step) dt = land(dt, remaining);
   const double free = hold_back(s, state, dt);
   if (!(free * double(most_steps_a_frame) > remaining))
     throw Error(ExitCode::cannot_continue,
@@ -148,6 +188,8 @@ template std::string fault_of_pinned_flow<2>(const Setup<2>&, const State<2>&, d
 template std::string fault_of_pinned_solids<2>(const Setup<2>&, const std::vector<Placement>&, double, double);
 template std::string fault_of_pinned_flow<3>(const Setup<3>&, const State<3>&, double);
 template std::string fault_of_pinned_solids<3>(const Setup<3>&, const std::vector<Placement>&, double, double);
+template double choose_horizon<2>(const Setup<2>&, const State<2>&, double);
+template double choose_horizon<3>(const Setup<3>&, const State<3>&, double);
 template double hold_back<2>(const Setup<2>&, const State<2>&, double);
 template double hold_back<3>(const Setup<3>&, const State<3>&, double);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);
