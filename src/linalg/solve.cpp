@@ -7,11 +7,12 @@
 #include <limits>
 
 #include "base/error.h"
+#include "linalg/body_coupling.h"
+#include "linalg/body_coupling.h"
 #include "linalg/deflation.h"
 #include "linalg/direct_solve.h"
 #include "linalg/hypre_adapter.h"
 #include "linalg/krylov.h"
-#include "linalg/lumped_coupling.h"
 #include "linalg/preconditioners.h"
 
 namespace seiche {
@@ -112,15 +113,15 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
 // Preconditioners that need not keep to the grid's stencil know of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
   const LinearSystem* system = &liquid_;
-  const bool lumped = deforms() && system_.is_coupled() && name != "multigrid";
-  if (lumped) {
+  const bool filled = deforms() && system_.is_coupled() && name != "multigrid";
+  if (filled) {
     built.matrix =
-        std::make_unique<DistributedMatrix>(add_lumped_coupling(liquid_, J_, system_.bodies(), system_.scale()));
+        std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
     built.system = std::make_unique<LinearSystem>(*built.matrix, liquid_.grid(), liquid_.null_space(), system_.ranks());
     system = built.system.get();
   }
   // Rows that deformable bodies fill are coarsened badly by aggressive coarsening: twice the iterations.
-  built.made = lumped && name == "boomeramg" ? make_boomeramg(*system, {.aggressive_levels = 0})
+  built.made = filled && name == "boomeramg" ? make_boomeramg(*system, {.aggressive_levels = 0})
                                              : make_preconditioner(name, *system);
 }
 

@@ -24,7 +24,7 @@ Scene immersed_block(int cells, double youngs_modulus, double ratio) {
   block.rigid.density = 1000 * ratio;
   block.elastic.youngs_modulus = youngs_modulus;
   block.elastic.poisson_ratio = 0.4;
-  block.elastic.element_size = 0.1;
+  block.elastic.element_size = 0.05;
   s.solids.push_back(block);
   return s;
 }

@@ -1,0 +1,13 @@
+#pragma once
+// A + c J G'G J', G'G a sparse approximation of H^-1: what preconditioners of A + c J H^-1 J' are made from where
+// bodies have many degrees of freedom (deformable ones).
+#include "linalg/block_columns.h"
+#include "linalg/linear_system.h"
+#include "linalg/sparse_cholesky.h"
+
+namespace seiche {
+
+// Of the blocks with modes; the others are left out. Collective.
+DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c);
+
+}  // namespace seiche
