@@ -132,7 +132,7 @@ class BoomerAmg : public Preconditioner {
     HYPRE_BoomerAMGSetPMaxElmts(solver_, s.elements_per_row);
     HYPRE_BoomerAMGSetStrongThreshold(solver_, s.strength);
     HYPRE_BoomerAMGSetAggNumLevels(solver_, s.aggressive_levels);
-    HYPRE_BoomerAMGSetNumSweeps(solver_, 1);
+    HYPRE_BoomerAMGSetNumSweeps(solver_, s.sweeps);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_down, 1);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_up, 2);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_coarsest, 3);

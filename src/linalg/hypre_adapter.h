@@ -15,6 +15,7 @@ struct AmgSettings {
   int relax_coarsest = 8;              // l1-scaled symmetric Gauss-Seidel; elimination fails on singular systems
   double strength = 0.25;
   int aggressive_levels = 1;
+  int sweeps = 1;  // before and after the coarse grid
 };
 
 // One V(1,1) cycle of algebraic multigrid. Collective.
