@@ -91,6 +91,24 @@ void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, d
   parts.coupling.push.segment(first, push.size()) = dt * push;
 }
 
+// M times what is linear in the deformed positions, from -1 to 1 over the body: forces, moments, what bends and
+// stretches.
+template <int Dim>
+Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> x(Dim, u.size() / Dim);
+  for (Eigen::Index n = 0; n < x.cols(); ++n)
+    x.col(n) = body.mesh.nodes[std::size_t(n)] + u.template segment<Dim>(Dim * n);
+  const Vec<Dim> low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
+  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(u.size(), Dim * (Dim + 1));
+  for (Eigen::Index n = 0; n < x.cols(); ++n)
+    for (int axis = 0; axis < Dim; ++axis) {
+      f(Dim * n + axis, axis) = 1;
+      for (int a = 0; a < Dim; ++a)
+        f(Dim * n + axis, Dim * (a + 1) + axis) = (2 * x(a, n) - low[a] - high[a]) / (high[a] - low[a]);
+    }
+  return body.mass * f;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -108,7 +126,7 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * s.gravity().replicate(e.v.size() / Dim, 1);
     c.J.blocks[b] = make_block(spread_shares(s, *g.shares[k], *g.attached[k], rows), c.freedom, first, int(e.u.size()));
-    c.J.blocks[b].modes = rigid_modes<Dim>(solid.body, e.u, truncate<Dim>(s.bodies[k].mass().center));
+    c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});
   }
   if (!shares.empty()) c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), dt, horizon);

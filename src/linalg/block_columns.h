@@ -16,13 +16,14 @@ struct ColumnBlock {
   std::vector<int> start{0};
   std::vector<int> column;  // of each entry, within the block
   std::vector<double> value;
-  // Combinations of the columns, one a column of this matrix, that a preconditioner had better know: of a body's nodes
-  // its rigid motions. Empty: each column by itself.
-  Eigen::MatrixXd modes;
+  // Loads f, one a column of this matrix, to which the responses H^-1 f are combinations of the columns that a
+  // preconditioner had better know: of a body's nodes weights whose sums are forces and moments. Empty: each column by
+  // itself.
+  Eigen::MatrixXd loads;
 
   // Entries of one row come one after the other.
   void add(int in_row, int in_column, double entry);
-  int mode_count() const { return modes.size() > 0 ? int(modes.cols()) : width; }
+  bool deforms() const { return loads.size() > 0; }
   // Visits f(row, column, value).
   template <class Visit>
   void for_each(const Visit& f) const {

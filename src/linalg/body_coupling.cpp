@@ -22,7 +22,7 @@ std::vector<Entry> local_entries(const LinearSystem& A, const BlockColumns& J) {
   std::vector<Entry> entries;
   std::int64_t first = 0;
   for (const ColumnBlock& b : J.blocks) {
-    if (b.modes.size() > 0)
+    if (b.deforms())
       b.for_each([&](int i, int k, double value) {
         if (value != 0 && !is_identity[std::size_t(i)])
           entries.push_back({A.pattern().first_row + i, first + k, value});

@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// Of the blocks with modes; the others are left out. Collective.
+// Of the blocks that deform; the others are left out. Collective.
 DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c);
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #include "linalg/deflation.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -103,18 +104,51 @@ Deflation::Regions Deflation::find_regions() const {
   return regions;
 }
 
+int Deflation::mode_count(std::size_t block) const {
+  const ColumnBlock& b = S_.columns().blocks[block];
+  return b.deforms() ? int(modes_[block].cols()) : b.width;
+}
+
+// Of deformable bodies: an orthonormal basis of their responses to their loads. Free ones move rigidly under forces and
+// moments, held ones bend as they do most easily.
+void Deflation::find_modes() {
+  constexpr double dependent = 1e-6;  // what is left of a response beside the others
+  const auto& blocks = S_.columns().blocks;
+  const std::vector<int> first = S_.columns().first_columns();
+  modes_.resize(blocks.size());
+  Eigen::Index most = 0;
+  for (const ColumnBlock& b : blocks) most = std::max(most, b.loads.cols());
+  if (most == 0 || !S_.is_coupled()) return;
+  Eigen::MatrixXd responses(first.back(), most);
+  for (Eigen::Index k = 0; k < most; ++k) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(first.back());
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (k < blocks[b].loads.cols()) load.segment(first[b], blocks[b].width) = blocks[b].loads.col(k).normalized();
+    responses.col(k) = S_.weigh(load);
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!blocks[b].deforms()) continue;
+    Eigen::MatrixXd own = responses.block(first[b], 0, blocks[b].width, blocks[b].loads.cols());
+    own.colwise().normalize();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
+    qr.setThreshold(dependent);
+    modes_[b] = qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
+  }
+}
+
 // Bodies of one colour share one application of B a column.
 void Deflation::make_columns() {
   const Regions regions = find_regions();
+  find_modes();
   const auto& color = regions.color;
   const int colors = color.empty() ? 0 : 1 + *std::max_element(color.begin(), color.end());
   int modes = 0;
-  for (const ColumnBlock& block : S_.columns().blocks) modes = std::max(modes, block.mode_count());
+  for (std::size_t b = 0; b < color.size(); ++b) modes = std::max(modes, mode_count(b));
   for (int c = 0; c < colors; ++c)
     for (int mode = 0; mode < modes; ++mode) {
       std::vector<std::size_t> members;
       for (std::size_t b = 0; b < color.size(); ++b)
-        if (color[b] == c && mode < S_.columns().blocks[b].mode_count()) members.push_back(b);
+        if (color[b] == c && mode < mode_count(b)) members.push_back(b);
       add_columns(regions, members, mode);
     }
 }
@@ -126,8 +160,8 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
   bool any = false;
   for (const std::size_t b : members) {
     const ColumnBlock& block = S_.columns().blocks[b];
-    const bool combined = block.modes.size() > 0;
-    block.for_each([&](int i, int k, double value) { r[i] += value * (combined ? block.modes(k, mode) : k == mode); });
+    const bool combined = block.deforms();
+    block.for_each([&](int i, int k, double value) { r[i] += value * (combined ? modes_[b](k, mode) : k == mode); });
     for (const int i : block.row) any = any || r[i] != 0;
   }
   if (!S_.ranks().any(any)) return;
@@ -191,7 +225,7 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
 bool Deflation::refresh() {
   if (Z_.empty() || !S_.is_coupled()) return true;
   const auto& blocks = S_.columns().blocks;
-  const bool combined = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.modes.size() > 0; });
+  const bool combined = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.deforms(); });
   return combined ? multiply_small() : factor_extended();
 }
 

@@ -49,6 +49,8 @@ class Deflation {
     bool whole;  // nothing is cut
   };
   Regions find_regions() const;
+  void find_modes();
+  int mode_count(std::size_t block) const;
   void make_columns();
   void add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode);
   void add_component_columns();
@@ -61,6 +63,7 @@ class Deflation {
 
   const CoupledSystem& S_;
   Preconditioner& B_;
+  std::vector<Eigen::MatrixXd> modes_;  // of each block that deforms
   std::vector<SparseColumn> Z_, AZ_;
   std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
   int body_columns_ = 0;                          // the first of Z; closed components follow

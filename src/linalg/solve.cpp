@@ -73,6 +73,7 @@ struct SpdSolver::Problem {
 struct SpdSolver::Built {
   std::unique_ptr<DistributedMatrix> matrix;  // what it was made from, unless it was A
   std::unique_ptr<LinearSystem> system;
+  Eigen::VectorXd diagonal;  // of H, which it knows of
   PreconditionerOrFailure made;
   std::unique_ptr<Deflation> deflation;
 };
@@ -118,6 +119,7 @@ void SpdSolver::make(const std::string& name, Built& built) const {
         std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
     built.system = std::make_unique<LinearSystem>(*built.matrix, liquid_.grid(), liquid_.null_space(), system_.ranks());
     system = built.system.get();
+    built.diagonal = system_.bodies().diagonal();
   }
   // Rows that deformable bodies fill are coarsened badly by aggressive coarsening (twice the iterations), and one sweep
   // does not smooth them (a third more).
@@ -127,15 +129,23 @@ void SpdSolver::make(const std::string& name, Built& built) const {
 
 SpdSolver::Built& SpdSolver::build(const std::string& name) {
   std::unique_ptr<Built>& built = built_[deforms() && system_.is_coupled() ? name + ", coupled" : name];
-  if (!built) make(name, *(built = std::make_unique<Built>()));
+  if (!built || is_outdated(*built)) make(name, *(built = std::make_unique<Built>()));
   if (!built->made.preconditioner) return *built;
   if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
   last_built_ = built->deflation.get();
   return *built;
 }
 
+// Stiffness or contact has come or gone.
+bool SpdSolver::is_outdated(const Built& built) const {
+  constexpr double much = 4;  // less costs fewer iterations than a new one takes
+  if (built.diagonal.size() == 0) return false;
+  const Eigen::ArrayXd change = system_.bodies().diagonal().array() / built.diagonal.array();
+  return change.maxCoeff() > much || change.minCoeff() < 1 / much;
+}
+
 bool SpdSolver::deforms() const {
-  return std::any_of(J_.blocks.begin(), J_.blocks.end(), [](const ColumnBlock& b) { return b.modes.size() > 0; });
+  return std::any_of(J_.blocks.begin(), J_.blocks.end(), [](const ColumnBlock& b) { return b.deforms(); });
 }
 
 double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {

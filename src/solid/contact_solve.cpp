@@ -77,14 +77,15 @@ class Solver {
   // Prescribed bodies or held degrees of freedom do not yet move as they shall.
   bool under_way() const { return share_ < 1 || !inertia_.holds(e_.velocity); }
 
-  // The motion by e alone is the answer if it meets nothing: e has no lower value.
+  // The motion by e alone is the answer if it meets nothing: e has no lower value. With a potential it never is.
   bool free_of_contact() {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
+    free_velocity_ = zero;
+    if (potential_) return false;
     const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
     at_ = place<Dim>(scene_, interval_, velocities(zero, share_));
     if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
     free_velocity_ = e_.velocity;
-    if (potential_) return false;
     const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, velocities(e_.velocity, 1), weights_.reach);
     if (way.share < 1) return false;
     if (contact_energy<Dim>(scene_, interval_, way.end, way.near, {}, weights_) > 0) return false;
@@ -138,12 +139,8 @@ class Solver {
     return Outcome::converged;
   }
 
-  // What contact does to velocities: by how much they differ from those without (m/s). With a potential these are only
-  // inertia's; what elastic forces alone would do to a squeezed body is no measure.
-  double change() const {
-    const double all = fastest(e_.velocity - free_velocity_);
-    return potential_ ? std::min(all, fastest(e_.velocity) + options_.usual_speed) : all;
-  }
+  // What contact does to velocities: by how much they differ from those without (m/s). With a potential, their size.
+  double change() const { return fastest(e_.velocity - free_velocity_); }
 
   bool may_rub() const {
     return std::any_of(scene_.friction.begin(), scene_.friction.end(),

@@ -34,21 +34,6 @@ std::vector<Vec<Dim>> surface_points(const ElasticSolid<Dim>& solid, const Eigen
   return points;
 }
 
-template <int Dim>
-Eigen::MatrixXd rigid_modes(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Vec<Dim>& about) {
-  constexpr int turns = Dim == 2 ? 1 : 3;
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(body.size(), Dim + turns);
-  for (Eigen::Index n = 0; n < Eigen::Index(body.mesh.nodes.size()); ++n) {
-    const Vec3 arm = extend<Dim>(Vec<Dim>(body.mesh.nodes[std::size_t(n)] + u.segment<Dim>(Dim * n) - about));
-    for (int a = 0; a < Dim; ++a) R(Dim * n + a, a) = 1;
-    for (int k = 0; k < turns; ++k) {
-      const Vec3 axis = Dim == 2 ? Vec3::UnitZ() : Vec3(Vec3::Unit(k));
-      R.template block<Dim, 1>(Dim * n, Dim + k) = truncate<Dim>(Vec3(axis.cross(arm)));
-    }
-  }
-  return R;
-}
-
 namespace {
 
 // The rotation nearest to sum m x X'.
@@ -97,10 +82,9 @@ BodyAverage average(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, cons
   return r;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                            \
-  template ElasticMotion initial_elastic_motion<D>(const Body<D>&);                                      \
-  template std::vector<Vec<D>> surface_points<D>(const ElasticSolid<D>&, const Eigen::VectorXd&);        \
-  template Eigen::MatrixXd rigid_modes<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Vec<D>&); \
+#define SEICHE_INSTANTIATE(D)                                                                     \
+  template ElasticMotion initial_elastic_motion<D>(const Body<D>&);                               \
+  template std::vector<Vec<D>> surface_points<D>(const ElasticSolid<D>&, const Eigen::VectorXd&); \
   template BodyAverage average<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

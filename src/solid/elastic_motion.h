@@ -21,11 +21,6 @@ void advance(ElasticScheme scheme, double dt, ElasticMotion& motion);
 template <int Dim>
 std::vector<Vec<Dim>> surface_points(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u);
 
-// The rigid motions of a body that is displaced by u, about a point, one a column: translations, then rotations
-// (1 m/s at a distance of 1 m).
-template <int Dim>
-Eigen::MatrixXd rigid_modes(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Vec<Dim>& about);
-
 // M, sums over the nodes of mass times position, and times velocity: centre of mass and mean motion.
 struct BodyAverage {
   Vec3 center{0, 0, 0}, velocity{0, 0, 0}, angular_velocity{0, 0, 0};
