@@ -156,10 +156,20 @@ struct OutputSpec {
   int checkpoint_every = 10;  // frames
 };
 
+// The acceleration of gravity, the same everywhere, m/s^2: numbers, or formulas in t.
+struct GravitySpec {
+  VectorFormula formula{"0.0", "-9.81", "0.0"};
+
+  GravitySpec() = default;
+  GravitySpec(double x, double y, double z);
+  template <class Derived>
+  GravitySpec(const Eigen::MatrixBase<Derived>& value) : GravitySpec(value[0], value[1], value[2]) {}
+};
+
 struct Scene {
   std::string title;
   int dimension = 3;
-  Vec3 gravity{0, -9.81, 0};
+  GravitySpec gravity;
   DomainSpec domain;
   TimeSpec time;
   LiquidSpec liquid;

@@ -75,13 +75,15 @@ std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const State<Dim>
   return motions;
 }
 
-// The stiffness is set by weights and speeds by that of a fall through a cell, whatever the step: bodies at rest are
-// thrown up where the stiffness grows under them. Without gravity what crosses the domain in ten frames serves as one.
+// The stiffness is set by weights under the largest gravity of the run and speeds by that of a fall through a cell,
+// whatever the step: bodies at rest are thrown up where the stiffness grows under them. Without gravity what crosses
+// the domain in ten frames serves as one.
 template <int Dim>
 ContactOptions contact_options(const Setup<Dim>& s) {
   const Scene& scene = s.scene;
   const double length = (scene.domain.upper - scene.domain.lower).norm(), rate = 0.1 * scene.time.frame_rate;
-  const double h = s.layout.h(), weight = scene.gravity.norm(), g = weight > 0 ? weight : length * rate * rate;
+  const double h = s.layout.h(), weight = s.gravity.largest(0, scene.time.end),
+               g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
   o.acceleration = g;

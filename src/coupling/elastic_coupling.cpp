@@ -53,9 +53,8 @@ ColumnBlock make_block(const std::vector<Entry>& entries, const std::vector<Free
 
 // Gravity on each node, and the scene's own forces.
 template <int Dim>
-Eigen::VectorXd forces(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, double t) {
-  const Eigen::VectorXd g = s.gravity().replicate(solid.body.size() / Dim, 1), own = body_force_at(solid, t);
-  const Eigen::VectorXd weight = solid.body.mass * g;
+Eigen::VectorXd forces(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& gravity, double t) {
+  const Eigen::VectorXd weight = solid.body.mass * gravity, own = body_force_at(solid, t);
   return own.size() > 0 ? Eigen::VectorXd(weight + own) : weight;
 }
 
@@ -116,15 +115,17 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
                            const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
   std::vector<ElasticShare<Dim>> shares;
+  const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
     const int k = c.bodies[b], first = c.first[b];
     if (!s.bodies[k].is_elastic()) continue;
     const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
     const ElasticState& e = state.elastic[k].state;
+    const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
     hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
-    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(s, solid, state.time + horizon));
+    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
-    c.free.segment(first, e.v.size()) = e.v + dt * s.gravity().replicate(e.v.size() / Dim, 1);
+    c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
     c.J.blocks[b] = make_block(spread_shares(s, *g.shares[k], *g.attached[k], rows), c.freedom, first, int(e.u.size()));
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});

@@ -36,9 +36,8 @@ Film<Dim> measure_film(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, cons
 // With w u^2 kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as it
 // does in inviscid liquid that comes in from rest.
 template <int Dim>
-void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const Film<Dim>& film, double dt,
-                       FaceField<Dim>& u) {
-  const Vec<Dim> g = s.gravity();
+void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const Film<Dim>& film, const Vec3& g,
+                       double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       const double before = film.open.at(a, f), open = faces.open.at(a, f);
@@ -49,7 +48,8 @@ void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, cons
 
 #define SEICHE_INSTANTIATE(D)                                                                                          \
   template Film<D> measure_film<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&, const FaceField<D>&); \
-  template void set_film_velocity<D>(const Setup<D>&, const FaceGeometry<D>&, const Film<D>&, double, FaceField<D>&);
+  template void set_film_velocity<D>(const Setup<D>&, const FaceGeometry<D>&, const Film<D>&, const Vec3&, double,     \
+                                     FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

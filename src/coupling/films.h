@@ -17,7 +17,7 @@ Film<Dim> measure_film(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, 
 // continued from beside a slit does not know is that the liquid in it is under way, and its inertia is most of what a
 // body has that lifts off. Liquid pressed out of a narrowing slit leaves as a jet that the grid cannot carry.
 template <int Dim>
-void set_film_velocity(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const Film<Dim>& film, double dt,
-                       FaceField<Dim>& u);
+void set_film_velocity(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const Film<Dim>& film,
+                       const Vec3& gravity, double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -86,7 +86,7 @@ std::string first_text(const Communicator& ranks, const std::string& mine) {
 
 template <int Dim>
 void check_formulas_at_start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::string& fault) {
-  std::string mine = fault;
+  std::string mine = fault.empty() ? s.gravity.fault(0) : fault;
   if (mine.empty()) mine = fault_of_sides(s, g, 0);
   for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
     mine = fault_of_source(s, k, std::max(0.0, s.sources[k].spec.from));
@@ -94,8 +94,9 @@ void check_formulas_at_start(const Setup<Dim>& s, const StepGeometry<Dim>& g, co
 }
 
 template <int Dim>
-void check_sources_of_step(const Setup<Dim>& s, double t0, double t1) {
-  std::string mine;
+void check_forces_of_step(const Setup<Dim>& s, double t0, double t1) {
+  std::string mine = s.gravity.fault(0.5 * (t0 + t1));
+  if (mine.empty()) mine = s.gravity.fault(t1);
   for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
     if (const auto open = open_in_step(s.sources[k].spec, t0, t1)) mine = fault_of_source(s, k, open->begin);
   stop_where_any(s.ranks, mine, t0, t1);
@@ -110,7 +111,7 @@ void check_geometry_of_step(const Setup<Dim>& s, const StepGeometry<Dim>& g, dou
 #define SEICHE_INSTANTIATE(D)                                                                                 \
   template std::string not_finite_text<D>(const std::string&, const Formula&, double, const Vec<D>&, double); \
   template void check_formulas_at_start<D>(const Setup<D>&, const StepGeometry<D>&, const std::string&);      \
-  template void check_sources_of_step<D>(const Setup<D>&, double, double);                                    \
+  template void check_forces_of_step<D>(const Setup<D>&, double, double);                                     \
   template void check_geometry_of_step<D>(const Setup<D>&, const StepGeometry<D>&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

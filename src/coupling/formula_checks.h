@@ -11,15 +11,15 @@ std::string not_finite_text(const std::string& key, const Formula& formula, doub
 // The first text that is not empty, by rank, on all ranks. Collective.
 std::string first_text(const Communicator& ranks, const std::string& mine);
 
-// Throws Error(bad_input) with `fault` or where a side's or a source's formula is not finite as the run begins (a
-// source: as it begins). Collective.
+// Throws Error(bad_input) with `fault` or where gravity or a side's or a source's formula is not finite as the run
+// begins (a source: as it begins). Collective.
 template <int Dim>
 void check_formulas_at_start(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const std::string& fault);
 
-// Throw Error(cannot_continue) where a formula is not finite in a step from t0 to t1: of a source, before the
-// transport, and of a side or a solid's motion, as measured in `geometry`. Collective.
+// Throw Error(cannot_continue) where a formula is not finite in a step from t0 to t1: gravity or of a source,
+// before the transport, and of a side or a solid's motion, as measured in `geometry`. Collective.
 template <int Dim>
-void check_sources_of_step(const Setup<Dim>& setup, double t0, double t1);
+void check_forces_of_step(const Setup<Dim>& setup, double t0, double t1);
 template <int Dim>
 void check_geometry_of_step(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, double t0, double t1);
 

@@ -22,13 +22,14 @@ FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site c
 }  // namespace
 
 // E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
-// g.x.
+// g.x
+// with gravity at that time.
 template <int Dim>
 void measure_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
   const Level<Dim>& level = *state.now;
   std::array<double, 7> sums{};  // volume, kinetic, potential, momentum
   double fastest = 0, cells = 0;
-  const Vec<Dim> g = s.gravity();
+  const Vec<Dim> g = truncate<Dim>(s.gravity.at(state.time));
   for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     if (state.phi[c] > 2 * s.layout.h()) return;
     const double volume = s.layout.geometry().cell_volume() * liquid_share(s.layout, state.phi, psi, c);
@@ -54,7 +55,8 @@ void measure_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeFiel
   stats.volume_corrected = state.corrected_volume;
 }
 
-// E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x.
+// E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x
+// with gravity at that time.
 template <int Dim>
 void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
@@ -63,7 +65,7 @@ void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stat
     const double mass = s.bodies[k].mass().mass;
     const Vec3 w = angular_velocity(principal_inertia(s.bodies[k].mass().inertia), r.rotation, r.angular_momentum);
     stats.kinetic_energy += 0.5 * mass * r.velocity.squaredNorm() + 0.5 * w.dot(r.angular_momentum);
-    stats.potential_energy -= mass * s.scene.gravity.dot(r.center);
+    stats.potential_energy -= mass * s.gravity.at(state.time).dot(r.center);
     stats.momentum += mass * r.velocity;
   }
 }
@@ -79,7 +81,7 @@ void measure_elastic(const Setup<Dim>& s, const State<Dim>& state, StepStats& st
     const BodyAverage now = average(body, m.state.u, m.velocity);
     stats.kinetic_energy += kinetic_energy(body, m.state.v);
     stats.elastic_energy += elastic_energy(body, m.state.u);
-    stats.potential_energy -= s.bodies[k].mass().mass * s.scene.gravity.dot(now.center);
+    stats.potential_energy -= s.bodies[k].mass().mass * s.gravity.at(state.time).dot(now.center);
     stats.momentum += s.bodies[k].mass().mass * now.velocity;
   }
 }

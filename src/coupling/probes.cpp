@@ -67,11 +67,11 @@ std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& sta
   return direction * best;
 }
 
-// Axis and sense against gravity; along +y without gravity.
+// Axis and sense against gravity at the start; along +y without gravity then.
 template <int Dim>
 std::pair<int, int> upwards(const Setup<Dim>& s) {
   int axis = 1;
-  const Vec<Dim> g = s.gravity();
+  const Vec<Dim> g = truncate<Dim>(s.gravity.at(0));
   if (g.norm() > 0) g.cwiseAbs().maxCoeff(&axis);
   return {axis, g[axis] > 0 ? -1 : 1};
 }

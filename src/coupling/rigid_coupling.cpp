@@ -111,11 +111,11 @@ bool lies_within(const DomainSpec& d, const Body<Dim>& body, const Pose& pose) {
 // Pressure rho g.x + const on the face shares gives the force -rho g_a V_a along each axis and the torque
 // -rho sum_a g_a m_a x e_a; on the body itself -rho g V and none. The difference, for the wet part of the surface.
 template <int Dim>
-Generalised<Dim> buoyancy_difference(const Setup<Dim>& s, const Sums<Dim>& sums, double volume) {
+Generalised<Dim> buoyancy_difference(const Sums<Dim>& sums, double volume, const Vec3& weight_of_liquid) {
   const double wet = sums.surface > 0 ? sums.wet / sums.surface : 0;
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
   for (int a = 0; a < Dim; ++a) {
-    const double weight = s.density() * s.scene.gravity[a];
+    const double weight = weight_of_liquid[a];  // rho g_a
     Vec3 e = Vec3::Zero();
     e[a] = 1;
     force[a] = -weight * (volume - sums.volume[a]);
@@ -164,9 +164,11 @@ Twist unstacked(const Eigen::VectorXd& v, int first, const Vec3& about) {
 
 template <int Dim>
 void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                         const std::vector<RigidState>& rigid, double dt, double horizon, CouplingParts<Dim>& parts) {
+                         const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts) {
   constexpr int n = twist_size<Dim>;
   SolidCoupling<Dim>& c = parts.coupling;
+  const std::vector<RigidState>& rigid = state.rigid;
+  const Vec3 gravity = s.gravity.of_step(state.time, dt);
   std::vector<Sums<Dim>> sums;
   std::vector<std::size_t> places;
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
@@ -184,11 +186,12 @@ void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const 
   for (std::size_t m = 0; m < places.size(); ++m) {
     const int k = c.bodies[places[m]], first = c.first[places[m]];
     const Body<Dim>& body = s.bodies[k];
-    const Twist v = free_twist(body, rigid[k], s.scene.gravity, dt, horizon);
+    const Twist v = free_twist(body, rigid[k], gravity, dt, horizon);
     c.free.template segment<n>(first) = stacked<Dim>(v.linear, v.angular);
     if (lies_within<Dim>(s.scene.domain, body, g.placed[std::size_t(k)].pose))
       c.buoyancy_correction.template segment<n>(first) =
-          buoyancy_difference(s, sums[m], body.mass().volume).cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
+          buoyancy_difference(sums[m], body.mass().volume, s.density() * gravity)
+              .cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
   }
 }
 
@@ -213,7 +216,7 @@ void set_rigid_velocity(const Setup<Dim>& s, const SolidCoupling<Dim>& c, int k,
   template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);                          \
   template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                                          \
   template void couple_rigid_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,           \
-                                       const std::vector<RigidState>&, double, double, CouplingParts<D>&);        \
+                                       const State<D>&, double, double, CouplingParts<D>&);                       \
   template void set_rigid_velocity<D>(const Setup<D>&, const SolidCoupling<D>&, int, int, const Eigen::VectorXd&, \
                                       StepGeometry<D>&, RigidState&);
 SEICHE_INSTANTIATE(2)

@@ -7,7 +7,7 @@ namespace seiche {
 // Fills in what concerns the rigid bodies: their blocks of J, masses, velocities without liquid. Collective.
 template <int Dim>
 void couple_rigid_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                         const std::vector<RigidState>& rigid, double dt, double horizon, CouplingParts<Dim>& parts);
+                         const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts);
 
 // (v, omega) of a body and back: 3D all six, 2D v_x, v_y, omega_z.
 template <int Dim>

@@ -142,6 +142,7 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
 template <int Dim>
 Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
     : scene(sc),
+      gravity(sc.gravity),
       ranks(r),
       layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],
              halo_width(sc)),

@@ -46,7 +46,7 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g
                                  const State<Dim>& state, double dt, double horizon) {
   SolidCoupling<Dim> c = number_unknowns(s);
   CouplingParts<Dim> parts{c, {}};
-  couple_rigid_bodies(s, g, rows, state.rigid, dt, horizon, parts);
+  couple_rigid_bodies(s, g, rows, state, dt, horizon, parts);
   couple_elastic_bodies(s, g, rows, state, dt, horizon, parts);
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "base/gravity.h"
 #include "coupling/simulation.h"
 #include "coupling/step_geometry.h"
 #include "fluid/pressure.h"
@@ -22,6 +23,7 @@ struct Source {
 template <int Dim>
 struct Setup {
   Scene scene;
+  Gravity gravity;
   std::vector<std::string> notes;  // of reading the shapes, for the log
   Communicator ranks;
   Layout<Dim> layout;
@@ -39,7 +41,6 @@ struct Setup {
   ElasticScheme elastic_scheme() const {
     return scene.time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
   }
-  Vec<Dim> gravity() const { return truncate<Dim>(scene.gravity); }
   double density() const { return scene.liquid.density; }
   // Half width of the level-set band, m: what a step can cross, and the reach of the stencils.
   double band() const { return (std::ceil(scene.time.cfl) + 4) * layout.h(); }

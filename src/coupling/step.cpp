@@ -147,7 +147,7 @@ struct StepInProgress {
   bool transport_velocity() {
     const auto timed = phases.timers.measure("velocity");
     u_star = seiche::transport_velocity(s, before, out.state.phi, dt);
-    set_film_velocity(s, out.geometry.faces, before.film, dt, u_star);
+    set_film_velocity(s, out.geometry.faces, before.film, s.gravity.of_step(out.state.time, dt), dt, u_star);
     fill_velocity_ghosts(s.layout, s.halo, s.sides, u_star);
     out.failure = verify(s, out.state.phi, u_star);
     return out.failure.empty();

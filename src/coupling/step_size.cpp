@@ -41,8 +41,9 @@ namespace {
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
 // omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2.
 template <int Dim>
-double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state) {
-  const double v = fastest_component(s, state), g = s.gravity().norm(), reach = s.scene.time.cfl * s.layout.h();
+double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),
+               reach = s.scene.time.cfl * s.layout.h();
   if (g == 0) return v > 0 ? reach / v : std::numeric_limits<double>::infinity();
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
   return std::min(flow, 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g)));
@@ -163,7 +164,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
-  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state);
+  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
   if (s.has_elastic() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;

@@ -112,7 +112,7 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double
   if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
   const FaceField<Dim> trend = slope_trend(s, state, dt);
   const Level<Dim>& level = *state.now;
-  const Vec<Dim> g = s.gravity();
+  const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   const double limit = 0.25 * s.layout.h() / (dt * dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -160,7 +160,7 @@ double liquid_volume(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeF
 
 template <int Dim>
 CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, double dt, double& added) {
-  check_sources_of_step(s, state.time, state.time + dt);
+  check_forces_of_step(s, state.time, state.time + dt);
   CellField<Dim> joined = state.phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
   CellField<Dim> phi(s.layout);
@@ -191,7 +191,7 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
   FaceField<Dim> u(s.layout);
   advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
   limit_at_surfaces(s, *state.now, near, interior, u);
-  const Vec<Dim> g = s.gravity();
+  const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (near.at(a, f)) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/gravity.h"
 #include "io/checked_file.h"
 #include "io/frames.h"
 #include "io/png_writer.h"
@@ -44,7 +45,8 @@ Scene scene_of_run(const std::filesystem::path& run, const Say& say) {
 int axis_upwards(const Job& job) {
   if (job.options.up != "auto") return job.options.up[0] - 'x';
   int axis = 1;
-  if (job.scene.gravity.norm() > 0) job.scene.gravity.cwiseAbs().maxCoeff(&axis);
+  const Vec3 g = Gravity(job.scene.gravity).at(0);
+  if (g.norm() > 0) g.cwiseAbs().maxCoeff(&axis);
   return axis;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/gravity.h"
 #include "io/run_agree.h"
 #include "io/run_command.h"
 #include "io/run_loop.h"
@@ -65,9 +66,11 @@ Verified verify_solids(const Scene& scene) {
 
 // Steps if the liquid falls freely through the domain: v = sqrt(2 g H), dt = cfl h / v. At least one step a frame.
 double expected_steps(const Scene& scene) {
-  const double g = scene.gravity.norm();
+  const Gravity gravity(scene.gravity);
+  const Vec3 start = gravity.at(0);
+  const double g = gravity.largest(0, scene.time.end), first = start.norm();
   const Vec3 extent = scene.domain.upper - scene.domain.lower;
-  const double height = g > 0 ? std::abs(extent.dot(scene.gravity)) / g : 0;
+  const double height = first > 0 ? std::abs(extent.dot(start)) / first : g > 0 ? extent.maxCoeff() : 0;
   const double speed = std::sqrt(2 * g * height);
   double dt = speed > 0 ? scene.time.cfl * scene.domain.cell_size / speed : 1 / scene.time.frame_rate;
   if (scene.time.max_step) dt = std::min(dt, *scene.time.max_step);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <set>
 
+#include "base/gravity.h"
 #include "base/options.h"
 #include "io/suggest.h"
 
@@ -124,7 +125,7 @@ void check_names(const Checker& c, std::vector<Item>& items, const std::string& 
 
 void check_probes(const Checker& c, const Scene& scene) {
   Eigen::Index down = 0;
-  scene.gravity.cwiseAbs().maxCoeff(&down);
+  Gravity(scene.gravity).at(0).cwiseAbs().maxCoeff(&down);
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const ProbeSpec& probe = scene.probes[i];
     if (probe.kind == ProbeKind::front || !c.context.clean(fmt::format("probe.{}", i))) continue;

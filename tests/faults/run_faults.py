@@ -811,6 +811,21 @@ def no_gravity_and_too_much(bench):
         expect(abs(last["y"] - 0.5) <= bound and abs(last["x"] - 0.5) <= bound, f"moved to {last['x']}, {last['y']}")
 
 
+def gravity_flips(bench):
+    """Row 41: gravity that changes its sign each step: what is thrown up by one step is caught by the next."""
+    floating = rigid("a", box((0.4, 0.4), (0.6, 0.6)), 500.0)
+    # A step takes gravity at its middle, where the sine is one or minus one.
+    flips = '["0", "9.81*sign(sin(pi*t/0.005))"]'
+    text = box_scene([16, 16], POOL, floating, end=0.2).replace("[time]", "[time]\nfixed_step = 0.005")
+    bench.simulate("--overwrite", "--set", f"gravity={flips}", text=text).needs(0)
+    bench.run("resume", bench.path("out"), "--end", "0.4", "--quiet").needs(0)
+    last = rest_of(bench)
+    expect(abs(last["x"] - 0.5) < 1e-3 and abs(last["y"] - 0.5) < 0.01, f"moved to {last['x']}, {last['y']}")
+    text = box_scene([16, 16], POOL, floating)
+    bench.simulate("--overwrite", "--set", 'gravity=["0", "1/t"]', text=text).needs(2, "gravity[1]", "t = 0 s")
+    bench.simulate("--overwrite", "--set", 'gravity=["0", "-sqrt(0.03-t)"]', text=text).needs(3, "gravity[1]")
+
+
 def prescribed_motion_jumps(bench):
     """Row 42: a jump of 0.4 m is told at load or when it comes; a fast motion is cut into steps."""
     jump = kinematic("p", box((0.1, 0.1), (0.3, 0.3)), '["t < 0.1 ? 0 : 0.4", "0"]')
@@ -897,8 +912,8 @@ TABLES = {
     "frames": [frames_open_elsewhere],
     "command_line": [command_line],
     "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_leaves_the_domain, body_thinner_than_a_cell,
-              body_smaller_than_a_cell, too_many_bodies, fast_body_and_thin_wall, body_squeezed_between_solids, piston_in_a_full_tank,
-              density_ratios, no_gravity_and_too_much, prescribed_motion_jumps],
+              body_smaller_than_a_cell, too_many_bodies, fast_body_and_thin_wall, body_squeezed_between_solids,
+              piston_in_a_full_tank, density_ratios, no_gravity_and_too_much, gravity_flips, prescribed_motion_jumps],
     "elastic": [elastic_out_of_range, elastic_meshes_at_fault],
 }
 

@@ -69,6 +69,24 @@ TEST_CASE("a formula that is not finite at the start is a mistake of the scene, 
     }
 }
 
+TEST_CASE("gravity that is not finite is a mistake of the scene at the start and ends the run later") {
+  for (const auto& [formula, value] : {std::pair("sqrt(-1-t)", "nan"), std::pair("1/t", "infinite")}) {
+    Scene s = pool();
+    s.gravity.formula[1] = formula;
+    const auto [text, code] = test::end_of(s, 0.1);
+    INFO(text);
+    CHECK(code == ExitCode::bad_input);
+    CHECK(text ==
+          "gravity[1] = \"" + Formula(formula) + "\" is " + value + " at t = 0 s; it must be a finite number there");
+  }
+  Scene s = pool();
+  s.gravity.formula[0] = "0*sqrt(0.04-t)";
+  const auto [text, code] = test::end_of(s, 0.1);
+  INFO(text);
+  CHECK(code == ExitCode::cannot_continue);
+  CHECK(text.find("gravity[0] = \"0*sqrt(0.04-t)\" is nan at t = 0.0") != std::string::npos);
+}
+
 TEST_CASE("a shape's formula that is not finite is said with its place in the scene") {
   for (const Formula formula : {"sqrt(x-0.5)-0.1", "1/(0*x)"}) {
     Scene s = pool();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 
+#include "base/gravity.h"
 #include "io_scene_common.h"
 
 using namespace seiche;
@@ -248,11 +249,23 @@ TEST_CASE("a prescribed motion must be finite and must not jump") {
   CHECK_NOTHROW(parse(moving("{ translate = [\"1000*t\", 0, 0] }")));  // fast, but it does not jump
 }
 
+TEST_CASE("gravity is numbers, or formulas in t alone") {
+  const Scene s = parse("gravity = [\"2*t\", \"-9.81*sign(sin(t))\", 1]\n" + small_scene);
+  CHECK(Gravity(s.gravity).at(1.5) == Vec3(3, -9.81, 1));
+  CHECK(Gravity(parse(write_scene(s)).gravity).at(4.5) == Vec3(9, 9.81, 1));
+  CHECK(Gravity(s.gravity).largest(0, 10) == Approx(Vec3(20, 9.81, 1).norm()));
+  check_all({{"gravity = [0, \"x\", 0]\n" + small_scene, "uses x; it may depend on t alone"},
+             {"gravity = [0, \"1/0\", 0]\n" + small_scene, "gravity"},
+             {"gravity = [0, nan, 0]\n" + small_scene, "gravity"},
+             {"gravity = [0, \"-9.81\"]\n" + small_scene, "gravity"},
+             {"gravity = \"-9.81\"\n" + small_scene, "gravity"}});
+}
+
 TEST_CASE("a run that ends before it starts, zero and huge gravity are scenes") {
   CHECK(parse("[domain]\nupper = [1, 1, 1]\ncell_size = 0.5\n[time]\nend = 0\n").time.end == 0);
   CHECK(parse("[domain]\nupper = [1, 1, 1]\ncell_size = 0.5\n[time]\nend = -1\n").time.end == 0);
-  CHECK(parse("gravity = [-0.0, 0, -0]\n" + small_scene).gravity == Vec3(0, 0, 0));
-  CHECK(parse("gravity = [1e6, 0, 0]\n" + small_scene).gravity == Vec3(1e6, 0, 0));
+  CHECK(Gravity(parse("gravity = [-0.0, 0, -0]\n" + small_scene).gravity).at(0) == Vec3(0, 0, 0));
+  CHECK(Gravity(parse("gravity = [1e6, 0, 0]\n" + small_scene).gravity).at(0) == Vec3(1e6, 0, 0));
   CHECK(parse(small_scene + "max_step = 1e6\n").time.max_step == 1e6);
 }
 

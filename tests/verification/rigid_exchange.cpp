@@ -168,7 +168,7 @@ struct Balance {
   Momentum change, gravity, correction, solids, sides;
 
   explicit Balance(const Projection<Dim>& p) {
-    const Vec3 g = p.setup.scene.gravity;
+    const Vec3 g = p.setup.gravity.at(0);
     p.for_each_unknown([&](int a, Site f, const Vec3& x, double m) {
       change.add(x, along(a, m * (p.velocity(a, f) - (p.u_star.at(a, f) - dt * g[a]))));
       gravity.add(x, along(a, m * dt * g[a]));
