@@ -84,8 +84,9 @@ SOFT = TWENTY_STEPS + elastic("gate", 'shape = "box"\nlower = [0.41, 0.0]\nupper
 SOFT += elastic("lump", 'shape = "box"\nlower = [0.76, 0.002]\nupper = [0.9, 0.1]', "element_size = 0.06")
 SOFT += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
 
-SOFT_3D = SPLASH + elastic("lump", 'shape = "box"\nlower = [0.2, 0.003, 0.2]\nupper = [0.42, 0.25, 0.45]',
-                           "element_size = 0.125")
+SOFT_3D = SPLASH.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
+SOFT_3D += elastic("lump", 'shape = "box"\nlower = [0.2, 0.003, 0.2]\nupper = [0.42, 0.25, 0.45]',
+                   "element_size = 0.125")
 SOFT_3D += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
 
 COMPARED = ("time", "liquid_volume", "kinetic_energy", "potential_energy", "momentum_x", "momentum_y", "momentum_z",

@@ -1,4 +1,6 @@
 // The arithmetic behind the measures of `seiche validate`, on data whose answer is known.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -61,9 +61,10 @@ void check(const std::string& name, SolidSpec (*make)(const Stiffness&)) {
     WARN(name << ", E " << stiffness.youngs_modulus << ", nu " << stiffness.poisson_ratio << ": " << o.steps
               << " steps, " << o.rejected << " rejected; liquid at most " << o.fastest << ", body " << o.fastest_body
               << " m/s");
-    // The flow starts with 1 m/s and there is next to no weight that could drive it. A body that it crushes (E is less
+    // The flow starts with 1 m/s, there is next to no weight that could drive it, and round the tip of a stiff sheet it
+    // is some sqrt(length/cell) = 4.4 times as fast. A body that it crushes (E is less
     // than its pressure of 1e3 Pa) may be thrown as fast as the liquid's energy makes its mass.
-    CHECK(o.fastest <= 3);
+    CHECK(o.fastest <= 5);
     CHECK(o.fastest_body <= (stiffness.youngs_modulus > 1e3 ? 3 : 3 * std::sqrt(1000 / solid.rigid.density)));
   }
 }
