@@ -148,10 +148,17 @@ Points csv_points(const std::string& text) {
   return points;
 }
 
-Points probe_points(const std::string& text, const std::string& probe) {
-  const Points points = named_points(rows_of(text), probe, "value");
+Points probe_points(const std::string& text, const std::string& probe, const std::string& column) {
+  const Points points = named_points(rows_of(text), probe, column);
   if (points.empty()) fail(fmt::format("probe '{}' has no samples", probe));
   return points;
+}
+
+Points points_during(const Points& points, double from, double to) {
+  const double slack = 1e-9 * (to - from);
+  if (points.empty() || points.front().first > from + slack || points.back().first < to - slack)
+    fail(fmt::format("the run does not reach from {:g} s to {:g} s", from, to));
+  return points_where(points, [&](double x, double) { return x >= from - slack && x <= to + slack; });
 }
 
 Points solid_points(const std::string& text, const std::string& solid, const std::string& column) {

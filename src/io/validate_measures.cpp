@@ -75,6 +75,37 @@ Measurement period_of_probe(const MeasureSpec& spec, const RunPaths& run) {
   return against(mean_period(points, constant(spec.level)), constant(spec.reference));
 }
 
+Points component_of_probe(const MeasureSpec& spec, const RunPaths& run) {
+  return probe_points(read_whole_file(run.probes()), spec.probe, spec.column);
+}
+
+Measurement probe_period(const MeasureSpec& spec, const RunPaths& run) {
+  return against(mean_period(component_of_probe(spec, run), constant(spec.level)), constant(spec.reference));
+}
+
+Measurement probe_mean(const MeasureSpec& spec, const RunPaths& run) {
+  return against(settled_mean(component_of_probe(spec, run), spec.from, spec.to), constant(spec.reference));
+}
+
+// Largest and smallest value from `from` to `to`.
+std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = points_during(component_of_probe(spec, run), spec.from, spec.to);
+  std::pair<double, double> found{points.at(0).second, points[0].second};
+  for (const auto& [time, value] : points) found = {std::min(found.first, value), std::max(found.second, value)};
+  return found;
+}
+
+Measurement probe_peak(const MeasureSpec& spec, const RunPaths& run) {
+  const auto [low, high] = extremes(spec, run);
+  return against(std::abs(low) > std::abs(high) ? low : high, constant(spec.reference));
+}
+
+// Half the way between the extremes.
+Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
+  const auto [low, high] = extremes(spec, run);
+  return against(0.5 * (high - low), constant(spec.reference));
+}
+
 Measurement front_slope(const MeasureSpec& spec, const RunPaths& run) {
   Points points = probe_points(read_whole_file(run.probes()), spec.probe);
   const double time_unit = constant(spec.time_unit), length_unit = constant(spec.length_unit);
@@ -136,6 +167,10 @@ const std::vector<MeasureKind>& kinds() {
   static const std::vector<MeasureKind> table{
       {"vector_l2", {"velocity"}, vector_l2},
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe},
+      {"probe_period", {"probe", "column", "level", "reference"}, probe_period},
+      {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean},
+      {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak},
+      {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope},
       {"max_of_column", {"column"}, max_of_column},
       {"column_drift", {"column"}, column_drift},

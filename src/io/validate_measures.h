@@ -54,7 +54,10 @@ Points solid_points(const std::string& text, const std::string& solid, const std
 // The farthest that any solid goes from where it is in its first row with time >= from, m.
 double farthest_stray(const std::string& text, double from);
 
-// time and value of a probe, from the text of probes.csv, without undefined samples.
-Points probe_points(const std::string& text, const std::string& probe);
+// time and a column of a probe (vectors have x, y, z), from the text of probes.csv, without undefined samples.
+Points probe_points(const std::string& text, const std::string& probe, const std::string& column = "value");
+
+// The points with from <= x <= to. Throws Error(cannot_continue) where they do not reach that far.
+Points points_during(const Points& points, double from, double to);
 
 }  // namespace seiche

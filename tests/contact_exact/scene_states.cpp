@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "elastic_scenes.h"
 #include "exact_intersections.h"
 #include "io/scene_reader.h"
 #include "rigid_scenes.h"
@@ -60,7 +61,50 @@ class Surfaces {
 struct Faults {
   int crossings = 0, outside = 0, wound = 0;  // summed over the states
   int most_contacts = 0;
+  double least_volume = 1;  // det F of elastic solids
 };
+
+// Gradients of a simplex's shape functions by barycentric coordinates; nodes in the order of VTK. Row a is node a.
+Eigen::MatrixXd barycentric_gradients(const Eigen::VectorXd& at, int nodes) {
+  static const std::array<std::array<int, 2>, 6> sides{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+  const int n = int(at.size());
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(nodes, n);
+  for (int k = 0; k < n; ++k) g(k, k) = nodes == n ? 1 : 4 * at[k] - 1;
+  for (int m = n; m < nodes; ++m) {
+    const auto [a, b] = sides[std::size_t(m - n)];
+    g(m, a) = 4 * at[b];
+    g(m, b) = 4 * at[a];
+  }
+  return g;
+}
+
+// The least det F over a lattice of points in each element, corners and sides included, from what a frame holds.
+double least_volume_ratio(const VolumeFrame& frame) {
+  const int dim = frame.dimension, n = dim + 1, nodes = frame.order == 1 ? n : n * (n + 1) / 2;
+  double least = 1e300;
+  for (std::size_t e = 0; e < frame.elements.size(); e += std::size_t(nodes)) {
+    Eigen::MatrixXd X(dim, nodes), x(dim, nodes);
+    for (int a = 0; a < nodes; ++a) {
+      const auto node = std::size_t(frame.elements[e + std::size_t(a)]);
+      X.col(a) = frame.rest[node].head(dim);
+      x.col(a) = X.col(a) + frame.displacement[node].head(dim);
+    }
+    constexpr int parts = 4;
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j)
+        for (int k = 0; i + j + k <= (dim == 3 ? parts : i + j); ++k) {
+          Eigen::VectorXd at(n);
+          at[1] = double(i) / parts, at[2] = double(j) / parts;
+          if (dim == 3) at[3] = double(k) / parts;
+          at[0] = 1 - at.tail(dim).sum();
+          const Eigen::MatrixXd g = barycentric_gradients(at, nodes);
+          // Derivatives by lambda_1 ... lambda_dim, lambda_0 being the rest.
+          const Eigen::MatrixXd d = g.rightCols(dim) - g.col(0).replicate(1, dim);
+          least = std::min(least, (x * d).determinant() / (X * d).determinant());
+        }
+  }
+  return least;
+}
 
 Faults run(const Scene& scene, int steps) {
   const auto sim = make_simulation(scene, Communicator());
@@ -74,6 +118,9 @@ Faults run(const Scene& scene, int steps) {
     faults.outside += exact::points_outside(now, scene);
     faults.wound += exact::windings(now) != windings;
     faults.most_contacts = std::max(faults.most_contacts, stats.contacts);
+    for (std::size_t k = 0; k < scene.solids.size(); ++k)
+      if (scene.solids[k].kind == SolidKind::elastic)
+        faults.least_volume = std::min(faults.least_volume, least_volume_ratio(sim->solid_volume(k)));
   }
   return faults;
 }
@@ -82,10 +129,11 @@ void check(const std::string& name, const Scene& scene, int steps) {
   const Faults faults = run(scene, steps);
   WARN(name << ": " << steps << " steps, up to " << faults.most_contacts << " contacts; " << faults.crossings
             << " crossings, " << faults.outside << " points outside, " << faults.wound
-            << " states with one in another");
+            << " states with one in another; least det F " << faults.least_volume);
   CHECK(faults.crossings == 0);
   CHECK(faults.outside == 0);
   CHECK(faults.wound == 0);
+  CHECK(faults.least_volume > 0);
 }
 
 bool has_free_solids(const Scene& scene) {
@@ -155,6 +203,29 @@ Scene random_scene(int dim, unsigned seed) {
   return s;
 }
 
+// A soft ball thrown among boxes into shallow water before a soft gate.
+Scene soft_scene(int dim) {
+  Scene s = test::box_scene(dim, dim == 2 ? 32 : 16);
+  s.gravity = {0, -9.81, 0};
+  test::add_pool(s, 0.3);
+  const double z = dim == 3 ? 1 : 0;
+  const double size = dim == 2 ? 0.05 : 0.1;
+  SolidSpec ball = test::elastic_solid("ball", 600, {2e4, 0.45}, size);
+  ball.shape.kind = "sphere";
+  ball.shape.center = {0.4, 0.6, 0.5 * z};
+  ball.shape.radius = 0.14;
+  ball.rigid.velocity = {1, -4, 0};
+  ball.friction = 0.3;
+  s.solids.push_back(ball);
+  s.solids.push_back(
+      test::elastic_box("gate", {0.72, 0, 0.3 * z}, {0.78, 0.5, 0.7 * z}, 1100, {5e4, 0.4}, dim == 2 ? 0.04 : 0.12));
+  test::pin(s.solids.back(), {0.6, -0.1, 0}, {0.9, 0, 1});
+  s.solids.push_back(test::rigid_box("low", {0.12, 0.12, 0.12 * z}, {0.35, 0.32, 0.5 * z}, 500));
+  s.solids.push_back(test::rigid_box("high", {0.12, 0.12, 0.12 * z}, {0.55, 0.33, 0.45 * z}, 300, 20));
+  for (auto& solid : s.solids) solid.friction = 0.3;
+  return s;
+}
+
 }  // namespace
 
 TEST_CASE("the exact tests see what intersects, what is outside and what has got into another") {
@@ -190,4 +261,22 @@ TEST_CASE("no accepted state of random dam breaks onto bodies has solids that in
     for (unsigned seed = 1; seed <= 3; ++seed) DYNAMIC_SECTION(dim << "D, seed " << seed) {
         check(fmt::format("{}D, seed {}", dim, seed), random_scene(dim, seed), dim == 2 ? 150 : 80);
       }
+}
+
+TEST_CASE("no accepted state of a soft ball among boxes and a gate has solids that intersect or invert", "[elastic]") {
+  for (int dim : {2, 3}) check(fmt::format("{}D, soft", dim), soft_scene(dim), dim == 2 ? 150 : 40);
+}
+
+TEST_CASE("the least det F is seen anywhere in an element", "[elastic]") {
+  VolumeFrame frame;
+  frame.dimension = 2, frame.order = 2;
+  frame.rest = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}};
+  frame.displacement.assign(6, Vec3::Zero());
+  frame.elements = {0, 1, 2, 3, 4, 5};
+  CHECK(least_volume_ratio(frame) == Approx(1));
+  for (int a = 0; a < 6; ++a) frame.displacement[std::size_t(a)] = -0.5 * frame.rest[std::size_t(a)];
+  CHECK(least_volume_ratio(frame) == Approx(0.25));
+  frame.displacement.assign(6, Vec3::Zero());
+  frame.displacement[3] = {-0.26, 0, 0};  // a node of a side beyond its quarter
+  CHECK(least_volume_ratio(frame) < 0);
 }

@@ -73,6 +73,22 @@ TUMBLE = SPLASH + rigid("box", 'shape = "box"\nlower = [0.15, 0.003, 0.2]\nupper
 TUMBLE += rigid("rider", 'shape = "box"\nlower = [0.2, 0.253, 0.22]\nupper = [0.35, 0.45, 0.4]', 300.0)
 TUMBLE += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
 
+def elastic(name, shape, keys):
+    return (f'[[solid]]\nname = "{name}"\nkind = "elastic"\ndensity = 1100.0\nfriction = 0.3\n{shape}\n{keys}\n'
+            'material = { youngs_modulus = 1.0e5, poisson_ratio = 0.4 }\n')
+
+
+# A gate that the dam bends, with a soft box and a rigid ball beside it.
+SOFT = TWENTY_STEPS + elastic("gate", 'shape = "box"\nlower = [0.41, 0.0]\nupper = [0.48, 0.25]',
+                              'element_size = 0.04\npinned = { shape = "box", lower = [0.4, -0.1], upper = [0.5, 0.0] }')
+SOFT += elastic("lump", 'shape = "box"\nlower = [0.76, 0.002]\nupper = [0.9, 0.1]', "element_size = 0.06")
+SOFT += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
+
+SOFT_3D = SPLASH.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
+SOFT_3D += elastic("lump", 'shape = "box"\nlower = [0.2, 0.003, 0.2]\nupper = [0.42, 0.25, 0.45]',
+                   "element_size = 0.125")
+SOFT_3D += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
+
 COMPARED = ("time", "liquid_volume", "kinetic_energy", "potential_energy", "momentum_x", "momentum_y", "momentum_z",
             "max_speed")
 
@@ -134,12 +150,33 @@ def rigid_ranks_agree_3d(bench):
     expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
 
 
-def same_ranks_same_bits(bench):
-    """Two runs on three ranks, rigid bodies among them."""
+def elastic_ranks_agree_2d(bench):
+    """A gate, a soft box on the floor and a floating ball on 1, 2 and 3 ranks."""
+    ranks_agree(bench, SOFT, (2, 3))
+    expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
+
+
+def elastic_ranks_agree_3d(bench):
+    """A soft box, a ball and a paddle in 3D on 1, 2 and 3 ranks."""
+    ranks_agree(bench, SOFT_3D, (2, 3))
+    expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
+
+
+def same_bits_twice(bench, text):
     for out in ("one", "two"):
-        bench.simulate(text=TUMBLE, out=out, ranks=3).needs(0)
+        bench.simulate(text=text, out=out, ranks=3).needs(0)
     same_tables(bench.path("one"), bench.path("two"))
     same_frames(bench.path("one"), bench.path("two"))
+
+
+def same_ranks_same_bits(bench):
+    """Two runs on three ranks, rigid bodies among them."""
+    same_bits_twice(bench, TUMBLE)
+
+
+def elastic_same_ranks_same_bits(bench):
+    """Two runs on three ranks, elastic bodies among them."""
+    same_bits_twice(bench, SOFT)
 
 
 def killed_at_random(bench, ranks, kills, solids=""):
@@ -190,8 +227,15 @@ def rigid_bodies_killed_at_random(bench):
     killed_at_random(bench, 2, 3, BOXES[len(TWENTY_STEPS):])
 
 
-TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, same_ranks_same_bits],
-          "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random]}
+def elastic_bodies_killed_at_random(bench):
+    """kill -9 of one of two ranks while the flood bends a gate and carries a ball."""
+    killed_at_random(bench, 2, 3, SOFT[len(TWENTY_STEPS):])
+
+
+TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d,
+                       elastic_ranks_agree_3d, same_ranks_same_bits, elastic_same_ranks_same_bits],
+          "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
+                      elastic_bodies_killed_at_random]}
 
 if __name__ == "__main__":
     sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)

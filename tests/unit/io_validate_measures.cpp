@@ -1,4 +1,6 @@
 // The arithmetic behind the measures of `seiche validate`, on data whose answer is known.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -105,11 +107,36 @@ TEST_CASE("rows of one solid are picked from solids.csv, and the farthest way of
   CHECK_THROWS_AS(farthest_stray(text, 3), Error);
 }
 
+TEST_CASE("a component of a vector probe is measured by its period, mean, peak and amplitude") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::string text = "time,name,value,x,y,z\n";
+  for (int n = 0; n <= 1000; ++n)
+    text += fmt::format("{},tip,,0,{:.17g},0\n", 0.01 * n, 1 - 3 * std::cos(6.283185307179586 * 0.01 * n));
+  put(run.probes(), text);
+  MeasureSpec spec;
+  spec.probe = "tip", spec.column = "y", spec.to = 10;
+  const auto value = [&](const char* kind, const char* reference) {
+    spec.kind = kind, spec.reference = reference;
+    const Measurement m = measure(spec, run);
+    CHECK(m.error == Approx(std::abs(m.value / *m.reference - 1)).margin(1e-15));
+    return m.value;
+  };
+  CHECK(value("probe_mean", "2") == Approx(1));
+  CHECK(value("probe_peak", "2") == Approx(4));
+  CHECK(value("probe_amplitude", "2") == Approx(3));
+  spec.level = "1";
+  CHECK(value("probe_period", "2") == Approx(1));
+  spec.to = 11;
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
+}
+
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  for (const char* kind : {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "column_drift",
-                           "volume_drift", "solid_mean", "solid_slope", "solids_stray"}) {
+  for (const char* kind :
+       {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "column_drift", "volume_drift", "solid_mean",
+        "solid_slope", "solids_stray", "probe_period", "probe_mean", "probe_peak", "probe_amplitude"}) {
     MeasureSpec spec;
     spec.kind = kind;
     try {

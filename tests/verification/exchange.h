@@ -1,0 +1,230 @@
+#pragma once
+// One projection of liquid with rigid and elastic bodies: what goes in, what comes out, and what passes between them.
+#include <catch2/catch.hpp>
+#include <functional>
+#include <random>
+
+#include "coupling/coupled_solve.h"
+#include "coupling/measures.h"
+#include "grid/loops.h"
+#include "scenes.h"
+
+namespace seiche::test {
+
+enum class Filling { closed, surface, outflow };
+
+struct Dice {
+  std::mt19937 engine;
+  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  Vec3 vector(int dim, double low, double high) {
+    Vec3 v = Vec3::Zero();
+    for (int a = 0; a < dim; ++a) v[a] = (*this)(low, high);
+    return v;
+  }
+};
+
+constexpr double dt = 0.01;
+
+// One projection: what went in, what came out.
+template <int Dim>
+struct Projection {
+  Setup<Dim> setup;
+  State<Dim> state;
+  StepGeometry<Dim> geometry;
+  FaceField<Dim> u_star;
+  std::vector<RigidState> before;
+  std::vector<ElasticMotion> elastic_before;
+  PressureRows<Dim> rows;
+  SolidCoupling<Dim> coupling;
+
+  // `deform` may change the state of the elastic bodies first. Without them there is no contact.
+  Projection(const Scene& scene, Filling filling, int seed, const std::function<void(ElasticState&)>& deform = {})
+      : setup(scene, Communicator()), u_star(setup.layout) {
+    if (!setup.has_elastic()) setup.contact.reset();
+    Dice dice{std::mt19937(unsigned(seed + 1000))};
+    state.phi = CellField<Dim>(setup.layout, -1);
+    state.pressure = CellField<Dim>(setup.layout);
+    for_each_index_in_order(setup.layout, setup.layout.padded(), [&](Site c, const IVec<Dim>& i) {
+      const Vec<Dim> x = setup.layout.position(i, cell_offset<Dim>());
+      if (filling == Filling::surface) state.phi[c] = x[1] - 0.71 + 0.1 * std::sin(7 * x[0]);
+    });
+    for (const Body<Dim>& body : setup.bodies) {
+      state.rigid.push_back(initial_rigid_state(body));
+      state.elastic.push_back(initial_elastic_motion(body));
+      if (body.is_elastic()) deform(state.elastic.back().state);
+    }
+    before = state.rigid;
+    elastic_before = state.elastic;
+    geometry = setup.solids.measure(place_bodies(setup, state), 0);
+    for (int a = 0; a < Dim; ++a)
+      for (double& u : u_star[a]) u = dice(-1, 1);
+    rows = number_rows(input());
+    coupling = couple_solids(setup, geometry, rows, state, dt, dt);
+  }
+
+  ProjectionInput<Dim> input() const {
+    return {setup.layout, setup.halo, setup.ranks, state.phi, geometry.faces, setup.density(), dt};
+  }
+
+  void solve() {
+    const auto solution =
+        solve_coupled(setup, input(), geometry, state, CellField<Dim>(setup.layout), u_star, dt, PhaseFault::none);
+    INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.ladder, "; ")));
+    REQUIRE(solution.failure.empty());
+    state.pressure = solution.pressure;
+  }
+
+  Eigen::VectorXd velocities() const {
+    Eigen::VectorXd v(coupling.target.size());
+    for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
+      const int k = coupling.bodies[b], first = coupling.first[b], n = coupling.first[b + 1] - first;
+      const RigidState& r = state.rigid[k];
+      v.segment(first, n) = setup.bodies[k].is_elastic()
+                                ? state.elastic[k].velocity
+                                : Eigen::VectorXd(stacked<Dim>(r.velocity, r.angular_velocity));
+    }
+    return v;
+  }
+
+  // Share of the link between the centres beside a face that is liquid.
+  double theta(int axis, Site f) const {
+    const Site low = f - setup.layout.stride(axis);
+    if (geometry.faces.kind_at(axis, f) == FaceKind::outflow) return 0.5;
+    if (rows.row[low] >= 0 && rows.row[f] >= 0) return 1;
+    return rows.row[low] >= 0 ? surface_distance(state.phi[low], state.phi[f])
+                              : surface_distance(state.phi[f], state.phi[low]);
+  }
+
+  // visit(axis, face, position, mass rho w theta h^Dim) of the faces whose velocity the projection changes.
+  template <class Visit>
+  void for_each_unknown(const Visit& visit) const {
+    const Layout<Dim>& l = setup.layout;
+    for (int a = 0; a < Dim; ++a)
+      for_each_index_in_order(l, l.faces(a), [&](Site f, const IVec<Dim>& i) {
+        const bool wet = rows.row[f] >= 0 || rows.row[f - l.stride(a)] >= 0;
+        if (!wet || !geometry.faces.is_unknown(a, f)) return;
+        const double mass = setup.density() * l.geometry().cell_volume() * geometry.faces.open.at(a, f) * theta(a, f);
+        visit(a, f, extend<Dim>(l.position(i, face_offset<Dim>(a))), mass);
+      });
+  }
+
+  double velocity(int axis, Site f) const {
+    return u_star.at(axis, f) - dt * face_pressure_slope(input(), rows, state.pressure, axis, f);
+  }
+};
+
+// Momentum and, about the origin, angular momentum.
+struct Momentum {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+  void add(const Vec3& at, const Vec3& p) {
+    linear += p;
+    angular += at.cross(p);
+  }
+};
+
+inline Vec3 along(int axis, double value) {
+  Vec3 v = Vec3::Zero();
+  v[axis] = value;
+  return v;
+}
+
+// The discrete balance of the velocities before gravity and after the solve. Each unknown face has m (u - u*) = -dt A w
+// (p_high - p_low), each body and static solid takes dt A s (p_low - p_high) of each face at the face's centre, and w
+// and the shares s of a face sum to one. So all of it sums to -dt A sum_f (p_high - p_low), which telescopes along
+// every row of cells to what acts on the sides of the domain: dt A w p_cell on walls, dt A w p_side on outflow sides.
+// Torques too: the two faces of a cell across an axis differ by h along that axis, which is no arm for a force along
+// it.
+template <int Dim>
+struct Balance {
+  Momentum change, gravity, correction, solids, sides;
+
+  explicit Balance(const Projection<Dim>& p) {
+    const Vec3 g = p.setup.scene.gravity;
+    p.for_each_unknown([&](int a, Site f, const Vec3& x, double m) {
+      change.add(x, along(a, m * (p.velocity(a, f) - (p.u_star.at(a, f) - dt * g[a]))));
+      gravity.add(x, along(a, m * dt * g[a]));
+    });
+    for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
+      const int k = p.coupling.bodies[b];
+      const double m = p.setup.bodies[k].mass().mass;
+      if (p.setup.bodies[k].is_elastic()) {
+        add_elastic(p, k);
+        continue;
+      }
+      const RigidState &now = p.state.rigid[k], &old = p.before[k];
+      change.add(now.center, m * (now.velocity - old.velocity));
+      change.angular += now.angular_momentum - old.angular_momentum;
+      gravity.add(now.center, dt * m * g);
+      const Twist extra = unstacked<Dim>(p.coupling.buoyancy_correction, p.coupling.first[b], now.center);
+      correction.add(now.center, dt * extra.linear);
+      correction.angular += dt * extra.angular;
+    }
+    const auto solids_now = measure_solids(p.setup, p.state, p.geometry);
+    for (std::size_t k = 0; k < solids_now.size(); ++k) {
+      if (p.setup.bodies[k].is_rigid() || p.setup.bodies[k].is_elastic()) continue;
+      solids.add(solids_now[k].position, -dt * solids_now[k].force);
+      solids.angular -= dt * solids_now[k].torque;
+    }
+    add_sides(p);
+  }
+
+  // Linear momentum alone: pressure acts at face centres, and the elastic forces balance where the solve leads to.
+  void add_elastic(const Projection<Dim>& p, int k) {
+    const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
+    const Eigen::VectorXd dv = p.state.elastic[k].velocity - p.elastic_before[k].state.v, momentum = body.mass * dv;
+    for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
+    gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.scene.gravity;
+  }
+
+  void add_sides(const Projection<Dim>& p) {
+    const Layout<Dim>& l = p.setup.layout;
+    for (int a = 0; a < Dim; ++a)
+      for_each_index_in_order(l, l.faces(a), [&](Site f, const IVec<Dim>& i) {
+        if (i[a] != 0 && i[a] != l.geometry().cells[a]) return;
+        const Site inside = i[a] == 0 ? f : f - l.stride(a);
+        if (p.rows.row[inside] < 0) return;
+        const FaceKind kind = p.geometry.faces.kind_at(a, f);
+        const double pressure =
+            kind == FaceKind::outflow ? p.geometry.faces.side_pressure.at(a, f) : p.state.pressure[inside];
+        const double impulse = dt * l.geometry().face_area() * p.geometry.faces.open.at(a, f) * pressure;
+        sides.add(extend<Dim>(l.position(i, face_offset<Dim>(a))), along(a, i[a] == 0 ? impulse : -impulse));
+      });
+  }
+
+  double error(Vec3 Momentum::*part) const {
+    const Vec3 rest = change.*part - gravity.*part - correction.*part - solids.*part - sides.*part;
+    double largest = 0;
+    for (const Momentum* m : {&change, &gravity, &correction, &solids, &sides})
+      largest = std::max(largest, (m->*part).cwiseAbs().maxCoeff());
+    return rest.cwiseAbs().maxCoeff() / largest;
+  }
+};
+
+// The flux J v out of each cell as the geometry has it for the liquid, against J of the bodies' force.
+template <int Dim>
+double adjointness_error(Projection<Dim>& p) {
+  Dice dice{std::mt19937(3)};
+  Eigen::VectorXd v(p.coupling.target.size());
+  for (double& x : v) x = dice(-1, 1);
+  Vector pressure(p.rows.cells.size());
+  for (double& x : pressure) x = dice(-1, 1);
+  const double forces = v.dot(multiply_transposed(p.coupling.J, pressure, p.setup.ranks));
+  for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
+    const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
+    if (p.setup.bodies[k].is_elastic()) {
+      set_node_velocity(p.setup.layout, k, v.segment(first, n), p.geometry);
+      continue;
+    }
+    set_twist(p.setup.layout, k, Twist{}, p.geometry);
+    set_twist(p.setup.layout, k, unstacked<Dim>(v, first, p.state.rigid[k].center), p.geometry);
+  }
+  double fluxes = 0, size = 0;
+  for (std::size_t n = 0; n < pressure.size(); ++n)
+    for_each_face_of(p.setup.layout, p.rows.cells[n], [&](int a, Site f, int sign, Site) {
+      fluxes += sign * pressure[n] * p.geometry.faces.closed_flux.at(a, f);
+      size += std::abs(pressure[n] * p.geometry.faces.closed_flux.at(a, f));
+    });
+  return std::abs(fluxes - forces) / size;
+}
+
+}  // namespace seiche::test
