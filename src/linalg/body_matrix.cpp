@@ -97,7 +97,8 @@ Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
     if (part.owner == ranks_.rank()) x(part.rows) = part.factor.solve(gathered(b, part.rows));
   // Each sum has one term that is not zero: no rounding.
   ranks_.global_sum(std::span<double>(x.data(), std::size_t(x.size())));
-  if (!shared_.empty()) x(shared_) = shared_factor_.solve(gathered(b, shared_));
+  // By way of a vector: Eigen would permute within the rows of x, and take what it has written for what it reads.
+  if (!shared_.empty()) x(shared_) = Eigen::VectorXd(shared_factor_.solve(gathered(b, shared_)));
   return x;
 }
 
