@@ -54,7 +54,7 @@ void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
 
 namespace {
 
-constexpr int most_corrections = 40;
+constexpr int most_corrections = 30;
 // Contact and liquid agree when velocities are known to this many tolerances of the liquid's solves, and never better
 // than rounding lets the model's factors tell.
 constexpr double tolerances = 100, least_tolerance = 1e-9;
@@ -79,8 +79,8 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   while (r.corrections < most_corrections) {
     r.contact = solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity);
     newton_iterations += r.contact.newton_iterations;
-    const bool untouched = r.corrections == 0 && r.contact.newton_iterations == 0;
-    if (!r.contact.failure.empty() || untouched) return r;
+    r.agreed = r.corrections == 0 && r.contact.newton_iterations == 0;  // nothing is touched
+    if (!r.contact.failure.empty() || r.agreed) return r;
     const InertiaResponse liquid = problem.respond(r.contact.velocity);
     ++r.corrections;
     r.contact.failure = liquid.failure;
@@ -88,10 +88,10 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
     if (!liquid.failure.empty()) return r;
     const double off = model.error(liquid.velocity, liquid.gradient).cwiseProduct(speeds).cwiseAbs().maxCoeff();
     const double fastest = liquid.velocity.cwiseProduct(speeds).cwiseAbs().maxCoeff();
-    if (off <= agreed * (fastest + options.usual_speed)) return r;
+    r.agreed = off <= agreed * (fastest + options.usual_speed);
+    if (r.agreed) return r;
     model.learn(liquid.velocity, liquid.gradient);
   }
-  r.contact.failure = "contact and liquid do not come to agree";
   return r;
 }
 

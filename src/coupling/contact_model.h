@@ -33,7 +33,13 @@ class AddedMassModel : public InertiaProblem {
 struct ContactInLiquid {
   ContactReport contact;
   int corrections = 0;  // liquid solves after the first
+  // Whether the model came to agree with the liquid. Else the velocities are free of intersections and near the
+  // minimum, but not it.
+  bool agreed = false;
 };
+
+// The model is dense: more bodies than this are quicker without it.
+constexpr std::size_t most_modelled = 100;
 
 // The minimum of the liquid's energy with contact; the pressure of `problem` belongs to the velocities returned.
 // `speeds` holds, for each degree of freedom, the speed of the body's farthest point where it is one.

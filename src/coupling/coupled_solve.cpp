@@ -51,9 +51,21 @@ std::string settle(const SolidCoupling<Dim>& coupling, LiquidProblem<Dim>& probl
   return r.failure;
 }
 
+// Contact that asks the liquid at every turn of Newton's method, from the velocities `found` by the model if any.
+template <int Dim>
+ContactReport solve_in_turns(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt, double horizon,
+                             const SolidCoupling<Dim>& coupling, LiquidProblem<Dim>& problem,
+                             const ContactOptions& options, const ContactReport& found) {
+  ContactReport contact =
+      solve_contact(*s.contact, motions, horizon, dt, problem, options, found.velocity, coupling.potential.get());
+  const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
+  if (touched && !coupling.potential) contact.failure = settle(coupling, problem, contact);
+  contact.newton_iterations += found.newton_iterations;
+  return contact;
+}
+
 // Velocities of the bodies; the pressure that goes with them is left in the problem. Bodies that close off liquid are
-// beyond the model of the added mass, and elastic ones have too many unknowns for it: contact then asks the liquid at
-// every turn.
+// beyond the model of the added mass; elastic ones have too many unknowns for it, and so have many rigid ones.
 template <int Dim>
 Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon,
                          const SolidCoupling<Dim>& coupling, const SpdSolver& solver, LiquidProblem<Dim>& problem,
@@ -68,15 +80,15 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
   const auto motions = contact_motions(s, state, horizon);
   const ContactOptions options = contact_options(s);
   ContactReport contact;
-  if (!coupling.potential && solver.sensed_components().empty()) {
-    contact = solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, solver, problem,
-                                      unit_speeds(s, coupling), s.scene.solver.tolerance, options)
-                  .contact;
-  } else {
-    contact = solve_contact(*s.contact, motions, horizon, dt, problem, options, {}, coupling.potential.get());
-    const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
-    if (touched && !coupling.potential) contact.failure = settle(coupling, problem, contact);
+  bool agreed = false;
+  if (!coupling.potential && solver.sensed_components().empty() && coupling.bodies.size() <= most_modelled) {
+    ContactInLiquid modelled = solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, solver, problem,
+                                                       unit_speeds(s, coupling), s.scene.solver.tolerance, options);
+    agreed = modelled.agreed;
+    contact = std::move(modelled.contact);
   }
+  if (!agreed && contact.failure.empty())
+    contact = solve_in_turns(s, motions, dt, horizon, coupling, problem, options, contact);
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;

@@ -153,7 +153,7 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const double remaining = until_frame(spec, next.time);
   if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
   constexpr double margin = 0.9;
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next));
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next, next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   return land(limit_of_solids(s, next, plan), remaining);
 }

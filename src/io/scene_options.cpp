@@ -261,6 +261,16 @@ Key<Scene> access_key() {
   return key;
 }
 
+Key<Scene> gravity_key() {
+  return value_key<Scene>(
+      {.key = "gravity",
+       .type = T::formula_vector,
+       .unit = "m/s^2",
+       .variables = "t",
+       .doc = "acceleration, the same everywhere; a step takes that at its middle"},
+      [](auto& s) -> auto& { return s.gravity.formula; });
+}
+
 Section<Scene> build_scene_section() {
   using S = Scene;
   const auto itself = [](auto& s) -> auto& {
@@ -271,13 +281,7 @@ Section<Scene> build_scene_section() {
       value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
       dimension_key(),
       access_key(),
-      value_key<S>(
-          {.key = "gravity",
-           .type = T::formula_vector,
-           .unit = "m/s^2",
-           .variables = "t",
-           .doc = "acceleration, the same everywhere; a step takes that at its middle"},
-          [](auto& s) -> auto& { return s.gravity.formula; }),
+      gravity_key(),
       block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},
                    &S::domain, domain_section()),
       block_key<S>({.key = "time", .presence = Presence::required, .doc = "how long (end) and in which steps"},

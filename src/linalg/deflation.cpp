@@ -13,6 +13,8 @@ namespace {
 // Cells around a body within which its own column of B J is kept where there are many bodies; for few it is kept whole.
 // Wider ranges save iterations and cost more colours (docs/decisions/0006-many-bodies.md).
 constexpr int cut_reach = 4;
+// Columns from which dense factors are worth it.
+constexpr Eigen::Index least_dense = 100;
 
 // Values of v on the rows that lie in a range.
 SparseColumn cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range) {
@@ -90,6 +92,7 @@ Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
   make_columns();
   add_component_columns();
   multiply_out();
+  factor_own();
 }
 
 Deflation::Regions Deflation::find_regions() const {
@@ -226,7 +229,7 @@ bool Deflation::refresh() {
   if (Z_.empty() || !S_.is_coupled()) return true;
   const auto& blocks = S_.columns().blocks;
   const bool combined = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.deforms(); });
-  return combined ? multiply_small() : factor_extended();
+  return combined ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
 }
 
 // Where H is large: column by column.
@@ -262,8 +265,41 @@ bool Deflation::factor_extended() {
   return extended_.info() == Eigen::Success;
 }
 
+// What does not depend on H where Z'AZ is all but dense, as it is of many bodies in 3D: dense factors are then far
+// quicker than sparse ones. Closed components make Z'AZ singular.
+void Deflation::factor_own() {
+  const auto n = Eigen::Index(Z_.size()), m = Eigen::Index(S_.columns().columns());
+  constexpr double dense = 0.1;
+  if (n < least_dense || n > body_columns_ || double(zaz_.size()) < dense * double(n) * double(n)) return;
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& t : zaz_) F(t.row(), t.col()) += t.value();
+  F.diagonal().array() += regularization_;
+  own_.emplace(F);
+  if (own_->info() != Eigen::Success) return own_.reset();
+  W_.setZero(n, m);
+  for (const auto& t : jz_) W_(t.col(), t.row()) += t.value();
+  own_->matrixL().solveInPlace(W_);
+  added_.setZero(m, m);
+  added_.selfadjointView<Eigen::Lower>().rankUpdate(W_.transpose());
+}
+
+bool Deflation::factor_added_mass() {
+  Eigen::MatrixXd T = added_;
+  const SparseMatrix& H = S_.bodies();
+  for (int k = 0; k < H.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it) T(it.row(), it.col()) += it.value() / S_.scale();
+  added_mass_.compute(T);
+  return added_mass_.info() == Eigen::Success;
+}
+
+// With F = Z'AZ = LL', W = L^-1 (J'Z)':  E^-1 = L^-T (1 - W (H/c + W'W)^-1 W') L^-1.
 Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
   if (small_) return small_->solve(f);
+  if (own_) {
+    Eigen::VectorXd y = own_->matrixL().solve(f);
+    y -= W_ * added_mass_.solve(W_.transpose() * y);
+    return own_->matrixU().solve(y);
+  }
   Eigen::VectorXd all = Eigen::VectorXd::Zero(f.size() + S_.columns().columns());
   all.head(f.size()) = f;
   return extended_.solve(all).head(f.size());

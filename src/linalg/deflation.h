@@ -58,6 +58,8 @@ class Deflation {
   Eigen::VectorXd transposed(const std::vector<SparseColumn>& columns, const Vector& x) const;
   bool multiply_small();
   bool factor_extended();
+  void factor_own();
+  bool factor_added_mass();
   Eigen::VectorXd solve_small(const Eigen::VectorXd& f) const;
   void subtract(const Eigen::VectorXd& q, Vector& z) const;
 
@@ -71,6 +73,9 @@ class Deflation {
   int applications_ = 0;
   std::optional<Eigen::LDLT<Eigen::MatrixXd>> small_;  // of E
   Eigen::SimplicialLDLT<SparseMatrix> extended_;       // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> own_;     // or, where nearly all columns overlap: Z'AZ = LL',
+  Eigen::MatrixXd W_, added_;                          // W = L^-1 (J'Z)', W'W,
+  Eigen::LLT<Eigen::MatrixXd> added_mass_;             // H/c + W'W
 };
 
 }  // namespace seiche

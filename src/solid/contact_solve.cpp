@@ -85,6 +85,10 @@ class Solver {
     const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
     at_ = place<Dim>(scene_, interval_, velocities(zero, share_));
     if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
+    if (e_.shape == Shape::indefinite) {
+      fail("contact: the energy of the bodies' inertia is not convex");
+      return false;
+    }
     free_velocity_ = e_.velocity;
     const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, velocities(e_.velocity, 1), weights_.reach);
     if (way.share < 1) return false;

@@ -139,7 +139,7 @@ struct Balance {
   Momentum change, gravity, correction, solids, sides;
 
   explicit Balance(const Projection<Dim>& p) {
-    const Vec3 g = p.setup.scene.gravity;
+    const Vec3 g = p.setup.gravity.at(0);
     p.for_each_unknown([&](int a, Site f, const Vec3& x, double m) {
       change.add(x, along(a, m * (p.velocity(a, f) - (p.u_star.at(a, f) - dt * g[a]))));
       gravity.add(x, along(a, m * dt * g[a]));
@@ -173,7 +173,7 @@ struct Balance {
     const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
     const Eigen::VectorXd dv = p.state.elastic[k].velocity - p.elastic_before[k].state.v, momentum = body.mass * dv;
     for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
-    gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.scene.gravity;
+    gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.gravity.at(0);
   }
 
   void add_sides(const Projection<Dim>& p) {
