@@ -177,7 +177,7 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template PressureRows<D> number_rows<D>(const ProjectionInput<D>&);                                                 \
-  template DistributedMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);               \
+  template DistributedMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);          \
   template std::vector<double> pressure_right_side<D>(const ProjectionInput<D>&, const PressureRows<D>&,              \
                                                       const FaceField<D>&);                                           \
   template double face_pressure_slope<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, int, \
