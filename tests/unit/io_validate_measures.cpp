@@ -127,7 +127,7 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   CHECK(value("probe_amplitude", "2") == Approx(3));
   spec.level = "1";
   CHECK(value("probe_period", "2") == Approx(1));
-  spec.to = 11;
+  spec.kind = "probe_peak", spec.to = 11;
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
 }
 
