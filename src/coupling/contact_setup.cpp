@@ -102,6 +102,15 @@ std::string other_name(const Setup<Dim>& s, const Overlap& o) {
   return fmt::format("the side {}_{}", "xyz"[axis], normal[axis] > 0 ? "lower" : "upper");
 }
 
+// Pinned solids are often meant to stand on something.
+template <int Dim>
+std::string remedy(const Setup<Dim>& s, const Overlap& o) {
+  const Body<Dim>& body = s.bodies[o.body];
+  const bool moves = o.with == Overlap::With::body && (s.bodies[o.other].is_rigid() || s.bodies[o.other].is_elastic());
+  if (!body.is_elastic() || body.elastic().pins.empty() || moves) return "move them apart";
+  return "move them apart, or let the part that is pinned end at the other's surface";
+}
+
 template <int Dim>
 std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
   if (!s.contact) return {};
@@ -118,10 +127,18 @@ void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
   std::string all;
   const double least = clearance * reach * s.layout.h();
   for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, state, 0), least)) {
+    const SolidSpec& spec = s.bodies[o.body].spec();
+    if (o.with == Overlap::With::body && o.other == o.body) {
+      all += fmt::format(
+          "{}{}: the surface of the elements of solid '{}' crosses itself; take another element_size, or "
+          "round its edges",
+          all.empty() ? "" : "\n", spec.shape.where, spec.name);
+      continue;
+    }
     const std::string how = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
                                         : fmt::format("touch or are closer than {:.3g} m", least);
-    all += fmt::format("{}{}: solid '{}' and {} {} at the start; move them apart", all.empty() ? "" : "\n",
-                       s.bodies[o.body].spec().shape.where, s.bodies[o.body].spec().name, other_name(s, o), how);
+    all += fmt::format("{}{}: solid '{}' and {} {} at the start; {}", all.empty() ? "" : "\n", spec.shape.where,
+                       spec.name, other_name(s, o), how, remedy(s, o));
   }
   if (!all.empty()) throw Error(ExitCode::bad_input, all);
 }

@@ -1,5 +1,8 @@
 #include "coupling/restore.h"
 
+#include <optional>
+#include <unordered_map>
+
 #include "coupling/films.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
@@ -41,11 +44,39 @@ Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, in
   return v;
 }
 
+// Velocities of elastic solids on the faces that they close, as far in as their surface is near.
+template <int Dim>
+class ElasticVelocities {
+ public:
+  ElasticVelocities(const Setup<Dim>& s, const StepGeometry<Dim>& g) : g_(g), shares_(s.bodies.size()) {
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+      if (!s.bodies[k].is_elastic()) continue;
+      for (std::size_t n = 0; n < g.shares[k]->size(); ++n)
+        shares_[k][std::size_t((*g.shares[k])[n].axis)][(*g.shares[k])[n].face] = n;
+    }
+  }
+  std::optional<Vec<Dim>> at(int body, int axis, Site face) const {
+    const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
+    const auto found = faces.find(face);
+    if (found == faces.end()) return {};
+    const SurfacePoint<Dim>& point = (*g_.attached[std::size_t(body)])[found->second];
+    if (point.weights[0] + point.weights[1] + point.weights[Dim - 1] == 0) return {};
+    Vec<Dim> v;
+    for (int b = 0; b < Dim; ++b) v[b] = velocity_at(point, b, g_.placed[std::size_t(body)].velocity);
+    return v;
+  }
+
+ private:
+  const StepGeometry<Dim>& g_;
+  std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
+};
+
 // In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n. Solved faces keep theirs.
 template <int Dim>
 void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                    const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
   const FaceField<Dim> old = u;
+  const ElasticVelocities<Dim> elastic(s, g);
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
@@ -54,8 +85,9 @@ void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceFi
       if (d.psi >= 0 || norm == 0) return;
       const Vec<Dim> n = d.gradient / norm;
       const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
-      const Vec<Dim> v = truncate<Dim>(g.placed[g.body[f]].twist.at(x));
-      u.at(a, f) += (v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
+      std::optional<Vec<Dim>> v = truncate<Dim>(g.placed[g.body[f]].twist.at(x));
+      if (s.bodies[g.body[f]].is_elastic()) v = elastic.at(g.body[f], a, f);
+      if (v) u.at(a, f) += (*v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
     });
 }
 

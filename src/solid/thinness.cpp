@@ -1,12 +1,49 @@
 #include "solid/thinness.h"
 
+#include "levelset/mesh_distance.h"
+
 namespace seiche {
 namespace {
 
 // A second or so.
 constexpr double most_samples = 2e7, most_samples_of_mesh = 2e6;
 
+// A ball counts as fitting when it does but for rounding.
+constexpr double radius = 0.499;  // of h
+
+// Triangles in 3D; in 2D segments as triangles without area.
+template <int Dim>
+SurfaceMesh as_triangles(SurfaceMesh mesh) {
+  for (const auto& [a, b] : mesh.segments) mesh.triangles.push_back({a, b, b});
+  return mesh;
+}
+
+// Corners, middles of the edges (corners taken in pairs) and the centroid of an element.
+template <int Dim>
+std::vector<Vec<Dim>> samples_of(const ElasticMesh<Dim>& mesh, int e) {
+  std::vector<Vec<Dim>> samples;
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (int i = 0; i <= Dim; ++i) {
+    const Vec<Dim>& x = mesh.nodes[std::size_t(mesh.element(e)[i])];
+    for (int j = 0; j <= i; ++j) samples.push_back(0.5 * (x + mesh.nodes[std::size_t(mesh.element(e)[j])]));
+    sum += x;
+  }
+  samples.push_back(sum / (Dim + 1));
+  return samples;
+}
+
 }  // namespace
+
+template <int Dim>
+bool is_thinner_than(const ElasticSolid<Dim>& solid, double h) {
+  const SurfaceMesh surface = as_triangles<Dim>(solid.surface.facets);
+  const mesh::NearestTriangle nearest(surface);
+  const ElasticMesh<Dim>& mesh = solid.body.mesh;
+  for (int e = 0; e < mesh.element_count(); ++e)
+    for (const Vec<Dim>& x : samples_of(mesh, e))
+      if (nearest.distance(extend<Dim>(x), h) >= radius * h) return false;
+  return true;
+}
 
 template <int Dim>
 bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, const Vec<Dim>& upper) {
@@ -24,11 +61,13 @@ bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, con
     Vec<Dim> x = low;
     for (int a = 0, rest = n; a < Dim; rest /= int(count[a]), ++a)
       x[a] += (high[a] - low[a]) * (rest % int(count[a])) / std::max(1.0, count[a] - 1);
-    if (body.distance_at_rest(x) < -0.499 * h) return false;
+    if (body.distance_at_rest(x) < -radius * h) return false;
   }
   return true;
 }
 
+template bool is_thinner_than<2>(const ElasticSolid<2>&, double);
+template bool is_thinner_than<3>(const ElasticSolid<3>&, double);
 template bool is_thinner_than<2>(const Body<2>&, double, const Vec<2>&, const Vec<2>&);
 template bool is_thinner_than<3>(const Body<3>&, double, const Vec<3>&, const Vec<3>&);
 

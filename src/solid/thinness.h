@@ -10,4 +10,8 @@ namespace seiche {
 template <int Dim>
 bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
+// The same of an elastic solid at rest, by the nodes, the middles of the edges and the centroids of its elements.
+template <int Dim>
+bool is_thinner_than(const ElasticSolid<Dim>& solid, double h);
+
 }  // namespace seiche

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "solid/elastic_outline.h"
 #include "solid/elastic_solid.h"
+#include "solid/thinness.h"
 #include "solid_elastic_cases.h"
 
 using namespace seiche;
@@ -297,4 +298,23 @@ TEST_CASE("An outline keeps its corners and its length", "[elastic][meshing]") {
     length += d;
   }
   CHECK(length == Approx(4));
+}
+
+// Plates 0.04 m thick of one and of four elements across, balls 0.2 m across.
+TEST_CASE("an elastic solid is thin where no ball of the cell's size fits into it") {
+  for (const double size : {0.1, 0.01}) {
+    CAPTURE(size);
+    const auto plate = make<2>(block({0, 0, 0}, {0.04, 0.4, 0}, size));
+    CHECK(is_thinner_than(plate, 0.041));
+    CHECK_FALSE(is_thinner_than(plate, 0.039));
+  }
+  for (const int order : {1, 2}) {
+    CAPTURE(order);
+    const auto plate = make<3>(block({0, 0, 0}, {0.3, 0.04, 0.3}, 0.05, order)),
+               round = make<3>(ball(0.1, 0.05, order));
+    CHECK(is_thinner_than(plate, 0.041));
+    CHECK_FALSE(is_thinner_than(plate, 0.039));
+    CHECK(is_thinner_than(round, 0.21));
+    CHECK_FALSE(is_thinner_than(round, 0.15));
+  }
 }
