@@ -61,6 +61,7 @@ TEST_CASE("bodies and liquid fall alike under gravity that grows") {
     s.solids.push_back(elastic_box({0.6, 0.6, dim == 3 ? 0.4 : 0}, {0.8, 0.8, dim == 3 ? 0.6 : 0}, 1100));
     s.time.scheme = TimeScheme::first_order;
     s.time.fixed_step = 0.005;
+    s.time.frame_rate = 20;  // whole steps to a frame
     LiquidRegionSpec drop;
     drop.shape.kind = "sphere";
     drop.shape.center = {0.45, 0.35, dim == 3 ? 0.5 : 0};
