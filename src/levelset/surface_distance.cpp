@@ -68,6 +68,22 @@ double seen_angle(const std::array<Vec<3>, 3>& p, const Vec<3>& x) {
   return 2 * std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
 }
 
+// The cells of `within` that come within `distance` cells of the box around some points.
+template <int Dim, class Points>
+Box<Dim> cells_around(const Layout<Dim>& layout, const Points& points, double distance, const Box<Dim>& within) {
+  Vec<Dim> low = Vec<Dim>::Constant(1e300), high = -low;
+  for (const Vec<Dim>& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  Box<Dim> box;
+  for (int a = 0; a < Dim; ++a) {
+    const double i = (low[a] - layout.geometry().lower[a]) / layout.h() - distance;
+    const double j = (high[a] - layout.geometry().lower[a]) / layout.h() + distance;
+    const double least = within.lower[a], most = within.upper[a];
+    box.lower[a] = int(std::clamp(std::floor(i), least, most));
+    box.upper[a] = int(std::clamp(std::floor(j) + 1, least, most));
+  }
+  return box;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -90,16 +106,8 @@ template <int Dim>
 SurfaceDistance<Dim>::SurfaceDistance(const Layout<Dim>& layout, const SurfaceMesh& facets,
                                       const std::vector<Vec<Dim>>& points)
     : layout_(layout), facets_(facets), points_(points) {
-  Vec<Dim> low = Vec<Dim>::Constant(1e300), high = -low;
-  for (const Vec<Dim>& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  box_ = layout.padded();
-  for (int a = 0; a < Dim; ++a) {
-    const double i = (low[a] - layout.geometry().lower[a]) / layout.h() - margin;
-    const double j = (high[a] - layout.geometry().lower[a]) / layout.h() + margin;
-    const double least = box_.lower[a], most = box_.upper[a];
-    box_.lower[a] = int(std::clamp(std::floor(i), least, most));
-    box_.upper[a] = int(std::clamp(std::ceil(j) + 1, least, most));
-  }
+  box_ = cells_around(layout, points, margin, layout.padded());
+  box_.upper = (box_.upper.array() + 1).matrix().cwiseMin(layout.padded().upper);  // nodes: one more than cells
   make_bins();
   make_normals();
 }
@@ -108,17 +116,7 @@ template <int Dim>
 void SurfaceDistance<Dim>::make_bins() {
   const int count = int(Dim == 2 ? facets_.segments.size() : facets_.triangles.size());
   for (int f = 0; f < count; ++f) {
-    Box<Dim> cells;
-    const auto p = corner_points(f);
-    Vec<Dim> low = p[0], high = p[0];
-    for (const Vec<Dim>& x : p) low = low.cwiseMin(x), high = high.cwiseMax(x);
-    for (int a = 0; a < Dim; ++a) {
-      const double i = (low[a] - layout_.geometry().lower[a]) / layout_.h() - reach;
-      const double j = (high[a] - layout_.geometry().lower[a]) / layout_.h() + reach;
-      const double least = box_.lower[a], most = box_.upper[a];
-      cells.lower[a] = int(std::clamp(std::floor(i), least, most));
-      cells.upper[a] = int(std::clamp(std::floor(j) + 1, least, most));
-    }
+    const Box<Dim> cells = cells_around(layout_, corner_points(f), reach, box_);
     if (cells.empty()) continue;
     for_each_index_in_order(layout_, cells, [&](Site s, const IVec<Dim>&) { bins_[s].push_back(f); });
   }

@@ -14,6 +14,7 @@ using Overrides = std::vector<Override>;
 
 // The smallest scene.
 inline const std::string small_scene = "[domain]\nupper = [1, 1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
+inline const std::string flat_scene = "dimension = 2\n[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
 
 // Reads `text` as scene.toml in the folder.
 Scene parse(const std::string& text, const Overrides& overrides = {}, const std::filesystem::path& folder = ".");

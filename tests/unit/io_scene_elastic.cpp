@@ -14,7 +14,6 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const std::string flat_scene = "dimension = 2\n[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
 const std::string rubber = "material = { youngs_modulus = 1e6, poisson_ratio = 0.4 }\n";
 const std::string bottom = "pinned = { shape = \"plane\", point = [0, 0.3, 0], normal = [0, 1, 0] }\n";
 

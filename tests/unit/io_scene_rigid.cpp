@@ -14,8 +14,6 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-const std::string flat_scene = "dimension = 2\n[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
-
 std::string scene_of(int dimension) {
   return dimension == 2 ? flat_scene : small_scene;
 }

@@ -1,8 +1,7 @@
 // What a solve with elastic bodies costs: iterations at any stiffness, density and resolution.
 #include <catch2/catch.hpp>
 
-#include "coupling/liquid_problem.h"
-#include "coupling/transport.h"
+#include "first_solve.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;
@@ -29,34 +28,21 @@ Scene immersed_block(int cells, double youngs_modulus, double ratio) {
   return s;
 }
 
-// Iterations of the first Newton step of a first step of 1 ms, from zero pressure.
+// Iterations of the first Newton step.
 int iterations(const Scene& scene) {
-  constexpr int Dim = 3;
-  constexpr double dt = 1e-3;
-  const Setup<Dim> s(scene, Communicator());
-  State<Dim> state = initial_state(s);
-  StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
-  const ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, state.phi, g.faces, s.density(), dt};
-  const PressureRows<Dim> rows = number_rows(in);
-  const SolidCoupling<Dim> coupling = couple_solids(s, g, rows, state, dt, dt);
-  const double c1 = s.density() * s.layout.h() / dt, c2 = dt * s.layout.geometry().face_area();
-  const DistributedMatrix A = assemble_pressure_matrix(in, rows);
-  const RowGrid grid = row_grid(in, rows);
-  SpdSolver solver(A, grid, find_closed_components(in, rows), coupling.J, c1 * c2, {.tolerance = 1e-8}, s.ranks);
-  const Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt));
-  Vector p(b.size());
-  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(coupling.size());
+  test::FirstSolve f(scene);
+  const int n = f.coupling.size();
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
   std::vector<Eigen::Triplet<double>> entries;
-  coupling.potential->add_terms(Eigen::VectorXd::Zero(coupling.size()), Curvature::exact, gradient, entries);
-  SparseMatrix K(coupling.size(), coupling.size());
+  f.coupling.potential->add_terms(Eigen::VectorXd::Zero(n), Curvature::exact, gradient, entries);
+  SparseMatrix K(n, n);
   K.setFromTriplets(entries.begin(), entries.end());
-  const InertiaResponse response = problem.minimise(K, -gradient);
+  const InertiaResponse response = f.problem.minimise(K, -gradient);
   INFO(response.failure);
   REQUIRE(response.failure.empty());
   REQUIRE(response.shape == Shape::convex);
-  CHECK(problem.report().ladder.empty());
-  return problem.report().iterations;
+  CHECK(f.problem.report().ladder.empty());
+  return f.problem.report().iterations;
 }
 
 void check_block(int cells) {

@@ -1,8 +1,7 @@
 // What a solve with rigid bodies costs: iterations at any density ratio and rank count, set-up for many bodies.
 #include <catch2/catch.hpp>
 
-#include "coupling/liquid_problem.h"
-#include "coupling/transport.h"
+#include "first_solve.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;
@@ -39,35 +38,16 @@ struct Effort {
   int setup = 0;    // applications of the preconditioner before the first
 };
 
-// The solves of a first step of 1 ms, from zero pressure.
 Effort measure(const Scene& scene) {
-  constexpr int Dim = 3;
-  constexpr double dt = 1e-3;
-  const Setup<Dim> s(scene, Communicator());
-  State<Dim> state = initial_state(s);
-  StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
-  const ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, state.phi, g.faces, s.density(), dt};
-  const PressureRows<Dim> rows = number_rows(in);
-  const SolidCoupling<Dim> coupling = couple_solids(s, g, rows, state, dt, dt);
-  const double c1 = s.density() * s.layout.h() / dt, c2 = dt * s.layout.geometry().face_area();
-  const DistributedMatrix A = assemble_pressure_matrix(in, rows);
-  const RowGrid grid = row_grid(in, rows);
-  SpdSolver solver(A, grid, find_closed_components(in, rows), coupling.J, c1 * c2, {.tolerance = 1e-8}, s.ranks);
-  const Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt));
-  Vector p(b.size());
-  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
-  REQUIRE(problem.minimise(SparseMatrix(0, 0), Eigen::VectorXd::Zero(problem.size())).failure.empty());
-  Effort e{problem.report().iterations, 0, solver.setup_applications()};
-  Vector still(b.size());
-  const SolveReport fixed = solver.solve(BodyMatrix(s.ranks), b, still);
+  test::FirstSolve f(scene);
+  REQUIRE(f.problem.minimise(SparseMatrix(0, 0), Eigen::VectorXd::Zero(f.problem.size())).failure.empty());
+  Effort e{f.problem.report().iterations, 0, f.solver.setup_applications()};
+  Vector still(f.b.size());
+  const SolveReport fixed = f.solver.solve(BodyMatrix(f.s.ranks), f.b, still);
   REQUIRE(fixed.converged);
   e.fixed = fixed.iterations;
   return e;
 }
-
-}  // namespace
-
-namespace {
 
 void check_ratios(std::initializer_list<int> grids) {
   int least = 1000, most = 0;
