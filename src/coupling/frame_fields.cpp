@@ -1,6 +1,7 @@
 // Fields for frames, from the owned cells.
 #include "base/error.h"
 #include "coupling/measures.h"
+#include "coupling/viscous_coupling.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -47,6 +48,10 @@ FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const 
     });
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
+  else if (name == "viscosity")
+    fill(FrameField::Kind::scalar, [&, mu = measure_viscosity(s, state.phi, *state.now, state.time)](Site c) {
+      out.values.push_back(state.phi[c] < 0 ? float(mu.value[c]) : 0.0f);
+    });
   else if (name == "vorticity")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(vorticity(s, state, c))); });
   else

@@ -6,15 +6,16 @@
 namespace seiche {
 
 template <int Dim>
-RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& u,
+RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& flow,
                                           double t)
-    : setup_(s), phi_(phi), time_(t), last_(u), viscosity_(measure_viscosity(s, phi, u, t)) {}
+    : setup_(s), phi_(phi), time_(t), last_(flow.u), viscosity_(measure_viscosity(s, phi, flow, t)) {}
 
 template <int Dim>
-bool RheologyIteration<Dim>::is_unsettled_by(const FaceField<Dim>& u) {
+bool RheologyIteration<Dim>::is_unsettled_by(const Level<Dim>& flow) {
   ++count_;
   if (setup_.scene.liquid.rheology.model.empty()) return false;
   const FaceField<Dim, char> near = faces_near_liquid(setup_, phi_);
+  const FaceField<Dim>& u = flow.u;
   std::array<double, 2> largest{};  // difference, velocity
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(setup_.layout, setup_.layout.faces(a), [&](Site f, const IVec<Dim>&) {
@@ -27,7 +28,7 @@ bool RheologyIteration<Dim>::is_unsettled_by(const FaceField<Dim>& u) {
   last_ = u;
   if (change_ <= setup_.scene.solver.rheology_tolerance || count_ >= setup_.scene.solver.rheology_iterations)
     return false;
-  viscosity_ = measure_viscosity(setup_, phi_, u, time_);
+  viscosity_ = measure_viscosity(setup_, phi_, flow, time_);
   return true;
 }
 

@@ -7,8 +7,8 @@ namespace seiche {
 template <int Dim>
 class RheologyIteration {
  public:
-  // Begins with the viscosity of the velocities u (ghosts filled). Keeps references to all but u.
-  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const FaceField<Dim>& u, double t);
+  // Begins with the viscosity of the velocities of `flow`. Keeps a reference to the setup.
+  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow, double t);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
   int count() const { return count_; }  // of solves
   double change() const { return change_; }
@@ -16,7 +16,7 @@ class RheologyIteration {
   // Takes the velocities that the last solve gave. Whether another solve is due: they differ from those before by more
   // than solver.rheology_tolerance of the fastest, and solver.rheology_iterations are not used up. Never in Newtonian
   // liquid. Collective.
-  bool is_unsettled_by(const FaceField<Dim>& u);
+  bool is_unsettled_by(const Level<Dim>& flow);
 
  private:
   const Setup<Dim>& setup_;

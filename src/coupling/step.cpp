@@ -211,7 +211,7 @@ struct StepInProgress {
     }
     const State<Dim> moved = out.state;
     const StepGeometry<Dim> measured = out.geometry;
-    RheologyIteration<Dim> rheology(s, out.state.phi, before.now->u, out.state.time);
+    RheologyIteration<Dim> rheology(s, out.state.phi, *before.now, out.state.time);
     do {
       CellField<Dim> guess = std::move(out.state.pressure);
       out.state = moved;
@@ -220,7 +220,7 @@ struct StepInProgress {
       if (!solve(&rheology.viscosity())) return;
       restore();
       if (!out.failure.empty()) return;
-    } while (rheology.is_unsettled_by(out.state.now->u));
+    } while (rheology.is_unsettled_by(*out.state.now));
     out.rheology_iterations = rheology.count();
   }
 };

@@ -84,7 +84,7 @@ BlockColumns scaled(BlockColumns J, double by) {
 }  // namespace
 
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& u,
+ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& flow,
                                       double t) {
   ViscosityField<Dim> mu{CellField<Dim>(s.layout), 0, true};
   const LiquidSpec& liquid = s.scene.liquid;
@@ -92,7 +92,7 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>&
     evaluate_formula(s, t, mu.value);
     mu.uniform = Expression(liquid.viscosity).is_constant();
   } else {
-    set_viscosity(s.layout, s.halo, liquid.rheology, u, mu.value);
+    set_viscosity(s.layout, s.halo, resolve_rheology(s.scene), flow.u, flow.valid, mu.value);
     mu.uniform = false;
   }
   const double largest = local_max(s.layout, s.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
@@ -103,8 +103,9 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>&
 template <int Dim>
 ViscousRoute choose_route(const Setup<Dim>& s, const ViscosityField<Dim>& mu, double dt) {
   constexpr double reaches_a_cell = 0.5;
-  const std::string& asked = s.scene.solver.viscosity;
-  if (asked != "auto") return asked == "split" ? ViscousRoute::split : ViscousRoute::coupled;
+  const ViscousSolve asked = s.scene.solver.viscosity;
+  if (asked != ViscousSolve::automatic)
+    return asked == ViscousSolve::split ? ViscousRoute::split : ViscousRoute::coupled;
   const double reach = mu.largest * dt / (s.density() * s.layout.h() * s.layout.h());
   return reach < reaches_a_cell ? ViscousRoute::split : ViscousRoute::coupled;
 }
@@ -187,9 +188,9 @@ double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::Vecto
   return viscous_dissipation(input_, system_, u, v);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template ViscosityField<D> measure_viscosity<D>(const Setup<D>&, const CellField<D>&, const FaceField<D>&, double); \
-  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);                           \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template ViscosityField<D> measure_viscosity<D>(const Setup<D>&, const CellField<D>&, const Level<D>&, double); \
+  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);                       \
   template class ViscousStep<D>;
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

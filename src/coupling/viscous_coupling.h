@@ -13,10 +13,10 @@ struct ViscosityField {
   bool uniform = true;
 };
 
-// As the scene gives it at time t, of shear-dependent liquid for the velocities u (ghosts filled). Collective. Throws
+// As the scene gives it at time t, of shear-dependent liquid for the velocities of `flow`. Collective. Throws
 // Error(cannot_continue) where a formula is not a number or negative.
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Setup<Dim>& setup, const CellField<Dim>& phi, const FaceField<Dim>& u,
+ViscosityField<Dim> measure_viscosity(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow,
                                       double t);
 
 // split: viscosity acts first, pressure then; coupled: both in one solve.
