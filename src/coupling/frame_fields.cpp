@@ -1,5 +1,6 @@
 // Fields for frames, from the owned cells.
 #include "base/error.h"
+#include "coupling/liquid_viscosity.h"
 #include "coupling/measures.h"
 #include "grid/loops.h"
 
@@ -28,6 +29,18 @@ double vorticity(const Setup<Dim>& s, const State<Dim>& state, Site c) {
 
 }  // namespace
 
+// Pa s, in the liquid; 0 elsewhere.
+template <int Dim>
+CellField<Dim> viscosity(const Setup<Dim>& s, const State<Dim>& state) {
+  CellField<Dim> mu(s.layout);
+  const std::string fault = set_liquid_viscosity(s, state.now->u, state.now->valid, state.time, mu);
+  if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    if (state.phi[c] >= 0) mu[c] = 0;
+  });
+  return mu;
+}
+
 template <int Dim>
 FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const std::string& name) {
   FrameField out;
@@ -47,6 +60,8 @@ FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const 
     });
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
+  else if (name == "viscosity")
+    fill(FrameField::Kind::scalar, [&, mu = viscosity(s, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(vorticity(s, state, c))); });
   else
