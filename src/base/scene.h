@@ -79,8 +79,23 @@ struct LiquidSourceSpec {
   double until = std::numeric_limits<double>::infinity();
 };
 
+// Viscosity by shear rate; which of the numbers a model has, the table in fluid/rheology.h says.
+struct RheologySpec {
+  std::string model;                     // a name of that table; empty: the liquid is Newtonian
+  double viscosity = 0;                  // Pa s
+  double consistency = 0;                // Pa s^exponent
+  double exponent = 1;                   // of the shear rate in the stress
+  double yield_stress = 0;               // Pa
+  double viscosity_zero = 0;             // Pa s, at rest
+  double viscosity_infinity = 0;         // Pa s, at any large shear rate
+  double time = 0;                       // s
+  std::optional<double> regularisation;  // shear rate below which stiffness is bounded, 1/s; unset: fluid/rheology.h
+};
+
 struct LiquidSpec {
   double density = 1000;
+  Formula viscosity = "0.0";  // Pa s; not used where there is a rheology
+  RheologySpec rheology;
   bool separates = false;  // pressure at walls and solids is held at or above zero: liquid may part from them
   VectorFormula velocity{"0", "0", "0"};
   std::vector<LiquidRegionSpec> regions;
@@ -145,9 +160,15 @@ struct ProbeSpec {
   std::string where{};          // "scene.toml:14" for messages
 };
 
+// How viscosity is solved for: with the pressure, after it, or by what the viscosity asks for.
+enum class ViscousSolve { automatic, split, coupled };
+
 struct SolverSpec {
   double tolerance = 1e-8;
   std::string preconditioner = "auto";
+  ViscousSolve viscosity = ViscousSolve::automatic;
+  double rheology_tolerance = 1e-4;  // change of velocity between outer iterations, relative
+  int rheology_iterations = 30;      // outer ones a step, at most
 };
 
 struct OutputSpec {

@@ -134,6 +134,8 @@ class FlowSimulation : public Simulation {
     divergence_ = a.divergence;
     newton_iterations_ = a.newton_iterations;
     contacts_ = a.contacts;
+    dissipation_ = a.dissipation;
+    rheology_iterations_ = a.rheology_iterations;
     for (const std::string& line : a.solve.ladder)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh();
@@ -151,6 +153,8 @@ class FlowSimulation : public Simulation {
     stats_.max_divergence = divergence_;
     stats_.newton_iterations = newton_iterations_;
     stats_.contacts = contacts_;
+    stats_.viscous_dissipation = dissipation_;
+    stats_.rheology_iterations = rheology_iterations_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
     solids_ = measure_solids(setup_, state_, geometry_);
@@ -184,7 +188,8 @@ class FlowSimulation : public Simulation {
   std::vector<SurfaceMesh> surfaces_;
   SolveReport solve_;
   double divergence_ = 0;
-  int newton_iterations_ = 0, contacts_ = 0;
+  int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
+  double dissipation_ = 0;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "coupling/liquid_viscosity.h"
 #include "coupling/sources.h"
 #include "grid/loops.h"
 
@@ -70,11 +71,16 @@ void stop_where_any(const Communicator& ranks, const std::string& mine, double t
 }  // namespace
 
 template <int Dim>
-std::string not_finite_text(const std::string& key, const Formula& formula, double value, const Vec<Dim>& x, double t) {
-  std::string place = fmt::format("{:g}", x[0]);
+std::string place_text(const Vec<Dim>& x) {
+  std::string place = fmt::format("({:g}", x[0]);
   for (int a = 1; a < Dim; ++a) place += fmt::format(", {:g}", x[a]);
-  return fmt::format("{} = \"{}\" is {} at ({}), t = {:g} s; it must be a finite number there", key, formula,
-                     std::isnan(value) ? "nan" : "infinite", place, t);
+  return place + ")";
+}
+
+template <int Dim>
+std::string not_finite_text(const std::string& key, const Formula& formula, double value, const Vec<Dim>& x, double t) {
+  return fmt::format("{} = \"{}\" is {} at {}, t = {:g} s; it must be a finite number there", key, formula,
+                     std::isnan(value) ? "nan" : "infinite", place_text<Dim>(x), t);
 }
 
 std::string first_text(const Communicator& ranks, const std::string& mine) {
@@ -88,6 +94,7 @@ template <int Dim>
 void check_formulas_at_start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::string& fault) {
   std::string mine = fault.empty() ? s.gravity.fault(0) : fault;
   if (mine.empty()) mine = fault_of_sides(s, g, 0);
+  if (mine.empty()) mine = fault_of_viscosity(s, 0);
   for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
     mine = fault_of_source(s, k, std::max(0.0, s.sources[k].spec.from));
   if (const std::string text = first_text(s.ranks, mine); !text.empty()) throw Error(ExitCode::bad_input, text);
@@ -97,6 +104,7 @@ template <int Dim>
 void check_forces_of_step(const Setup<Dim>& s, double t0, double t1) {
   std::string mine = s.gravity.fault(0.5 * (t0 + t1));
   if (mine.empty()) mine = s.gravity.fault(t1);
+  if (mine.empty()) mine = fault_of_viscosity(s, t1);
   for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
     if (const auto open = open_in_step(s.sources[k].spec, t0, t1)) mine = fault_of_source(s, k, open->begin);
   stop_where_any(s.ranks, mine, t0, t1);
@@ -109,6 +117,7 @@ void check_geometry_of_step(const Setup<Dim>& s, const StepGeometry<Dim>& g, dou
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                 \
+  template std::string place_text<D>(const Vec<D>&);                                                          \
   template std::string not_finite_text<D>(const std::string&, const Formula&, double, const Vec<D>&, double); \
   template void check_formulas_at_start<D>(const Setup<D>&, const StepGeometry<D>&, const std::string&);      \
   template void check_forces_of_step<D>(const Setup<D>&, double, double);                                     \

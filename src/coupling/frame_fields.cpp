@@ -1,7 +1,7 @@
 // Fields for frames, from the owned cells.
 #include "base/error.h"
+#include "coupling/liquid_viscosity.h"
 #include "coupling/measures.h"
-#include "coupling/viscous_coupling.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -29,6 +29,18 @@ double vorticity(const Setup<Dim>& s, const State<Dim>& state, Site c) {
 
 }  // namespace
 
+// Pa s, in the liquid; 0 elsewhere.
+template <int Dim>
+CellField<Dim> viscosity(const Setup<Dim>& s, const State<Dim>& state) {
+  CellField<Dim> mu(s.layout);
+  const std::string fault = set_liquid_viscosity(s, state.now->u, state.now->valid, state.time, mu);
+  if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    if (state.phi[c] >= 0) mu[c] = 0;
+  });
+  return mu;
+}
+
 template <int Dim>
 FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const std::string& name) {
   FrameField out;
@@ -49,9 +61,7 @@ FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const 
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
   else if (name == "viscosity")
-    fill(FrameField::Kind::scalar, [&, mu = measure_viscosity(s, state.phi, *state.now, state.time)](Site c) {
-      out.values.push_back(state.phi[c] < 0 ? float(mu.value[c]) : 0.0f);
-    });
+    fill(FrameField::Kind::scalar, [&, mu = viscosity(s, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(vorticity(s, state, c))); });
   else

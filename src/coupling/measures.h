@@ -25,7 +25,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const ProbeSpec& probe);
 
-// A field of the owned cells: surface, vel, pressure, vorticity.
+// A field of the owned cells: surface, vel, pressure, vorticity, viscosity.
 template <int Dim>
 FrameField make_frame_field(const Setup<Dim>& setup, const State<Dim>& state, const std::string& name);
 

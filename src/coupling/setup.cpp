@@ -5,6 +5,7 @@
 #include "coupling/contact_setup.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
+#include "coupling/liquid_viscosity.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -43,12 +44,6 @@ SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std
                               spec.rigid.density, least, least_density_ratio));
   spec.rigid.density = least;
   return spec;
-}
-
-bool has_viscosity(const LiquidSpec& liquid) {
-  if (!liquid.rheology.model.empty()) return true;
-  const Expression viscosity(liquid.viscosity);
-  return !viscosity.is_constant() || viscosity(Vec3::Zero(), 0) != 0;
 }
 
 void append_name(const std::string& name, std::string& list) {
@@ -160,7 +155,7 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
 template <int Dim>
 Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
     : scene(sc),
-      viscous(has_viscosity(sc.liquid)),
+      viscous(seiche::is_viscous(sc.liquid)),
       gravity(sc.gravity),
       ranks(r),
       layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],

@@ -27,8 +27,10 @@ struct StepStats {
   std::int64_t cells_liquid = 0;
   double wall_seconds = 0;
   // further columns of ours
-  double volume_corrected = 0;  // liquid volume restored by the volume control since the start, m^3
-  int rejected = 0;             // attempts at this step that were rejected
+  double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
+  int rejected = 0;                // attempts at this step that were rejected
+  double viscous_dissipation = 0;  // energy that viscosity turned into heat in this step, over dt, W
+  int rheology_iterations = 0;     // solves with viscosities of the last one's shear rate; 0 for Newtonian liquid
 };
 
 // One row of solids.csv.
@@ -50,7 +52,7 @@ struct ProbeSample {
 
 // A field for a frame: this rank's owned cells, first axis fastest; vectors (staggered, low faces) as triples.
 struct FrameField {
-  std::string name;  // surface, vel, pressure, vorticity
+  std::string name;  // surface, vel, pressure, vorticity, viscosity
   enum class Kind { level_set, scalar, staggered_vector } kind = Kind::scalar;
   std::array<int, 3> lower{0, 0, 0}, upper{0, 0, 0};
   std::vector<float> values;

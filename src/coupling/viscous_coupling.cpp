@@ -4,29 +4,12 @@
 
 #include "base/error.h"
 #include "coupling/formula_checks.h"
-#include "fluid/no_slip_flux.h"
-#include "fluid/rheology.h"
+#include "coupling/liquid_viscosity.h"
 #include "grid/loops.h"
 #include "solid/elastic_motion.h"
 
 namespace seiche {
 namespace {
-
-template <int Dim>
-void evaluate_formula(const Setup<Dim>& s, double t, CellField<Dim>& mu) {
-  const Formula& text = s.scene.liquid.viscosity;
-  const Expression formula(text);
-  const double fixed = formula.is_constant() ? formula(Vec3::Zero(), t) : 0;
-  std::string fault;
-  for_each_index_in_order(s.layout, s.layout.grown(2), [&](Site c, const IVec<Dim>& i) {
-    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
-    mu[c] = formula.is_constant() ? fixed : formula(extend<Dim>(x), t);
-    if (fault.empty() && !(mu[c] >= 0 && std::isfinite(mu[c])))
-      fault = not_finite_text<Dim>("liquid.viscosity", text, mu[c], x, t);
-  });
-  fault = first_text(s.ranks, fault);
-  if (!fault.empty()) throw Error(t > 0 ? ExitCode::cannot_continue : ExitCode::bad_input, fault);
-}
 
 // Weights of an elastic body's unknowns in the velocity of its surface near a face.
 template <int Dim>
@@ -86,15 +69,11 @@ BlockColumns scaled(BlockColumns J, double by) {
 template <int Dim>
 ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& flow,
                                       double t) {
-  ViscosityField<Dim> mu{CellField<Dim>(s.layout), 0, true};
+  ViscosityField<Dim> mu{CellField<Dim>(s.layout), 0, false};
+  const std::string fault = first_text(s.ranks, set_liquid_viscosity(s, flow.u, flow.valid, t, mu.value));
+  if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   const LiquidSpec& liquid = s.scene.liquid;
-  if (liquid.rheology.model.empty()) {
-    evaluate_formula(s, t, mu.value);
-    mu.uniform = Expression(liquid.viscosity).is_constant();
-  } else {
-    set_viscosity(s.layout, s.halo, resolve_rheology(s.scene), flow.u, flow.valid, mu.value);
-    mu.uniform = false;
-  }
+  mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
   const double largest = local_max(s.layout, s.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
   mu.largest = s.ranks.global_max(largest);
   return mu;

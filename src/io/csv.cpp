@@ -38,7 +38,9 @@ std::vector<Column> columns(const StepStats& s) {
           {"cells_liquid", s.cells_liquid},
           {"wall_seconds", s.wall_seconds},
           {"volume_corrected", s.volume_corrected},
-          {"rejected", std::int64_t(s.rejected)}};
+          {"rejected", std::int64_t(s.rejected)},
+          {"viscous_dissipation", s.viscous_dissipation},
+          {"rheology_iterations", std::int64_t(s.rheology_iterations)}};
 }
 
 std::vector<Column> columns(const SolidState& s) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/gravity.h"
+#include "fluid/rheology.h"
 #include "io/run_agree.h"
 #include "io/run_command.h"
 #include "io/run_loop.h"
@@ -113,6 +114,7 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
   if (small) make_simulation(scene, around.ranks);
   log.note(fmt::format("{}: no errors", options.scene.string()));
   if (!small) log.note("note: formulas are evaluated as the run begins; the grid is too large to try them here");
+  if (const std::string text = describe_rheology(scene.liquid.rheology); !text.empty()) log.note(text);
   for (const std::string& text : found.meshes) log.note(text);
   log.note(report(scene, cost, around.ranks.size()));
   if (!found.meshes.empty()) log.note("note: the time is that of the liquid; elastic solids take theirs on top");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 
+#include "fluid/rheology.h"
 #include "grid/thread_limit.h"
 #include "io/run_agree.h"
 #include "io/run_fault.h"
@@ -130,6 +131,8 @@ ExitCode run_session(const Session& session, const Restore& restore) {
     prepare_files(session);
     watchdog.beat("restoring");
     const RunState start = restore ? restore(*simulation) : RunState{};
+    if (const std::string text = describe_rheology(session.scene.liquid.rheology); !text.empty())
+      session.log.note(text);
     for (const std::string& text : simulation->describe_solids()) session.log.note(text);
     for (const std::string& text : simulation->take_warnings()) session.log.warn(text);
     return run_loop_to_end(session, threads, *simulation, start, watchdog, signals);

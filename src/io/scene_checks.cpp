@@ -9,6 +9,7 @@
 
 #include "base/gravity.h"
 #include "base/options.h"
+#include "fluid/rheology.h"
 #include "io/suggest.h"
 
 namespace seiche {
@@ -194,6 +195,18 @@ void check_moving_solids(const Checker& c, const Scene& scene) {
   }
 }
 
+// Writes the regularisation out; with it the viscosity must be one that the solver can take.
+void check_rheology(const Checker& c, Scene& scene) {
+  RheologySpec& spec = scene.liquid.rheology;
+  spec = resolve_rheology(scene);
+  if (spec.model.empty() || viscosity(spec, 0) <= number_limit) return;
+  const std::string remedy =
+      spec.regularisation ? fmt::format("; raise regularisation, which is {:g} 1/s", *spec.regularisation) : "";
+  c.report("liquid.rheology",
+           fmt::format("liquid.rheology: the viscosity at rest is {:g} Pa s; it must be at most {:g}{}",
+                       viscosity(spec, 0), number_limit, remedy));
+}
+
 }  // namespace
 
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
@@ -208,6 +221,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("time")) check_motions(context, root, scene);
+  if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
 }
 
 }  // namespace seiche

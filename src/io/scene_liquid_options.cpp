@@ -98,17 +98,11 @@ Section<LiquidSpec> liquid_section() {
                     .doc = "true: liquid may part from walls and solids, whose pressure on it stays at or above zero; "
                            "false: it clings to them"},
                    &S::separates),
-      zero_key({.key = "viscosity",
-                .unit = "Pa s",
-                .range = between(0, number_limit),
-                .doc = "only 0 (inviscid) in this version"},
-               "viscous flow is not in this version; leave viscosity out or set it to 0 (inviscid)"),
+      viscosity_key(),
       zero_key(
           {.key = "surface_tension", .unit = "N/m", .range = between(0, number_limit), .doc = "only 0 in this version"},
           "surface tension is not in this version; leave it out or set it to 0"),
-      later_key<S>({.key = "rheology",
-                    .type = T::table,
-                    .doc = "non-Newtonian liquids are not in this version; it has inviscid liquid (viscosity = 0)"}),
+      rheology_key(),
       value_key<S>({.key = "velocity",
                     .type = T::formula_vector,
                     .unit = "m/s",
@@ -125,6 +119,7 @@ Section<LiquidSpec> liquid_section() {
           {.key = "source", .unset = "none", .doc = "liquid added in a shape for a time", .most = most_entries},
           &S::sources, source_section()),
   };
+  s.finish = [](SceneContext& c, const Place& p, S&) { check_one_viscosity(c, p); };
   return s;
 }
 

@@ -197,6 +197,7 @@ Section<SolverSpec> solver_section() {
                     .doc = "preconditioner of the pressure solve"},
                    &S::preconditioner),
   };
+  for (Key<S>& key : viscous_solver_keys()) s.keys.push_back(std::move(key));
   return s;
 }
 
@@ -206,8 +207,7 @@ Section<OutputSpec> output_section() {
   s.keys = {
       value_key<S>({.key = "frames",
                     .type = T::choice_list,
-                    .choices = {"surface", "velocity", "pressure", "vorticity", "solids"},
-                    .refused = {{"viscosity", "viscous flow is not in this version"}},
+                    .choices = {"surface", "velocity", "pressure", "viscosity", "vorticity", "solids"},
                     .doc = "fields of a frame"},
                    &S::frames),
       value_key<S>(
@@ -301,7 +301,7 @@ Section<Scene> build_scene_section() {
                               .most = most_entries},
                              &S::probes, probe_section()),
       block_key<S>({.key = "tracking", .doc = "the liquid surface"}, itself, tracking_section()),
-      block_key<S>({.key = "solver", .doc = "the pressure solve"}, &S::solver, solver_section()),
+      block_key<S>({.key = "solver", .doc = "the solves for pressure and viscosity"}, &S::solver, solver_section()),
       block_key<S>({.key = "output", .doc = "what is written"}, &S::output, output_section()),
   };
   return s;

@@ -16,6 +16,13 @@ Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
 
+// Of viscous liquid.
+Key<LiquidSpec> viscosity_key();
+Key<LiquidSpec> rheology_key();
+std::vector<Key<SolverSpec>> viscous_solver_keys();
+// Reports a liquid that gives both viscosity and rheology.
+void check_one_viscosity(SceneContext& context, const Place& place);
+
 // Reports a rotation axis that is missing (3D), zero or not along z (2D) in the table at `place`.
 void check_axis(SceneContext& context, const Place& place, const Vec3& axis);
 

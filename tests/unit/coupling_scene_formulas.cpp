@@ -43,6 +43,7 @@ struct Row {
 const std::vector<Row> table{
     {"liquid.velocity[1] = ", [](Scene& s, const Formula& f) { s.liquid.velocity[1] = f; }},
     {"liquid.region.1.velocity[0] = ", [](Scene& s, const Formula& f) { (*s.liquid.regions[1].velocity)[0] = f; }},
+    {"liquid.viscosity = ", [](Scene& s, const Formula& f) { s.liquid.viscosity = f; }},
     {"domain.boundary.x_lower.velocity[0] = ",
      [](Scene& s, const Formula& f) {
        side(s, 0, 0, SideType::inflow).velocity[0] = f;
@@ -125,4 +126,18 @@ TEST_CASE("a motion that stops being finite ends the run in that step, by name")
   INFO(text);
   CHECK(code == ExitCode::cannot_continue);
   CHECK(text.find("solid 'paddle': its motion is not finite at t = ") != std::string::npos);
+}
+
+TEST_CASE("viscosity that is negative somewhere is a mistake at the start and ends the run later") {
+  for (const auto& [formula, when, code] : {std::tuple("x-0.5", "t = 0 s", ExitCode::bad_input),
+                                            std::tuple("0.04-t", "t = 0.0", ExitCode::cannot_continue)}) {
+    Scene s = pool();
+    s.liquid.viscosity = formula;
+    const auto [text, ended] = test::end_of(s, 0.1);
+    INFO(text);
+    CHECK(ended == code);
+    CHECK(text.find("liquid.viscosity = \"" + Formula(formula) + "\" is -") != std::string::npos);
+    CHECK(text.find(std::string(when)) != std::string::npos);
+    CHECK(text.find("it must be >= 0 there") != std::string::npos);
+  }
 }

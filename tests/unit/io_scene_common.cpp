@@ -67,7 +67,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += fmt::format("[domain.boundary]\nx_lower = {}\nx_upper = {}\ny_lower = \"no_slip\"\n",
                       side_text(dimension, side), side == "periodic" ? "\"periodic\"" : "{ type = \"outflow\" }");
   text += "[time]\nend = 2\nframe_rate = 30\ncfl = 2\nmax_step = 0.01\nfixed_step = 0.005\nscheme = \"first_order\"\n";
-  text += "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = 0\nsurface_tension = 0.0\nvelocity = " +
+  text += "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.0\nvelocity = " +
           v("\"sin(x)\"", "0", "0") + "\n";
   text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
@@ -90,7 +90,8 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   if (probe == "displacement") text += "solid = \"soft\"\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
   text += "[tracking]\nmethod = \"level_set\"\n[solver]\ntolerance = 1e-9\npreconditioner = \"boomeramg\"\n";
-  return text + "[output]\nframes = [\"surface\", \"pressure\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
+  text += "viscosity = \"coupled\"\nrheology_tolerance = 1e-3\nrheology_iterations = 7\n";
+  return text + "[output]\nframes = [\"surface\", \"viscosity\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
 }
 
 std::size_t count_lines(const std::string& text) {

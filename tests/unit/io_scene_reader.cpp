@@ -44,7 +44,7 @@ TEST_CASE("a full scene is read as it is written") {
   CHECK_THAT(s.solids[1].shape.where, StartsWith("scene.toml:"));
   CHECK(s.probes.at(0).every == 0.01);
   CHECK(s.solver.tolerance == 1e-9);
-  CHECK(s.output.frames == std::vector<std::string>{"surface", "pressure"});
+  CHECK(s.output.frames == std::vector<std::string>{"surface", "viscosity"});
 }
 
 TEST_CASE("what is not said has the documented default") {

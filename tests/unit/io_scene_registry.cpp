@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "fluid/rheology.h"
 #include "io/scene_docs.h"
 #include "io/scene_options.h"
 #include "io_scene_common.h"
@@ -35,6 +36,13 @@ std::string concrete_path(const Option& option) {
   return path;
 }
 
+// A rheology of the model with all its keys.
+std::string rheology_text(const std::string& model) {
+  std::string text = "rheology = { model = \"" + model + "\"";
+  for (const std::string_view key : rheology_model(model).keys) text += fmt::format(", {} = 0.5", key);
+  return text + " }";
+}
+
 // A scene in which the option has a meaning.
 std::string scene_for(const Option& option) {
   std::string shape = "sphere", side = "inflow", probe = "pressure";
@@ -42,7 +50,12 @@ std::string scene_for(const Option& option) {
   if (condition.key == "shape") shape = condition.values[0];
   if (condition.key == "type") side = condition.values[0];
   if (condition.key == "kind" && option.path.rfind("probe[]", 0) == 0) probe = condition.values[0];
-  return rich_scene(3, shape, side, probe);
+  std::string text = rich_scene(3, shape, side, probe);
+  const std::string plain = "viscosity = \"1+x\"";
+  if (option.path.rfind("liquid.rheology.", 0) == 0)
+    text.replace(text.find(plain), plain.size(),
+                 rheology_text(condition.key == "model" ? condition.values[0] : "bingham"));
+  return text;
 }
 
 bool is_numeric(const Option& o) {

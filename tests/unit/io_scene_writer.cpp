@@ -52,11 +52,27 @@ TEST_CASE("writing and reading keeps every number to the bit") {
 
 TEST_CASE("every default is written out") {
   const std::string text = write_scene(parse(small_scene));
-  for (const char* part : {"title = \"\"", "dimension = 3", "gravity = [0.0, -9.81, 0.0]", "x_lower = \"free_slip\"",
-                           "z_upper = \"free_slip\"", "frame_rate = 24.0", "cfl = 1.0", "scheme = \"second_order\"",
-                           "density = 1000.0", "viscosity = 0.0", "separates = false", "surface_tension = 0.0",
-                           "method = \"level_set\"", "tolerance = 1e-08", "preconditioner = \"auto\"",
-                           "frames = [\"surface\", \"velocity\"]", "formats = [\"vdb\"]", "checkpoint_every = 10"}) {
+  for (const char* part : {"title = \"\"",
+                           "dimension = 3",
+                           "gravity = [0.0, -9.81, 0.0]",
+                           "x_lower = \"free_slip\"",
+                           "z_upper = \"free_slip\"",
+                           "frame_rate = 24.0",
+                           "cfl = 1.0",
+                           "scheme = \"second_order\"",
+                           "density = 1000.0",
+                           "viscosity = 0.0",
+                           "separates = false",
+                           "surface_tension = 0.0",
+                           "method = \"level_set\"",
+                           "tolerance = 1e-08",
+                           "preconditioner = \"auto\"",
+                           "viscosity = \"auto\"",
+                           "rheology_tolerance = 0.0001",
+                           "rheology_iterations = 30",
+                           "frames = [\"surface\", \"velocity\"]",
+                           "formats = [\"vdb\"]",
+                           "checkpoint_every = 10"}) {
     CHECK_THAT(text, Contains(part));
   }
 }
