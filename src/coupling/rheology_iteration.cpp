@@ -12,8 +12,8 @@ RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const CellField<D
 
 template <int Dim>
 bool RheologyIteration<Dim>::is_unsettled_by(const Level<Dim>& flow) {
-  ++count_;
   if (setup_.scene.liquid.rheology.model.empty()) return false;
+  ++count_;
   const FaceField<Dim, char> near = faces_near_liquid(setup_, phi_);
   const FaceField<Dim>& u = flow.u;
   std::array<double, 2> largest{};  // difference, velocity

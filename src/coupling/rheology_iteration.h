@@ -10,7 +10,7 @@ class RheologyIteration {
   // Begins with the viscosity of the velocities of `flow`. Keeps a reference to the setup.
   RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow, double t);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
-  int count() const { return count_; }  // of solves
+  int count() const { return count_; }  // of solves; 0 in Newtonian liquid
   double change() const { return change_; }
 
   // Takes the velocities that the last solve gave. Whether another solve is due: they differ from those before by more
