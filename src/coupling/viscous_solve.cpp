@@ -23,8 +23,7 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                        .grid = liquid.grid,
                        .closed = liquid.closed,
                        .schur_scale = schur_scale,
-                       .schur_mass = v.schur_mass,
-                       .mass = v.mass},
+                       .schur_mass = v.schur_mass},
                       {.tolerance = in.setup.scene.solver.tolerance}, in.setup.ranks);
 }
 
@@ -53,7 +52,11 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                          CoupledSolution<Dim>& r) {
   const double dt = in.liquid.dt;
   const FaceField<Dim> pressed = shifted(in, in.u_star, -dt);
-  const ViscousStep<Dim> viscous(in.setup, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
+  FaceGeometry<Dim> faces = in.liquid.faces;
+  faces.side_pressure.fill(0);  // part of the slope
+  const ProjectionInput<Dim>& p0 = in.liquid;
+  const ProjectionInput<Dim> unpressed{p0.layout, p0.halo, p0.ranks, p0.phi, faces, p0.density, dt, p0.parting};
+  const ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
   const ViscousSystem<Dim>& system = viscous.system();
   SaddleSolver solver = make_solver(in, liquid, viscous);
   Vector p = guessed_pressure(in, r.rows), u = viscous.gather(pressed);
