@@ -25,17 +25,10 @@ Key<RheologySpec> parameter(Option option, Member member) {
   return value_key<RheologySpec>(option, member);
 }
 
-Section<RheologySpec> rheology_section() {
+// Of the models whose stress is a yield stress and a power of the shear rate.
+std::vector<Key<RheologySpec>> keys_of_stress() {
   using S = RheologySpec;
-  const Range not_negative = between(0, number_limit);
-  Section<S> s;
-  s.keys = {
-      value_key<S>({.key = "model",
-                    .type = T::choice,
-                    .choices = model_names(),
-                    .presence = Presence::required,
-                    .doc = "how viscosity depends on the shear rate r = sqrt(2 D:D)"},
-                   &S::model),
+  return {
       parameter({.key = "viscosity",
                  .unit = "Pa s",
                  .range = positive(),
@@ -46,25 +39,13 @@ Section<RheologySpec> rheology_section() {
                  .range = positive(),
                  .doc = "K: stress = yield_stress + K r^exponent"},
                 &S::consistency),
-      parameter({.key = "viscosity_zero", .unit = "Pa s", .range = positive(), .doc = "viscosity at rest"},
-                &S::viscosity_zero),
-      parameter({.key = "viscosity_infinity",
-                 .unit = "Pa s",
-                 .range = not_negative,
-                 .doc = "viscosity that fast shear approaches"},
-                &S::viscosity_infinity),
-      parameter({.key = "time",
-                 .unit = "s",
-                 .range = positive(),
-                 .doc = "time of relaxation: viscosity changes at shear rates of 1 / time"},
-                &S::time),
       parameter({.key = "exponent",
                  .range = positive(10),
                  .doc = "below 1 the liquid thins where it is sheared, above 1 it thickens"},
                 &S::exponent),
       parameter({.key = "yield_stress",
                  .unit = "Pa",
-                 .range = not_negative,
+                 .range = between(0, number_limit),
                  .doc = "shear stress below which the liquid does not flow"},
                 &S::yield_stress),
       parameter({.key = "regularisation",
@@ -75,6 +56,36 @@ Section<RheologySpec> rheology_section() {
                         "stress, sqrt(r^2 + m^2) for r in powers; liquid that should not flow creeps at rates of m"},
                 &S::regularisation),
   };
+}
+
+std::vector<Key<RheologySpec>> keys_of_viscosity() {
+  using S = RheologySpec;
+  return {
+      parameter({.key = "viscosity_zero", .unit = "Pa s", .range = positive(), .doc = "viscosity at rest"},
+                &S::viscosity_zero),
+      parameter({.key = "viscosity_infinity",
+                 .unit = "Pa s",
+                 .range = between(0, number_limit),
+                 .doc = "viscosity that fast shear approaches"},
+                &S::viscosity_infinity),
+      parameter({.key = "time",
+                 .unit = "s",
+                 .range = positive(),
+                 .doc = "time of relaxation: viscosity changes at shear rates of 1 / time"},
+                &S::time),
+  };
+}
+
+Section<RheologySpec> rheology_section() {
+  Section<RheologySpec> s;
+  s.keys = {value_key<RheologySpec>({.key = "model",
+                                     .type = T::choice,
+                                     .choices = model_names(),
+                                     .presence = Presence::required,
+                                     .doc = "how viscosity depends on the shear rate r = sqrt(2 D:D)"},
+                                    &RheologySpec::model)};
+  for (Key<RheologySpec>& key : keys_of_viscosity()) s.keys.push_back(std::move(key));
+  for (Key<RheologySpec>& key : keys_of_stress()) s.keys.push_back(std::move(key));
   return s;
 }
 

@@ -10,7 +10,7 @@
 #include "io/checked_file.h"
 #include "io/frames.h"
 #include "io/info.h"
-#include "levelset/openvdb_adapter.h"
+#include "io/validate_frames.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
@@ -26,48 +26,36 @@ Measurement against(double value, double reference) {
   return {value, reference, std::abs(value / reference - 1)};
 }
 
-fs::path last_frame_file(const RunPaths& run) {
+vdb::Frame last_frame(const RunPaths& run) {
   fs::path last;
   for (const auto& entry : fs::directory_iterator(run.frames())) {
     if (entry.path().extension() == ".vdb") last = std::max(last, entry.path());
   }
-  return last;
+  return vdb::decode(last);
 }
 
-// Sum over all faces of the squared difference to the exact face velocity.
-double squared_difference(const vdb::Frame& frame, const vdb::Block& block, const VectorExpression& exact) {
-  const double h = frame.cell_size;
-  double sum = 0;
-  const float* value = block.values.data();
-  for (int k = block.lower[2]; k < block.upper[2]; ++k) {
-    for (int j = block.lower[1]; j < block.upper[1]; ++j) {
-      for (int i = block.lower[0]; i < block.upper[0]; ++i, value += 3) {
-        for (int axis = 0; axis < frame.dimension; ++axis) {
-          Vec3 x = frame.lower + h * Vec3(i + 0.5, j + 0.5, k + 0.5);
-          x[axis] -= 0.5 * h;
-          const double difference = value[axis] - exact.component(axis, x, frame.time);
-          sum += difference * difference;
-        }
-      }
-    }
-  }
-  return sum;
-}
-
-// Root of the mean over the cells of |u - exact|^2, on the faces of the last frame.
-Measurement vector_l2(const MeasureSpec& spec, const RunPaths& run) {
-  const vdb::Frame frame = vdb::decode(last_frame_file(run));
-  const auto found =
-      std::find_if(frame.grids.begin(), frame.grids.end(), [](const vdb::Grid& grid) { return grid.name == "vel"; });
-  if (found == frame.grids.end()) throw Error(ExitCode::cannot_continue, "the last frame holds no velocity");
-  const VectorExpression exact(spec.velocity);
-  double sum = 0, cells = 0;
-  for (const vdb::Block& block : found->blocks) {
-    sum += squared_difference(frame, block, exact);
-    cells += double(block.values.size()) / 3;
-  }
-  const double error = std::sqrt(sum / cells);
+Measurement itself(double error) {
   return {error, {}, error};
+}
+
+Measurement vector_l2(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(velocity_difference(last_frame(run), spec.velocity, "-1"));
+}
+
+Measurement region_l2(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(velocity_difference(last_frame(run), spec.velocity, spec.region));
+}
+
+Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
+  const vdb::Frame frame = last_frame(run);
+  double worst = 0;
+  for (const LineExtreme& line : csv_lines(read_whole_file(spec.data)))
+    worst = std::max(worst, std::abs(extreme_along(frame, line) / line.value - 1));
+  return itself(worst);
+}
+
+Measurement surface_deviation(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(surface_difference(last_frame(run), spec.surface) / constant(spec.length_unit));
 }
 
 Measurement period_of_probe(const MeasureSpec& spec, const RunPaths& run) {
@@ -136,6 +124,21 @@ Measurement solid_slope(const MeasureSpec& spec, const RunPaths& run) {
   return against(slope_during(all, spec.from, spec.to), constant(spec.reference));
 }
 
+Points solid_during(const MeasureSpec& spec, const RunPaths& run) {
+  return points_during(solid_points(read_whole_file(run.solids()), spec.solid, spec.column), spec.from, spec.to);
+}
+
+Measurement solid_peak(const MeasureSpec& spec, const RunPaths& run) {
+  double peak = 0;
+  for (const auto& [time, value] : solid_during(spec, run))
+    if (std::abs(value) > std::abs(peak)) peak = value;
+  return against(peak, constant(spec.reference));
+}
+
+Measurement solid_period(const MeasureSpec& spec, const RunPaths& run) {
+  return against(mean_period(solid_during(spec, run), constant(spec.level)), constant(spec.reference));
+}
+
 Measurement solids_stray(const MeasureSpec& spec, const RunPaths& run) {
   const double way = farthest_stray(read_whole_file(run.solids()), spec.from) / constant(spec.length_unit);
   return {way, {}, way};
@@ -166,6 +169,9 @@ struct MeasureKind {
 const std::vector<MeasureKind>& kinds() {
   static const std::vector<MeasureKind> table{
       {"vector_l2", {"velocity"}, vector_l2},
+      {"region_l2", {"velocity", "region"}, region_l2},
+      {"line_extrema", {"data"}, line_extrema},
+      {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe},
       {"probe_period", {"probe", "column", "level", "reference"}, probe_period},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean},
@@ -177,6 +183,8 @@ const std::vector<MeasureKind>& kinds() {
       {"volume_drift", {}, volume_drift_of_run},
       {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean},
       {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope},
+      {"solid_peak", {"solid", "column", "from", "to", "reference"}, solid_peak},
+      {"solid_period", {"solid", "column", "level", "from", "to", "reference"}, solid_period},
       {"solids_stray", {"from", "length_unit"}, solids_stray},
   };
   return table;
@@ -209,6 +217,8 @@ Section<MeasureSpec> measure_section() {
       value_key<S>({.key = "kind", .type = T::choice, .choices = kind_names(), .presence = Presence::required},
                    &S::kind),
       parameter({.key = "velocity", .type = T::formula_vector, .unit = "m/s", .variables = "xyzt"}, &S::velocity),
+      parameter({.key = "region", .type = T::formula, .variables = "xyzt"}, &S::region),
+      parameter({.key = "surface", .type = T::formula, .unit = "m", .variables = "xyzt"}, &S::surface),
       parameter({.key = "probe", .type = T::text}, &S::probe),
       parameter({.key = "column", .type = T::text}, &S::column),
       parameter({.key = "solid", .type = T::text}, &S::solid),

@@ -1,0 +1,133 @@
+// What measures compute on frames, on fields whose answer is known.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+
+#include "base/error.h"
+#include "io/validate_frames.h"
+#include "io/validate_measures.h"
+#include "io_scratch.h"
+
+using namespace seiche;
+
+namespace {
+
+// n x n cells of the unit square whose faces hold u(axis, x) and whose cells hold phi(x).
+vdb::Frame square_frame(int n, const std::function<double(int, const Vec3&)>& u,
+                        const std::function<double(const Vec3&)>& phi) {
+  vdb::Frame frame;
+  frame.dimension = 2;
+  frame.cell_size = 1.0 / n;
+  frame.time = 0.5;
+  vdb::Block velocity{{0, 0, 0}, {n, n, 1}, {}}, surface = velocity;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double h = frame.cell_size;
+      velocity.values.push_back(float(u(0, {i * h, (j + 0.5) * h, 0})));
+      velocity.values.push_back(float(u(1, {(i + 0.5) * h, j * h, 0})));
+      velocity.values.push_back(0);
+      surface.values.push_back(float(phi({(i + 0.5) * h, (j + 0.5) * h, 0})));
+    }
+  frame.grids.push_back({"vel", vdb::GridKind::staggered_vector, 0, {velocity}});
+  frame.grids.push_back({"surface", vdb::GridKind::level_set, float(3 * frame.cell_size), {surface}});
+  return frame;
+}
+
+double none(const Vec3&) {
+  return 1;
+}
+
+LineExtreme line(int component, int along, const Vec3& point, LineExtreme::Kind kind) {
+  return {component, along, point, kind, 0};
+}
+
+}  // namespace
+
+// Along x the faces of a half count, along y all: the mean is taken for each axis by itself.
+TEST_CASE("velocities are compared where the region says") {
+  const auto frame = square_frame(
+      16, [](int a, const Vec3& x) { return a == 0 ? (x[0] < 0.5 ? 3 : 7) : 4.0; }, none);
+  const VectorFormula still{"0", "0", "0"};
+  CHECK(velocity_difference(frame, still, "x-0.49") == Approx(5));
+  CHECK(velocity_difference(frame, {"3", "4", "0"}, "x-t") < 1e-12);
+  CHECK(velocity_difference(frame, {"3", "0", "0"}, "x-0.49") == Approx(4));
+  CHECK(velocity_difference(frame, still, "-1") == Approx(std::sqrt((9.0 + 49) / 2 + 16)));
+  CHECK_THROWS_WITH(velocity_difference(frame, still, "1"), "no face lies in the region");
+}
+
+TEST_CASE("extremes along lines are found between the samples") {
+  const auto wave = [](int a, const Vec3& x) {
+    return a == 0 ? -std::sin(3.0 * x[1]) * (1 + x[0]) : 0.25 - std::pow(x[0] - 0.3, 2);
+  };
+  const auto frame = square_frame(64, wave, none);
+  using Kind = LineExtreme::Kind;
+  CHECK(extreme_along(frame, line(0, 1, {0.5, 9, 0}, Kind::min)) == Approx(-1.5).epsilon(1e-6));  // fourth order in h
+  CHECK(extreme_along(frame, line(0, 1, {0.51, 9, 0}, Kind::min)) == Approx(-1.51).epsilon(1e-6));
+  CHECK(extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::max)) == Approx(0.25).epsilon(1e-6));
+  CHECK(extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::min)) ==
+        Approx(0.25 - std::pow(1 - 0.5 / 64 - 0.3, 2)).epsilon(1e-6));  // the last sample: 32-bit rounding
+}
+
+TEST_CASE("extremes to compare with are read from CSV") {
+  const auto lines =
+      csv_lines("# source\ncomponent,along,x,y,z,extreme,value\nx,y,0.5,0,0,min,-0.25\ny,x,0,0.5,0,max,2\n");
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].component == 0);
+  CHECK(lines[0].along == 1);
+  CHECK(lines[0].point == Vec3(0.5, 0, 0));
+  CHECK(lines[0].kind == LineExtreme::Kind::min);
+  CHECK(lines[0].value == -0.25);
+  CHECK(lines[1].kind == LineExtreme::Kind::max);
+  for (const char* wrong :
+       {"", "a,b\n", "a\nx,y,0,0,0,min\n", "a\nw,y,0,0,0,min,1\n", "a\nx,y,0,0,0,most,1\n", "a\nx,y,0,0,0,min,one\n"})
+    CHECK_THROWS_AS(csv_lines(wrong), Error);
+}
+
+TEST_CASE("a surface is compared with a formula near it alone") {
+  const auto frame = square_frame(
+      32, [](int, const Vec3&) { return 0.0; }, [](const Vec3& x) { return x[1] - 0.5 > 0.04 ? 9 : x[1] - 0.51; });
+  CHECK(surface_difference(frame, "y-t") == Approx(0.01).epsilon(1e-5));
+  CHECK(surface_difference(frame, "y-0.51") < 1e-6);  // 32-bit rounding
+  CHECK_THROWS_AS(surface_difference(square_frame(
+                                         8, [](int, const Vec3&) { return 0.0; }, none),
+                                     "y"),
+                  Error);
+}
+
+TEST_CASE("the worst of several extremes is the error of a run") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::filesystem::create_directories(run.frames());
+  const auto frame = square_frame(
+      32, [](int a, const Vec3& x) { return a == 0 ? std::sin(3 * x[1]) : 2 * std::sin(3 * x[0]); }, none);
+  put(run.frames() / "frame.0001.vdb", vdb::encode(frame));
+  put(folder.path() / "extremes.csv", "component,along,x,y,z,extreme,value\nx,y,0.5,0,0,max,1\ny,x,0,0.5,0,max,2.5\n");
+  MeasureSpec spec;
+  spec.kind = "line_extrema";
+  spec.data = folder.path() / "extremes.csv";
+  CHECK(measure(spec, run).error == Approx(0.2).epsilon(1e-4));
+}
+
+TEST_CASE("a solid's column is measured by its peak and its period in a time") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::string text = "time,name,fx,fy\n0,disc,50,0\n";
+  for (double t = 0.01; t < 3; t += 0.01)
+    text += fmt::format("{},disc,{},{}\n{},other,9,9\n", t, -2 + std::sin(4 * t), std::cos(10 * t), t);
+  put(run.solids(), text);
+  MeasureSpec spec;
+  spec.solid = "disc";
+  spec.from = 1;
+  spec.to = 2.9;
+  spec.kind = "solid_peak";
+  spec.column = "fx";
+  spec.reference = "-3";
+  CHECK(measure(spec, run).error < 1e-3);  // samples 0.01 s apart
+  CHECK(measure(spec, run).value < 0);
+  spec.kind = "solid_period";
+  spec.column = "fy";
+  spec.reference = "2*pi/10";
+  CHECK(measure(spec, run).error < 1e-3);
+}
