@@ -113,12 +113,13 @@ class FlowSimulation : public Simulation {
     return g;
   }
 
-  // The initial state as if a step of dt had led to it: slope of the trial, u(-dt) = 2 u(0) - u(dt).
+  // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) - u(dt).
   State<Dim> inform(const Level<Dim>& trial, double dt) const {
     State<Dim> state = state_;
     auto now = std::make_shared<Level<Dim>>(*state_.now), before = std::make_shared<Level<Dim>>(*state_.now);
     now->q = trial.q;
     before->q = trial.q;
+    now->n = before->n = trial.n;
     for (int a = 0; a < Dim; ++a)
       for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.u[a][f];
     state.now = now;
