@@ -1,6 +1,5 @@
 #include "fluid/no_slip_flux.h"
 
-#include <cstdlib>
 #include "grid/loops.h"
 
 namespace seiche {
@@ -68,16 +67,7 @@ class NoSlipFlux {
     const double distance = open.distance / open.area, own = s_.psi.at(axis, f);
     const Site from = sample(axis, f);
     if (from < 0) return 0;
-    const double beyond = s_.psi.at(axis, from), slope = relative(k, axis, from) / beyond;
-    static const int mode = getenv("MODE") ? atoi(getenv("MODE")) : 0;
-    double target = slope * distance;
-    if (mode == 1 && own > 0.05 * layout_.h()) target = relative(k, axis, f) / own * distance;
-    if (mode == 2 && own > 0.1 * layout_.h()) {
-      const double s1 = relative(k, axis, f) / own;
-      const double curve = (slope - s1) / (beyond - own);
-      target = distance * (s1 + curve * (distance - own));
-    }
-    return w * (target - relative(k, axis, f));
+    return w * relative(k, axis, from) / s_.psi.at(axis, from) * (distance - std::max(own, 0.0));
   }
 
  private:
@@ -85,10 +75,8 @@ class NoSlipFlux {
   Site sample(int axis, Site f) const {
     Site best = -1;
     double farthest = 0.5 * layout_.h();  // nearer ones would magnify their errors
-    static const int which = getenv("WHICH") ? atoi(getenv("WHICH")) : 0;
     for (int b = 0; b < Dim; ++b)
       for (Site g : {f - layout_.stride(b), f + layout_.stride(b)}) {
-        if (which == 1 && b == axis) continue;
         if (s_.kind_at(axis, g) != SampleKind::unknown || s_.psi.at(axis, g) <= farthest) continue;
         best = g;
         farthest = s_.psi.at(axis, g);
