@@ -78,6 +78,7 @@ double poiseuille(int k, int p, int q, int turns) {
 
 }  // namespace
 
+// Angle 20 degrees: walls cut faces everywhere differently.
 TEST_CASE("inclined poiseuille", "[viscous]") {
   const int turns = GENERATE(0, 1, 3);
   double last = 0;
@@ -90,5 +91,43 @@ TEST_CASE("inclined poiseuille", "[viscous]") {
     const double e = poiseuille(k, 11, 4, turns);
     WARN("20 " << k << ": L2 " << e << ", order " << std::log2(last / e));
     last = e;
+  }
+}
+
+namespace {
+
+// A ball that turns within a ball at rest: u = omega x r (a + b/r^3), torque 8 pi mu b.
+CouetteErrors spherical_couette(int n, int turns) {
+  constexpr double inner = 0.2, outer = 0.45, cube_in = inner * inner * inner, cube_out = outer * outer * outer;
+  constexpr double b = 1 / (1 / cube_in - 1 / cube_out), a = -b / cube_out;
+  const Vec3 center(0.5031, 0.4983, 0.5017), spin = Vec3(1, -2, 2) / 3;
+  ViscousProblem<3> p({.cells = n,
+                       .size = 1,
+                       .sides = SideType::no_slip,
+                       .dt = 1e6,
+                       .solids = {viscous_ball(center, inner), viscous_ball(center, outer, true)}});
+  p.move(0, {Vec3::Zero(), spin, center});
+  p.solve_with_flux(turns);
+  REQUIRE(p.solved);
+  const auto exact = [&](int axis, const Vec3& x) {
+    const Vec3 r = x - center;
+    return (a + b / std::pow(r.norm(), 3)) * spin.cross(r)[axis];
+  };
+  const auto loads = viscous_forces(p.input(), p.system, p.u, Eigen::VectorXd(), {center, center});
+  const double torque = 8 * pi * b;
+  return {p.error(exact), (loads[0].torque + torque * spin).norm() / torque};
+}
+
+}  // namespace
+
+TEST_CASE("spherical couette", "[viscous]") {
+  for (int turns : {0, 1}) {
+    double last = 0;
+    for (int n : {10, 20}) {
+      const CouetteErrors e = spherical_couette(n, turns);
+      WARN(n << " turns " << turns << ": L2 " << e.velocity << ", order " << std::log2(last / e.velocity) << ", torque "
+             << e.torque);
+      last = e.velocity;
+    }
   }
 }

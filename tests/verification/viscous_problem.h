@@ -166,6 +166,7 @@ class ViscousProblem {
     return sum / (1 << (Dim - 1));
   }
   Vec<Dim> position(int a, Site f) const { return layout_.position(layout_.index(f), face_offset<Dim>(a)); }
+  const ProjectionInput<Dim>& projection() const { return projection_; }
   const Layout<Dim>& layout() const { return layout_; }
 
  private:
