@@ -60,12 +60,13 @@ bool ViscousTerms<Dim>::settle(ViscousTerm<Dim>& t) const {
   return any;
 }
 
+// 1/theta
 template <int Dim>
-void ViscousTerms<Dim>::link(ViscousTerm<Dim>& t, int low, int high, double c) const {
-  const SampleKind l = kind(t.slot[low]), h = kind(t.slot[high]);
-  if (l == SampleKind::unknown && h == SampleKind::solid) c /= wall_distance(t.slot[low], t.slot[high]);
-  if (h == SampleKind::unknown && l == SampleKind::solid) c /= wall_distance(t.slot[high], t.slot[low]);
-  t.add_square(low, high, c);
+double ViscousTerms<Dim>::link_weight(const Slot& low, const Slot& high) const {
+  const SampleKind l = kind(low), h = kind(high);
+  if (l == SampleKind::unknown && h == SampleKind::solid) return 1 / wall_distance(low, high);
+  if (h == SampleKind::unknown && l == SampleKind::solid) return 1 / wall_distance(high, low);
+  return 1;
 }
 
 // A thin solid stands between two liquid samples: each is linked to it.
@@ -119,7 +120,7 @@ bool ViscousTerms<Dim>::of_edge(int plane, Site e, ViscousTerm<Dim>& t) const {
     if (parted[n])
       link_both_sides(t, 2 * n, 2 * n + 1, c);
     else if (weight[n] > 0)
-      link(t, 2 * n, 2 * n + 1, c * weight[n]);
+      t.add_square(2 * n, 2 * n + 1, c * weight[n] * link_weight(t.slot[2 * n], t.slot[2 * n + 1]));
   }
   return true;
 }
@@ -140,11 +141,34 @@ bool ViscousTerms<Dim>::of_cell(Site cell, ViscousTerm<Dim>& t) const {
   for (int a = 0; a < Dim; ++a)
     inside = inside && (in_.layout.geometry().periodic[a] || (i[a] >= 0 && i[a] < in_.layout.geometry().cells[a]));
   for (int a = 0; a < Dim; ++a) {
-    if (inside) link(t, 2 * a, 2 * a + 1, c);
+    if (inside) t.add_square(2 * a, 2 * a + 1, c * link_weight(t.slot[2 * a], t.slot[2 * a + 1]));
     for (int b = a + 1; b < Dim; ++b) t.add_product(2 * a + 1, 2 * a, 2 * b + 1, 2 * b, -c);
   }
-  if (inside && kappa(cell) > 0) add_divergence(t, cell, c * kappa(cell));
+  if (!inside || s_.plain) return true;
+  const double excess = in_.uniform_viscosity && s_.share.cell[cell] == 1 ? 0 : indefinite_part(t);
+  if (excess > 0) add_differences_sum(t, c * excess);
+  if (kappa(cell) > excess) add_divergence(t, cell, c * (kappa(cell) - excess));
   return true;
+}
+
+// The part of (sum_a s_2a+1 - s_2a)^2 that a cell's squares do not outweigh: sum_a (1 + 1/theta_a) G_a^2 - (1 -
+// r)(sum_a G_a)^2 is positive if (1 - r) sum_a 1/(1 + 1/theta_a) <= 1. Only 3D cells cut by a solid have one that the
+// divergence does not make up for.
+template <int Dim>
+double ViscousTerms<Dim>::indefinite_part(const ViscousTerm<Dim>& t) const {
+  double sum = 0;
+  bool cut = false;
+  for (int a = 0; a < Dim; ++a) {
+    for (int n = 2 * a; n < 2 * a + 2; ++n) cut = cut || in_.faces.open.at(t.slot[n].axis, t.slot[n].face) < 1;
+    sum += 1 / (1 + link_weight(t.slot[2 * a], t.slot[2 * a + 1]));
+  }
+  return cut ? std::max(0.0, 1 - 1 / sum) : 0;
+}
+
+template <int Dim>
+void ViscousTerms<Dim>::add_differences_sum(ViscousTerm<Dim>& t, double c) const {
+  for (int i = 0; i < 2 * Dim; ++i)
+    for (int j = 0; j < 2 * Dim; ++j) t.Q[i][j] += i % 2 == j % 2 ? c : -c;
 }
 
 template <int Dim>

@@ -71,10 +71,12 @@ class ViscousTerms {
   double edge_viscosity(int plane, Site edge) const;
   double wall_distance(const Slot& liquid, const Slot& solid) const;
   bool settle(ViscousTerm<Dim>& t) const;
-  void link(ViscousTerm<Dim>& t, int low, int high, double c) const;
+  double link_weight(const Slot& low, const Slot& high) const;
   void link_both_sides(ViscousTerm<Dim>& t, int low, int high, double c) const;
   void add_divergence(ViscousTerm<Dim>& t, Site cell, double c) const;
   double kappa(Site cell) const;
+  double indefinite_part(const ViscousTerm<Dim>& t) const;
+  void add_differences_sum(ViscousTerm<Dim>& t, double c) const;
   void add_motion(int solid, const Vec3& x, int axis, double sign, AffineVelocity& v) const;
   void add_surface(int solid, const Slot& slot, AffineVelocity& v) const;
   Vec3 surface_point(const Slot& slot) const;

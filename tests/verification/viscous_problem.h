@@ -3,7 +3,7 @@
 #include <Eigen/SparseLU>
 
 #include "coupling/step_geometry.h"
-#include "fluid/viscosity.h"
+#include "fluid/no_slip_flux.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "scenes.h"
@@ -101,6 +101,34 @@ class ViscousProblem {
     halo_.fill_ghosts(u);
   }
 
+  // Solves again and again, with the fluxes of cut faces from the solve before. Returns the last relative change of u.
+  double solve_with_flux(int turns) {
+    assemble();
+    solve();
+    double change = 0;
+    const FaceField<Dim> closed = step.faces.closed_flux;
+    std::vector<RigidField> motion;
+    for (const auto& s : solids) motion.push_back(s.frame);
+    for (int n = 0; n < turns; ++n) {
+      const FaceField<Dim> before = u;
+      step.faces.closed_flux = closed;
+      add_no_slip_flux(input(), *system.samples, motion, u, step.faces.closed_flux);
+      assemble();
+      solve();
+      change = difference(before);
+    }
+    step.faces.closed_flux = closed;
+    return change;
+  }
+  double difference(const FaceField<Dim>& v) const {
+    double most = 0, scale = 0;
+    for (const auto& [a, f] : system.rows.faces) {
+      most = std::max(most, std::abs(u.at(a, f) - v.at(a, f)));
+      scale = std::max(scale, std::abs(u.at(a, f)));
+    }
+    return most / scale;
+  }
+
   template <class Visit>
   static void visit(const DistributedMatrix& m, const Visit& f) {
     for (int i = 0; i < m.rows(); ++i)
@@ -138,6 +166,7 @@ class ViscousProblem {
     return sum / (1 << (Dim - 1));
   }
   Vec<Dim> position(int a, Site f) const { return layout_.position(layout_.index(f), face_offset<Dim>(a)); }
+  const ProjectionInput<Dim>& projection() const { return projection_; }
   const Layout<Dim>& layout() const { return layout_; }
 
  private:
