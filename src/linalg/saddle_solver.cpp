@@ -174,7 +174,8 @@ struct WeightedPreconditioner {
 SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {
-    if (target >= 0 && estimate > target) return false;
+    if (!getenv("HIST") && target >= 0 && estimate > target) return false;
+    if(getenv("HIST")) {auto m=measure(problem,now); fmt::print("{:.1e}:{:.1e},{:.1e} ",estimate,m.momentum,m.continuity); if(m.larger()<=options_.tolerance) return true; return false;}
     const double excess = measure(problem, now).larger() / options_.tolerance;
     if (excess <= 1) return true;
     target = target < 0 ? 2 * estimate / excess : estimate * std::clamp(0.8 / excess, 0.1, 0.7);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "linalg/krylov.h"
+#include "linalg/loose_faces.h"
 
 namespace seiche {
 namespace {
@@ -52,17 +53,25 @@ Eigen::MatrixXd modes_of(const ColumnBlock& b, int first, const BodyMatrix& H) {
 
 VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const AmgSettings& settings)
     : K_(K), mass_prevails_(is_mass_dominated(K.faces())), T_(K.ranks()) {
-  AmgSettings own = settings;
-  own.component = K.system().axis;
-  own.components = count_axes(own.component, K.ranks());
-  if(getenv("FAGG")) own.aggressive_levels=atoi(getenv("FAGG"));
-  if(getenv("FSW")) own.sweeps=atoi(getenv("FSW"));
-  if(getenv("FST")) own.strength=atof(getenv("FST"));
-  if(getenv("FCO")) own.coarsening=atoi(getenv("FCO"));
-  if(getenv("FNUM")&&atoi(getenv("FNUM"))==0) own.components=1;
-  B_ = mass_prevails_ ? make_preconditioner("none", K.faces()).preconditioner
-                      : make_boomeramg(K.faces(), own).preconditioner;
+  if (mass_prevails_) {
+    B_ = make_preconditioner("none", K.faces()).preconditioner;
+  } else {
+    make_multigrid(settings);
+  }
   if (K.unknowns() > 0) find_directions();
+}
+
+void VelocityPreconditioner::make_multigrid(AmgSettings settings) {
+  settings.component = K_.system().axis;
+  settings.components = count_axes(settings.component, K_.ranks());
+  B_ = make_boomeramg(K_.faces(), settings).preconditioner;
+  std::vector<char> loose(std::size_t(K_.velocities()));
+  const std::vector<int>& start = K_.system().Dt.row_start;
+  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = start[i] == start[i + 1];
+  if (!K_.ranks().any(std::find(loose.begin(), loose.end(), 1) != loose.end())) return;
+  auto mended = std::make_unique<LooseFaces>(K_.faces(), loose, std::move(B_));
+  good_ = !K_.ranks().any(!mended->good());
+  B_ = std::move(mended);
 }
 
 void VelocityPreconditioner::find_directions() {
@@ -131,6 +140,7 @@ SparseMatrix VelocityPreconditioner::body_part() const {
 }
 
 bool VelocityPreconditioner::refresh() {
+  if (!good_) return false;
   const auto n = Eigen::Index(directions_.size()), r = Eigen::Index(rigid_);
   energies_ = dragged_;
   if (n == 0) return true;

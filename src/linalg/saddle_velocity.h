@@ -33,13 +33,14 @@ class VelocityPreconditioner {
   bool mass_prevails() const { return mass_prevails_; }
 
  private:
+  void make_multigrid(AmgSettings settings);
   void find_directions();
   void extend(Direction& d, const Vector& Gm);
   void multiply_out(const std::vector<Vector>& GM);
   SparseMatrix body_part() const;
 
   const SaddleOperator& K_;
-  bool mass_prevails_;
+  bool mass_prevails_, good_ = true;
   std::unique_ptr<Preconditioner> B_;
   std::vector<Direction> directions_;  // rigid ones first
   std::size_t rigid_ = 0;

@@ -24,7 +24,7 @@ struct StokesMatrices {
   DistributedMatrix F, D, Dt;
   BlockColumns G, J;
   SparseMatrix H;
-  Vector schur_mass;
+  Vector schur_mass, mass;
   std::vector<int> axis;
   SaddleSystem system() const {
     return {F, G, D, Dt, J, pressure.A, pressure.grid, pressure.null_space, 1.0, schur_mass, axis};
@@ -218,7 +218,8 @@ class StokesBuilder {
         const std::int64_t face = faces_[std::size_t(index_of(p_, c) * dim_ + a)];
         if (face < first_ || face >= last_) continue;
         made_.axis.push_back(a);
-        rows_[std::size_t(face - first_)][face] += is_liquid(c) || is_liquid(moved(c, a, -1)) ? 1 : 1e-3;
+        made_.mass.push_back(is_liquid(c) || is_liquid(moved(c, a, -1)) ? 1 : 1e-3);
+        rows_[std::size_t(face - first_)][face] += made_.mass.back();
       }
     });
   }
