@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "coupling/formula_checks.h"
 #include "coupling/liquid_viscosity.h"
+#include "fluid/no_slip_flux.h"
 #include "grid/loops.h"
 #include "solid/elastic_motion.h"
 
@@ -96,6 +97,7 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
     : setup_(s),
       geometry_(g),
       coupling_(coupling),
+      rows_(rows),
       solids_(make_solids(s, g, state, coupling)),
       input_{.layout = s.layout,
              .halo = s.halo,
@@ -118,6 +120,23 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
       system_(assemble_viscosity(input_)),
       J_(scaled(coupling.J, s.layout.geometry().face_area())) {
   separate_held();
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const RigidState& r = state.rigid[k];
+    motion_.push_back(s.bodies[k].is_rigid() ? RigidField{r.velocity, r.angular_velocity, r.center} : solids_[k].frame);
+  }
+}
+
+template <int Dim>
+void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux) {
+  const Layout<Dim>& layout = setup_.layout;
+  FaceField<Dim> added(layout);
+  add_no_slip_flux(input_, *system_.samples, motion_, flow, added);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(layout, layout.grown(1), [&](Site f) { closed_flux.at(a, f) += added.at(a, f); });
+  for (std::size_t n = 0; n < rows_.cells.size(); ++n)
+    for_each_face_of(layout, rows_.cells[n], [&](int a, Site f, int sign, Site) {
+      system_.q[n] -= sign * added.at(a, f) * layout.geometry().face_area();
+    });
 }
 
 // What is held is known: f - G v_h, and its columns are left out of G.

@@ -37,6 +37,8 @@ class ViscousStep {
 
   const ViscousSystem<Dim>& system() const { return system_; }
   const BlockColumns& J() const { return J_; }  // volume a unit of time, not a unit of face area
+  // Volume fluxes through cut faces to second order, from velocities of an earlier time, into q and `closed_flux`.
+  void add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux);
   // Between a field on faces and the rows of the system.
   Vector gather(const FaceField<Dim>& u) const;
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
@@ -50,7 +52,9 @@ class ViscousStep {
   const Setup<Dim>& setup_;
   const StepGeometry<Dim>& geometry_;
   const SolidCoupling<Dim>& coupling_;
+  const PressureRows<Dim>& rows_;
   std::vector<ViscousSolid<Dim>> solids_;
+  std::vector<RigidField> motion_;  // of each solid about when the step began
   ViscousInput<Dim> input_;
   ViscousSystem<Dim> system_;
   BlockColumns J_;

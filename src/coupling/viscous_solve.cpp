@@ -56,7 +56,8 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   faces.side_pressure.fill(0);  // part of the slope
   const ProjectionInput<Dim>& p0 = in.liquid;
   const ProjectionInput<Dim> unpressed{p0.layout, p0.halo, p0.ranks, p0.phi, faces, p0.density, dt, p0.parting};
-  const ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
+  ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
+  viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const ViscousSystem<Dim>& system = viscous.system();
   SaddleSolver solver = make_solver(in, liquid, viscous);
   Vector p = guessed_pressure(in, r.rows), u = viscous.gather(pressed);
@@ -92,7 +93,8 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
                           const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
   const Setup<Dim>& s = in.setup;
   const double dt = in.liquid.dt;
-  const ViscousStep<Dim> viscous(s, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity, in.u_star);
+  ViscousStep<Dim> viscous(s, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity, in.u_star);
+  viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   SaddleSolver solver = make_solver(in, liquid, viscous);
   refuse_impossible_motion(in, liquid, solver.sensed_components(), r);
   Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
