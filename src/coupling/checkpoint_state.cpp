@@ -43,9 +43,11 @@ void restore(const Setup<Dim>& s, const CheckpointData& data, const std::string&
 
 // visit(name, axis) of the face fields of a level.
 template <int Dim, class Visit>
-void for_each_level_field(const std::string& level, const Visit& visit) {
+void for_each_level_field(const Setup<Dim>& s, const std::string& level, const Visit& visit) {
+  std::vector<const char*> fields{"u", "valid", "q"};
+  if (s.is_viscous()) fields.push_back("n");
   for (int a = 0; a < Dim; ++a)
-    for (const char* field : {"u", "valid", "q"}) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
+    for (const char* field : fields) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
 }
 
 // visit(name, field, axis) of a film's components.
@@ -59,23 +61,24 @@ void for_each_film_field(AnyFilm& film, const Visit& visit) {
 
 template <int Dim>
 void save_level(const Setup<Dim>& s, const std::string& name, const Level<Dim>& level, CheckpointData& data) {
-  for_each_level_field<Dim>(name, [&](const std::string& field, char which, int a) {
+  for_each_level_field(s, name, [&](const std::string& field, char which, int a) {
     const Box<Dim> box = s.layout.faces(a);
     if (which == 'u') data.fields.push_back(record<Dim>(s, field, box, level.u[a]));
     if (which == 'v') data.fields.push_back(record<Dim>(s, field, box, level.valid[a]));
     if (which == 'q') data.fields.push_back(record<Dim>(s, field, box, level.q[a]));
+    if (which == 'n') data.fields.push_back(record<Dim>(s, field, box, level.n[a]));
   });
 }
 
 template <int Dim>
 std::shared_ptr<const Level<Dim>> load_level(const Setup<Dim>& s, const std::string& name, const CheckpointData& data) {
-  auto level = std::make_shared<Level<Dim>>(
-      Level<Dim>{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)});
-  for_each_level_field<Dim>(name, [&](const std::string& field, char which, int a) {
+  auto level = std::make_shared<Level<Dim>>(empty_level(s));
+  for_each_level_field(s, name, [&](const std::string& field, char which, int a) {
     const Box<Dim> box = s.layout.faces(a);
     if (which == 'u') restore<Dim>(s, data, field, box, level->u[a]);
     if (which == 'v') restore<Dim>(s, data, field, box, level->valid[a]);
     if (which == 'q') restore<Dim>(s, data, field, box, level->q[a]);
+    if (which == 'n') restore<Dim>(s, data, field, box, level->n[a]);
   });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, level->u);
   s.halo.fill_ghosts(level->valid);
@@ -96,6 +99,16 @@ void for_each_number(State& r, const std::string& body, const Visit& visit) {
   vector("extra_force", r.extra_force);
   vector("extra_torque", r.extra_torque);
   visit(fmt::format("rigid.{}.horizon", body), r.horizon);
+}
+
+// visit(name, value) of every number of the viscous loads.
+template <class Loads, class Visit>
+void for_each_load(Loads& loads, const Visit& visit) {
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      visit(fmt::format("viscous.{}.force{}", k, c), loads[k].force[c]);
+      visit(fmt::format("viscous.{}.torque{}", k, c), loads[k].torque[c]);
+    }
 }
 
 // visit(name, vector) of what an elastic body's state is made of.
@@ -159,6 +172,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (s.bodies[k].is_rigid())
       for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double x) { data.scalars[n] = x; });
+  for_each_load(state.viscous_loads, [&](const std::string& n, double x) { data.scalars[n] = x; });
   save_elastic(s, state, data);
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
@@ -166,7 +180,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
   for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
     data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
   });
-  const Level<Dim> none{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
+  const Level<Dim> none = empty_level(s);
   save_level(s, level_names[0], *state.now, data);
   save_level(s, level_names[1], state.before ? *state.before : none, data);
   save_level(s, level_names[2], state.earlier ? *state.earlier : none, data);
@@ -192,6 +206,8 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (s.bodies[k].is_rigid())
       for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
+  if (s.is_viscous() && state.step > 0) state.viscous_loads.resize(s.bodies.size());
+  for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
   load_elastic(s, data, state);
   state.phi = CellField<Dim>(s.layout);
   state.pressure = CellField<Dim>(s.layout);
@@ -222,7 +238,7 @@ std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
     boxes.push_back(empty_record<Dim>(name, s.layout.faces(a)));
   });
   for (const char* level : level_names)
-    for_each_level_field<Dim>(level, [&](const std::string& field, char, int a) {
+    for_each_level_field(s, level, [&](const std::string& field, char, int a) {
       boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
     });
   return boxes;

@@ -113,12 +113,13 @@ class FlowSimulation : public Simulation {
     return g;
   }
 
-  // The initial state as if a step of dt had led to it: slope of the trial, u(-dt) = 2 u(0) - u(dt).
+  // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) - u(dt).
   State<Dim> inform(const Level<Dim>& trial, double dt) const {
     State<Dim> state = state_;
     auto now = std::make_shared<Level<Dim>>(*state_.now), before = std::make_shared<Level<Dim>>(*state_.now);
     now->q = trial.q;
     before->q = trial.q;
+    now->n = before->n = trial.n;
     for (int a = 0; a < Dim; ++a)
       for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.u[a][f];
     state.now = now;
@@ -134,6 +135,8 @@ class FlowSimulation : public Simulation {
     divergence_ = a.divergence;
     newton_iterations_ = a.newton_iterations;
     contacts_ = a.contacts;
+    dissipation_ = a.dissipation;
+    rheology_iterations_ = a.rheology_iterations;
     for (const std::string& line : a.solve.ladder)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh();
@@ -151,6 +154,8 @@ class FlowSimulation : public Simulation {
     stats_.max_divergence = divergence_;
     stats_.newton_iterations = newton_iterations_;
     stats_.contacts = contacts_;
+    stats_.viscous_dissipation = dissipation_;
+    stats_.rheology_iterations = rheology_iterations_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
     solids_ = measure_solids(setup_, state_, geometry_);
@@ -184,7 +189,8 @@ class FlowSimulation : public Simulation {
   std::vector<SurfaceMesh> surfaces_;
   SolveReport solve_;
   double divergence_ = 0;
-  int newton_iterations_ = 0, contacts_ = 0;
+  int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
+  double dissipation_ = 0;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };

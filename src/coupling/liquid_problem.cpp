@@ -3,22 +3,10 @@
 #include <fmt/format.h>
 
 namespace seiche {
-namespace {
-
-InertiaResponse failed(const std::string& why) {
-  return {why, Shape::convex, {}, {}};
-}
-
-InertiaResponse indefinite() {
-  return {{}, Shape::indefinite, {}, {}};
-}
-
-}  // namespace
-
 template <int Dim>
 LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b,
                                   Vector& pressure, double c1, double c2, const Communicator& ranks)
-    : coupling_(coupling),
+    : CoupledProblem<Dim>(coupling),
       solver_(solver),
       b_(b),
       pressure_(pressure),
@@ -30,35 +18,6 @@ LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver&
   Vector moved(b.size());
   add_multiplied(coupling.J, c1 * coupling.free, moved);
   scale_ = norm(b, ranks) + norm(moved, ranks);
-}
-
-// v where it is free, zero where it is held.
-template <int Dim>
-Eigen::VectorXd LiquidProblem<Dim>::free_part(Eigen::VectorXd v) const {
-  for (Eigen::Index i = 0; i < v.size(); ++i)
-    if (coupling_.freedom[std::size_t(i)] == Freedom::fixed) v[i] = 0;
-  return v;
-}
-
-// H v = r with v known where it is held: H_ff v_f = r_f - H_fh v_h. Rows of what is held keep their diagonal.
-template <int Dim>
-SparseMatrix LiquidProblem<Dim>::uncouple_held(const SparseMatrix& H, Eigen::VectorXd& r) const {
-  const auto is_held = [&](Eigen::Index i) { return coupling_.freedom[std::size_t(i)] == Freedom::fixed; };
-  if (std::none_of(coupling_.freedom.begin(), coupling_.freedom.end(), [](Freedom f) { return f == Freedom::fixed; }))
-    return H;
-  r -= H * coupling_.held;
-  SparseMatrix kept = H;
-  kept.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!is_held(i) && !is_held(j)); });
-  for (Eigen::Index i = 0; i < r.size(); ++i)
-    if (is_held(i)) r[i] = kept.coeff(i, i) * coupling_.held[i];
-  return kept;
-}
-
-template <int Dim>
-bool LiquidProblem<Dim>::holds(const Eigen::VectorXd& v) const {
-  for (Eigen::Index i = 0; i < v.size(); ++i)
-    if (coupling_.freedom[std::size_t(i)] == Freedom::fixed && v[i] != coupling_.held[i]) return false;
-  return true;
 }
 
 template <int Dim>
@@ -92,16 +51,15 @@ InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd&
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
   Eigen::VectorXd push = coupling_.push + r;
-  if (!H_.set(uncouple_held(K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
-    return indefinite();
+  if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
+    return indefinite_response();
   const Eigen::VectorXd dry = H_.solve(push);
   Vector b = b_;
   add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
-  if (std::string failure = solve(H_, b); !failure.empty()) return failed(failure);
+  if (std::string failure = solve(H_, b); !failure.empty()) return failed_response(failure);
   const Eigen::VectorXd force = impulse_of_pressure();
   Eigen::VectorXd v = dry + H_.solve(force);
-  for (Eigen::Index i = 0; i < v.size(); ++i)
-    if (coupling_.freedom[std::size_t(i)] == Freedom::fixed) v[i] = coupling_.held[i];
+  hold(v);
   return respond_with_pressure(v, force);
 }
 
@@ -110,7 +68,7 @@ template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
   Vector b = b_;
   add_multiplied(coupling_.J, -c1_ * free_part(v), b);
-  if (std::string failure = solve(none_, b); !failure.empty()) return failed(failure);
+  if (std::string failure = solve(none_, b); !failure.empty()) return failed_response(failure);
   return respond_with_pressure(v, impulse_of_pressure());
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What contacts push against: the bodies' inertia and the liquid's pressure, as one quadratic energy.
-#include "coupling/solid_coupling.h"
+// Inviscid liquid behind the bodies: their inertia and the liquid's pressure.
+#include "coupling/coupled_problem.h"
 
 namespace seiche {
 
@@ -10,26 +10,23 @@ namespace seiche {
 //   (A + c1 c2 J H^-1 J') p = b - c1 J H^-1 (M v* + r),  H v = M v* + r + c2 J'p.
 // What is held has its velocity, and b knows of it.
 template <int Dim>
-class LiquidProblem : public InertiaProblem {
+class LiquidProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references; `pressure` is the first guess and holds the last solution.
   LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
                 double c2, const Communicator& ranks);
-  int size() const override { return coupling_.size(); }
   InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
-  bool holds(const Eigen::VectorXd& v) const override;
-
-  const SolveReport& report() const { return report_; }  // of all solves so far
 
  private:
-  Eigen::VectorXd free_part(Eigen::VectorXd v) const;
-  SparseMatrix uncouple_held(const SparseMatrix& H, Eigen::VectorXd& right_side) const;
+  using CoupledProblem<Dim>::coupling_;
+  using CoupledProblem<Dim>::report_;
+  using CoupledProblem<Dim>::free_part;
+  using CoupledProblem<Dim>::hold;
   std::string solve(const BodyMatrix& H, const Vector& b);
   Eigen::VectorXd impulse_of_pressure() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
-  const SolidCoupling<Dim>& coupling_;
   SpdSolver& solver_;
   const Vector& b_;
   Vector& pressure_;
@@ -39,7 +36,6 @@ class LiquidProblem : public InertiaProblem {
   // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side,
   // which grows without bound for ever lighter bodies.
   double scale_ = 0;
-  SolveReport report_;
 };
 
 }  // namespace seiche

@@ -127,6 +127,11 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     }
   }
   if (!loads.empty()) s.ranks.global_sum(loads);
+  for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      loads[6 * k + c] += state.viscous_loads[k].force[c];
+      loads[6 * k + 3 + c] += state.viscous_loads[k].torque[c];
+    }
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const RigidState& r = state.rigid[k];
     solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]) + r.extra_force;

@@ -10,6 +10,8 @@
 namespace seiche {
 namespace {
 
+constexpr int straight_layers = 2;  // in which velocity is continued straight, before it is constant
+
 // Mean of the psi of a face's corners, and its gradient there (per cell).
 template <int Dim>
 struct FaceDistance {
@@ -71,7 +73,15 @@ class ElasticVelocities {
   std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
 };
 
+// Whether viscous liquid has the velocity of this body (-1: none) at its surface.
+template <int Dim>
+bool liquid_sticks_to(const Setup<Dim>& s, int body) {
+  return s.is_viscous() && body >= 0 && s.bodies[std::size_t(body)].spec().slip == Slip::no_slip;
+}
+
 // In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n. Solved faces keep theirs.
+// Where liquid sticks to the solid, what is continued straight passes through the solid's velocity at its surface;
+// farther in than that goes all of it is the solid's.
 template <int Dim>
 void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                    const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
@@ -87,6 +97,10 @@ void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceFi
       const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
       std::optional<Vec<Dim>> v = truncate<Dim>(g.placed[g.body[f]].twist.at(x));
       if (s.bodies[g.body[f]].is_elastic()) v = elastic.at(g.body[f], a, f);
+      if (v && liquid_sticks_to(s, g.body[f])) {
+        if (d.psi < -straight_layers * s.layout.h()) u.at(a, f) = (*v)[a];
+        return;
+      }
       if (v) u.at(a, f) += (*v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
     });
 }
@@ -121,7 +135,7 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
         u.at(a, f.face) = g.placed[f.body].twist.at(x)[a];
         reached.at(a, f.face) = 1;
       }
-    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), 2}, u[a], reached[a]);
+    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), straight_layers}, u[a], reached[a]);
   }
   keep_prescribed(s, g, u);
   if (s.bodies.empty()) return;
@@ -133,7 +147,7 @@ template <int Dim>
 Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
                                const StepGeometry<Dim>& g) {
-  Level<Dim> next{FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout)};
+  Level<Dim> next = empty_level(s);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       const Site low = f - s.layout.stride(a);
@@ -144,7 +158,7 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
         next.u.at(a, f) = in.faces.prescribed.at(a, f);
         return;
       }
-      if (in.faces.open.at(a, f) >= least_open) next.valid.at(a, f) = face_solved;
+      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s, g.body[f])) next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
       next.u.at(a, f) = u_star.at(a, f) - in.dt * next.q.at(a, f);
     });

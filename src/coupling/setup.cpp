@@ -5,6 +5,7 @@
 #include "coupling/contact_setup.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
+#include "coupling/liquid_viscosity.h"
 #include "coupling/restore.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -154,12 +155,13 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
 template <int Dim>
 Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
     : scene(sc),
+      viscous(seiche::is_viscous(sc.liquid)),
       gravity(sc.gravity),
       ranks(r),
       layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],
              halo_width(sc)),
       halo(layout, partition(layout.geometry(), r.size()), r),
-      sides(sc.domain),
+      sides(sc.domain, viscous ? WallFlow::sticks : WallFlow::slips),
       bodies(make_bodies<Dim>(sc, notes)),
       solids(layout, sides, bodies),
       sources(make_sources<Dim>(sc, notes)) {
@@ -229,7 +231,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
 
-  Level<Dim> level{FaceField<Dim>(s.layout), faces_near_liquid(s, state.phi), FaceField<Dim>(s.layout)};
+  Level<Dim> level = empty_level(s);
+  level.valid = faces_near_liquid(s, state.phi);
   std::string fault;
   level.u = initial_velocity(s, level.valid, shapes, fault);
   check_formulas_at_start(s, g, fault);

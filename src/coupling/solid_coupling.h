@@ -26,6 +26,7 @@ struct SolidCoupling {
   std::shared_ptr<const VelocityPotential> potential;  // of the elastic forces; null: none
 
   int size() const { return first.back(); }
+  bool is_held(Eigen::Index i) const { return freedom[std::size_t(i)] == Freedom::fixed; }
 };
 
 // What the parts of a coupling are gathered in.

@@ -7,6 +7,7 @@
 #include "coupling/simulation.h"
 #include "coupling/step_geometry.h"
 #include "fluid/pressure.h"
+#include "fluid/viscosity.h"
 #include "solid/contact.h"
 #include "solid/elastic_motion.h"
 #include "solid/elastic_point.h"
@@ -23,6 +24,7 @@ struct Source {
 template <int Dim>
 struct Setup {
   Scene scene;
+  bool viscous;
   Gravity gravity;
   std::vector<std::string> notes;  // of reading the shapes, for the log
   Communicator ranks;
@@ -38,6 +40,7 @@ struct Setup {
   Setup(const Scene& scene, const Communicator& ranks);
   bool has_rigid() const;
   bool has_elastic() const;
+  bool is_viscous() const { return viscous; }
   ElasticScheme elastic_scheme() const {
     return scene.time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
   }
@@ -54,7 +57,16 @@ struct Level {
   FaceField<Dim> u;            // m/s, continued beyond the liquid, ghosts filled
   FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
+  FaceField<Dim> n;            // acceleration by viscosity at this time, m/s^2, where valid; viscous scenes alone
 };
+
+// At rest, valid nowhere.
+template <int Dim>
+Level<Dim> empty_level(const Setup<Dim>& s) {
+  const FaceField<Dim> none;
+  return {FaceField<Dim>(s.layout), FaceField<Dim, char>(s.layout), FaceField<Dim>(s.layout),
+          s.is_viscous() ? FaceField<Dim>(s.layout) : none};
+}
 
 // The open part of the faces and their velocities, those of slits as they were solved for (films.h).
 template <int Dim>
@@ -77,6 +89,7 @@ struct State {
   std::vector<ElasticMotion> elastic;                      // one a solid; of the elastic ones
   double horizon = 0;                                      // s ahead that the solids' velocities were solved for
   Parting<Dim> parting;                                    // where the scene lets liquid part from solids
+  std::vector<ViscousLoad> viscous_loads;                  // on each solid; empty where the liquid is inviscid
 };
 
 // How a step went; `state` is only set where it succeeded.
@@ -88,6 +101,8 @@ struct Attempt {
   SolveReport solve;
   double divergence = 0;
   int newton_iterations = 0, contacts = 0;
+  double dissipation = 0;       // by viscosity, W
+  int rheology_iterations = 0;  // solves until viscosity and flow agreed
 };
 
 // The phases of a step, timed and open to fault injection.

@@ -6,6 +6,7 @@
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
+#include "coupling/rheology_iteration.h"
 #include "coupling/thin_solids.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -158,12 +159,15 @@ struct StepInProgress {
     return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting};
   }
 
-  bool solve() {
+  bool solve(const ViscosityField<Dim>* viscosity) {
     const PhaseFault fault = phases.enter("solve");
     const auto timed = phases.timers.measure("solve");
     out.state.horizon = choose_horizon(s, out.state, dt);
-    solution = solve_coupled(s, input(), out.geometry, out.state, before.pressure, u_star, out.state.horizon, fault);
+    const int earlier = out.solve.iterations;
+    solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, out.state.pressure, before.now->q,
+                                               before.now->u, u_star, out.state.horizon, viscosity, fault});
     out.solve = solution.report;
+    out.solve.iterations += earlier;
     out.newton_iterations = solution.newton_iterations;
     out.contacts = solution.contacts;
     out.failure = solution.failure;
@@ -174,17 +178,50 @@ struct StepInProgress {
   void restore() {
     const PhaseFault fault = phases.enter("restore");
     const auto timed = phases.timers.measure("restore");
-    Restored<Dim> restored = restore_velocity(s, input(), solution.rows, out.state.pressure, u_star, out.geometry);
+    Restored<Dim> restored =
+        restore_velocity(s, input(), solution.rows, out.state.pressure, solution.u_star, out.geometry);
+    set_viscous_acceleration(restored.level);
     auto level = std::make_shared<Level<Dim>>(std::move(restored.level));
     out.state.film = std::move(restored.film);
     out.divergence = restored.divergence;
     if (s.scene.liquid.separates) {
-      advance_gaps(input(), solution.rows, out.state.pressure, u_star, out.state.parting);
+      advance_gaps(input(), solution.rows, out.state.pressure, solution.u_star, out.state.parting);
       open_gaps(s, out.state);
     }
     inject(s, fault, level->u[0].data());
     out.failure = find_non_finite(s, "u", level->u);
     out.state.now = level;
+    out.state.viscous_loads = solution.viscous_loads;
+    out.dissipation = solution.dissipation;
+  }
+
+  // What viscosity added to u*.
+  void set_viscous_acceleration(Level<Dim>& level) const {
+    for (int a = 0; a < Dim && s.is_viscous(); ++a)
+      for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+        if (level.valid.at(a, f) == face_solved) level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / dt;
+      });
+  }
+
+  // Where viscosity depends on the flow, until both agree.
+  void solve_and_restore() {
+    if (!s.is_viscous()) {
+      if (solve(nullptr)) restore();
+      return;
+    }
+    const State<Dim> moved = out.state;
+    const StepGeometry<Dim> measured = out.geometry;
+    RheologyIteration<Dim> rheology(s, out.state.phi, *before.now, out.state.time);
+    do {
+      CellField<Dim> guess = std::move(out.state.pressure);
+      out.state = moved;
+      out.state.pressure = std::move(guess);
+      out.geometry = measured;
+      if (!solve(&rheology.viscosity())) return;
+      restore();
+      if (!out.failure.empty()) return;
+    } while (rheology.is_unsettled_by(*out.state.now));
+    out.rheology_iterations = rheology.count();
   }
 };
 
@@ -196,7 +233,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double d
   step.move_bodies();
   step.transport_surface();
   step.measure_geometry();
-  if (step.transport_velocity() && step.solve()) step.restore();
+  if (step.transport_velocity()) step.solve_and_restore();
   return std::move(step.out);
 }
 

@@ -123,6 +123,28 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double
   return acc;
 }
 
+// N(t) - N(t - dt_now) along the path, N the acceleration by viscosity, scaled to a step of dt. Zero where either is
+// not known, and in first order.
+template <int Dim>
+FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim, char>& interior,
+                             double dt) {
+  FaceField<Dim> trend(s.layout);
+  if (!s.is_viscous() || !state.before || s.scene.time.scheme == TimeScheme::first_order) return trend;
+  if (dt > 2 * state.dt_now) return trend;
+  const Level<Dim>& now = *state.now;
+  FaceField<Dim> last = state.before->n, carried(s.layout);
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, last);
+  advect_faces(s.layout, now.u, state.dt_now, interior, interior, last, last, carried);
+  const double limit = 0.25 * s.layout.h() / (dt * dt);  // as of A
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (interior.at(a, f) && now.valid.at(a, f) == face_solved && state.before->valid.at(a, f) == face_solved)
+        trend.at(a, f) = std::clamp(dt / state.dt_now * (now.n.at(a, f) - carried.at(a, f)), -limit, limit);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, trend);
+  return trend;
+}
+
 // Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
 template <int Dim>
 std::pair<double, double> valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
@@ -185,9 +207,11 @@ template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
   const FaceField<Dim, char> interior = interior_faces(s, state.now->valid), near = faces_near_liquid(s, phi);
   const FaceField<Dim> path = path_velocity(s, state, interior, dt), acc = acceleration(s, state, dt);
+  const FaceField<Dim> trend = viscous_trend(s, state, interior, dt);
   FaceField<Dim> carried = state.now->u;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.padded(), [&](Site f) { carried.at(a, f) += 0.5 * dt * acc.at(a, f); });
+    for_each_site(s.layout, s.layout.padded(),
+                  [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
   FaceField<Dim> u(s.layout);
   advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
   limit_at_surfaces(s, *state.now, near, interior, u);

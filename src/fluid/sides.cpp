@@ -5,7 +5,7 @@
 namespace seiche {
 
 template <int Dim>
-Sides<Dim>::Sides(const DomainSpec& domain) {
+Sides<Dim>::Sides(const DomainSpec& domain, WallFlow flow) : flow_(flow) {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       const SideSpec& spec = domain.sides[a][side];
@@ -43,12 +43,19 @@ bool Sides<Dim>::any_inflow() const {
 }
 
 template <int Dim>
-Extensions<Dim> Sides<Dim>::velocity_extensions() const {
+bool Sides<Dim>::sticks(int axis, int side) const {
+  const SideType s = type(axis, side);
+  return flow_ == WallFlow::sticks && (s == SideType::no_slip || s == SideType::moving_wall);
+}
+
+template <int Dim>
+Extensions<Dim> Sides<Dim>::velocity_extensions(int component) const {
   Extensions<Dim> e;
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       const bool through = type(a, side) == SideType::inflow || type(a, side) == SideType::outflow;
       e[a][side] = through ? Extension::constant : Extension::mirror;
+      if (a != component && sticks(a, side)) e[a][side] = Extension::linear;
     }
   return e;
 }
@@ -57,8 +64,8 @@ template <int Dim>
 void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides,
                           FaceField<Dim>& u) {
   halo.fill_ghosts(u);
-  const Extensions<Dim> rules = sides.velocity_extensions();
-  for (int a = 0; a < Dim; ++a) extend_beyond_sides<Dim>(layout, u[a].data(), face_offset<Dim>(a), rules);
+  for (int a = 0; a < Dim; ++a)
+    extend_beyond_sides<Dim>(layout, u[a].data(), face_offset<Dim>(a), sides.velocity_extensions(a));
 }
 
 namespace {

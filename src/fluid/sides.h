@@ -8,10 +8,13 @@
 
 namespace seiche {
 
+// What no-slip and moving walls do to the liquid along them: without viscosity nothing.
+enum class WallFlow { slips, sticks };
+
 template <int Dim>
 class Sides {
  public:
-  explicit Sides(const DomainSpec& domain);
+  explicit Sides(const DomainSpec& domain, WallFlow flow = WallFlow::slips);
 
   SideType type(int axis, int side) const { return types_[axis][side]; }
   bool is_outflow(int axis, int side) const { return type(axis, side) == SideType::outflow; }
@@ -23,11 +26,15 @@ class Sides {
   double inward_speed(int axis, int side, const Vec<Dim>& x, double t) const;
   bool any_inflow() const;
 
-  // How velocity continues beyond the sides: mirrored at walls, constant through inflow and outflow.
-  Extensions<Dim> velocity_extensions() const;
+  // Whether liquid has the velocity of a wall there.
+  bool sticks(int axis, int side) const;
+  // How a component of the velocity continues beyond the sides: mirrored at walls, constant through inflow and outflow,
+  // straight on along walls that liquid sticks to.
+  Extensions<Dim> velocity_extensions(int component) const;
 
  private:
   std::array<std::array<SideType, 2>, Dim> types_{};
+  WallFlow flow_;
   std::vector<VectorExpression> velocity_;
   std::vector<Expression> pressure_;
 };

@@ -8,10 +8,10 @@ namespace {
 
 constexpr int request_tag = 7101, value_tag = 7102;
 
-std::vector<Row> foreign_columns(const DistributedMatrix& A) {
+std::vector<Row> foreign_columns(const DistributedMatrix& A, Row first, int owned) {
   std::vector<Row> ghosts;
   for (const Row c : A.column) {
-    if (c < A.first_row || c >= A.first_row + A.rows()) ghosts.push_back(c);
+    if (c < first || c >= first + owned) ghosts.push_back(c);
   }
   std::sort(ghosts.begin(), ghosts.end());
   ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
@@ -31,7 +31,10 @@ std::vector<Row> gather_row_starts(int owned, const Communicator& ranks) {
 }  // namespace
 
 ColumnHalo::ColumnHalo(const DistributedMatrix& A, const Communicator& ranks)
-    : ranks_(ranks), first_row_(A.first_row), owned_(A.rows()), ghost_rows_(foreign_columns(A)) {
+    : ColumnHalo(A, A.first_row, A.rows(), ranks) {}
+
+ColumnHalo::ColumnHalo(const DistributedMatrix& A, Row first, int owned, const Communicator& ranks)
+    : ranks_(ranks), first_row_(first), owned_(owned), ghost_rows_(foreign_columns(A, first, owned)) {
   if (ranks.size() == 1) {
     assert(ghost_rows_.empty());
     return;

@@ -12,6 +12,8 @@ class ColumnHalo {
  public:
   // Collective. Rows must be numbered in the order of the ranks, without gaps.
   ColumnHalo(const DistributedMatrix& A, const Communicator& ranks);
+  // Of a rectangular matrix: the vector it is multiplied with has `owned` entries here, numbered from `first`.
+  ColumnHalo(const DistributedMatrix& A, Row first, int owned, const Communicator& ranks);
 
   int owned() const { return owned_; }
   int ghosts() const { return int(ghost_rows_.size()); }

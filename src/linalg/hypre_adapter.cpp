@@ -133,12 +133,21 @@ class BoomerAmg : public Preconditioner {
     HYPRE_BoomerAMGSetStrongThreshold(solver_, s.strength);
     HYPRE_BoomerAMGSetAggNumLevels(solver_, s.aggressive_levels);
     HYPRE_BoomerAMGSetNumSweeps(solver_, s.sweeps);
+    if (s.components > 1) set_components(s);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_down, 1);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_up, 2);
     HYPRE_BoomerAMGSetCycleRelaxType(solver_, s.relax_coarsest, 3);
     HYPRE_BoomerAMGSetMaxIter(solver_, 1);
     HYPRE_BoomerAMGSetTol(solver_, 0.0);
     HYPRE_BoomerAMGSetPrintLevel(solver_, 0);
+  }
+
+  // hypre frees the list.
+  void set_components(const AmgSettings& s) {
+    auto* list = hypre_TAlloc(HYPRE_Int, s.component.size(), HYPRE_MEMORY_HOST);
+    std::copy(s.component.begin(), s.component.end(), list);
+    HYPRE_BoomerAMGSetNumFunctions(solver_, s.components);
+    HYPRE_BoomerAMGSetDofFunc(solver_, list);
   }
 
   ActiveRanks comm_;

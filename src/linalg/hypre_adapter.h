@@ -16,6 +16,10 @@ struct AmgSettings {
   double strength = 0.25;
   int aggressive_levels = 1;
   int sweeps = 1;  // before and after the coarse grid
+  // Of systems of vector fields: the component, from 0, of each of this rank's rows, and how many there are. Components
+  // are coarsened and interpolated each by itself ("unknown-based").
+  int components = 1;
+  std::vector<int> component = {};
 };
 
 // One V(1,1) cycle of algebraic multigrid. Collective.

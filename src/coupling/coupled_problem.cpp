@@ -1,0 +1,51 @@
+#include "coupling/coupled_problem.h"
+
+namespace seiche {
+
+InertiaResponse failed_response(const std::string& why) {
+  return {why, Shape::convex, {}, {}};
+}
+
+InertiaResponse indefinite_response() {
+  return {{}, Shape::indefinite, {}, {}};
+}
+
+template <int Dim>
+SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatrix& H, Eigen::VectorXd& r) {
+  if (std::none_of(coupling.freedom.begin(), coupling.freedom.end(), [](Freedom f) { return f == Freedom::fixed; }))
+    return H;
+  r -= H * coupling.held;
+  SparseMatrix kept = H;
+  kept.prune(
+      [&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!coupling.is_held(i) && !coupling.is_held(j)); });
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    if (coupling.is_held(i)) r[i] = kept.coeff(i, i) * coupling.held[i];
+  return kept;
+}
+
+template <int Dim>
+Eigen::VectorXd CoupledProblem<Dim>::free_part(Eigen::VectorXd v) const {
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (coupling_.is_held(i)) v[i] = 0;
+  return v;
+}
+
+template <int Dim>
+void CoupledProblem<Dim>::hold(Eigen::VectorXd& v) const {
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (coupling_.is_held(i)) v[i] = coupling_.held[i];
+}
+
+template <int Dim>
+bool CoupledProblem<Dim>::holds(const Eigen::VectorXd& v) const {
+  for (Eigen::Index i = 0; i < v.size(); ++i)
+    if (coupling_.is_held(i) && v[i] != coupling_.held[i]) return false;
+  return true;
+}
+
+template SparseMatrix uncouple_held<2>(const SolidCoupling<2>&, const SparseMatrix&, Eigen::VectorXd&);
+template SparseMatrix uncouple_held<3>(const SolidCoupling<3>&, const SparseMatrix&, Eigen::VectorXd&);
+template class CoupledProblem<2>;
+template class CoupledProblem<3>;
+
+}  // namespace seiche

@@ -1,0 +1,177 @@
+#include "coupling/viscous_coupling.h"
+
+#include <unordered_map>
+
+#include "base/error.h"
+#include "coupling/formula_checks.h"
+#include "coupling/liquid_viscosity.h"
+#include "grid/loops.h"
+#include "solid/elastic_motion.h"
+
+namespace seiche {
+namespace {
+
+// Weights of an elastic body's unknowns in the velocity of its surface near a face.
+template <int Dim>
+auto surface_weights(const StepGeometry<Dim>& g, int body) {
+  auto place = std::make_shared<std::array<std::unordered_map<Site, std::size_t>, Dim>>();
+  const FaceShares& shares = *g.shares[std::size_t(body)];
+  for (std::size_t n = 0; n < shares.size(); ++n) (*place)[std::size_t(shares[n].axis)][shares[n].face] = n;
+  const auto attached = g.attached[std::size_t(body)];
+  return [place, attached](int axis, Site face, std::vector<std::pair<int, double>>& weights) {
+    weights.clear();
+    const auto found = (*place)[std::size_t(axis)].find(face);
+    if (found == (*place)[std::size_t(axis)].end()) return;
+    const SurfacePoint<Dim>& point = (*attached)[found->second];
+    for (int i = 0; i < Dim; ++i)
+      if (point.weights[i] != 0) weights.emplace_back(Dim * point.corners[i] + axis, point.weights[i]);
+  };
+}
+
+template <int Dim>
+ViscousSolid<Dim> viscous_solid(const Setup<Dim>& s, const StepGeometry<Dim>& g, const State<Dim>& state, int k) {
+  const Body<Dim>& body = s.bodies[std::size_t(k)];
+  ViscousSolid<Dim> solid;
+  solid.no_slip = body.spec().slip == Slip::no_slip;
+  if (body.is_rigid()) {
+    solid.rigid = true;
+    solid.frame.center = state.rigid[std::size_t(k)].center;
+  } else if (body.is_elastic()) {
+    const ElasticMotion& m = state.elastic[std::size_t(k)];
+    const BodyAverage mean = average(body.elastic().body, m.state.u, m.velocity);
+    solid.frame = {mean.velocity, mean.angular_velocity, mean.center};
+    solid.surface = surface_weights(g, k);
+  } else {
+    const Twist& v = g.placed[std::size_t(k)].twist;
+    solid.frame = {v.linear, v.angular, v.about};
+  }
+  return solid;
+}
+
+template <int Dim>
+std::vector<ViscousSolid<Dim>> make_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const State<Dim>& state,
+                                           const SolidCoupling<Dim>& coupling) {
+  std::vector<ViscousSolid<Dim>> solids;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) solids.push_back(viscous_solid(s, g, state, int(k)));
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
+    solids[std::size_t(coupling.bodies[b])].first_unknown = coupling.first[b];
+  return solids;
+}
+
+BlockColumns scaled(BlockColumns J, double by) {
+  for (ColumnBlock& block : J.blocks)
+    for (double& x : block.value) x *= by;
+  return J;
+}
+
+}  // namespace
+
+template <int Dim>
+ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& flow,
+                                      double t) {
+  ViscosityField<Dim> mu{CellField<Dim>(s.layout), 0, false};
+  const std::string fault = first_text(s.ranks, set_liquid_viscosity(s, flow.u, flow.valid, t, mu.value));
+  if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  const LiquidSpec& liquid = s.scene.liquid;
+  mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
+  const double largest = local_max(s.layout, s.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
+  mu.largest = s.ranks.global_max(largest);
+  return mu;
+}
+
+template <int Dim>
+ViscousRoute choose_route(const Setup<Dim>& s, const ViscosityField<Dim>& mu, double dt) {
+  constexpr double reaches_a_cell = 0.5;
+  const ViscousSolve asked = s.scene.solver.viscosity;
+  if (asked != ViscousSolve::automatic)
+    return asked == ViscousSolve::split ? ViscousRoute::split : ViscousRoute::coupled;
+  const double reach = mu.largest * dt / (s.density() * s.layout.h() * s.layout.h());
+  return reach < reaches_a_cell ? ViscousRoute::split : ViscousRoute::coupled;
+}
+
+template <int Dim>
+ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                              const StepGeometry<Dim>& g, const State<Dim>& state, const SolidCoupling<Dim>& coupling,
+                              const ViscosityField<Dim>& mu, const FaceField<Dim>& u_star)
+    : setup_(s),
+      geometry_(g),
+      coupling_(coupling),
+      solids_(make_solids(s, g, state, coupling)),
+      input_{.layout = s.layout,
+             .halo = s.halo,
+             .ranks = s.ranks,
+             .sides = s.sides,
+             .phi = in.phi,
+             .faces = in.faces,
+             .psi = g.psi,
+             .body = g.body,
+             .solids = solids_,
+             .unknowns = coupling.size(),
+             .viscosity = mu.value,
+             .uniform_viscosity = mu.uniform,
+             .density = in.density,
+             .dt = in.dt,
+             .time = state.time,
+             .u_star = u_star,
+             .projection = in,
+             .rows = rows},
+      system_(assemble_viscosity(input_)),
+      J_(scaled(coupling.J, s.layout.geometry().face_area())) {
+  separate_held();
+}
+
+// What is held is known: f - G v_h, and its columns are left out of G.
+template <int Dim>
+void ViscousStep<Dim>::separate_held() {
+  int first = 0;
+  for (ColumnBlock& block : system_.G.blocks) {
+    ColumnBlock free;
+    free.width = block.width;
+    free.loads = block.loads;
+    block.for_each([&](int row, int column, double value) {
+      const auto i = std::size_t(first + column);
+      if (coupling_.freedom[i] == Freedom::fixed)
+        system_.f[std::size_t(row)] -= value * coupling_.held[Eigen::Index(i)];
+      else
+        free.add(row, column, value);
+    });
+    first += block.width;
+    block = std::move(free);
+  }
+}
+
+template <int Dim>
+Vector ViscousStep<Dim>::gather(const FaceField<Dim>& u) const {
+  Vector rows;
+  for (const auto& [axis, face] : system_.rows.faces) rows.push_back(u.at(axis, face));
+  return rows;
+}
+
+template <int Dim>
+void ViscousStep<Dim>::scatter(const Vector& rows, FaceField<Dim>& u) const {
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    u.at(system_.rows.faces[n].first, system_.rows.faces[n].second) = rows[n];
+}
+
+// About the points that solids.csv reports.
+template <int Dim>
+std::vector<ViscousLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
+  std::vector<Vec3> about;
+  for (std::size_t k = 0; k < setup_.bodies.size(); ++k)
+    about.push_back(geometry_.placed[k].pose.apply(setup_.bodies[k].reference_point()));
+  return viscous_forces(input_, system_, u, v, about);
+}
+
+template <int Dim>
+double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
+  return viscous_dissipation(input_, system_, u, v);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template ViscosityField<D> measure_viscosity<D>(const Setup<D>&, const CellField<D>&, const Level<D>&, double); \
+  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);                       \
+  template class ViscousStep<D>;
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

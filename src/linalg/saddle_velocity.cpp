@@ -1,0 +1,183 @@
+#include "linalg/saddle_velocity.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "linalg/krylov.h"
+#include "linalg/loose_faces.h"
+
+namespace seiche {
+namespace {
+
+// Below this share of the diagonal, off-diagonal sums leave the diagonal of F within 20 % of F.
+constexpr double small_share = 0.2;
+
+bool is_mass_dominated(const LinearSystem& F) {
+  double worst = 0;
+  const auto& start = F.pattern().row_start;
+  for (int i = 0; i < F.rows(); ++i) {
+    double others = 0;
+    for (int k = start[i] + 1; k < start[i + 1]; ++k) others += std::abs(F.values()[k]);
+    worst = std::max(worst, others / F.diagonal(i));
+  }
+  return F.ranks().global_max(worst) < small_share;
+}
+
+int count_axes(const std::vector<int>& axis, const Communicator& ranks) {
+  const int highest = axis.empty() ? 0 : *std::max_element(axis.begin(), axis.end());
+  return 1 + int(ranks.global_max(std::int64_t(highest)));
+}
+
+// G m
+Vector multiply(const BlockColumns& G, const Eigen::VectorXd& m, int rows) {
+  Vector y(std::size_t(rows), 0.0);
+  add_multiplied(G, m, y);
+  return y;
+}
+
+// Orthonormal responses of a deformable block to its loads.
+Eigen::MatrixXd modes_of(const ColumnBlock& b, int first, const BodyMatrix& H) {
+  constexpr double dependent = 1e-6;  // what is left of a response beside the others
+  Eigen::MatrixXd own(b.width, b.loads.cols());
+  for (Eigen::Index k = 0; k < b.loads.cols(); ++k) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(H.size());
+    load.segment(first, b.width) = b.loads.col(k).normalized();
+    own.col(k) = H.solve(load).segment(first, b.width).normalized();
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
+  qr.setThreshold(dependent);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
+}
+
+}  // namespace
+
+VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const AmgSettings& settings)
+    : K_(K), mass_prevails_(is_mass_dominated(K.faces())), T_(K.ranks()) {
+  if (mass_prevails_) {
+    B_ = make_preconditioner("none", K.faces()).preconditioner;
+  } else {
+    make_multigrid(settings);
+  }
+  if (K.unknowns() > 0) find_directions();
+}
+
+void VelocityPreconditioner::make_multigrid(AmgSettings settings) {
+  settings.component = K_.system().axis;
+  settings.components = count_axes(settings.component, K_.ranks());
+  B_ = make_boomeramg(K_.faces(), settings).preconditioner;
+  std::vector<char> loose(std::size_t(K_.velocities()));
+  const std::vector<int>& start = K_.system().Dt.row_start;
+  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = start[i] == start[i + 1];
+  if (!K_.ranks().any(std::find(loose.begin(), loose.end(), 1) != loose.end())) return;
+  auto mended = std::make_unique<LooseFaces>(K_.faces(), loose, std::move(B_));
+  good_ = !K_.ranks().any(!mended->good());
+  B_ = std::move(mended);
+}
+
+void VelocityPreconditioner::find_directions() {
+  const BlockColumns& G = K_.system().G;
+  const std::vector<int> first = G.first_columns();
+  const int n = K_.unknowns();
+  for (std::size_t b = 0; b < G.blocks.size(); ++b)
+    for (int k = 0; k < G.blocks[b].width && !K_.system().J.blocks[b].deforms(); ++k)
+      directions_.push_back({first[b] + k, Eigen::VectorXd::Unit(n, first[b] + k), {}});
+  rigid_ = directions_.size();
+  for (std::size_t b = 0; b < G.blocks.size(); ++b) {
+    const ColumnBlock& block = K_.system().J.blocks[b];
+    if (!block.deforms()) continue;
+    const Eigen::MatrixXd modes = modes_of(block, first[b], K_.bodies());
+    for (Eigen::Index k = 0; k < modes.cols(); ++k) {
+      directions_.push_back({-1, Eigen::VectorXd::Zero(n), {}});
+      directions_.back().m.segment(first[b], block.width) = modes.col(k);
+    }
+  }
+  std::vector<Vector> GM;
+  for (Direction& d : directions_) {
+    GM.push_back(multiply(G, d.m, K_.velocities()));
+    extend(d, GM.back());
+  }
+  multiply_out(GM);
+}
+
+// F W ~ G m. The better W, the fewer iterations of the whole where light bodies are held by viscosity alone.
+void VelocityPreconditioner::extend(Direction& d, const Vector& Gm) {
+  constexpr double enough = 1e-3;
+  constexpr int at_most = 12;
+  d.W.assign(Gm.size(), 0.0);
+  const double target = enough * norm(Gm, K_.ranks());
+  if (target > 0) (void)conjugate_gradients(K_.faces(), *B_, Gm, d.W, {target, at_most}, K_.ranks());
+}
+
+void VelocityPreconditioner::multiply_out(const std::vector<Vector>& GM) {
+  const auto n = Eigen::Index(directions_.size());
+  dragged_.setZero(n, n);
+  Vector FW(std::size_t(K_.velocities()));
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Vector& W = directions_[std::size_t(k)].W;
+    K_.faces().multiply(W, FW);
+    for (Eigen::Index l = 0; l < n; ++l) {
+      const Vector& other = directions_[std::size_t(l)].W;
+      double sum = 0;
+      for (std::size_t i = 0; i < W.size(); ++i)
+        sum += other[i] * (FW[i] - GM[std::size_t(k)][i]) - GM[std::size_t(l)][i] * W[i];
+      dragged_(l, k) = sum;
+    }
+  }
+  K_.ranks().global_sum(std::span<double>(dragged_.data(), std::size_t(dragged_.size())));
+  dragged_ = (0.5 * (dragged_ + dragged_.transpose())).eval();
+}
+
+// H + C of the rigid unknowns.
+SparseMatrix VelocityPreconditioner::body_part() const {
+  const SparseMatrix& H = K_.bodies().matrix();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < rigid_; ++k)
+    for (std::size_t l = 0; l < rigid_; ++l)
+      entries.emplace_back(directions_[k].unknown, directions_[l].unknown, dragged_(Eigen::Index(k), Eigen::Index(l)));
+  SparseMatrix C(H.rows(), H.cols());
+  C.setFromTriplets(entries.begin(), entries.end());
+  return H + C;
+}
+
+bool VelocityPreconditioner::refresh() {
+  if (!good_) return false;
+  const auto n = Eigen::Index(directions_.size()), r = Eigen::Index(rigid_);
+  energies_ = dragged_;
+  if (n == 0) return true;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::VectorXd Hm = K_.bodies().matrix() * directions_[std::size_t(k)].m;
+    for (Eigen::Index l = 0; l < n; ++l) energies_(l, k) += directions_[std::size_t(l)].m.dot(Hm);
+  }
+  energies_.topRightCorner(r, n - r).setZero();
+  energies_.bottomLeftCorner(n - r, r).setZero();
+  if (n > r) E_.compute(energies_.bottomRightCorner(n - r, n - r));
+  return T_.set(body_part()) && (n == r || (E_.info() == Eigen::Success && E_.isPositive()));
+}
+
+void VelocityPreconditioner::apply(const Vector& ru, const Eigen::VectorXd& rv, Vector& zu, Eigen::VectorXd& zv) {
+  zu.resize(ru.size());
+  B_->apply(ru, zu);
+  zv.setZero(K_.unknowns());
+  const auto n = Eigen::Index(directions_.size()), r = Eigen::Index(rigid_);
+  if (n == 0) return;
+  Eigen::VectorXd felt(n);  // [-W; m]' (ru, rv), the part of m in the rigid ones by T
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Vector& W = directions_[std::size_t(k)].W;
+    double sum = 0;
+    for (std::size_t i = 0; i < W.size(); ++i) sum -= W[i] * ru[i];
+    felt[k] = sum;
+  }
+  K_.ranks().global_sum(std::span<double>(felt.data(), std::size_t(n)));
+  Eigen::VectorXd b = rv, amount(n);
+  for (Eigen::Index k = 0; k < r; ++k) b[directions_[std::size_t(k)].unknown] += felt[k];
+  zv = T_.solve(b);
+  for (Eigen::Index k = 0; k < r; ++k) amount[k] = zv[directions_[std::size_t(k)].unknown];
+  if (n > r) {
+    for (Eigen::Index k = r; k < n; ++k) felt[k] += directions_[std::size_t(k)].m.dot(rv);
+    amount.tail(n - r) = E_.solve(felt.tail(n - r));
+    for (Eigen::Index k = r; k < n; ++k) zv += amount[k] * directions_[std::size_t(k)].m;
+  }
+  for (Eigen::Index k = 0; k < n; ++k) add_scaled(zu, -amount[k], directions_[std::size_t(k)].W);
+}
+
+}  // namespace seiche

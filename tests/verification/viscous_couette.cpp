@@ -1,0 +1,133 @@
+// Stokes flow between cylinders, and between inclined plates, against exact solutions.
+#include <catch2/catch.hpp>
+
+#include "viscous_problem.h"
+
+using namespace seiche;
+using namespace seiche::test;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+struct CouetteErrors {
+  double velocity, torque;
+};
+
+// The inner cylinder turns with 1 rad/s, the outer one rests: u = A r + B/r.
+CouetteErrors couette(int n, int turns) {
+  constexpr double inner = 0.25, outer = 0.5, A = -1.0 / 3, B = 1.0 / 12, size = 1.1;
+  const Vec3 center(size / 2 + 0.0031, size / 2 - 0.0017, 0);
+  ViscousProblem<2> p({.cells = n,
+                       .size = size,
+                       .sides = SideType::no_slip,
+                       .dt = 1e6,
+                       .solids = {viscous_ball(center, inner), viscous_ball(center, outer, true)}});
+  p.move(0, {Vec3::Zero(), Vec3::UnitZ(), center});
+  const double change = p.solve_with_flux(turns);
+  if (turns) WARN("change " << change);
+  REQUIRE(p.solved);
+  const auto exact = [&](int a, const Vec<2>& x) {
+    const Vec<2> r = x - center.head<2>();
+    const double turn = A + B / r.squaredNorm();
+    return a == 0 ? -turn * r[1] : turn * r[0];
+  };
+  const auto loads = viscous_forces(p.input(), p.system, p.u, Eigen::VectorXd(), {center, center});
+  const double torque = 4 * pi * B;
+  return {p.error(exact), std::abs(loads[0].torque[2] + torque) / torque};
+}
+
+}  // namespace
+
+TEST_CASE("couette cylinders", "[viscous]") {
+  const int turns = GENERATE(0, 1, 3);
+  double last = 0;
+  for (int n : {32, 64}) {
+    const CouetteErrors e = couette(n, turns);
+    WARN(n << ": L2 " << e.velocity << ", order " << std::log2(last / e.velocity) << ", torque " << e.torque);
+    last = e.velocity;
+  }
+}
+
+namespace {
+
+// A channel of half-width 1 along (p, q) in a box of 11 a : 4 a or 1 : 1, periodic across and along.
+double poiseuille(int k, int p, int q, int turns) {
+  const double norm = std::hypot(p, q), h = 1.0 / k, period = p * q / norm, half = 0.31 * period;
+  SolidSpec wall = viscous_solid("expression");
+  const std::string s = fmt::format("(({}*y-{}*x)/{:.17g}-0.0123)", p, q, norm);
+  const std::string wrapped = fmt::format("({0}-{1:.17g}*rint({0}/{1:.17g}))", s, period);
+  wall.shape.phi = fmt::format("{:.17g}-abs({})", half, wrapped);
+  ViscousProblem<2> problem(
+      {.cells = p * k, .size = double(p), .sides = SideType::periodic, .dt = 1e6, .solids = {wall}}, [&](Scene& scene) {
+        scene.domain.cells[1] = q * k;
+        scene.domain.upper[1] = q;
+        scene.domain.cell_size = h;
+      });
+  const Vec<2> along = Vec<2>(p, q) / norm;
+  problem.set(problem.u_star, [&](int a, const Vec<2>&) { return 1e6 * 2 * along[a]; });
+  const double change = problem.solve_with_flux(turns);
+  REQUIRE(problem.solved);
+  if (turns) WARN("change " << change);
+  return problem.error([&](int a, const Vec<2>& x) {
+    double d = (p * x[1] - q * x[0]) / norm - 0.0123;
+    d -= period * std::rint(d / period);
+    return (half * half - d * d) * along[a];
+  }) / (half * half);
+}
+
+}  // namespace
+
+// Angle 20 degrees: walls cut faces everywhere differently.
+TEST_CASE("inclined poiseuille", "[viscous]") {
+  const int turns = GENERATE(0, 1, 3);
+  double last = 0;
+  for (int k : {16, 32, 64}) {
+    const double e = poiseuille(k, 1, 1, turns);
+    WARN("45 " << k << ": L2 " << e << ", order " << std::log2(last / e));
+    last = e;
+  }
+  for (int k : {4, 8, 16}) {
+    const double e = poiseuille(k, 11, 4, turns);
+    WARN("20 " << k << ": L2 " << e << ", order " << std::log2(last / e));
+    last = e;
+  }
+}
+
+namespace {
+
+// A ball that turns within a ball at rest: u = omega x r (a + b/r^3), torque 8 pi mu b.
+CouetteErrors spherical_couette(int n, int turns) {
+  constexpr double inner = 0.2, outer = 0.45, cube_in = inner * inner * inner, cube_out = outer * outer * outer;
+  constexpr double b = 1 / (1 / cube_in - 1 / cube_out), a = -b / cube_out;
+  const Vec3 center(0.5031, 0.4983, 0.5017), spin = Vec3(1, -2, 2) / 3;
+  ViscousProblem<3> p({.cells = n,
+                       .size = 1,
+                       .sides = SideType::no_slip,
+                       .dt = 1e6,
+                       .solids = {viscous_ball(center, inner), viscous_ball(center, outer, true)}});
+  p.move(0, {Vec3::Zero(), spin, center});
+  p.solve_with_flux(turns);
+  REQUIRE(p.solved);
+  const auto exact = [&](int axis, const Vec3& x) {
+    const Vec3 r = x - center;
+    return (a + b / std::pow(r.norm(), 3)) * spin.cross(r)[axis];
+  };
+  const auto loads = viscous_forces(p.input(), p.system, p.u, Eigen::VectorXd(), {center, center});
+  const double torque = 8 * pi * b;
+  return {p.error(exact), (loads[0].torque + torque * spin).norm() / torque};
+}
+
+}  // namespace
+
+TEST_CASE("spherical couette", "[viscous]") {
+  for (int turns : {0, 1}) {
+    double last = 0;
+    for (int n : {10, 20}) {
+      const CouetteErrors e = spherical_couette(n, turns);
+      WARN(n << " turns " << turns << ": L2 " << e.velocity << ", order " << std::log2(last / e.velocity) << ", torque "
+             << e.torque);
+      last = e.velocity;
+    }
+  }
+}
