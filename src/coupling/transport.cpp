@@ -212,13 +212,14 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.padded(),
                   [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
-  FaceField<Dim> u(s.layout);
+  // Faces beside those near liquid follow the viscous stress.
+  FaceField<Dim> u = s.is_viscous() ? state.now->u : FaceField<Dim>(s.layout);
   advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
   limit_at_surfaces(s, *state.now, near, interior, u);
   const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (near.at(a, f)) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
+      if (near.at(a, f) || s.is_viscous()) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
     });
   set_source_velocity(s, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
