@@ -5,27 +5,56 @@
 namespace seiche {
 namespace {
 
-// Faces whose corners are stored.
+// Faces whose corners and those of the faces beside are stored.
 template <int Dim>
 Box<Dim> sampled(const Layout<Dim>& layout) {
   Box<Dim> box = layout.grown(2);
-  for (int a = 0; a < Dim; ++a) box.upper[a] = std::min(box.upper[a], layout.padded().upper[a] - 1);
+  for (int a = 0; a < Dim; ++a) {
+    box.lower[a] = std::max(box.lower[a], layout.padded().lower[a] + 1);
+    box.upper[a] = std::min(box.upper[a], layout.padded().upper[a] - 2);
+  }
   return box;
 }
 
-// Mean distance of a face's corners, and the solid of the one that lies deepest.
+// The node of a face's corner; bit b - 1 of its number says whether it is the high one along axis + b.
+template <int Dim>
+Site corner_node(const Layout<Dim>& layout, int axis, Site f, int corner) {
+  for (int b = 1; b < Dim; ++b) f += ((corner >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
+  return f;
+}
+
+// What the mean of a face's corners lacks of psi at its centre, along each of its axes (-a + 9b + 9c - d)/16 - (b +
+// c)/2. By a ball it is h^2/(8R) an axis, as much of its radius, and nowhere above h/8 if |grad psi| <= 1.
+template <int Dim>
+double curvature_part(const ViscousInput<Dim>& in, int axis, Site f) {
+  constexpr int corners = 1 << (Dim - 1);
+  double sum = 0;
+  for (int b = 1; b < Dim; ++b) {
+    const Site d = in.layout.stride((axis + b) % Dim);
+    double part = 0;
+    for (int k = 0; k < corners; ++k) {
+      const Site node = corner_node(in.layout, axis, f, k);
+      part += in.psi[node] - in.psi[((k >> (b - 1)) & 1) ? node + d : node - d];
+    }
+    sum += std::clamp(part * 2 / (16 * corners), -in.layout.h() / 8, in.layout.h() / 8);
+  }
+  return sum;
+}
+
+// Distance at a face's centre, and the solid of the corner that lies deepest.
 template <int Dim>
 std::pair<double, std::int16_t> nearest_solid(const ViscousInput<Dim>& in, int axis, Site f) {
   constexpr int corners = 1 << (Dim - 1);
   double sum = 0, deepest = 1e300;
   std::int16_t solid = -1;
   for (int k = 0; k < corners; ++k) {
-    Site node = f;
-    for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * in.layout.stride((axis + b) % Dim);
+    const Site node = corner_node(in.layout, axis, f, k);
     sum += in.psi[node];
     if (in.psi[node] < deepest) deepest = in.psi[node], solid = in.body[node];
   }
-  return {sum / corners, solid};
+  const double mean = sum / corners;
+  if (std::abs(mean) > 3 * in.layout.h()) return {mean, solid};
+  return {mean + curvature_part(in, axis, f), solid};
 }
 
 // The sides beyond which a face lies: of each axis 0, 1 or -1.

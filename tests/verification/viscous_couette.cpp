@@ -34,6 +34,8 @@ CouetteErrors couette(int n, int turns) {
   };
   const auto loads = viscous_forces(p.input(), p.system, p.u, Eigen::VectorXd(), {center, center});
   const double torque = 4 * pi * B;
+  for (int k = 0; k < 2; ++k)
+    WARN(k << " viscous " << loads[k].torque[2] / torque << " pressure " << p.pressure_torque(k, center)[2] / torque);
   return {p.error(exact), std::abs(loads[0].torque[2] + torque) / torque};
 }
 
@@ -115,6 +117,9 @@ CouetteErrors spherical_couette(int n, int turns) {
   };
   const auto loads = viscous_forces(p.input(), p.system, p.u, Eigen::VectorXd(), {center, center});
   const double torque = 8 * pi * b;
+  for (int k = 0; k < 2; ++k)
+    WARN(k << " viscous " << loads[k].torque.dot(spin) / torque << " pressure "
+           << p.pressure_torque(k, center).dot(spin) / torque);
   return {p.error(exact), (loads[0].torque + torque * spin).norm() / torque};
 }
 

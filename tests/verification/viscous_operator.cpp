@@ -1,5 +1,6 @@
 // Algebra of the viscous operator: symmetry, positivity, what costs nothing.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -206,7 +207,7 @@ void check_loads(int n) {
   typename ViscousProblem<Dim>::Settings s;
   s.cells = n;
   s.dt = 1.9;
-  s.solids = {viscous_ball(middle<Dim>(), 0.2345), viscous_ball(0.9 * Vec3::Ones(), 0.2)};
+  s.solids = {viscous_ball(middle<Dim>(), 0.2345), viscous_ball(Vec3(0.9, 0.1, 0), 0.2)};
   s.phi = tilted_surface<Dim>;
   ViscousProblem<Dim> p(s);
   p.release(0, middle<Dim>());
@@ -279,4 +280,62 @@ TEST_CASE("viscous operator 2D", "[viscous]") {
 
 TEST_CASE("viscous operator 3D", "[viscous]") {
   check_cases<3>(9);
+}
+
+TEST_CASE("viscous timing", "[.]") {
+  for (int mode = 0; mode < 3; ++mode) {
+    ViscousProblem<3>::Settings s;
+    s.cells = 64;
+    s.solids = {viscous_ball(middle<3>(), 0.2345)};
+    if (mode == 1) s.phi = tilted_surface<3>;
+    ViscousProblem<3> p(s);
+    p.uniform = mode < 2;
+    p.release(0, middle<3>());
+    const auto t0 = std::chrono::steady_clock::now();
+    p.assemble();
+    const double t = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
+    WARN("mode " << mode << " rows " << p.system.F.rows() << " entries " << p.system.F.value.size() << " " << t << " s");
+  }
+}
+
+TEST_CASE("viscous ranks", "[.]") {
+  ViscousProblem<3>::Settings s;
+  s.cells = 20;
+  s.dt = 1.7;
+  s.solids = {viscous_ball(middle<3>(), 0.2345)};
+  s.phi = tilted_surface<3>;
+  ViscousProblem<3> p(s);
+  p.release(0, middle<3>());
+  const auto wave = [](int a, const Vec<3>& x) { return std::sin(3 * x[0] + a) * std::cos(2 * x[1] - a) + x[2]; };
+  p.set(p.u_star, wave);
+  p.set(p.u, wave);
+  p.assemble();
+  Communicator ranks;
+  Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(6, 0.3, 1.1);
+  const auto loads = viscous_forces(p.input(), p.system, p.u, v, {middle<3>()});
+  FaceField<3, std::int64_t> row = p.system.rows.row;
+  std::vector<double> z(p.system.rows.global), f(z.size()), Fz(z.size());
+  for (std::size_t i = 0; i < p.system.rows.faces.size(); ++i) z[p.system.rows.first + i] = p.u.at(p.system.rows.faces[i].first, p.system.rows.faces[i].second);
+  ranks.global_sum(z);
+  double energy = 0, right = 0;
+  for (int i = 0; i < p.system.F.rows(); ++i) {
+    const Row r = p.system.rows.first + i;
+    for (int k = p.system.F.row_start[i]; k < p.system.F.row_start[i + 1]; ++k) energy += z[r] * p.system.F.value[k] * z[p.system.F.column[k]];
+    energy -= p.system.mass[i] * z[r] * z[r];
+    right += p.system.f[i] * z[r];
+  }
+  p.system.G.for_each([&](int i, int k, double value) { energy += 2 * z[p.system.rows.first + i] * value * v[k]; });
+  energy = ranks.global_sum(energy);
+  energy += v.dot(p.system.Hvv * v);
+  right = ranks.global_sum(right);
+  double dz = 0, qs = 0;
+  for (int i = 0; i < p.system.D.rows(); ++i) {
+    double sum = 0;
+    for (int k = p.system.D.row_start[i]; k < p.system.D.row_start[i + 1]; ++k) sum += p.system.D.value[k] * z[p.system.D.column[k]];
+    dz += sum * sum;
+    qs += p.system.q[i] * p.system.q[i];
+  }
+  dz = ranks.global_sum(dz);
+  const double Phi = viscous_dissipation(p.input(), p.system, p.u, v);
+  if (ranks.is_root()) printf("rows %ld energy %.15g dissipation %.15g right %.15g D %.15g q %.15g force %.15g torque %.15g\n", long(p.system.rows.global), energy / s.dt, Phi, right, dz, qs, loads[0].force.norm(), loads[0].torque.norm());
 }

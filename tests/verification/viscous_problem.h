@@ -26,14 +26,15 @@ class ViscousProblem {
       const Settings& settings, std::function<void(Scene&)> change = [](Scene&) {})
       : settings_(settings),
         scene_(make_scene(settings, change)),
-        layout_(geometry(), geometry().box(), 4),
-        halo_(layout_, {geometry().box()}, ranks_),
+        layout_(geometry(), partition(geometry(), ranks_.size())[std::size_t(ranks_.rank())], 4),
+        halo_(layout_, partition(geometry(), ranks_.size()), ranks_),
         sides_(scene_.domain),
         bodies_(make_bodies()),
         solids_(layout_, sides_, bodies_),
         step(solids_.measure(std::vector<Placement>(bodies_.size()), 0)),
         phi(layout_),
         viscosity(layout_, settings.viscosity),
+        pressure(layout_),
         u_star(layout_),
         u(layout_),
         projection_{layout_, halo_, ranks_, phi, step.faces, settings.density, settings.dt, nullptr} {
@@ -92,6 +93,8 @@ class ViscousProblem {
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(K);
     const Eigen::VectorXd x = lu.solve(b);
     solved = lu.info() == Eigen::Success && (K * x - b).norm() <= 1e-8 * (b.norm() + 1e-300);
+    pressure.fill(0);
+    for (int i = 0; i < m; ++i) pressure[rows.cells[i]] = -x[n + i] / settings_.dt;
     u = u_star;
     for (int i = 0; i < n; ++i) u.at(system.rows.faces[i].first, system.rows.faces[i].second) = x[i];
     for (int a = 0; a < Dim; ++a)
@@ -143,6 +146,18 @@ class ViscousProblem {
     K.bottomRightCorner(k, k) = Eigen::MatrixXd(system.Hvv);
     for (int i = 0; i < n && !with_mass; ++i) K(i, i) -= system.mass[i];
     return K;
+  }
+
+  // Torque of the pressure on a body about a point.
+  Vec3 pressure_torque(int body, const Vec3& about) const {
+    Vec3 sum = Vec3::Zero();
+    for (const FaceShare& s : *step.shares[body]) {
+      if (!layout_.faces(s.axis).contains(layout_.index(s.face))) continue;
+      const double push =
+          s.closed * geometry().face_area() * (pressure[s.face - layout_.stride(s.axis)] - pressure[s.face]);
+      sum += (extend<Dim>(position(s.axis, s.face)) - about).cross(push * Vec3::Unit(s.axis));
+    }
+    return sum;
   }
 
   // Root mean square of the error over the liquid's own faces.
@@ -205,7 +220,7 @@ class ViscousProblem {
 
  public:
   StepGeometry<Dim> step;
-  CellField<Dim> phi, viscosity;
+  CellField<Dim> phi, viscosity, pressure;
   FaceField<Dim> u_star, u;
   std::vector<ViscousSolid<Dim>> solids;
   int unknowns = 0;
