@@ -164,6 +164,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
                   {"dt_now", state.dt_now},
                   {"dt_before", state.dt_before},
                   {"horizon", state.horizon},
+                  {"viscous_rate", state.viscous_rate},
                   {"levels", state.earlier  ? 3.0
                              : state.before ? 2.0
                                             : 1.0},
@@ -200,6 +201,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.dt_now = scalar("dt_now");
   state.dt_before = scalar("dt_before");
   state.horizon = scalar("horizon");
+  state.viscous_rate = scalar("viscous_rate");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
   state.rigid.resize(s.bodies.size());

@@ -113,7 +113,8 @@ class FlowSimulation : public Simulation {
     return g;
   }
 
-  // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) - u(dt).
+  // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) -
+  // u(dt).
   State<Dim> inform(const Level<Dim>& trial, double dt) const {
     State<Dim> state = state_;
     auto now = std::make_shared<Level<Dim>>(*state_.now), before = std::make_shared<Level<Dim>>(*state_.now);

@@ -89,6 +89,7 @@ struct State {
   std::vector<ElasticMotion> elastic;                      // one a solid; of the elastic ones
   double horizon = 0;                                      // s ahead that the solids' velocities were solved for
   Parting<Dim> parting;                                    // where the scene lets liquid part from solids
+  double viscous_rate = 0;                                 // mu/(rho h^2) of the last solve at its largest, 1/s
   std::vector<ViscousLoad> viscous_loads;                  // on each solid; empty where the liquid is inviscid
 };
 

@@ -222,6 +222,7 @@ struct StepInProgress {
       if (!out.failure.empty()) return;
     } while (rheology.is_unsettled_by(*out.state.now));
     out.rheology_iterations = rheology.count();
+    out.state.viscous_rate = rheology.viscosity().largest / (s.density() * s.layout.h() * s.layout.h());
   }
 };
 

@@ -123,6 +123,21 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double
   return acc;
 }
 
+// How much of the trend of N can be used. Where viscosity is stiff, N is large and all but balanced by pressure; a
+// trend known in part of the liquid alone unbalances them and feeds itself: whole up to mu dt/(rho h^2) = 1/2, none
+// from 1 on, unless all of the liquid is interior. Collective.
+template <int Dim>
+double trust_in_viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim, char>& interior,
+                              double dt) {
+  bool partial = false;
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      const bool wet = state.phi[f] < 0 || state.phi[f - s.layout.stride(a)] < 0;
+      partial = partial || (wet && !interior.at(a, f));
+    });
+  return s.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
+}
+
 // N(t) - N(t - dt_now) along the path, N the acceleration by viscosity, scaled to a step of dt. Zero where either is
 // not known, and in first order.
 template <int Dim>
@@ -131,6 +146,8 @@ FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const
   FaceField<Dim> trend(s.layout);
   if (!s.is_viscous() || !state.before || s.scene.time.scheme == TimeScheme::first_order) return trend;
   if (dt > 2 * state.dt_now) return trend;
+  const double trust = trust_in_viscous_trend(s, state, interior, dt);
+  if (trust == 0) return trend;
   const Level<Dim>& now = *state.now;
   FaceField<Dim> last = state.before->n, carried(s.layout);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, last);
@@ -139,7 +156,7 @@ FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (interior.at(a, f) && now.valid.at(a, f) == face_solved && state.before->valid.at(a, f) == face_solved)
-        trend.at(a, f) = std::clamp(dt / state.dt_now * (now.n.at(a, f) - carried.at(a, f)), -limit, limit);
+        trend.at(a, f) = std::clamp(trust * dt / state.dt_now * (now.n.at(a, f) - carried.at(a, f)), -limit, limit);
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, trend);
   return trend;
