@@ -252,6 +252,60 @@ double outflow_disturbance(bool uniform) {
 
 }  // namespace
 
+// V is positive wherever solids and surface cut the cells, with and without a free surface, of one viscosity or many.
+TEST_CASE("viscous positive", "[viscous]") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> some(-1, 1);
+  double least = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    ViscousProblem<3>::Settings s;
+    s.cells = 7;
+    const Vec3 center = Vec3::Constant(0.5) + 0.1 * Vec3(some(random), some(random), some(random));
+    s.solids = {viscous_ball(center, 0.3 + 0.12 * some(random), trial % 2 == 0)};
+    const Vec3 up = Vec3(some(random), some(random), some(random)).normalized();
+    const double level = 0.3 * some(random);
+    s.phi = [&](const Vec3& x) { return up.dot(x - Vec3::Constant(0.5)) - level; };
+    if (trial % 4 < 2) s.sides = SideType::free_slip;
+    if (trial % 3 == 0) s.sides = SideType::outflow;
+    ViscousProblem<3> p(s);
+    p.uniform = trial % 5 != 0;
+    if (!p.uniform)
+      for_each_index_in_order(p.layout(), p.layout().padded(),
+                              [&](Site c, const IVec<3>&) { p.viscosity[c] = std::pow(10, 3 * some(random)); });
+    p.release(0, center);
+    p.assemble();
+    const Eigen::MatrixXd V = p.dense(false);
+    const auto e = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(V, Eigen::EigenvaluesOnly).eigenvalues().eval();
+    least = std::min(least, e[0] / e[e.size() - 1]);
+    CAPTURE(trial);
+    CHECK(e[0] >= -1e-12 * e[e.size() - 1]);  // round-off of the sums
+  }
+}
+
+// Shear of layers a thousand times as viscous as each other: the stress is the same in all, to round-off.
+TEST_CASE("viscous layers", "[viscous]") {
+  constexpr int n = 12;
+  ViscousProblem<2>::Settings s;
+  s.cells = n, s.dt = 1e9;
+  ViscousProblem<2> p(s, [](Scene& scene) {
+    for (SideSpec& side : scene.domain.sides[0]) side.type = SideType::periodic;
+    scene.domain.sides[1][1].type = SideType::moving_wall;
+    scene.domain.sides[1][1].velocity = {"1", "0", "0"};
+  });
+  p.uniform = false;
+  for_each_index_in_order(p.layout(), p.layout().padded(),
+                          [&](Site c, const IVec<2>& i) { p.viscosity[c] = i[1] < n / 3 ? 1000 : 1; });
+  p.assemble();
+  p.solve();
+  REQUIRE(p.solved);
+  const double stress = 1 / (2.0 / 3 + 1e-3 / 3);
+  for (const auto& [a, f] : p.system.rows.faces) {
+    const double y = p.position(a, f)[1];
+    const double u = y < 1.0 / 3 ? stress * y / 1000 : 1 - stress * (1 - y);
+    CHECK(std::abs(p.u.at(a, f) - (a == 0 ? u : 0)) <= 1e-7);  // what the inertia of a step of 1e9 s leaves
+  }
+}
+
 TEST_CASE("viscous interior", "[viscous]") {
   check_interior<2>(20);
   check_interior<3>(16);
@@ -294,7 +348,8 @@ TEST_CASE("viscous timing", "[.]") {
     const auto t0 = std::chrono::steady_clock::now();
     p.assemble();
     const double t = std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-    WARN("mode " << mode << " rows " << p.system.F.rows() << " entries " << p.system.F.value.size() << " " << t << " s");
+    WARN("mode " << mode << " rows " << p.system.F.rows() << " entries " << p.system.F.value.size() << " " << t
+                 << " s");
   }
 }
 
@@ -315,12 +370,14 @@ TEST_CASE("viscous ranks", "[.]") {
   const auto loads = viscous_forces(p.input(), p.system, p.u, v, {middle<3>()});
   FaceField<3, std::int64_t> row = p.system.rows.row;
   std::vector<double> z(p.system.rows.global), f(z.size()), Fz(z.size());
-  for (std::size_t i = 0; i < p.system.rows.faces.size(); ++i) z[p.system.rows.first + i] = p.u.at(p.system.rows.faces[i].first, p.system.rows.faces[i].second);
+  for (std::size_t i = 0; i < p.system.rows.faces.size(); ++i)
+    z[p.system.rows.first + i] = p.u.at(p.system.rows.faces[i].first, p.system.rows.faces[i].second);
   ranks.global_sum(z);
   double energy = 0, right = 0;
   for (int i = 0; i < p.system.F.rows(); ++i) {
     const Row r = p.system.rows.first + i;
-    for (int k = p.system.F.row_start[i]; k < p.system.F.row_start[i + 1]; ++k) energy += z[r] * p.system.F.value[k] * z[p.system.F.column[k]];
+    for (int k = p.system.F.row_start[i]; k < p.system.F.row_start[i + 1]; ++k)
+      energy += z[r] * p.system.F.value[k] * z[p.system.F.column[k]];
     energy -= p.system.mass[i] * z[r] * z[r];
     right += p.system.f[i] * z[r];
   }
@@ -331,11 +388,15 @@ TEST_CASE("viscous ranks", "[.]") {
   double dz = 0, qs = 0;
   for (int i = 0; i < p.system.D.rows(); ++i) {
     double sum = 0;
-    for (int k = p.system.D.row_start[i]; k < p.system.D.row_start[i + 1]; ++k) sum += p.system.D.value[k] * z[p.system.D.column[k]];
+    for (int k = p.system.D.row_start[i]; k < p.system.D.row_start[i + 1]; ++k)
+      sum += p.system.D.value[k] * z[p.system.D.column[k]];
     dz += sum * sum;
     qs += p.system.q[i] * p.system.q[i];
   }
   dz = ranks.global_sum(dz);
   const double Phi = viscous_dissipation(p.input(), p.system, p.u, v);
-  if (ranks.is_root()) printf("rows %ld energy %.15g dissipation %.15g right %.15g D %.15g q %.15g force %.15g torque %.15g\n", long(p.system.rows.global), energy / s.dt, Phi, right, dz, qs, loads[0].force.norm(), loads[0].torque.norm());
+  if (ranks.is_root())
+    printf("rows %ld energy %.15g dissipation %.15g right %.15g D %.15g q %.15g force %.15g torque %.15g\n",
+           long(p.system.rows.global), energy / s.dt, Phi, right, dz, qs, loads[0].force.norm(),
+           loads[0].torque.norm());
 }
