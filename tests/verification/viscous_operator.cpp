@@ -68,28 +68,24 @@ void check_invariance(ViscousCase<Dim>& p, const RigidField& motion) {
 }
 
 template <int Dim>
-void check_cases(int n) {
+RigidField some_spin() {
+  return {Vec3(0.3, -0.2, Dim == 3 ? 0.1 : 0), Dim == 3 ? Vec3(0.4, -0.7, 1.1) : Vec3(0, 0, 1.3), middle<Dim>()};
+}
+
+template <int Dim>
+void check_blobs(int n) {
   typename ViscousCase<Dim>::Settings s;
   s.cells = n;
-  const RigidField spin{Vec3(0.3, -0.2, Dim == 3 ? 0.1 : 0), Dim == 3 ? Vec3(0.4, -0.7, 1.1) : Vec3(0, 0, 1.3),
-                        middle<Dim>()};
-  SECTION("ball in full liquid, free") {
-    s.solids = {viscous_ball(middle<Dim>(), 0.2345)};
-    s.sides = SideType::free_slip;
-    ViscousCase<Dim> p(s);
-    p.release(0, middle<Dim>());
-    check_symmetry(p);
-  }
   SECTION("ball in a free blob") {
     s.solids = {viscous_ball(middle<Dim>(), 0.1945)};
     s.phi = [](const Vec<Dim>& x) { return (x - middle<Dim>().template head<Dim>()).norm() - 0.37; };
     ViscousCase<Dim> p(s);
     p.release(0, middle<Dim>());
     check_symmetry(p);
-    check_invariance(p, spin);
+    check_invariance(p, some_spin<Dim>());
     ViscousCase<Dim> q(s);
-    q.move(0, spin);
-    check_invariance(q, spin);
+    q.move(0, some_spin<Dim>());
+    check_invariance(q, some_spin<Dim>());
   }
   SECTION("blob that a ball and a free-slip ball cut") {
     const Vec3 aside = middle<Dim>() + 0.25 * Vec3::UnitX();
@@ -100,28 +96,46 @@ void check_cases(int n) {
     p.release(0, middle<Dim>());
     p.release(1, aside);
     check_symmetry(p);
-    check_invariance(p, spin);
+    check_invariance(p, some_spin<Dim>());
+  }
+}
+
+// A ball-shaped container half full, of one viscosity or of random ones.
+template <int Dim>
+void check_container(int n, bool uniform) {
+  typename ViscousCase<Dim>::Settings s;
+  s.cells = n;
+  s.solids = {viscous_ball(middle<Dim>(), 0.36, true)};
+  s.phi = tilted_surface<Dim>;
+  ViscousCase<Dim> p(s);
+  p.release(0, middle<Dim>());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> exponent(-5, 0);
+  p.uniform = uniform;
+  for_each_index_in_order(p.layout(), p.layout().padded(), [&](Site c, const IVec<Dim>&) {
+    if (!uniform) p.viscosity[c] = std::pow(10, exponent(random));
+  });
+  check_symmetry(p);
+  check_invariance(p, some_spin<Dim>());
+}
+
+template <int Dim>
+void check_cases(int n) {
+  typename ViscousCase<Dim>::Settings s;
+  s.cells = n;
+  check_blobs<Dim>(n);
+  SECTION("ball in full liquid, free") {
+    s.solids = {viscous_ball(middle<Dim>(), 0.2345)};
+    s.sides = SideType::free_slip;
+    ViscousCase<Dim> p(s);
+    p.release(0, middle<Dim>());
+    check_symmetry(p);
   }
   SECTION("container half full, varying viscosity") {
-    s.solids = {viscous_ball(middle<Dim>(), 0.36, true)};
-    s.phi = tilted_surface<Dim>;
-    ViscousCase<Dim> p(s);
-    p.release(0, middle<Dim>());
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> exponent(-5, 0);
-    for_each_index_in_order(p.layout(), p.layout().padded(),
-                            [&](Site c, const IVec<Dim>&) { p.viscosity[c] = std::pow(10, exponent(random)); });
-    p.uniform = false;
-    check_symmetry(p);
-    check_invariance(p, spin);
+    check_container<Dim>(n, false);
   }
   SECTION("container half full") {
-    s.solids = {viscous_ball(middle<Dim>(), 0.36, true)};
-    s.phi = tilted_surface<Dim>;
-    ViscousCase<Dim> p(s);
-    p.release(0, middle<Dim>());
-    check_symmetry(p);
-    check_invariance(p, spin);
+    check_container<Dim>(n, true);
   }
   SECTION("outflow sides") {
     s.sides = SideType::outflow;
@@ -263,7 +277,7 @@ void check_surface(int n) {
   s.phi = [](const Vec<Dim>& x) { return (x - middle<Dim>().template head<Dim>()).norm() - 0.31; };
   ViscousCase<Dim> p(s);
   const Vec3 normal = Dim == 2 ? Vec3(0.6, 0.8, 0) : Vec3(0.48, 0.6, 0.64), center = middle<Dim>();
-  const RigidField spin{Vec3(0.3, -0.2, Dim == 3 ? 0.1 : 0), Dim == 3 ? Vec3(0.4, -0.7, 1.1) : Vec3(0, 0, 1.3), center};
+  const RigidField spin = some_spin<Dim>();
   p.release(0, center);
   p.solids[0].rigid = false;
   p.solids[0].frame = spin;
