@@ -106,7 +106,7 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   r.pressure = CellField<Dim>(s.layout);
   const NullSpace closed = find_closed_components(in, r.rows);
   r.closed_component = closed.component;
-  const SolidCoupling<Dim> coupling = couple_solids(s, g, r.rows, state, in.dt, horizon);
+  const SolidCoupling<Dim> coupling = couple_solids(s, g, r.rows, closed, state, in.dt, horizon);
   set_held_velocities(s, coupling, g);
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
   const DistributedMatrix A = assemble_pressure_matrix(in, r.rows);
@@ -119,7 +119,7 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   Vector b = pressure_right_side(in, r.rows, u_star), p;
   if (fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   for (Site c : r.rows.cells) p.push_back(guess[c]);
-  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
+  LiquidProblem<Dim> problem(coupling, solver, closed, b, p, c1, c2, s.ranks);
   const Eigen::VectorXd v = minimise(s, state, in.dt, horizon, coupling, solver, problem, r);
   // Chambers that bodies close off are no null space one by one; together they may be.
   constexpr double balanced = 1e-6;  // as refuse_impossible_motion has it
@@ -128,6 +128,9 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
   s.halo.fill_ghosts(r.pressure);
   if (r.failure.empty()) set_velocities(s, coupling, v, g, state);
+  for (std::size_t n = 0; n < coupling.swept.size(); ++n)
+    for (const int row : coupling.swept[n].rows)
+      g.faces.cell_flux[r.rows.cells[std::size_t(row)]] += problem.missing_fluxes()[n];
   for (RigidState& body : state.rigid) body.horizon = horizon;
   return r;
 }

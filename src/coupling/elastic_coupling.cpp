@@ -7,16 +7,11 @@
 namespace seiche {
 namespace {
 
-struct Entry {
-  int row, column;
-  double value;
-};
-
 // Shares spread to the nodes of the surface points that they hang on.
 template <int Dim>
-std::vector<Entry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
+std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
                                  const PressureRows<Dim>& rows) {
-  std::vector<Entry> entries;
+  std::vector<FluxEntry> entries;
   const Layout<Dim>& l = s.layout;
   for (std::size_t n = 0; n < shares.size(); ++n) {
     const FaceShare& share = shares[n];
@@ -32,19 +27,29 @@ std::vector<Entry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, 
     if (l.cells().contains(i)) add(share.face, -1);
     if (l.cells().contains(low)) add(share.face - l.stride(share.axis), 1);
   }
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
-  });
   return entries;
 }
 
+// Those behind the first `known`, by cells.
+template <int Dim>
+std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& entries, std::size_t known,
+                                               const PressureRows<Dim>& rows) {
+  CellFluxes added;
+  for (std::size_t n = known; n < entries.size(); ++n)
+    added.push_back({rows.cells[std::size_t(entries[n].row)], entries[n].column, entries[n].value});
+  return std::make_shared<const CellFluxes>(std::move(added));
+}
+
 // Columns of held unknowns are left empty.
-ColumnBlock make_block(const std::vector<Entry>& entries, const std::vector<Freedom>& freedom, int first, int width) {
+ColumnBlock make_block(std::vector<FluxEntry> entries, const std::vector<Freedom>& freedom, int first, int width) {
+  std::stable_sort(entries.begin(), entries.end(), [](const FluxEntry& a, const FluxEntry& b) {
+    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+  });
   ColumnBlock block;
   block.width = width;
   for (std::size_t n = 0; n < entries.size();) {
     double sum = 0;
-    const Entry& e = entries[n];
+    const FluxEntry& e = entries[n];
     for (; n < entries.size() && entries[n].row == e.row && entries[n].column == e.column; ++n) sum += entries[n].value;
     if (sum != 0 && freedom[std::size_t(first + e.column)] == Freedom::free) block.add(e.row, e.column, sum);
   }
@@ -112,7 +117,8 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
 
 template <int Dim>
 void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                           const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts) {
+                           const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
+                           CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
   std::vector<ElasticShare<Dim>> shares;
   const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
@@ -126,16 +132,22 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-    c.J.blocks[b] = make_block(spread_shares(s, *g.shares[k], *g.attached[k], rows), c.freedom, first, int(e.u.size()));
+    std::vector<FluxEntry> entries = spread_shares(s, *g.shares[k], *g.attached[k], rows);
+    const std::size_t shown = entries.size();
+    for (auto& surface : correct_swept_volume(s, rows, closed, state.elastic[k], k, first, horizon, entries))
+      c.swept.push_back(std::move(surface));
+    c.cell_fluxes[b] = added_fluxes(entries, shown, rows);
+    c.J.blocks[b] = make_block(std::move(entries), c.freedom, first, int(e.u.size()));
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});
   }
+  find_sealed(c.swept);
   if (!shares.empty()) c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), dt, horizon);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                             \
   template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
-                                         const State<D>&, double, double, CouplingParts<D>&);
+                                         const NullSpace&, const State<D>&, double, double, CouplingParts<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

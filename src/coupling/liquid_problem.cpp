@@ -16,17 +16,19 @@ InertiaResponse indefinite() {
 }  // namespace
 
 template <int Dim>
-LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b,
-                                  Vector& pressure, double c1, double c2, const Communicator& ranks)
+LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed,
+                                  const Vector& b, Vector& pressure, double c1, double c2, const Communicator& ranks)
     : coupling_(coupling),
       solver_(solver),
+      closed_(closed),
       b_(b),
       pressure_(pressure),
       c1_(c1),
       c2_(c2),
       ranks_(ranks),
       H_(ranks),
-      none_(ranks) {
+      none_(ranks),
+      missing_(coupling.swept.size()) {
   Vector moved(b.size());
   add_multiplied(coupling.J, c1 * coupling.free, moved);
   scale_ = norm(b, ranks) + norm(moved, ranks);
@@ -75,18 +77,52 @@ std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
   return fmt::format("the pressure solve stopped at residual {:.2e} after {} iterations", r.residual, r.iterations);
 }
 
+template <int Dim>
+void LiquidProblem<Dim>::linearise_at(const Eigen::VectorXd& v) {
+  for (std::size_t n = 0; n < missing_.size(); ++n) missing_[n] = coupling_.swept[n].missing_flux(v);
+}
+
+// b with the flux that surfaces sweep beyond J v.
+template <int Dim>
+Vector LiquidProblem<Dim>::right_side() const {
+  Vector b = b_;
+  for (std::size_t n = 0; n < missing_.size(); ++n)
+    for (const int row : coupling_.swept[n].rows) b[std::size_t(row)] -= c1_ * missing_[n];
+  return b;
+}
+
 // c2 J'p, the same bits on all ranks: they all go through the same contact solve.
 template <int Dim>
-Eigen::VectorXd LiquidProblem<Dim>::impulse_of_pressure() const {
-  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure_, ranks_);
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of(const Vector& pressure) const {
+  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure, ranks_);
   make_identical(impulse, ranks_);
   return impulse;
+}
+
+// That of the mean pressures of closed components: they are the multipliers of chi'(J v) = given.
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of_means() const {
+  const std::vector<int>& sensed = solver_.sensed_components();
+  if (sensed.empty()) return {};
+  std::vector<double> sums(2 * sensed.size());
+  std::vector<std::size_t> place(std::size_t(closed_.count), sensed.size());
+  for (std::size_t k = 0; k < sensed.size(); ++k) place[std::size_t(sensed[k])] = k;
+  const auto place_of = [&](std::size_t row) {
+    return closed_.component[row] < 0 ? sensed.size() : place[std::size_t(closed_.component[row])];
+  };
+  for (std::size_t i = 0; i < pressure_.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) sums[2 * k] += pressure_[i], sums[2 * k + 1] += 1;
+  ranks_.global_sum(sums);
+  Vector means(pressure_.size());
+  for (std::size_t i = 0; i < means.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) means[i] = sums[2 * k] / sums[2 * k + 1];
+  return impulse_of(means);
 }
 
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
-  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - force};
+  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - force, -impulse_of_means()};
 }
 
 template <int Dim>
@@ -95,10 +131,10 @@ InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen:
   if (!H_.set(uncouple_held(K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
     return indefinite();
   const Eigen::VectorXd dry = H_.solve(push);
-  Vector b = b_;
+  Vector b = right_side();
   add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
   if (std::string failure = solve(H_, b); !failure.empty()) return failed(failure);
-  const Eigen::VectorXd force = impulse_of_pressure();
+  const Eigen::VectorXd force = impulse_of(pressure_);
   Eigen::VectorXd v = dry + H_.solve(force);
   for (Eigen::Index i = 0; i < v.size(); ++i)
     if (coupling_.freedom[std::size_t(i)] == Freedom::fixed) v[i] = coupling_.held[i];
@@ -108,10 +144,10 @@ InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen:
 // While what is held is under way, b counts it as arrived.
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
-  Vector b = b_;
+  Vector b = right_side();
   add_multiplied(coupling_.J, -c1_ * free_part(v), b);
   if (std::string failure = solve(none_, b); !failure.empty()) return failed(failure);
-  return respond_with_pressure(v, impulse_of_pressure());
+  return respond_with_pressure(v, impulse_of(pressure_));
 }
 
 template class LiquidProblem<2>;

@@ -13,12 +13,15 @@ template <int Dim>
 class LiquidProblem : public InertiaProblem {
  public:
   // Keeps references; `pressure` is the first guess and holds the last solution.
-  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
-                double c2, const Communicator& ranks);
+  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed, const Vector& b,
+                Vector& pressure, double c1, double c2, const Communicator& ranks);
   int size() const override { return coupling_.size(); }
   InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
+  void linearise_at(const Eigen::VectorXd& v) override;
   bool holds(const Eigen::VectorXd& v) const override;
+  // Flux out of the rows of each of coupling.swept that the last solve was told of, per face area, m/s.
+  const std::vector<double>& missing_fluxes() const { return missing_; }
 
   const SolveReport& report() const { return report_; }  // of all solves so far
 
@@ -26,16 +29,20 @@ class LiquidProblem : public InertiaProblem {
   Eigen::VectorXd free_part(Eigen::VectorXd v) const;
   SparseMatrix uncouple_held(const SparseMatrix& H, Eigen::VectorXd& right_side) const;
   std::string solve(const BodyMatrix& H, const Vector& b);
-  Eigen::VectorXd impulse_of_pressure() const;
+  Vector right_side() const;
+  Eigen::VectorXd impulse_of(const Vector& pressure) const;
+  Eigen::VectorXd impulse_of_means() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
   const SolidCoupling<Dim>& coupling_;
   SpdSolver& solver_;
+  const NullSpace& closed_;
   const Vector& b_;
   Vector& pressure_;
   double c1_, c2_;
   Communicator ranks_;
   BodyMatrix H_, none_;
+  std::vector<double> missing_;
   // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side,
   // which grows without bound for ever lighter bodies.
   double scale_ = 0;

@@ -6,6 +6,7 @@
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
+#include "coupling/sealed_liquid.h"
 #include "coupling/thin_solids.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -138,6 +139,7 @@ struct StepInProgress {
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
+    keep_sealed_full(s, before, out.state, out.state.phi);
     out.state.corrected_volume +=
         control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
                        0.05 * s.layout.h(), out.state.phi);
