@@ -2,6 +2,7 @@
 
 #include "coupling/elastic_coupling.h"
 #include "coupling/rigid_coupling.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
@@ -83,14 +84,15 @@ void set_held_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, StepG
 }
 
 template <int Dim>
-Eigen::VectorXd present_velocities(const Setup<Dim>& s, const State<Dim>& state) {
+Eigen::VectorXd velocities_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   std::vector<double> all;
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     if (s.bodies[k].is_rigid()) {
       const auto v = stacked<Dim>(state.rigid[k].velocity, state.rigid[k].angular_velocity);
       all.insert(all.end(), v.begin(), v.end());
     } else if (s.bodies[k].is_elastic()) {
-      all.insert(all.end(), state.elastic[k].velocity.begin(), state.elastic[k].velocity.end());
+      const auto w = velocity_over(s.bodies[k].elastic(), state.elastic[k], state.time, dt, state.horizon);
+      all.insert(all.end(), w.begin(), w.end());
     }
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));
@@ -98,11 +100,11 @@ Eigen::VectorXd present_velocities(const Setup<Dim>& s, const State<Dim>& state)
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template SolidCoupling<D> couple_solids<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,         \
-                                             const NullSpace&, const State<D>&, double, double);                                        \
+                                             const NullSpace&, const State<D>&, double, double);                      \
   template void set_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, StepGeometry<D>&, \
                                   State<D>&);                                                                         \
   template void set_held_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, StepGeometry<D>&);                   \
-  template Eigen::VectorXd present_velocities<D>(const Setup<D>&, const State<D>&);
+  template Eigen::VectorXd velocities_over<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

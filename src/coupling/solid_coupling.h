@@ -53,8 +53,8 @@ void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling,
 template <int Dim>
 void set_held_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
 
-// The unknowns' values as the last solve left them.
+// The unknowns' values over a coming step of dt: as the last solve left them, but see velocity_over.
 template <int Dim>
-Eigen::VectorXd present_velocities(const Setup<Dim>& setup, const State<Dim>& state);
+Eigen::VectorXd velocities_over(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 
 }  // namespace seiche

@@ -11,6 +11,7 @@
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
@@ -119,8 +120,12 @@ struct StepInProgress {
   void move_bodies() {
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
       if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], dt);
-    for (ElasticMotion& m : out.state.elastic)
-      if (m.velocity.size() > 0) advance(s.elastic_scheme(), dt, m);
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+      ElasticMotion& m = out.state.elastic[k];
+      if (!s.bodies[k].is_elastic()) continue;
+      m.velocity = velocity_over(s.bodies[k].elastic(), m, before.time, dt, before.horizon);
+      advance(s.elastic_scheme(), dt, m);
+    }
   }
 
   void transport_surface() {

@@ -34,10 +34,10 @@ std::vector<Link> gather(const std::set<Link>& mine, const Communicator& ranks) 
 
 // One part of a body's surface while it is looked at.
 struct Part {
-  bool touches_open = false;   // liquid with a given pressure, or a free surface
-  std::set<int> components;    // closed ones
-  std::set<Link> links;        // of this rank
-  int facets = 0, covered = 0;  // the latter have a row beside them
+  bool touches_open = false;    // liquid with a given pressure, or a free surface
+  std::set<int> components;     // closed ones
+  std::set<Link> links;         // of this rank
+  int facets = 0, covered = 0;  // that are not held; the latter have a row beside them
 };
 
 template <int Dim>
@@ -54,14 +54,20 @@ struct Parts {
     component = CellField<Dim, std::int64_t>(s.layout, -1);
     for (std::size_t n = 0; n < rows.cells.size(); ++n) component[rows.cells[n]] = closed.component[n];
     s.halo.fill_ghosts({component.data()});
-    part_of_node.assign(solid.body.mesh.nodes.size(), -1);
-    for (std::size_t n = 0; n < solid.surface.nodes.size(); ++n)
-      part_of_node[std::size_t(solid.surface.nodes[n])] = solid.surface.part[n];
+    part_of_node = parts_of_nodes(solid);
     parts.resize(std::size_t(solid.surface.parts));
   }
 
+  // Entries that were taken back do not count.
   void add_entries(const std::vector<FluxEntry>& entries) {
+    std::map<std::pair<int, int>, std::pair<double, double>> sums;  // of values, and of their absolute values
     for (const FluxEntry& e : entries) {
+      auto& [sum, size] = sums[{e.row, e.column}];
+      sum += e.value, size += std::abs(e.value);
+    }
+    for (const FluxEntry& e : entries) {
+      const auto& [sum, size] = sums[{e.row, e.column}];
+      if (std::abs(sum) <= 1e-12 * size) continue;
       Part& part = parts[std::size_t(part_of_node[std::size_t(e.column / Dim)])];
       const int component = closed.component[std::size_t(e.row)];
       if (component < 0)
@@ -72,7 +78,8 @@ struct Parts {
     }
   }
 
-  // The row of the part's liquid that is nearest to a point on it, of its cell and those around, not behind it; -1: none.
+  // The row of the part's liquid that is nearest to a point on it, of its cell and those around, not behind it; -1:
+  // none.
   std::int64_t row_before(const Part& part, const Vec<Dim>& x, const Vec<Dim>& outward, const IVec<Dim>& cell) const {
     constexpr int neighbours = Dim == 2 ? 9 : 27;
     constexpr double deepest = 0.75;  // cells behind the surface that the centre of a cut cell may lie, or less
@@ -93,18 +100,26 @@ struct Parts {
   // Facets that no face share hangs on push liquid as well.
   void add_facet(const std::array<int, Dim>& corners, const std::vector<Vec<Dim>>& points) {
     Part& part = parts[std::size_t(solid.surface.part[std::size_t(corners[0])])];
+    if (part.touches_open || is_held(corners)) return;
     ++part.facets;
-    if (part.touches_open) return;
     Vec<Dim> x = Vec<Dim>::Zero();
     for (const int c : corners) x += points[std::size_t(c)] / Dim;
     IVec<Dim> cell;
-    for (int a = 0; a < Dim; ++a)
-      cell[a] = int(std::floor((x[a] - s.layout.geometry().lower[a]) / s.layout.h()));
+    for (int a = 0; a < Dim; ++a) cell[a] = int(std::floor((x[a] - s.layout.geometry().lower[a]) / s.layout.h()));
     if (!s.layout.cells().contains(cell)) return;
     const std::int64_t row = row_before(part, x, outward_normal(corners, points), cell);
     if (row < 0) return;
     ++part.covered;
     for (const int c : corners) part.links.insert({row, solid.surface.nodes[std::size_t(c)]});
+  }
+
+  bool is_held(const std::array<int, Dim>& corners) const {
+    return std::all_of(corners.begin(), corners.end(), [&](int c) {
+      const int node = solid.surface.nodes[std::size_t(c)];
+      return std::any_of(solid.pins.begin(), solid.pins.end(), [&](const PinnedNodes& pin) {
+        return std::binary_search(pin.nodes.begin(), pin.nodes.end(), node);
+      });
+    });
   }
 
   static Vec<Dim> outward_normal(const std::array<int, Dim>& c, const std::vector<Vec<Dim>>& points) {
@@ -261,9 +276,19 @@ SweptSurface<Dim> make_surface(const Setup<Dim>& s, const ElasticMotion& motion,
   const Eigen::VectorXd& u = motion.state.u;
   const Eigen::VectorXd middle = u + 0.5 * horizon * motion.velocity;
   const double kept = motion.kept_volume[part];
-  return {&solid,  k, part, first, u, enclosed_volume_gradient(solid, part, middle),
-          horizon, std::isfinite(kept) ? kept : enclosed_volume(solid, part, u),
-          s.layout.geometry().face_area(), {}, false, {}, 0};
+  return {&solid,
+          k,
+          part,
+          first,
+          u,
+          enclosed_volume_gradient(solid, part, middle),
+          horizon,
+          std::isfinite(kept) ? kept : enclosed_volume(solid, part, u),
+          s.layout.geometry().face_area(),
+          {},
+          false,
+          {},
+          0};
 }
 
 }  // namespace
@@ -310,11 +335,11 @@ void find_sealed(std::vector<SweptSurface<Dim>>& surfaces) {
     for (const int c : surface.components) surface.sealed = surface.sealed || sealed.contains(c);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template struct SweptSurface<D>;                                                                                  \
-  template std::vector<SweptSurface<D>> correct_swept_volume<D>(const Setup<D>&, const PressureRows<D>&,            \
-                                                                const NullSpace&, const ElasticMotion&, int, int,   \
-                                                                double, std::vector<FluxEntry>&);                   \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template struct SweptSurface<D>;                                                                                \
+  template std::vector<SweptSurface<D>> correct_swept_volume<D>(const Setup<D>&, const PressureRows<D>&,          \
+                                                                const NullSpace&, const ElasticMotion&, int, int, \
+                                                                double, std::vector<FluxEntry>&);                 \
   template void find_sealed<D>(std::vector<SweptSurface<D>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

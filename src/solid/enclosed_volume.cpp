@@ -1,8 +1,7 @@
 #include "solid/enclosed_volume.h"
 
 #include <Eigen/Geometry>
-
-#include "solid/elastic_motion.h"
+#include <cmath>
 
 namespace seiche {
 namespace {
@@ -43,6 +42,16 @@ void for_each_facet(const ElasticSolid<Dim>& solid, int part, const Eigen::Vecto
   }
 }
 
+// Unit normals of a part's nodes, zero where they are held.
+template <int Dim>
+Eigen::VectorXd free_normals(const ElasticSolid<Dim>& solid, int part, const Eigen::VectorXd& u, double t) {
+  Eigen::VectorXd normals = enclosed_volume_gradient(solid, part, u);
+  for (Eigen::Index n = 0; n < normals.size(); n += Dim)
+    if (const double area = normals.segment<Dim>(n).norm(); area > 0) normals.segment<Dim>(n) /= area;
+  for (const int dof : pins_at(solid, t).dofs) normals[dof] = 0;
+  return normals;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -63,6 +72,14 @@ Eigen::VectorXd enclosed_volume_gradient(const ElasticSolid<Dim>& solid, int par
 }
 
 template <int Dim>
+std::vector<int> parts_of_nodes(const ElasticSolid<Dim>& solid) {
+  std::vector<int> parts(solid.body.mesh.nodes.size(), -1);
+  for (std::size_t n = 0; n < solid.surface.nodes.size(); ++n)
+    parts[std::size_t(solid.surface.nodes[n])] = solid.surface.part[n];
+  return parts;
+}
+
+template <int Dim>
 SurfaceMesh wall_of_cavity(const ElasticSolid<Dim>& solid, int part) {
   SurfaceMesh wall;
   for (const auto& facet : facets_of<Dim>(solid.surface.facets)) {
@@ -75,10 +92,32 @@ SurfaceMesh wall_of_cavity(const ElasticSolid<Dim>& solid, int part) {
   return wall;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template double enclosed_volume<D>(const ElasticSolid<D>&, int, const Eigen::VectorXd&);                \
+template <int Dim>
+Eigen::VectorXd velocity_over(const ElasticSolid<Dim>& solid, const ElasticMotion& motion, double t, double dt,
+                              double horizon) {
+  constexpr int iterations = 4;  // Newton's; what is missing is small of second order in the motion, two are enough
+  Eigen::VectorXd w = motion.velocity;
+  const Eigen::VectorXd& u = motion.state.u;
+  for (int part = 0; part < int(motion.kept_volume.size()) && dt != horizon; ++part) {
+    if (!std::isfinite(motion.kept_volume[part])) continue;
+    const double now = enclosed_volume(solid, part, u);
+    const double planned = enclosed_volume(solid, part, Eigen::VectorXd(u + horizon * motion.velocity));
+    const double wanted = now + dt / horizon * (planned - now);
+    for (int n = 0; n < iterations; ++n) {
+      const Eigen::VectorXd end = u + dt * w, normals = free_normals(solid, part, end, t + dt);
+      const double slope = enclosed_volume_gradient(solid, part, end).dot(normals);
+      if (slope > 0) w += (wanted - enclosed_volume(solid, part, end)) / (slope * dt) * normals;
+    }
+  }
+  return w;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template double enclosed_volume<D>(const ElasticSolid<D>&, int, const Eigen::VectorXd&);                   \
   template Eigen::VectorXd enclosed_volume_gradient<D>(const ElasticSolid<D>&, int, const Eigen::VectorXd&); \
-  template SurfaceMesh wall_of_cavity<D>(const ElasticSolid<D>&, int);
+  template std::vector<int> parts_of_nodes<D>(const ElasticSolid<D>&);                                       \
+  template SurfaceMesh wall_of_cavity<D>(const ElasticSolid<D>&, int);                                       \
+  template Eigen::VectorXd velocity_over<D>(const ElasticSolid<D>&, const ElasticMotion&, double, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 
