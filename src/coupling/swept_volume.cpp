@@ -2,35 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <set>
 
+#include "coupling/link_graph.h"
 #include "grid/loops.h"
 #include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
-
-// A row of the pressure and a node that pushes liquid in or out of its cell.
-struct Link {
-  std::int64_t row;
-  std::int64_t node;
-  auto operator<=>(const Link&) const = default;
-};
-
-std::vector<Link> gather(const std::set<Link>& mine, const Communicator& ranks) {
-  const std::vector<Link> list(mine.begin(), mine.end());
-  std::set<Link> all;
-  for (const std::string& bytes :
-       ranks.all_gather(std::string(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Link))))
-    for (std::size_t n = 0; n < bytes.size(); n += sizeof(Link)) {
-      Link link;
-      std::memcpy(&link, bytes.data() + n, sizeof link);
-      all.insert(link);
-    }
-  return {all.begin(), all.end()};
-}
 
 // One part of a body's surface while it is looked at.
 struct Part {
@@ -151,85 +131,6 @@ struct Parts {
   }
 };
 
-// Rows and nodes of a part, numbered, joined by links.
-class LinkGraph {
- public:
-  explicit LinkGraph(std::vector<Link> links) : links_(std::move(links)) {
-    for (const Link& l : links_) row_.try_emplace(l.row, 0), node_.try_emplace(int(l.node), 0);
-  }
-
-  // Nodes of the part, and links that make it one piece where it is in several.
-  void complete(const std::vector<int>& nodes) {
-    for (const int n : nodes) node_.try_emplace(n, 0);
-    int next = 0;
-    for (auto& [row, number] : row_) number = next++;
-    next = 0;
-    for (auto& [node, number] : node_) number = next++;
-    join_pieces();
-  }
-
-  const std::vector<Link>& links() const { return links_; }
-  int rows() const { return int(row_.size()); }
-  int nodes() const { return int(node_.size()); }
-  int row(const Link& l) const { return row_.at(l.row); }
-  int node(const Link& l) const { return node_.at(int(l.node)); }
-  const std::map<int, int>& node_numbers() const { return node_; }
-  const std::map<std::int64_t, int>& row_numbers() const { return row_; }
-
- private:
-  void join_pieces() {
-    std::vector<int> root(std::size_t(rows() + nodes()));
-    for (std::size_t i = 0; i < root.size(); ++i) root[i] = int(i);
-    const auto find = [&](int i) {
-      while (root[std::size_t(i)] != i) i = root[std::size_t(i)] = root[std::size_t(root[std::size_t(i)])];
-      return i;
-    };
-    for (const Link& l : links_) root[std::size_t(find(row(l)))] = find(rows() + node(l));
-    for (const auto& [n, number] : node_) {
-      if (find(rows() + number) == find(0)) continue;
-      root[std::size_t(find(rows() + number))] = find(0);
-      links_.push_back({row_.begin()->first, n});
-    }
-  }
-
-  std::vector<Link> links_;
-  std::map<std::int64_t, int> row_;
-  std::map<int, int> node_;
-};
-
-// d_cn, one a link, least in the sum of squares, with sum_c d_cn = wanted_n, and sum_n d_cn the same for all c (zero
-// where sum_n wanted_n = 0): d_cn = y_c + z_n.
-class LeastFlux {
- public:
-  explicit LeastFlux(const LinkGraph& graph) : graph_(graph), of_row_(graph.rows(), graph.nodes()) {
-    std::vector<Eigen::Triplet<double>> ones;
-    for (const Link& l : graph.links()) ones.emplace_back(graph.row(l), graph.node(l), 1.0);
-    of_row_.setFromTriplets(ones.begin(), ones.end());
-    row_degree_ = of_row_ * Eigen::VectorXd::Ones(graph.nodes());
-    const Eigen::VectorXd node_degree = of_row_.transpose() * Eigen::VectorXd::Ones(graph.rows());
-    SparseMatrix L = -SparseMatrix(of_row_.transpose() * row_degree_.cwiseInverse().asDiagonal() * of_row_);
-    for (int n = 0; n < graph.nodes(); ++n) L.coeffRef(n, n) += node_degree[n] + (n == 0 ? 1 : 0);
-    factor_.compute(L);
-  }
-  bool factored() const { return factor_.info() == Eigen::Success; }
-
-  std::vector<double> solve(const Eigen::VectorXd& wanted) const {
-    const Eigen::VectorXd row_sum = Eigen::VectorXd::Constant(graph_.rows(), wanted.sum() / graph_.rows());
-    const Eigen::VectorXd z =
-        factor_.solve(Eigen::VectorXd(wanted - of_row_.transpose() * row_sum.cwiseQuotient(row_degree_)));
-    const Eigen::VectorXd y = (row_sum - of_row_ * z).cwiseQuotient(row_degree_);
-    std::vector<double> d;
-    for (const Link& l : graph_.links()) d.push_back(y[graph_.row(l)] + z[graph_.node(l)]);
-    return d;
-  }
-
- private:
-  const LinkGraph& graph_;
-  SparseMatrix of_row_;
-  Eigen::VectorXd row_degree_;
-  Eigen::SimplicialLDLT<SparseMatrix> factor_;
-};
-
 std::vector<int> nodes_of_part(const ElasticSurface& surface, int part) {
   std::vector<int> nodes;
   for (std::size_t n = 0; n < surface.nodes.size(); ++n)
@@ -251,7 +152,7 @@ template <int Dim>
 void correct_part(const Setup<Dim>& s, const PressureRows<Dim>& rows, const Part& part, SweptSurface<Dim>& surface,
                   std::vector<FluxEntry>& entries) {
   const Eigen::VectorXd all = lacking(surface, entries, s.ranks);
-  LinkGraph graph(gather(part.links, s.ranks));
+  LinkGraph graph(gather_links(part.links, s.ranks));
   graph.complete(nodes_of_part(surface.solid->surface, surface.part));
   const LeastFlux least(graph);
   const auto owned = [&](std::int64_t row) { return row >= rows.first && row < rows.first + Row(rows.cells.size()); };
