@@ -20,7 +20,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
-  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
+  LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
   set_pressure(input, p, r);
@@ -36,7 +36,8 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   r.u_star = input.u_star;
   const PressureProblem<Dim> liquid(input.liquid, r.rows);
   r.closed_component = liquid.closed.component;
-  SolidCoupling<Dim> coupling = couple_solids(s, input.geometry, r.rows, input.state, input.liquid.dt, input.horizon);
+  SolidCoupling<Dim> coupling =
+      couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   set_held_velocities(s, coupling, input.geometry);
   const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {

@@ -4,10 +4,11 @@
 
 namespace seiche {
 template <int Dim>
-LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b,
-                                  Vector& pressure, double c1, double c2, const Communicator& ranks)
+LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed,
+                                  const Vector& b, Vector& pressure, double c1, double c2, const Communicator& ranks)
     : CoupledProblem<Dim>(coupling),
       solver_(solver),
+      closed_(closed),
       b_(b),
       pressure_(pressure),
       c1_(c1),
@@ -36,16 +37,36 @@ std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
 
 // c2 J'p, the same bits on all ranks: they all go through the same contact solve.
 template <int Dim>
-Eigen::VectorXd LiquidProblem<Dim>::impulse_of_pressure() const {
-  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure_, ranks_);
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of(const Vector& pressure) const {
+  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure, ranks_);
   make_identical(impulse, ranks_);
   return impulse;
+}
+
+// That of the mean pressures of closed components: they are the multipliers of chi'(J v) = given.
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of_means() const {
+  const std::vector<int>& sensed = solver_.sensed_components();
+  if (sensed.empty()) return {};
+  std::vector<double> sums(2 * sensed.size());
+  std::vector<std::size_t> place(std::size_t(closed_.count), sensed.size());
+  for (std::size_t k = 0; k < sensed.size(); ++k) place[std::size_t(sensed[k])] = k;
+  const auto place_of = [&](std::size_t row) {
+    return closed_.component[row] < 0 ? sensed.size() : place[std::size_t(closed_.component[row])];
+  };
+  for (std::size_t i = 0; i < pressure_.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) sums[2 * k] += pressure_[i], sums[2 * k + 1] += 1;
+  ranks_.global_sum(sums);
+  Vector means(pressure_.size());
+  for (std::size_t i = 0; i < means.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) means[i] = sums[2 * k] / sums[2 * k + 1];
+  return impulse_of(means);
 }
 
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
-  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - force};
+  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - force, -impulse_of_means()};
 }
 
 template <int Dim>
@@ -54,10 +75,10 @@ InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen:
   if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
     return indefinite_response();
   const Eigen::VectorXd dry = H_.solve(push);
-  Vector b = b_;
+  Vector b = this->with_missing_fluxes(b_, -c1_);
   add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
   if (std::string failure = solve(H_, b); !failure.empty()) return failed_response(failure);
-  const Eigen::VectorXd force = impulse_of_pressure();
+  const Eigen::VectorXd force = impulse_of(pressure_);
   Eigen::VectorXd v = dry + H_.solve(force);
   hold(v);
   return respond_with_pressure(v, force);
@@ -66,10 +87,10 @@ InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen:
 // While what is held is under way, b counts it as arrived.
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
-  Vector b = b_;
+  Vector b = this->with_missing_fluxes(b_, -c1_);
   add_multiplied(coupling_.J, -c1_ * free_part(v), b);
   if (std::string failure = solve(none_, b); !failure.empty()) return failed_response(failure);
-  return respond_with_pressure(v, impulse_of_pressure());
+  return respond_with_pressure(v, impulse_of(pressure_));
 }
 
 template class LiquidProblem<2>;

@@ -13,8 +13,8 @@ template <int Dim>
 class LiquidProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references; `pressure` is the first guess and holds the last solution.
-  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
-                double c2, const Communicator& ranks);
+  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed, const Vector& b,
+                Vector& pressure, double c1, double c2, const Communicator& ranks);
   InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
 
@@ -24,10 +24,12 @@ class LiquidProblem : public CoupledProblem<Dim> {
   using CoupledProblem<Dim>::free_part;
   using CoupledProblem<Dim>::hold;
   std::string solve(const BodyMatrix& H, const Vector& b);
-  Eigen::VectorXd impulse_of_pressure() const;
+  Eigen::VectorXd impulse_of(const Vector& pressure) const;
+  Eigen::VectorXd impulse_of_means() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
   SpdSolver& solver_;
+  const NullSpace& closed_;
   const Vector& b_;
   Vector& pressure_;
   double c1_, c2_;
