@@ -10,7 +10,8 @@ struct OpenPart {
   double area = 0, distance = 0;  // of 1 and of psi
 };
 
-// Adds a simplex of N + 1 corners: that of the whole, or of the one corner on its own side of psi = 0 alone.
+// Adds the open part of a simplex of N + 1 <= 3 corners: all of it, the tip at its one open corner, or all but the tip
+// at its one closed corner.
 template <int N>
 void add_simplex(const std::array<double, N + 1>& psi, double measure, OpenPart& part) {
   int positive = 0, last_positive = 0, last_other = 0;
@@ -21,16 +22,15 @@ void add_simplex(const std::array<double, N + 1>& psi, double measure, OpenPart&
     positive += psi[i] > 0;
   }
   if (positive == 0) return;
-  const bool tip_is_open = positive == 1 && N > 0;
-  const int tip = tip_is_open ? last_positive : last_other;
-  double share = 1;
-  if (positive <= N)
-    for (int i = 0; i <= N; ++i)
-      if (i != tip) share *= psi[tip] / (psi[tip] - psi[i]);
-  if (positive == N + 1 || !tip_is_open) part.area += measure, part.distance += measure * sum / (N + 1);
+  const bool tip_is_open = positive == 1;
+  if (!tip_is_open) part.area += measure, part.distance += measure * sum / (N + 1);
   if (positive == N + 1) return;
-  part.area += (tip_is_open ? 1 : -1) * measure * share;
-  part.distance += (tip_is_open ? 1 : -1) * measure * share * psi[tip] / (N + 1);
+  const int tip = tip_is_open ? last_positive : last_other;
+  double share = tip_is_open ? measure : -measure;
+  for (int i = 0; i <= N; ++i)
+    if (i != tip) share *= psi[tip] / (psi[tip] - psi[i]);
+  part.area += share;
+  part.distance += share * psi[tip] / (N + 1);
 }
 
 OpenPart open_part(const Layout<2>& layout, const NodeField<2>& psi, int axis, Site f) {
@@ -57,7 +57,9 @@ class NoSlipFlux {
              const FaceField<Dim>& u)
       : in_(in), layout_(in.layout), s_(s), motion_(motion), u_(u) {}
 
-  // w (u at the mean distance of the open part - u)
+  // w du/dpsi (mean distance of the open part - distance of the centre), the slope that of a sample further out: taken
+  // from the face's own velocity it would feed back on itself, and solves in turns would not settle. Slits, whose
+  // centre lies in the solid, have next to no velocity of their own.
   double operator()(int axis, Site f) const {
     const double w = in_.faces.open.at(axis, f);
     const int k = s_.solid.at(axis, f);
@@ -74,7 +76,8 @@ class NoSlipFlux {
   // The neighbour of the same component that is farthest from the wall, or -1.
   Site sample(int axis, Site f) const {
     Site best = -1;
-    double farthest = 0.5 * layout_.h();  // nearer ones would magnify their errors
+    // Nearer ones would magnify their errors; slits without any, less than a twentieth open, pass next to nothing.
+    double farthest = 0.25 * layout_.h();
     for (int b = 0; b < Dim; ++b)
       for (Site g : {f - layout_.stride(b), f + layout_.stride(b)}) {
         if (s_.kind_at(axis, g) != SampleKind::unknown || s_.psi.at(axis, g) <= farthest) continue;

@@ -196,7 +196,8 @@ void take_columns(const ViscousInput<Dim>& in, const std::vector<int>& bodies, i
 }
 
 template <int Dim>
-void assemble_rows(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r) {
+FaceField<Dim> assemble_rows(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r) {
+  FaceField<Dim> drag(in.layout);
   const RowAssembly<Dim> row_of(in, *r.samples);
   std::vector<RowParts> parts(r.rows.faces.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts.size(), 512), [&](const auto& range) {
@@ -211,11 +212,14 @@ void assemble_rows(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r) {
     const auto [axis, f] = r.rows.faces[n];
     r.mass.push_back(face_mass(in, axis, f));
     r.f.push_back(r.mass[n] * in.u_star.at(axis, f) + side_impulse(in, axis, f) + parts[n].known);
+    drag.at(axis, f) = parts[n].entries[0].second;
     parts[n].entries[0].second += r.mass[n];
     for (const auto& [column, value] : parts[n].entries) r.F.column.push_back(column), r.F.value.push_back(value);
     r.F.row_start.push_back(int(r.F.value.size()));
     take_columns(in, bodies, int(n), parts[n].columns, r.G);
   }
+  in.halo.fill_ghosts(drag);
+  return drag;
 }
 
 // This rank's part of Hvv (row, column, value) and of g.
@@ -275,24 +279,27 @@ void append_row(Entries& entries, DistributedMatrix& m) {
   m.row_start.push_back(int(m.value.size()));
 }
 
-// D_cf = +- w h^(Dim-1); what is known of the fluxes goes to q.
+// D_cf = +- w h^(Dim-1); what is known of the fluxes goes to q. The viscous part of the Schur complement is about the
+// diagonal of D diag(dt V)^-1 D', in full cells h^Dim/(dt mu); where walls hold a cell's faces it is much smaller.
 template <int Dim>
-void assemble_divergence(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r) {
+void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag, ViscousSystem<Dim>& r) {
   const double area = in.layout.geometry().face_area();
   r.D.first_row = in.rows.first, r.D.global_rows = in.rows.global;
   r.Dt.first_row = r.rows.first, r.Dt.global_rows = r.rows.global;
   Entries entries;
   for (Site cell : in.rows.cells) {
-    double known = in.projection.missing_flux(cell);
+    double known = in.projection.missing_flux(cell), mobility = 0;
     entries.clear();
     for_each_face_of(in.layout, cell, [&](int a, Site f, int sign, Site) {
       const double w = in.faces.open.at(a, f);
       known += sign * in.faces.closed_flux.at(a, f);
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) known += sign * w * in.faces.prescribed.at(a, f);
-      if (in.faces.is_unknown(a, f) && w > 0) entries.emplace_back(r.rows.row.at(a, f), sign * w * area);
+      if (!in.faces.is_unknown(a, f) || w == 0) return;
+      entries.emplace_back(r.rows.row.at(a, f), sign * w * area);
+      mobility += w * w * area * area / drag.at(a, f);
     });
     r.q.push_back(-known * area);
-    r.schur_mass.push_back(in.dt * in.viscosity[cell] / in.layout.geometry().cell_volume());
+    r.schur_mass.push_back(mobility > 0 ? 1 / mobility : 0);
     append_row(entries, r.D);
   }
   for (const auto& [axis, f] : r.rows.faces) {
@@ -312,9 +319,9 @@ ViscousSystem<Dim> assemble_viscosity(const ViscousInput<Dim>& in) {
   ViscousSystem<Dim> r;
   r.samples = std::make_shared<const ViscousSamples<Dim>>(sample_faces(in));
   r.rows = r.samples->rows;
-  assemble_rows(in, r);
+  const FaceField<Dim> drag = assemble_rows(in, r);
   assemble_bodies(in, r);
-  assemble_divergence(in, r);
+  assemble_divergence(in, drag, r);
   return r;
 }
 

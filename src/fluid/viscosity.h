@@ -1,6 +1,6 @@
 #pragma once
 // The viscous operator of one step: minimises 1/2 (u-u*)'M(u-u*) + dt/2 z'Vz over z = (face velocities, unknowns of the
-// bodies) subject to D u + J v = q. Equations: docs/viscosity.md.
+// bodies) subject to D u + J v = q. Equations: docs/viscous-operator.md.
 #include <functional>
 #include <memory>
 #include <utility>

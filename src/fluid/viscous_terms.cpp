@@ -79,6 +79,30 @@ void ViscousTerms<Dim>::link_both_sides(ViscousTerm<Dim>& t, int low, int high, 
   }
 }
 
+// What the sides an edge lies in make of its two squares; false: the edge counts for nothing. Walls and inflow are half
+// a cell away from the liquid sample. At outflow half the dual cell is outside and d_n u = 0 beyond; where the products
+// are not null a link to the velocity before the solve keeps V positive.
+template <int Dim>
+bool ViscousTerms<Dim>::weigh_by_sides(int plane, Site e, std::array<double, 2>& weight) const {
+  const auto axes = plane_axes<Dim>(plane);
+  const IVec<Dim> i = in_.layout.index(e);
+  for (int n = 0; n < 2; ++n) {
+    const int across = axes[1 - n], side = side_at(in_.layout, across, i[across]);
+    if (side < 0) continue;
+    switch (in_.sides.type(across, side)) {
+      case SideType::free_slip:
+        return false;
+      case SideType::outflow:
+        weight[n] *= s_.plain ? 0 : 2;
+        weight[1 - n] *= 0.5;
+        break;
+      default:
+        weight[n] *= 2;
+    }
+  }
+  return true;
+}
+
 // mu h^(Dim-2) V [(s1 - s0)^2/theta + (s3 - s2)^2/theta + 2 (s1 - s0)(s3 - s2)]: d_b u_a and d_a u_b.
 template <int Dim>
 bool ViscousTerms<Dim>::of_edge(int plane, Site e, ViscousTerm<Dim>& t) const {
@@ -92,24 +116,8 @@ bool ViscousTerms<Dim>::of_edge(int plane, Site e, ViscousTerm<Dim>& t) const {
     t.add(axis, e);
   }
   if (!settle(t)) return false;
-  const IVec<Dim> i = in_.layout.index(e);
-  std::array<double, 2> weight{1, 1};  // of the two squares
-  for (int n = 0; n < 2; ++n) {
-    const int across = n == 0 ? b : a, side = side_at(in_.layout, across, i[across]);
-    if (side < 0) continue;
-    switch (in_.sides.type(across, side)) {
-      case SideType::free_slip:
-        return false;
-      // Half the dual cell is outside; beyond d_n u = 0. Where the products are not null, a link to the velocity
-      // before the solve keeps V positive.
-      case SideType::outflow:
-        weight[n] *= s_.plain ? 0 : 2;
-        weight[1 - n] *= 0.5;
-        break;
-      default:
-        weight[n] *= 2;  // the wall is half a cell away
-    }
-  }
+  std::array<double, 2> weight{1, 1};
+  if (!weigh_by_sides(plane, e, weight)) return false;
   std::array<bool, 2> parted{};
   for (int n = 0; n < 2; ++n) {
     const int p = 2 * n, q = 2 - 2 * n;

@@ -72,6 +72,7 @@ class ViscousTerms {
   double wall_distance(const Slot& liquid, const Slot& solid) const;
   bool settle(ViscousTerm<Dim>& t) const;
   double link_weight(const Slot& low, const Slot& high) const;
+  bool weigh_by_sides(int plane, Site edge, std::array<double, 2>& weight) const;
   void link_both_sides(ViscousTerm<Dim>& t, int low, int high, double c) const;
   void add_divergence(ViscousTerm<Dim>& t, Site cell, double c) const;
   double kappa(Site cell) const;

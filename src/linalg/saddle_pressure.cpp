@@ -59,8 +59,6 @@ void PressurePreconditioner::make_hierarchy() {
     diagonal_ = K_.bodies().matrix().diagonal();
     system = filled_.get();
   }
-  if(getenv("PAGG")) settings_.aggressive_levels=atoi(getenv("PAGG"));
-  if(getenv("PSW")) settings_.sweeps=atoi(getenv("PSW"));
   B_ = used_ == "boomeramg" ? make_boomeramg(*system, settings_) : make_preconditioner(used_, *system);
 }
 
@@ -72,7 +70,8 @@ bool PressurePreconditioner::is_outdated() const {
   return change.maxCoeff() > much || change.minCoeff() < 1 / much;
 }
 
-// S is chi'J H^-1 J'chi there. Where only rigid bodies feel them, directions bring that in: S0 is to be next to nothing.
+// S is chi'J H^-1 J'chi there. Where only rigid bodies feel them, directions bring that in: S0 is to be next to
+// nothing.
 void PressurePreconditioner::find_constants() {
   constexpr double next_to_nothing = 1e-5;
   constants_.clear();

@@ -5,7 +5,8 @@
 
 namespace seiche {
 
-// Of D F^-1 D' by Cahouet and Chabard 1988: S0^-1 = (AMG of A) / schur_scale + diag(schur_mass); of the rest by Woodbury.
+// Of D F^-1 D' by Cahouet and Chabard 1988: S0^-1 = (AMG of A) / schur_scale + diag(schur_mass); of the rest by
+// Woodbury.
 class PressurePreconditioner {
  public:
   // Keeps references. `name` as in preconditioner_names(). Collective.

@@ -109,8 +109,8 @@ Vector SaddleSolver::momentum_weight() const {
   return K_.pack(w, body, {});
 }
 
-// The flow (u1, v1) without the constraint and the pressure against it set the scales; f, g and q alone where there is no
-// preconditioner.
+// The flow (u1, v1) without the constraint and the pressure against it set the scales; f, g and q alone where there is
+// no preconditioner.
 SaddleSolver::Problem SaddleSolver::pose(const Vector& f, const Eigen::VectorXd& g, const Vector& q,
                                          double flux_scale) {
   Problem problem{K_.pack(f, g, q), {}};
@@ -174,8 +174,7 @@ struct WeightedPreconditioner {
 SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {
-    if (!getenv("HIST") && target >= 0 && estimate > target) return false;
-    if(getenv("HIST")) {auto m=measure(problem,now); fmt::print("{:.1e}:{:.1e},{:.1e} ",estimate,m.momentum,m.continuity); if(m.larger()<=options_.tolerance) return true; return false;}
+    if (target >= 0 && estimate > target) return false;
     const double excess = measure(problem, now).larger() / options_.tolerance;
     if (excess <= 1) return true;
     target = target < 0 ? 2 * estimate / excess : estimate * std::clamp(0.8 / excess, 0.1, 0.7);
@@ -188,7 +187,8 @@ SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Proble
 SaddleSolver::Climb SaddleSolver::iterate_flexibly(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
   const WeightedOperator A{K_, coupled_, problem.weight};
   WeightedPreconditioner P{B, problem.weight};
-  const KrylovResult result = flexible_gmres(A, P, problem.b, x, {options_.tolerance, options_.max_iterations}, K_.ranks());
+  const KrylovResult result =
+      flexible_gmres(A, P, problem.b, x, {options_.tolerance, options_.max_iterations}, K_.ranks());
   return {result.iterations, result.failure};
 }
 
@@ -202,8 +202,7 @@ SaddleSolver::Climb SaddleSolver::climb(const Rung& rung, const Problem& problem
   if (rung.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
   SaddlePreconditioner& B = build(rung.pressure, rung.strength);
   if (std::string failure = B.refresh(); !failure.empty()) return {0, failure};
-  return rung.method == Method::minres ? minimise(B, problem, x)
-                                       : iterate_flexibly(B, problem, x);
+  return rung.method == Method::minres ? minimise(B, problem, x) : iterate_flexibly(B, problem, x);
 }
 
 // x keeps the best vector met.

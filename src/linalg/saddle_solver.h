@@ -13,19 +13,19 @@ struct SaddleOptions {
   // relative to f and g and to what q drives; continuity in the 2-norm, relative to `flux_scale` of solve(). Bounds the
   // error in the velocity, and the volume lost.
   double tolerance = 1e-8;
-  int max_iterations = 400;              // of a rung of the ladder
-  std::string preconditioner = "auto";   // of the pressure
-  int fail_rungs = 0;                    // for tests: the first rungs return a wrong x and claim success
+  int max_iterations = 400;             // of a rung of the ladder
+  std::string preconditioner = "auto";  // of the pressure
+  int fail_rungs = 0;                   // for tests: the first rungs return a wrong x and claim success
 };
 
 struct SaddleReport {
   bool converged = false;
-  int iterations = 0;               // over all rungs tried
+  int iterations = 0;                   // over all rungs tried
   double momentum = 0, continuity = 0;  // recomputed, relative
-  double residual = 0;              // the larger of the two
-  double mismatch = 0;              // |part of q no velocity can reach| / |q|
-  std::string used;                 // the last rung
-  std::vector<std::string> ladder;  // one line a rung that failed
+  double residual = 0;                  // the larger of the two
+  double mismatch = 0;                  // |part of q no velocity can reach| / |q|
+  std::string used;                     // the last rung
+  std::vector<std::string> ladder;      // one line a rung that failed
 
   void set(double of_momentum, double of_continuity);
 };

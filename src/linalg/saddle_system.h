@@ -58,7 +58,7 @@ class SaddleOperator {
 
   // Parts of it. Collective.
   void multiply_velocity(const Vector& u, const Eigen::VectorXd& v, Vector& fu, Eigen::VectorXd& fv) const;
-  void add_gradient(const Vector& p, Vector& fu, Eigen::VectorXd& fv) const;  // += (D'p, J'p)
+  void add_gradient(const Vector& p, Vector& fu, Eigen::VectorXd& fv) const;       // += (D'p, J'p)
   void divergence(const Vector& u, const Eigen::VectorXd& v, Vector& flux) const;  // = D u + J v
 
  private:

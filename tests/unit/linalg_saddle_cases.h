@@ -10,13 +10,13 @@
 namespace seiche::cases {
 
 struct Stokes {
-  Poisson box;                                                     // walls are no-slip
+  Poisson box;                                                       // walls are no-slip
   std::function<double(Cell)> viscosity = [](Cell) { return 1.0; };  // of cells, dt mu/(rho h^2)
-  std::function<bool(Cell)> body = [](Cell) { return false; };     // its cells are Kind::wall of the box
-  std::array<double, 3> centre{0, 0, 0};                           // of the body, in cells
-  double body_density = 1;                                         // relative
-  double kappa = 1;                                                // weight of (div u)^2 in the energy
-  double schur_weight = 1;                                         // of schur_mass, relative to (1 + kappa) viscosity
+  std::function<bool(Cell)> body = [](Cell) { return false; };       // its cells are Kind::wall of the box
+  std::array<double, 3> centre{0, 0, 0};                             // of the body, in cells
+  double body_density = 1;                                           // relative
+  double kappa = 1;                                                  // weight of (div u)^2 in the energy
+  double schur_weight = 1;                                           // of schur_mass, relative to (1 + kappa) viscosity
 };
 
 struct StokesMatrices {

@@ -6,6 +6,7 @@
 
 #include "coupling/coupled_solve.h"
 #include "coupling/measures.h"
+#include "coupling/rigid_coupling.h"
 #include "grid/loops.h"
 #include "scenes.h"
 
@@ -67,8 +68,10 @@ struct Projection {
   }
 
   void solve() {
-    const auto solution =
-        solve_coupled(setup, input(), geometry, state, CellField<Dim>(setup.layout), u_star, dt, PhaseFault::none);
+    const CellField<Dim> guess(setup.layout);
+    const FaceField<Dim> slope(setup.layout);
+    const auto solution = solve_coupled(CoupledInput<Dim>{setup, input(), geometry, state, guess, slope, u_star, u_star,
+                                                          dt, nullptr, PhaseFault::none});
     INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.ladder, "; ")));
     REQUIRE(solution.failure.empty());
     state.pressure = solution.pressure;

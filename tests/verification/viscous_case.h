@@ -11,7 +11,7 @@
 namespace seiche::test {
 
 template <int Dim>
-class ViscousProblem {
+class ViscousCase {
  public:
   struct Settings {
     int cells = 16;
@@ -22,7 +22,7 @@ class ViscousProblem {
     std::function<double(const Vec<Dim>&)> phi = [](const Vec<Dim>&) { return -1.0; };
   };
 
-  explicit ViscousProblem(
+  explicit ViscousCase(
       const Settings& settings, std::function<void(Scene&)> change = [](Scene&) {})
       : settings_(settings),
         scene_(make_scene(settings, change)),
