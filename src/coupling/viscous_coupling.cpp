@@ -6,6 +6,7 @@
 #include "coupling/formula_checks.h"
 #include "coupling/liquid_viscosity.h"
 #include "fluid/no_slip_flux.h"
+#include "fluid/rheology.h"
 #include "grid/loops.h"
 #include "solid/elastic_motion.h"
 
@@ -77,6 +78,10 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>&
   mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
   const double largest = local_max(s.layout, s.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
   mu.largest = s.ranks.global_max(largest);
+  if (!liquid.rheology.model.empty()) {
+    mu.edge.emplace(s.layout);
+    set_edge_viscosity(s.layout, resolve_rheology(s.scene), flow.u, flow.valid, *mu.edge);
+  }
   return mu;
 }
 
@@ -116,7 +121,8 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
              .time = state.time,
              .u_star = u_star,
              .projection = in,
-             .rows = rows},
+             .rows = rows,
+             .edge_viscosity = mu.edge ? &*mu.edge : nullptr},
       system_(assemble_viscosity(input_)),
       J_(scaled(coupling.J, s.layout.geometry().face_area())) {
   separate_held();

@@ -5,12 +5,13 @@
 
 namespace seiche {
 
-// The viscosity of a step at the cells' centres.
+// The viscosity of a step at the cells' centres, and at edges where it depends on the shear rate.
 template <int Dim>
 struct ViscosityField {
   CellField<Dim> value;  // Pa s, two cells around the owned ones
   double largest = 0;    // where there is liquid, over all ranks
   bool uniform = true;
+  std::optional<EdgeField<Dim>> edge{};  // Pa s, one cell around
 };
 
 // As the scene gives it at time t, of shear-dependent liquid for the velocities of `flow`. Collective. Throws

@@ -35,10 +35,8 @@ RheologySpec resolve_rheology(const Scene& scene);
 // One line for the log: the model and what bounds its stiffness. Empty for Newtonian liquid.
 std::string describe_rheology(const RheologySpec& spec);
 
-// Fills mu at cell centres, ghosts too, from face velocities that are known one cell around the owned ones. The rate is
-// that of the cell's own faces and of the edges around it: rate^2 = sum_a 2 (d_a u_a)^2 + sum_{a<b} mean over the four
-// edges of (d_a u_b + d_b u_a)^2. Edges that lie in sides of the domain or touch a face where `valid` is 0 are left
-// out of the mean: next to walls it is one-sided.
+// Fills mu at cell centres, ghosts too, from face velocities that are known two cells around the owned ones, of which
+// those where `valid` is 0 do not count (ShearRates).
 template <int Dim>
 void set_viscosity(const Layout<Dim>& layout, const Halo<Dim>& halo, const RheologySpec& spec, const FaceField<Dim>& u,
                    const FaceField<Dim, char>& valid, CellField<Dim>& mu);
@@ -47,5 +45,12 @@ void set_viscosity(const Layout<Dim>& layout, const Halo<Dim>& halo, const Rheol
 template <int Dim>
 void set_viscosity(const Layout<Dim>& layout, const Halo<Dim>& halo, const RheologySpec& spec, const FaceField<Dim>& u,
                    CellField<Dim>& mu);
+
+// The same at the edges of the owned cells and of one layer around, of velocities that are known four cells around.
+// Means of the cells' viscosities would not do: where liquid begins to yield it changes a thousandfold from one to the
+// next, and profiles were first order.
+template <int Dim>
+void set_edge_viscosity(const Layout<Dim>& layout, const RheologySpec& spec, const FaceField<Dim>& u,
+                        const FaceField<Dim, char>& valid, EdgeField<Dim>& mu);
 
 }  // namespace seiche

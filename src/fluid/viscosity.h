@@ -54,6 +54,7 @@ struct ViscousInput {
   const FaceField<Dim>& u_star;  // m/s, ghosts filled
   const ProjectionInput<Dim>& projection;
   const PressureRows<Dim>& rows;
+  const EdgeField<Dim>* edge_viscosity = nullptr;  // Pa s, one cell around; null: the mean of the cells around an edge
 };
 
 // Unknown face velocities: faces that a pressure row or viscous liquid touches.

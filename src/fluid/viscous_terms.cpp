@@ -23,9 +23,10 @@ void ViscousTerm<Dim>::add_product(int i, int j, int k, int l, double c) {
   Q[j][k] -= c, Q[k][j] -= c;
 }
 
-// Harmonic mean over the four cells around: exact for shear along layers.
+// Its own, else the harmonic mean over the four cells around: exact for shear along layers.
 template <int Dim>
 double ViscousTerms<Dim>::edge_viscosity(int plane, Site e) const {
+  if (in_.edge_viscosity) return (*in_.edge_viscosity)[plane][std::size_t(e)];
   if (in_.uniform_viscosity) return in_.viscosity[e];
   const auto [a, b] = plane_axes<Dim>(plane);
   const Site da = in_.layout.stride(a), db = in_.layout.stride(b);

@@ -52,7 +52,7 @@ struct Sheared {
   FaceField<Dim> u;
 
   Sheared(const Eigen::Matrix<double, Dim, Dim>& gradient, bool periodic)
-      : layout(geometry(periodic), geometry(periodic).box(), 3), halo(layout, {layout.cells()}, ranks), u(layout) {
+      : layout(geometry(periodic), geometry(periodic).box(), 4), halo(layout, {layout.cells()}, ranks), u(layout) {
     for (int a = 0; a < Dim; ++a)
       for_each_index(layout, layout.padded(), [&](Site f, const IVec<Dim>& i) {
         u.at(a, f) = (gradient * layout.position(i, face_offset<Dim>(a)))[a];
@@ -182,6 +182,37 @@ TEST_CASE("the shear rate of a wave is second order in space") {
     if (before > 0) CHECK(std::log2(before / error) == Approx(2).margin(0.1));
     before = error;
   }
+}
+
+// Shear d_y u = 1 - 6 y + 3 y^2: the continuation from inside is exact for it.
+TEST_CASE("the viscosity at edges is that of their own shear, in walls that of the profile continued") {
+  Sheared<2> flow(Eigen::Matrix2d::Zero(), false);
+  for_each_index(flow.layout, flow.layout.padded(), [&](Site f, const IVec<2>& i) {
+    const double y = flow.layout.position(i, face_offset<2>(0))[1], h = flow.layout.h();
+    flow.u.at(0, f) = y - 3 * y * y + y * y * y - 0.25 * h * h * y;  // differences over h give the shear at edges
+  });
+  const FaceField<2, char> valid(flow.layout, 1);
+  EdgeField<2> mu(flow.layout);
+  set_edge_viscosity(flow.layout, power_law("power_law", 1, 2, 0, 1e-9), flow.u, valid, mu);  // mu = rate
+  for (int j = 0; j <= 8; ++j) {
+    const double y = j * flow.layout.h();
+    CHECK(mu[0][std::size_t(flow.layout.site({3, j}))] == Approx(std::abs(1 - 6 * y + 3 * y * y)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("an edge at faces that are not valid has the rate of the cells around") {
+  Sheared<3> flow(Eigen::Matrix3d{{0, 2, 0}, {0, 0, 0}, {0, 0, 0}}, true);
+  FaceField<3, char> valid(flow.layout, 1);
+  const Site wrong = flow.layout.site({4, 4, 4});
+  flow.u.at(0, wrong) = 1e6;
+  valid.at(0, wrong) = 0;
+  EdgeField<3> mu(flow.layout);
+  set_edge_viscosity(flow.layout, power_law("power_law", 1, 2, 0, 1e-9), flow.u, valid, mu);
+  const Site far = flow.layout.site({1, 1, 1});
+  for (int plane = 0; plane < 3; ++plane) CHECK(mu[plane][std::size_t(far)] == Approx(2).epsilon(1e-12));
+  CHECK(mu[2][std::size_t(flow.layout.site({6, 4, 4}))] == Approx(2).epsilon(1e-12));
+  CHECK(mu[2][std::size_t(wrong)] > 2);  // the stretch of the cells beside the face counts
+  CHECK(std::isfinite(mu[2][std::size_t(wrong)]));
 }
 
 TEST_CASE("faces that are not valid do not count in the shear rate") {
