@@ -148,6 +148,7 @@ struct ProbeSpec {
 struct SolverSpec {
   double tolerance = 1e-8;
   std::string preconditioner = "auto";
+  std::string elastic = "auto";  // stiffness of elastic solids in the solve: "factor", "iterate", or by size
 };
 
 struct OutputSpec {

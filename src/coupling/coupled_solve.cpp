@@ -96,6 +96,16 @@ Eigen::VectorXd minimise(const Setup<Dim>& s, const State<Dim>& state, double dt
   return contact.velocity;
 }
 
+// Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
+template <int Dim>
+bool iterates_on_bodies(const Setup<Dim>& s) {
+  constexpr double most_bytes = 4e9;
+  const std::string& choice = s.scene.solver.elastic;
+  const auto is_large = [&](const auto& e) { return factor_bytes(Dim, e.body.size()) > most_bytes; };
+  const bool any_large = std::any_of(s.elastic.begin(), s.elastic.end(), is_large);
+  return !s.elastic.empty() && (choice == "iterate" || (choice == "auto" && any_large));
+}
+
 // One solve, with the cells that part given.
 template <int Dim>
 CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>& in, StepGeometry<Dim>& g,
@@ -120,6 +130,9 @@ CoupledSolution<Dim> solve_once(const Setup<Dim>& s, const ProjectionInput<Dim>&
   if (fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   for (Site c : r.rows.cells) p.push_back(guess[c]);
   LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
+  const SaddleOptions together{.tolerance = options.tolerance};
+  KktSolver kkt({A, grid, closed, coupling.J, c1, c2, Dim}, together, s.ranks);
+  if (iterates_on_bodies(s)) problem.solve_together(kkt);
   const Eigen::VectorXd v = minimise(s, state, in.dt, horizon, coupling, solver, problem, r);
   // Chambers that bodies close off are no null space one by one; together they may be.
   constexpr double balanced = 1e-6;  // as refuse_impossible_motion has it

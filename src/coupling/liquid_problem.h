@@ -1,6 +1,7 @@
 #pragma once
 // What contacts push against: the bodies' inertia and the liquid's pressure, as one quadratic energy.
 #include "coupling/solid_coupling.h"
+#include "linalg/kkt_solver.h"
 
 namespace seiche {
 
@@ -15,6 +16,9 @@ class LiquidProblem : public InertiaProblem {
   // Keeps references; `pressure` is the first guess and holds the last solution.
   LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
                 double c2, const Communicator& ranks);
+  // From now on minimise() solves for velocities and pressures together, without factors of H: for bodies too large to
+  // factor. That H has no minimum is then only found out where the iteration meets v'H v < 0. Kept by reference.
+  void solve_together(KktSolver& kkt) { kkt_ = &kkt; }
   int size() const override { return coupling_.size(); }
   InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
@@ -27,6 +31,8 @@ class LiquidProblem : public InertiaProblem {
   SparseMatrix uncouple_held(const SparseMatrix& H, Eigen::VectorXd& right_side) const;
   std::string solve(const BodyMatrix& H, const Vector& b);
   Eigen::VectorXd impulse_of_pressure() const;
+  InertiaResponse minimise_together(const SparseMatrix& K, Eigen::VectorXd push);
+  void add_up(const SolveReport& one);
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
   const SolidCoupling<Dim>& coupling_;
@@ -40,6 +46,8 @@ class LiquidProblem : public InertiaProblem {
   // which grows without bound for ever lighter bodies.
   double scale_ = 0;
   SolveReport report_;
+  KktSolver* kkt_ = nullptr;
+  Eigen::VectorXd last_;  // velocities found together
 };
 
 }  // namespace seiche
