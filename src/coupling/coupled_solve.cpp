@@ -101,9 +101,11 @@ template <int Dim>
 bool iterates_on_bodies(const Setup<Dim>& s) {
   constexpr double most_bytes = 4e9;
   const std::string& choice = s.scene.solver.elastic;
-  const auto is_large = [&](const auto& e) { return factor_bytes(Dim, e.body.size()) > most_bytes; };
-  const bool any_large = std::any_of(s.elastic.begin(), s.elastic.end(), is_large);
-  return !s.elastic.empty() && (choice == "iterate" || (choice == "auto" && any_large));
+  const auto is_large = [&](const Body<Dim>& b) {
+    return b.is_elastic() && factor_bytes(Dim, b.elastic().body.size()) > most_bytes;
+  };
+  const bool any_large = std::any_of(s.bodies.begin(), s.bodies.end(), is_large);
+  return s.has_elastic() && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
 // One solve, with the cells that part given.

@@ -95,8 +95,9 @@ InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eig
           .identity_rows = report_.identity_rows,
           .mismatch = r.solve.mismatch});
   if (!r.solve.converged)
-    return failed(fmt::format("the solve of pressures and bodies together stopped at residual {:.2e} after {} iterations",
-                              r.solve.residual, r.solve.iterations));
+    return failed(
+        fmt::format("the solve of pressures and bodies together stopped at residual {:.2e} after {} iterations",
+                    r.solve.residual, r.solve.iterations));
   make_identical(v, ranks_);
   last_ = v;
   const Eigen::VectorXd force = impulse_of_pressure();
