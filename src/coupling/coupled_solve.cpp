@@ -8,6 +8,18 @@
 namespace seiche {
 namespace {
 
+// Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
+template <int Dim>
+bool iterates_on_bodies(const Setup<Dim>& s) {
+  constexpr double most_bytes = 4e9;
+  const std::string& choice = s.scene.solver.elastic;
+  const auto is_large = [&](const Body<Dim>& b) {
+    return b.is_elastic() && factor_bytes(Dim, b.elastic().body.size()) > most_bytes;
+  };
+  const bool any_large = std::any_of(s.bodies.begin(), s.bodies.end(), is_large);
+  return s.has_elastic() && (choice == "iterate" || (choice == "auto" && any_large));
+}
+
 // Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.
 template <int Dim>
 void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
@@ -21,6 +33,9 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
+  KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
+                s.ranks);
+  if (iterates_on_bodies(s)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
   set_pressure(input, p, r);

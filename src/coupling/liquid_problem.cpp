@@ -24,6 +24,13 @@ LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver&
 template <int Dim>
 std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
   const SolveReport r = solver_.solve(H, b, pressure_, scale_);
+  add_up(r);
+  if (r.converged) return {};
+  return fmt::format("the pressure solve stopped at residual {:.2e} after {} iterations", r.residual, r.iterations);
+}
+
+template <int Dim>
+void LiquidProblem<Dim>::add_up(const SolveReport& r) {
   report_.converged = r.converged;
   report_.iterations += r.iterations;
   report_.residual = std::max(report_.residual, r.residual);
@@ -31,8 +38,32 @@ std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
   report_.used = r.used;
   report_.identity_rows = r.identity_rows;
   report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
-  if (r.converged) return {};
-  return fmt::format("the pressure solve stopped at residual {:.2e} after {} iterations", r.residual, r.iterations);
+}
+
+// A p + c1 J v = b,  H v - c2 J'p = M v* + r. Columns of J of what is held are zero.
+template <int Dim>
+InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eigen::VectorXd push) {
+  const SparseMatrix H =
+      uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push);
+  Eigen::VectorXd v = last_.size() == push.size() ? last_ : coupling_.free;
+  const KktReport r = kkt_->solve(H, this->with_missing_fluxes(b_, -c1_), push, pressure_, v, scale_);
+  if (r.indefinite) return indefinite_response();
+  add_up({.converged = r.solve.converged,
+          .iterations = r.solve.iterations,
+          .residual = r.solve.residual,
+          .used = r.solve.used,
+          .ladder = r.solve.ladder,
+          .identity_rows = report_.identity_rows,
+          .mismatch = r.solve.mismatch});
+  if (!r.solve.converged)
+    return failed_response(
+        fmt::format("the solve of pressures and bodies together stopped at residual {:.2e} after {} iterations",
+                    r.solve.residual, r.solve.iterations));
+  make_identical(v, ranks_);
+  last_ = v;
+  const Eigen::VectorXd force = impulse_of(pressure_);
+  hold(v);
+  return respond_with_pressure(v, force);
 }
 
 // c2 J'p, the same bits on all ranks: they all go through the same contact solve.
@@ -72,6 +103,7 @@ InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd&
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
   Eigen::VectorXd push = coupling_.push + r;
+  if (kkt_) return minimise_together(K, push);
   if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
     return indefinite_response();
   const Eigen::VectorXd dry = H_.solve(push);
