@@ -72,6 +72,20 @@ std::string KktSolver::climb(const std::string& strength, const Problem& problem
   return result.failure;
 }
 
+// b made compatible, what is taken out of it in the report.
+KktSolver::Problem KktSolver::pose(const Vector& b, const Eigen::VectorXd& g, double scale,
+                                   SaddleReport& report) const {
+  Vector reachable = b, removed = b;
+  coupled_.project(reachable);
+  coupled_.project(reachable);  // once more for the rounding of the first means
+  add_scaled(removed, -1, reachable);
+  const double size = norm(b, ranks_);
+  report.mismatch = size > 0 ? norm(removed, ranks_) / size : 0;
+  if (scale <= 0) scale = size > 0 ? size : 1;
+  return {K_->pack(reachable, -system_.c1 / system_.c2 * g), scale, g,
+          bodies_.matrix().diagonal().cwiseSqrt().cwiseInverse()};
+}
+
 KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::VectorXd& g, Vector& p,
                            Eigen::VectorXd& v, double scale) {
   KktReport all;
@@ -88,16 +102,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
   bodies_.keep(H);
   coupled_.set_bodies(bodies_);
   K_ = std::make_unique<KktOperator>(system_, A_, H);
-  Vector reachable = b;
-  coupled_.project(reachable);
-  coupled_.project(reachable);  // once more for the rounding of the first means
-  Vector removed = b;
-  add_scaled(removed, -1, reachable);
-  const double size = norm(b, ranks_);
-  report.mismatch = size > 0 ? norm(removed, ranks_) / size : 0;
-  if (scale <= 0) scale = size > 0 ? size : 1;
-  const Problem problem{K_->pack(reachable, -system_.c1 / system_.c2 * g), scale, g,
-                        H.diagonal().cwiseSqrt().cwiseInverse()};
+  const Problem problem = pose(b, g, scale, report);
   coupled_.project(p);
   Vector x = K_->pack(p, v);
   for (const char* strength : {"standard", "strong"}) {

@@ -43,6 +43,7 @@ class KktSolver {
   struct Residual {
     double momentum, continuity;
   };
+  Problem pose(const Vector& b, const Eigen::VectorXd& g, double scale, SaddleReport& report) const;
   Residual measure(const Problem& problem, const Vector& x) const;
   std::string climb(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report);
 

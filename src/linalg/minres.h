@@ -6,6 +6,20 @@
 
 namespace seiche {
 
+struct MinresStep {
+  double of_z, of_w, of_w_before, length;
+};
+
+// The next direction w, and a step along it.
+inline void take_step(const MinresStep& s, const Vector& z, Vector& w_before, Vector& w, Vector& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double next = s.of_z * z[i] - s.of_w_before * w_before[i] - s.of_w * w[i];
+    w_before[i] = w[i];
+    w[i] = next;
+    x[i] += s.length * next;
+  }
+}
+
 // Paige and Saunders 1975, preconditioned as in Elman, Silvester, Wathen 2014, algorithm 4.1. A symmetric, B symmetric
 // positive (semi-)definite. Stops where finished(|r|_B, x) says so; |r|_B = sqrt(r'B r) never grows.
 template <class Operator, class Preconditioner, class Finished>
@@ -37,12 +51,7 @@ KrylovResult minimal_residuals(const Operator& A, Preconditioner& B, const Vecto
     const double a2 = s * delta + c_before * c * gamma, a3 = s_before * gamma;
     if (!(a1 > 0)) return {k, "matrix singular"};
     const double c_next = a0 / a1, s_next = gamma_next / a1;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double w_next = (z[i] - a3 * w_before[i] - a2 * w[i]) / a1;
-      w_before[i] = w[i];
-      w[i] = w_next;
-      x[i] += c_next * eta * w_next;
-    }
+    take_step({1 / a1, a2 / a1, a3 / a1, c_next * eta}, z, w_before, w, x);
     eta *= -s_next;
     std::swap(v_before, v);
     std::swap(v, az);
