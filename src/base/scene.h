@@ -125,6 +125,12 @@ struct PinSpec {
   MotionSpec motion;
 };
 
+// A force on part of an elastic solid's boundary: on the sides of elements whose nodes all lie in a shape at rest.
+struct TractionSpec {
+  ShapeSpec shape;
+  VectorFormula stress{"0", "0", "0"};  // Pa, per area at rest, in x, y, z at rest and t
+};
+
 // What an elastic solid is made of; its density and initial velocities are those of RigidSpec.
 struct ElasticSpec {
   std::string model = "stable_neo_hookean";  // a name of the table in solid/elastic_material.h
@@ -136,6 +142,7 @@ struct ElasticSpec {
   int element_order = 2;                    // 1: linear, 2: quadratic
   std::vector<PinSpec> pinned;              // at rest unless they have a motion
   VectorFormula body_force{"0", "0", "0"};  // N/m^3 at rest, in x, y, z at rest and t
+  std::vector<TractionSpec> tractions;
 };
 
 struct SolidSpec {
@@ -169,6 +176,7 @@ struct SolverSpec {
   ViscousSolve viscosity = ViscousSolve::automatic;
   double rheology_tolerance = 1e-4;  // change of velocity between outer iterations, relative
   int rheology_iterations = 30;      // outer ones a step, at most
+  std::string elastic = "auto";  // stiffness of elastic solids in the solve: "factor", "iterate", or by size
 };
 
 struct OutputSpec {

@@ -119,6 +119,7 @@ void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
   visit("elastic." + body + ".u_old", m.state.u_old);
   visit("elastic." + body + ".v_old", m.state.v_old);
   visit("elastic." + body + ".velocity", m.velocity);
+  visit("elastic." + body + ".kept_volume", m.kept_volume);
 }
 
 // Vectors as texts: their bytes.
@@ -139,16 +140,16 @@ void load_elastic(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& s
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     if (!s.bodies[k].is_elastic()) continue;
     const std::string dt_old = fmt::format("elastic.{}.dt_old", k);
-    const auto size = std::size_t(s.bodies[k].elastic().body.size());
     if (!data.scalars.contains(dt_old)) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + dt_old + "'");
+    state.elastic[k] = initial_elastic_motion(s.bodies[k]);
     state.elastic[k].state.dt_old = data.scalars.at(dt_old);
     for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, Eigen::VectorXd& v) {
+      const auto size = std::size_t(v.size());
       const auto found = data.texts.find(name);
       if (found == data.texts.end() || found->second.size() != size * sizeof(double))
         throw Error(
             ExitCode::bad_checkpoint,
             fmt::format("the checkpoint lacks '{}' of {} numbers; the solid's mesh is another one", name, size));
-      v.resize(Eigen::Index(size));
       std::memcpy(v.data(), found->second.data(), found->second.size());
     });
   }

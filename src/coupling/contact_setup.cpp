@@ -146,7 +146,7 @@ void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
 template <int Dim>
 double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   if (!s.contact) return 1;
-  return largest_safe_fraction(*s.contact, contact_motions(s, state, dt), dt, present_velocities(s, state));
+  return largest_safe_fraction(*s.contact, contact_motions(s, state, dt), dt, velocities_over(s, state, dt));
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                       \

@@ -11,9 +11,12 @@ SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatri
 template <int Dim>
 class CoupledProblem : public InertiaProblem {
  public:
-  explicit CoupledProblem(const SolidCoupling<Dim>& coupling) : coupling_(coupling) {}
+  explicit CoupledProblem(const SolidCoupling<Dim>& coupling) : coupling_(coupling), missing_(coupling.swept.size()) {}
   int size() const override { return coupling_.size(); }
   bool holds(const Eigen::VectorXd& v) const override;
+  void linearise_at(const Eigen::VectorXd& v) override;
+  // Flux out of the rows of each of coupling.swept that the last solve was told of, per face area, m/s.
+  const std::vector<double>& missing_fluxes() const { return missing_; }
   const SolveReport& report() const { return report_; }  // of all solves so far
 
  protected:
@@ -21,9 +24,12 @@ class CoupledProblem : public InertiaProblem {
   Eigen::VectorXd free_part(Eigen::VectorXd v) const;
   // Sets what is held.
   void hold(Eigen::VectorXd& v) const;
+  // b + by (flux that surfaces sweep beyond J v).
+  Vector with_missing_fluxes(Vector b, double by) const;
 
   const SolidCoupling<Dim>& coupling_;
   SolveReport report_;
+  std::vector<double> missing_;
 };
 
 InertiaResponse failed_response(const std::string& why);

@@ -8,6 +8,18 @@
 namespace seiche {
 namespace {
 
+// Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
+template <int Dim>
+bool iterates_on_bodies(const Setup<Dim>& s) {
+  constexpr double most_bytes = 4e9;
+  const std::string& choice = s.scene.solver.elastic;
+  const auto is_large = [&](const Body<Dim>& b) {
+    return b.is_elastic() && factor_bytes(Dim, b.elastic().body.size()) > most_bytes;
+  };
+  const bool any_large = std::any_of(s.bodies.begin(), s.bodies.end(), is_large);
+  return s.has_elastic() && (choice == "iterate" || (choice == "auto" && any_large));
+}
+
 // Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.
 template <int Dim>
 void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
@@ -20,7 +32,10 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
-  LiquidProblem<Dim> problem(coupling, solver, b, p, c1, c2, s.ranks);
+  LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
+  KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
+                s.ranks);
+  if (iterates_on_bodies(s)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
   set_pressure(input, p, r);
@@ -36,7 +51,8 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   r.u_star = input.u_star;
   const PressureProblem<Dim> liquid(input.liquid, r.rows);
   r.closed_component = liquid.closed.component;
-  SolidCoupling<Dim> coupling = couple_solids(s, input.geometry, r.rows, input.state, input.liquid.dt, input.horizon);
+  SolidCoupling<Dim> coupling =
+      couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   set_held_velocities(s, coupling, input.geometry);
   const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {

@@ -1,50 +1,106 @@
 #include "coupling/elastic_coupling.h"
 
 #include <algorithm>
+#include <map>
 
 #include "solid/elastic_potential.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
 
-struct Entry {
-  int row, column;
-  double value;
-};
+// visit(cell, sign, n) of the cells with a row on both sides of each share n.
+template <int Dim, class Visit>
+void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
+                             const Visit& visit) {
+  const Layout<Dim>& l = s.layout;
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    const IVec<Dim> i = l.index(shares[n].face);
+    IVec<Dim> low = i;
+    low[shares[n].axis] -= 1;
+    const Site behind = shares[n].face - l.stride(shares[n].axis);
+    if (l.cells().contains(i) && rows.row[shares[n].face] >= 0) visit(shares[n].face, -1, n);
+    if (l.cells().contains(low) && rows.row[behind] >= 0) visit(behind, 1, n);
+  }
+}
+
+template <int Dim>
+void add_entries(int row, double value, int axis, const SurfacePoint<Dim>& point, std::vector<FluxEntry>& entries) {
+  for (int k = 0; k < Dim; ++k) entries.push_back({row, Dim * point.corners[k] + axis, value * point.weights[k]});
+}
 
 // Shares spread to the nodes of the surface points that they hang on.
 template <int Dim>
-std::vector<Entry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
-                                 const PressureRows<Dim>& rows) {
-  std::vector<Entry> entries;
-  const Layout<Dim>& l = s.layout;
-  for (std::size_t n = 0; n < shares.size(); ++n) {
-    const FaceShare& share = shares[n];
-    const IVec<Dim> i = l.index(share.face);
-    IVec<Dim> low = i;
-    low[share.axis] -= 1;
-    const auto add = [&](Site cell, double sign) {
-      if (rows.row[cell] < 0) return;
-      for (int k = 0; k < Dim; ++k)
-        entries.push_back({int(rows.row[cell] - rows.first), Dim * attached[n].corners[k] + share.axis,
-                           sign * share.closed * attached[n].weights[k]});
-    };
-    if (l.cells().contains(i)) add(share.face, -1);
-    if (l.cells().contains(low)) add(share.face - l.stride(share.axis), 1);
-  }
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
+                                     const PressureRows<Dim>& rows) {
+  std::vector<FluxEntry> entries;
+  for_each_cell_of_shares(s, shares, rows, [&](Site cell, double sign, std::size_t n) {
+    add_entries(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
   });
   return entries;
 }
 
+// The shares of one cell.
+struct CellShares {
+  std::vector<std::pair<std::size_t, double>> shares;  // and signs
+};
+
+// In a wall of a cavity a cell or two thick the nearest point to a face may be on the other side. All shares of a cell
+// are to hang on the side that cuts its faces: the others move to where its nearest share hangs.
+template <int Dim>
+void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const FaceShares& shares,
+                      const Attachments<Dim>& attached, const PressureRows<Dim>& rows,
+                      std::vector<FluxEntry>& entries) {
+  if (solid.surface.parts == 1) return;
+  const std::vector<int> part_of_node = parts_of_nodes(solid);
+  std::map<Site, CellShares> cells;
+  for_each_cell_of_shares(s, shares, rows,
+                          [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
+  const auto part = [&](std::size_t n) { return part_of_node[std::size_t(attached[n].corners[0])]; };
+  const auto hangs = [&](std::size_t n) { return attached[n].weights != decltype(attached[n].weights){}; };
+  const auto center = [&](std::size_t n) {
+    return s.layout.position(s.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
+  };
+  for (const auto& [cell, of] : cells) {
+    std::vector<double> cut(std::size_t(solid.surface.parts));
+    constexpr double whole = 1e-3;  // what a face that is closed altogether counts for
+    for (const auto& [n, sign] : of.shares)
+      if (hangs(n)) cut[std::size_t(part(n))] += shares[n].closed * (1 - shares[n].closed + whole);
+    const int own = int(std::max_element(cut.begin(), cut.end()) - cut.begin());
+    const int row = int(rows.row[cell] - rows.first);
+    for (const auto& [n, sign] : of.shares) {
+      if (!hangs(n) || part(n) == own) continue;
+      std::size_t best = n;
+      for (const auto& [m, ignored] : of.shares) {
+        if (!hangs(m) || part(m) != own) continue;
+        if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
+      }
+      add_entries(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
+      add_entries(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
+    }
+  }
+}
+
+// Those behind the first `known`, by cells.
+template <int Dim>
+std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& entries, std::size_t known,
+                                               const PressureRows<Dim>& rows) {
+  CellFluxes added;
+  for (std::size_t n = known; n < entries.size(); ++n)
+    added.push_back({rows.cells[std::size_t(entries[n].row)], entries[n].column, entries[n].value});
+  return std::make_shared<const CellFluxes>(std::move(added));
+}
+
 // Columns of held unknowns are left empty.
-ColumnBlock make_block(const std::vector<Entry>& entries, const std::vector<Freedom>& freedom, int first, int width) {
+ColumnBlock make_block(std::vector<FluxEntry> entries, const std::vector<Freedom>& freedom, int first, int width) {
+  std::stable_sort(entries.begin(), entries.end(), [](const FluxEntry& a, const FluxEntry& b) {
+    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+  });
   ColumnBlock block;
   block.width = width;
   for (std::size_t n = 0; n < entries.size();) {
     double sum = 0;
-    const Entry& e = entries[n];
+    const FluxEntry& e = entries[n];
     for (; n < entries.size() && entries[n].row == e.row && entries[n].column == e.column; ++n) sum += entries[n].value;
     if (sum != 0 && freedom[std::size_t(first + e.column)] == Freedom::free) block.add(e.row, e.column, sum);
   }
@@ -54,7 +110,7 @@ ColumnBlock make_block(const std::vector<Entry>& entries, const std::vector<Free
 // Gravity on each node, and the scene's own forces.
 template <int Dim>
 Eigen::VectorXd forces(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& gravity, double t) {
-  const Eigen::VectorXd weight = solid.body.mass * gravity, own = body_force_at(solid, t);
+  const Eigen::VectorXd weight = solid.body.mass * gravity, own = applied_force_at(solid, t);
   return own.size() > 0 ? Eigen::VectorXd(weight + own) : weight;
 }
 
@@ -112,7 +168,8 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
 
 template <int Dim>
 void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                           const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts) {
+                           const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
+                           CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
   std::vector<ElasticShare<Dim>> shares;
   const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
@@ -126,16 +183,23 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-    c.J.blocks[b] = make_block(spread_shares(s, *g.shares[k], *g.attached[k], rows), c.freedom, first, int(e.u.size()));
+    std::vector<FluxEntry> entries = spread_shares(s, *g.shares[k], *g.attached[k], rows);
+    const std::size_t shown = entries.size();
+    keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries);
+    for (auto& surface : correct_swept_volume(s, rows, closed, state.elastic[k], k, first, horizon, entries))
+      c.swept.push_back(std::move(surface));
+    c.cell_fluxes[b] = added_fluxes(entries, shown, rows);
+    c.J.blocks[b] = make_block(std::move(entries), c.freedom, first, int(e.u.size()));
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});
   }
+  find_sealed(c.swept);
   if (!shares.empty()) c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), dt, horizon);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                             \
   template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
-                                         const State<D>&, double, double, CouplingParts<D>&);
+                                         const NullSpace&, const State<D>&, double, double, CouplingParts<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

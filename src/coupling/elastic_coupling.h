@@ -7,6 +7,7 @@ namespace seiche {
 // Fills in what concerns the elastic bodies. Their new displacements are u + H w.
 template <int Dim>
 void couple_elastic_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                           const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts);
+                           const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
+                           CouplingParts<Dim>& parts);
 
 }  // namespace seiche

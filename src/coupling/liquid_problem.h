@@ -1,6 +1,7 @@
 #pragma once
 // Inviscid liquid behind the bodies: their inertia and the liquid's pressure.
 #include "coupling/coupled_problem.h"
+#include "linalg/kkt_solver.h"
 
 namespace seiche {
 
@@ -13,8 +14,11 @@ template <int Dim>
 class LiquidProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references; `pressure` is the first guess and holds the last solution.
-  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const Vector& b, Vector& pressure, double c1,
-                double c2, const Communicator& ranks);
+  LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed, const Vector& b,
+                Vector& pressure, double c1, double c2, const Communicator& ranks);
+  // From now on minimise() solves for velocities and pressures together, without factors of H: for bodies too large to
+  // factor. That H has no minimum is then only found out where the iteration meets v'H v < 0. Kept by reference.
+  void solve_together(KktSolver& kkt) { kkt_ = &kkt; }
   InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
 
@@ -24,10 +28,14 @@ class LiquidProblem : public CoupledProblem<Dim> {
   using CoupledProblem<Dim>::free_part;
   using CoupledProblem<Dim>::hold;
   std::string solve(const BodyMatrix& H, const Vector& b);
-  Eigen::VectorXd impulse_of_pressure() const;
+  InertiaResponse minimise_together(const SparseMatrix& K, Eigen::VectorXd push);
+  void add_up(const SolveReport& one);
+  Eigen::VectorXd impulse_of(const Vector& pressure) const;
+  Eigen::VectorXd impulse_of_means() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 
   SpdSolver& solver_;
+  const NullSpace& closed_;
   const Vector& b_;
   Vector& pressure_;
   double c1_, c2_;
@@ -36,6 +44,8 @@ class LiquidProblem : public CoupledProblem<Dim> {
   // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side,
   // which grows without bound for ever lighter bodies.
   double scale_ = 0;
+  KktSolver* kkt_ = nullptr;
+  Eigen::VectorXd last_;  // velocities found together
 };
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 
 #include "coupling/elastic_coupling.h"
 #include "coupling/rigid_coupling.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
@@ -21,6 +22,7 @@ SolidCoupling<Dim> number_unknowns(const Setup<Dim>& s) {
     c.first.push_back(c.first.back() + n);
   }
   c.J.blocks.resize(c.bodies.size());
+  c.cell_fluxes.resize(c.bodies.size());
   c.freedom.assign(std::size_t(c.size()), Freedom::free);
   for (Eigen::VectorXd* v : {&c.push, &c.free, &c.target, &c.buoyancy_correction, &c.held}) v->setZero(c.size());
   return c;
@@ -43,11 +45,11 @@ void set_targets(const Setup<Dim>& s, double dt, SolidCoupling<Dim>& c) {
 
 template <int Dim>
 SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                                 const State<Dim>& state, double dt, double horizon) {
+                                 const NullSpace& closed, const State<Dim>& state, double dt, double horizon) {
   SolidCoupling<Dim> c = number_unknowns(s);
   CouplingParts<Dim> parts{c, {}};
   couple_rigid_bodies(s, g, rows, state, dt, horizon, parts);
-  couple_elastic_bodies(s, g, rows, state, dt, horizon, parts);
+  couple_elastic_bodies(s, g, rows, closed, state, dt, horizon, parts);
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
   make_identical(c.buoyancy_correction, s.ranks);
@@ -65,26 +67,32 @@ void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eige
     } else {
       state.elastic[k].velocity = v.segment(first, c.first[b + 1] - first);
       set_node_velocity(s.layout, k, state.elastic[k].velocity, g);
+      state.elastic[k].kept_volume.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }
+  for (const SweptSurface<Dim>& surface : c.swept)
+    if (surface.sealed) state.elastic[surface.body].kept_volume[surface.part] = surface.volume;
 }
 
 template <int Dim>
 void set_held_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, StepGeometry<Dim>& g) {
-  for (std::size_t b = 0; b < c.bodies.size(); ++b)
-    if (s.bodies[c.bodies[b]].is_elastic())
-      set_node_velocity(s.layout, c.bodies[b], c.held.segment(c.first[b], c.first[b + 1] - c.first[b]), g);
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    if (!s.bodies[c.bodies[b]].is_elastic()) continue;
+    g.cell_fluxes[c.bodies[b]] = c.cell_fluxes[b];
+    set_node_velocity(s.layout, c.bodies[b], c.held.segment(c.first[b], c.first[b + 1] - c.first[b]), g);
+  }
 }
 
 template <int Dim>
-Eigen::VectorXd present_velocities(const Setup<Dim>& s, const State<Dim>& state) {
+Eigen::VectorXd velocities_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   std::vector<double> all;
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     if (s.bodies[k].is_rigid()) {
       const auto v = stacked<Dim>(state.rigid[k].velocity, state.rigid[k].angular_velocity);
       all.insert(all.end(), v.begin(), v.end());
     } else if (s.bodies[k].is_elastic()) {
-      all.insert(all.end(), state.elastic[k].velocity.begin(), state.elastic[k].velocity.end());
+      const auto w = velocity_over(s.bodies[k].elastic(), state.elastic[k], state.time, dt, state.horizon);
+      all.insert(all.end(), w.begin(), w.end());
     }
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));
@@ -92,11 +100,11 @@ Eigen::VectorXd present_velocities(const Setup<Dim>& s, const State<Dim>& state)
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template SolidCoupling<D> couple_solids<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,         \
-                                             const State<D>&, double, double);                                        \
+                                             const NullSpace&, const State<D>&, double, double);                      \
   template void set_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, StepGeometry<D>&, \
                                   State<D>&);                                                                         \
   template void set_held_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, StepGeometry<D>&);                   \
-  template Eigen::VectorXd present_velocities<D>(const Setup<D>&, const State<D>&);
+  template Eigen::VectorXd velocities_over<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,6 +1,6 @@
 #pragma once
 // How rigid and elastic bodies and liquid act on each other through the faces that the bodies close.
-#include "coupling/state.h"
+#include "coupling/swept_volume.h"
 #include "solid/rigid_problem.h"
 #include "solid/velocity_potential.h"
 
@@ -24,6 +24,8 @@ struct SolidCoupling {
   std::vector<Freedom> freedom;
   Eigen::VectorXd held;                                // velocities of what is held
   std::shared_ptr<const VelocityPotential> potential;  // of the elastic forces; null: none
+  std::vector<SweptSurface<Dim>> swept;
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // of each block: flux that its faces do not show
 
   int size() const { return first.back(); }
   bool is_held(Eigen::Index i) const { return freedom[std::size_t(i)] == Freedom::fixed; }
@@ -39,19 +41,21 @@ struct CouplingParts {
 // Collective.
 template <int Dim>
 SolidCoupling<Dim> couple_solids(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
-                                 const PressureRows<Dim>& rows, const State<Dim>& state, double dt, double horizon);
+                                 const PressureRows<Dim>& rows, const NullSpace& closed, const State<Dim>& state,
+                                 double dt, double horizon);
 
 // The bodies after a solve gave them the velocities v.
 template <int Dim>
 void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v,
                     StepGeometry<Dim>& geometry, State<Dim>& state);
 
-// What is held moves the liquid whatever the solve finds: into the geometry before the solve.
+// What is held moves the liquid whatever the solve finds: into the geometry before the solve, together with the fluxes
+// that faces do not show.
 template <int Dim>
 void set_held_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
 
-// The unknowns' values as the last solve left them.
+// The unknowns' values over a coming step of dt: as the last solve left them, but see velocity_over.
 template <int Dim>
-Eigen::VectorXd present_velocities(const Setup<Dim>& setup, const State<Dim>& state);
+Eigen::VectorXd velocities_over(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 
 }  // namespace seiche

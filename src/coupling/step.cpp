@@ -7,10 +7,12 @@
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
 #include "coupling/rheology_iteration.h"
+#include "coupling/sealed_liquid.h"
 #include "coupling/thin_solids.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
@@ -119,8 +121,12 @@ struct StepInProgress {
   void move_bodies() {
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
       if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], dt);
-    for (ElasticMotion& m : out.state.elastic)
-      if (m.velocity.size() > 0) advance(s.elastic_scheme(), dt, m);
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+      ElasticMotion& m = out.state.elastic[k];
+      if (!s.bodies[k].is_elastic()) continue;
+      m.velocity = velocity_over(s.bodies[k].elastic(), m, before.time, dt, before.horizon);
+      advance(s.elastic_scheme(), dt, m);
+    }
   }
 
   void transport_surface() {
@@ -139,6 +145,7 @@ struct StepInProgress {
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
+    keep_sealed_full(s, before, out.state, out.state.phi);
     out.state.corrected_volume +=
         control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
                        0.05 * s.layout.h(), out.state.phi);

@@ -262,6 +262,7 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   StepGeometry<Dim> g = still_;
   g.placed = placed;
   g.attached.resize(bodies_.size());
+  g.cell_fluxes.resize(bodies_.size());
   for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
   NodeField<Dim> scratch(layout_, far_away);
   std::vector<FaceShares> shares(bodies_.size());
@@ -307,6 +308,9 @@ void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velo
     g.faces.closed_flux.at(axis, shares[n].face) +=
         shares[n].closed * (velocity_at(point, axis, velocity) - velocity_at(point, axis, present));
   }
+  if (g.cell_fluxes[body])
+    for (const CellFlux& c : *g.cell_fluxes[body])
+      g.faces.cell_flux[c.cell] += c.value * (velocity[c.column] - present[c.column]);
   present = velocity;
 }
 

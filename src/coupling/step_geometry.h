@@ -22,6 +22,14 @@ using FaceShares = std::vector<FaceShare>;
 template <int Dim>
 using Attachments = std::vector<SurfacePoint<Dim>>;  // corners are nodes of the body's mesh; one a share
 
+// What the velocity of a body's unknown takes out of a cell besides what the body's faces show, per face area.
+struct CellFlux {
+  Site cell;
+  int column;
+  double value;
+};
+using CellFluxes = std::vector<CellFlux>;
+
 // A face between cells that a thin body parts, or one of which lies within it.
 struct SealedFace {
   Site face;
@@ -35,6 +43,7 @@ struct StepGeometry {
   FaceGeometry<Dim> faces;
   std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
   std::vector<std::shared_ptr<const Attachments<Dim>>> attached;  // of each elastic body
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;     // likewise, once they are coupled; else null
   std::vector<SealedFace> sealed;                                 // likewise
   std::vector<Placement> placed;                                  // of each body, at the end of the step
 };

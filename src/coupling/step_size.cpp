@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "coupling/contact_setup.h"
 #include "grid/loops.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 
@@ -96,8 +97,10 @@ double share_without_inversion(const Setup<Dim>& s, const State<Dim>& state, dou
   double share = 1;
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (s.bodies[k].is_elastic())
-      share = std::min(share, inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
-                                                   Eigen::VectorXd(dt * state.elastic[k].velocity)));
+      share = std::min(share,
+                       inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
+                                            Eigen::VectorXd(dt * velocity_over(s.bodies[k].elastic(), state.elastic[k],
+                                                                               state.time, dt, state.horizon))));
   return share;
 }
 

@@ -6,10 +6,11 @@ namespace seiche {
 
 template <int Dim>
 ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous,
-                                    SaddleSolver& solver, Vector& u, Vector& p, const Communicator& ranks)
+                                    SaddleSolver& solver, double area, Vector& u, Vector& p, const Communicator& ranks)
     : CoupledProblem<Dim>(coupling),
       viscous_(viscous),
       solver_(solver),
+      area_(area),
       u_(u),
       p_(p),
       ranks_(ranks),
@@ -50,7 +51,8 @@ InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen
   if (K.nonZeros() > 0) H = H + K;
   if (!H_.set(uncouple_held(coupling_, H, push))) return indefinite_response();
   Eigen::VectorXd v = last_;
-  if (std::string failure = solve(H_, system.f, push, system.q, v); !failure.empty()) return failed_response(failure);
+  if (std::string failure = solve(H_, system.f, push, this->with_missing_fluxes(system.q, -area_), v); !failure.empty())
+    return failed_response(failure);
   this->hold(v);
   last_ = v;
   return response_at(v);
@@ -60,7 +62,7 @@ InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen
 template <int Dim>
 InertiaResponse ViscousProblem<Dim>::respond(const Eigen::VectorXd& v) {
   const ViscousSystem<Dim>& system = viscous_.system();
-  Vector f = system.f, q = system.q;
+  Vector f = system.f, q = this->with_missing_fluxes(system.q, -area_);
   const Eigen::VectorXd moving = -this->free_part(v);
   add_multiplied(system.G, moving, f);
   add_multiplied(viscous_.J(), moving, q);

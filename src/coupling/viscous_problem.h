@@ -12,9 +12,10 @@ namespace seiche {
 template <int Dim>
 class ViscousProblem : public CoupledProblem<Dim> {
  public:
-  // Keeps references; `u` and `p` (rows of the system) are the first guess and hold the last solution.
-  ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, SaddleSolver& solver, Vector& u,
-                 Vector& p, const Communicator& ranks);
+  // Keeps references; `area` is that of a face, `u` and `p` (rows of the system) are the first guess and hold the last
+  // solution.
+  ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, SaddleSolver& solver, double area,
+                 Vector& u, Vector& p, const Communicator& ranks);
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
 
@@ -27,6 +28,7 @@ class ViscousProblem : public CoupledProblem<Dim> {
 
   const ViscousStep<Dim>& viscous_;
   SaddleSolver& solver_;
+  double area_;
   Vector &u_, &p_;
   Communicator ranks_;
   BodyMatrix H_, none_;

@@ -15,6 +15,7 @@ struct FaceGeometry {
   FaceField<Dim> closed_flux;    // (1 - w) v_solid: volume that solids push through, per face area, m/s
   FaceField<Dim> prescribed;     // velocity of prescribed faces, m/s
   FaceField<Dim> side_pressure;  // Pa, on outflow faces
+  CellField<Dim> cell_flux;      // what leaves a cell with solids besides, per face area, m/s
 
   FaceGeometry() = default;
   explicit FaceGeometry(const Layout<Dim>& layout)
@@ -22,7 +23,8 @@ struct FaceGeometry {
         kind(layout, char(FaceKind::open)),
         closed_flux(layout),
         prescribed(layout),
-        side_pressure(layout) {}
+        side_pressure(layout),
+        cell_flux(layout) {}
 
   FaceKind kind_at(int axis, Site s) const { return FaceKind(kind.at(axis, s)); }
   bool is_unknown(int axis, Site s) const {

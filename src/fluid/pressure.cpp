@@ -41,7 +41,7 @@ Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, 
 // Net volume flux out of a cell a unit of face area.
 template <int Dim>
 double net_flux(const ProjectionInput<Dim>& in, Site cell, const FaceField<Dim>& u) {
-  double sum = 0;
+  double sum = in.faces.cell_flux[cell];
   for_each_face_of(in.layout, cell, [&](int a, Site f, int sign, Site) {
     const bool given = in.faces.kind_at(a, f) == FaceKind::prescribed;
     const double v = given ? in.faces.prescribed.at(a, f) : u.at(a, f);

@@ -72,47 +72,85 @@ Section<PinSpec> pin_section() {
   return s;
 }
 
-void read_pins(SceneContext& c, const Place& p, const Option& option, const Section<PinSpec>& section,
-               const std::vector<Option>& options, S& elastic) {
+Section<TractionSpec> traction_section() {
+  Section<TractionSpec> s;
+  for (Key<TractionSpec>& key : lift<TractionSpec>(shape_section(), &TractionSpec::shape))
+    s.keys.push_back(std::move(key));
+  s.keys.push_back(value_key<TractionSpec>({.key = "stress",
+                                            .type = T::formula_vector,
+                                            .unit = "Pa",
+                                            .variables = "xyzt",
+                                            .presence = Presence::required,
+                                            .doc = "force per area at rest, at points at rest; it keeps its direction"},
+                                           &TractionSpec::stress));
+  s.finish = [](SceneContext& c, const Place& p, TractionSpec& traction) { finish_shape(c, p, traction.shape); };
+  return s;
+}
+
+// One table, or a list of tables.
+template <class Entry>
+void read_tables(SceneContext& c, const Place& p, const Option& option, const Section<Entry>& section,
+                 const std::vector<Option>& options, std::vector<Entry>& entries) {
   if (p.node->kind != TomlNode::Kind::array) {
-    elastic.pinned.resize(1);
-    if (check_is_table(c, p, option)) read_section(c, p, section, options, elastic.pinned[0]);
+    entries.resize(1);
+    if (check_is_table(c, p, option)) read_section(c, p, section, options, entries[0]);
     return;
   }
   if (!check_is_table_list(c, p, option)) return;
-  elastic.pinned.resize(p.node->items.size());
-  for (std::size_t i = 0; i < elastic.pinned.size(); ++i) {
+  entries.resize(p.node->items.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
     const Place one{&p.node->items[i], join_path(p.path, std::to_string(i))};
-    read_section(c, one, section, options, elastic.pinned[i]);
+    read_section(c, one, section, options, entries[i]);
   }
 }
 
 // Nothing, one table, or a list of tables on one line.
-std::string pins_text(const S& elastic, int dimension, const std::string& path, const Section<PinSpec>& section) {
+template <class Entry>
+std::string tables_text(const std::vector<Entry>& entries, int dimension, const std::string& path,
+                        const Section<Entry>& section) {
   std::string text;
-  for (const PinSpec& pin : elastic.pinned)
-    text += (text.empty() ? "" : ", ") + inline_table(write_section(section, pin, dimension, path));
-  return elastic.pinned.size() > 1 ? "[" + text + "]" : text;
+  for (const Entry& entry : entries)
+    text += (text.empty() ? "" : ", ") + inline_table(write_section(section, entry, dimension, path));
+  return entries.size() > 1 ? "[" + text + "]" : text;
 }
 
-Key<S> pinned_key() {
-  const Option option{.key = "pinned",
-                      .type = T::table,
-                      .only_for = {"kind", {"elastic"}},
-                      .unset = "free to move",
-                      .doc =
-                          "a shape, or a list of shapes: nodes that lie in it at rest are held, or move as its "
-                          "motion says",
-                      .most = most_entries};
-  const Section<PinSpec> section = pin_section();
+template <class Entry>
+Key<S> tables_key(const Option& option, const Section<Entry>& section, std::vector<Entry> S::*member) {
   const std::vector<Option> options = own_options(section);
   Key<S> key{option, {}, {}, [section] { return all_options(section); }};
-  key.read = [=](SceneContext& c, const Place& p, S& elastic) { read_pins(c, p, option, section, options, elastic); };
+  key.read = [=](SceneContext& c, const Place& p, S& elastic) {
+    read_tables(c, p, option, section, options, elastic.*member);
+  };
   key.write = [=](const S& elastic, int dimension, const std::string& path, SceneLines& lines) {
-    const std::string here = join_path(path, option.key), text = pins_text(elastic, dimension, here, section);
+    const std::string here = join_path(path, option.key);
+    const std::string text = tables_text(elastic.*member, dimension, here, section);
     if (!text.empty()) lines.push_back({here, option.key, text});
   };
   return key;
+}
+
+Key<S> pinned_key() {
+  return tables_key<PinSpec>(
+      {.key = "pinned",
+       .type = T::table,
+       .only_for = {"kind", {"elastic"}},
+       .unset = "free to move",
+       .doc = "a shape, or a list of shapes: nodes that lie in it at rest are held, or move as its "
+              "motion says",
+       .most = most_entries},
+      pin_section(), &S::pinned);
+}
+
+Key<S> traction_key() {
+  return tables_key<TractionSpec>(
+      {.key = "traction",
+       .type = T::table,
+       .only_for = {"kind", {"elastic"}},
+       .unset = "none",
+       .doc = "a shape with a stress, or a list of them: sides of elements that lie in it at "
+              "rest are pushed or pulled",
+       .most = most_entries},
+      traction_section(), &S::tractions);
 }
 
 Key<S> element_size_key() {
@@ -179,6 +217,7 @@ Section<S> elastic_section() {
                     .unset = "none",
                     .doc = "force on the solid beside gravity, at points at rest, per volume at rest"},
                    &S::body_force),
+      traction_key(),
   };
   return s;
 }

@@ -196,6 +196,12 @@ Section<SolverSpec> solver_section() {
                     .choices = {"auto", "boomeramg", "multigrid", "none"},
                     .doc = "preconditioner of the pressure solve"},
                    &S::preconditioner),
+      value_key<S>({.key = "elastic",
+                    .type = T::choice,
+                    .choices = {"auto", "factor", "iterate"},
+                    .doc = "elastic solids in liquid: by Cholesky factors, or by multigrid together with the pressure "
+                           "(for solids whose factors would not fit into memory; auto: beyond 4 GB)"},
+                   &S::elastic),
   };
   for (Key<S>& key : viscous_solver_keys()) s.keys.push_back(std::move(key));
   return s;

@@ -88,6 +88,15 @@ Measurement probe_peak(const MeasureSpec& spec, const RunPaths& run) {
   return against(std::abs(low) > std::abs(high) ? low : high, constant(spec.reference));
 }
 
+// When that is, in s.
+Measurement probe_peak_time(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = points_during(component_of_probe(spec, run), spec.from, spec.to);
+  const auto peak = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.second) < std::abs(b.second);
+  });
+  return against(peak->first, constant(spec.reference));
+}
+
 // Half the way between the extremes.
 Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
@@ -176,6 +185,7 @@ const std::vector<MeasureKind>& kinds() {
       {"probe_period", {"probe", "column", "level", "reference"}, probe_period},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean},
       {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak},
+      {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time},
       {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope},
       {"max_of_column", {"column"}, max_of_column},

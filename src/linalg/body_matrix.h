@@ -20,6 +20,8 @@ class BodyMatrix {
 
   // H is the same on all ranks. Whether it is positive definite. Patterns that stay keep their ordering. Collective.
   [[nodiscard]] bool set(SparseMatrix H);
+  // H without factors: for its products and its size alone.
+  void keep(SparseMatrix H) { H_ = std::move(H); }
   const SparseMatrix& matrix() const { return H_; }
   int size() const { return int(H_.rows()); }
   // H^-1 b, the same bits on all ranks. Collective.

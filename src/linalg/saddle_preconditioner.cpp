@@ -9,8 +9,29 @@ std::string SaddlePreconditioner::refresh_velocity() {
 
 std::string SaddlePreconditioner::refresh() {
   if (std::string failure = refresh_velocity(); !failure.empty()) return failure;
-  if (!pressure_) pressure_ = std::make_unique<PressurePreconditioner>(K_, *velocity_, name_, settings_);
-  return pressure_->refresh();
+  if (!pressure_) make_pressure();
+  return pressure_->refresh(K_.bodies(), velocity_->direction_energies());
+}
+
+// S = schur_scale (A + ...); directions push Jd = J m - D W.
+void SaddlePreconditioner::make_pressure() {
+  const double scale = K_.system().schur_scale;
+  Vector mass = K_.system().schur_mass;
+  for (double& entry : mass) entry *= scale;
+  pressure_ =
+      std::make_unique<SchurPreconditioner>(K_.liquid(), K_.system().J, 1 / scale, std::move(mass), name_, settings_);
+  std::vector<Vector> Jd;
+  for (const Direction& d : velocity_->directions()) {
+    Vector w = d.W;
+    for (double& entry : w) entry = -entry;
+    K_.divergence(w, d.m, Jd.emplace_back());
+  }
+  pressure_->set_directions(std::move(Jd));
+}
+
+void SaddlePreconditioner::apply_pressure(const Vector& r, Vector& z) {
+  pressure_->apply(r, z);
+  for (double& entry : z) entry /= K_.system().schur_scale;
 }
 
 void SaddlePreconditioner::apply(const Vector& r, Vector& z) {
@@ -18,7 +39,7 @@ void SaddlePreconditioner::apply(const Vector& r, Vector& z) {
   Eigen::VectorXd rv, zv;
   K_.unpack(r, ru, rv, rp);
   velocity_->apply(ru, rv, zu, zv);
-  pressure_->apply(rp, zp);
+  apply_pressure(rp, zp);
   z = K_.pack(zu, zv, zp);
 }
 
@@ -30,7 +51,7 @@ void SaddlePreconditioner::apply_triangular(const Vector& r, Vector& z) {
   velocity_->apply(ru, rv, zu, zv);
   K_.divergence(zu, zv, flux);
   for (std::size_t i = 0; i < rp.size(); ++i) flux[i] -= rp[i];
-  pressure_->apply(flux, zp);
+  apply_pressure(flux, zp);
   z = K_.pack(zu, zv, zp);
 }
 

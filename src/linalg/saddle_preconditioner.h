@@ -1,6 +1,7 @@
 #pragma once
 // Preconditioners of saddle-point systems, from their velocity and pressure blocks.
-#include "linalg/saddle_pressure.h"
+#include "linalg/saddle_velocity.h"
+#include "linalg/schur_preconditioner.h"
 
 namespace seiche {
 
@@ -20,14 +21,16 @@ class SaddlePreconditioner {
   // The velocity block alone, of vectors without pressures. Collective.
   void apply_viscous(const Vector& r, Vector& z);
   [[nodiscard]] std::string refresh_velocity();
-  void project(Vector& p) const { pressure_->project(p); }
 
  private:
+  void make_pressure();
+  void apply_pressure(const Vector& r, Vector& z);
+
   const SaddleOperator& K_;
   AmgSettings settings_;
   std::string name_;
   std::unique_ptr<VelocityPreconditioner> velocity_;
-  std::unique_ptr<PressurePreconditioner> pressure_;
+  std::unique_ptr<SchurPreconditioner> pressure_;
 };
 
 }  // namespace seiche

@@ -175,6 +175,7 @@ class Solver {
       terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, curvature);
       if (potential_) add_potential(curvature);
       const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
+      inertia_.linearise_at(e_.velocity);
       if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
       if (goal.shape == Shape::convex) return Outcome::converged;
     }
@@ -197,17 +198,24 @@ class Solver {
 
   double fastest(const Eigen::VectorXd& v) const { return contact::fastest<Dim>(scene_, interval_, v); }
 
+  // grad e at the present iterate. With constraints, that of e and the goal's multipliers times the constraints: steps
+  // that first have to meet a constraint are downhill then too.
+  Eigen::VectorXd gradient_towards(const InertiaResponse& goal) const {
+    if (goal.constraint.size() == 0) return e_.gradient;
+    return e_.gradient - e_.constraint + goal.constraint;
+  }
+
   // e(v + s p) - e(v) of a quadratic whose gradients at v and v + p are known.
   double inertia_change(const InertiaResponse& goal, double s) const {
-    const Eigen::VectorXd p = goal.velocity - e_.velocity;
-    return s * p.dot(e_.gradient + 0.5 * s * (goal.gradient - e_.gradient));
+    const Eigen::VectorXd p = goal.velocity - e_.velocity, gradient = gradient_towards(goal);
+    return s * p.dot(gradient + 0.5 * s * (goal.gradient - gradient));
   }
 
   // Goes towards the goal as far as is free of collisions and inversion, and downhill; the share of the way, 0 if it
   // stays. While prescribed bodies and held degrees of freedom are under way energies cannot be compared.
   double search(const InertiaResponse& goal) {
     const Eigen::VectorXd p = goal.velocity - e_.velocity;
-    const double slope = p.dot(e_.gradient + terms_.gradient), left = 1 - share_;
+    const double slope = p.dot(gradient_towards(goal) + terms_.gradient), left = 1 - share_;
     const bool compares = !under_way();
     for (double s = potential_ ? potential_->step_bound(e_.velocity, p) : 1; s > least_step; s *= 0.5) {
       Walk<Dim> way =
@@ -237,7 +245,9 @@ class Solver {
     at_ = std::move(way.end);
     pairs_ = std::move(way.near);
     e_.velocity = s == 1 ? goal.velocity : Eigen::VectorXd(e_.velocity + s * (goal.velocity - e_.velocity));
-    e_.gradient = s == 1 ? goal.gradient : Eigen::VectorXd(e_.gradient + s * (goal.gradient - e_.gradient));
+    const Eigen::VectorXd gradient = gradient_towards(goal);
+    e_.gradient = s == 1 ? goal.gradient : Eigen::VectorXd(gradient + s * (goal.gradient - gradient));
+    e_.constraint = goal.constraint;
   }
 
   bool stiffen() {

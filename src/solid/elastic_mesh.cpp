@@ -67,6 +67,31 @@ std::vector<BoundaryFace> boundary_faces(const ElasticMesh<Dim>& mesh) {
   return faces;
 }
 
+namespace {
+
+// The points that facets join, by the smallest of their numbers.
+void number_parts(ElasticSurface& surface) {
+  std::vector<int> root(surface.nodes.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int i) {
+    while (root[size_t(i)] != i) i = root[size_t(i)] = root[size_t(root[size_t(i)])];
+    return i;
+  };
+  const auto join = [&](int i, int j) {
+    i = find(i), j = find(j);
+    root[size_t(std::max(i, j))] = std::min(i, j);
+  };
+  for (const auto& f : surface.facets.segments) join(f[0], f[1]);
+  for (const auto& f : surface.facets.triangles) join(f[0], f[1]), join(f[1], f[2]);
+  surface.part.resize(root.size());
+  for (size_t i = 0; i < root.size(); ++i) {
+    const int first = find(int(i));
+    surface.part[i] = first == int(i) ? surface.parts++ : surface.part[size_t(first)];
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 ElasticSurface surface_of(const ElasticMesh<Dim>& mesh) {
   ElasticSurface surface;
@@ -94,6 +119,7 @@ ElasticSurface surface_of(const ElasticMesh<Dim>& mesh) {
       }
     }
   }
+  number_parts(surface);
   return surface;
 }
 

@@ -35,6 +35,8 @@ std::vector<BoundaryFace> boundary_faces(const ElasticMesh<Dim>& mesh);
 struct ElasticSurface {
   SurfaceMesh facets;      // at rest
   std::vector<int> nodes;  // the mesh node of each point
+  std::vector<int> part;   // of each point: which connected part of the surface it is on, counted from 0
+  int parts = 0;
 };
 
 template <int Dim>

@@ -18,6 +18,7 @@ ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   }
   for (const int dof : pins_at(solid, 0).dofs) m.state.v[dof] = 0;
   m.velocity = m.state.v;
+  m.kept_volume.setConstant(solid.surface.parts, std::numeric_limits<double>::quiet_NaN());
   return m;
 }
 

@@ -8,6 +8,9 @@ namespace seiche {
 struct ElasticMotion {
   ElasticState state;        // displacements and velocities now, and one step earlier
   Eigen::VectorXd velocity;  // w: mean velocity of the nodes over the coming step, m/s
+  // Of each part of the surface: the volume that it must keep, m^Dim, where liquid sealed in a cavity covers it; else
+  // not a number.
+  Eigen::VectorXd kept_volume;
 };
 
 // The rest shape, moving as the scene says.

@@ -73,6 +73,52 @@ std::vector<PinnedNodes> find_pins(const SolidSpec& spec, const ElasticMesh<Dim>
   return pins;
 }
 
+template <int Dim>
+Eigen::VectorXd body_force_at(const ElasticSolid<Dim>& solid, double t) {
+  const VectorExpression force(solid.body_force);
+  if (force.is_constant() && force(Vec3::Zero(), 0).isZero(0)) return {};
+  return body_force<Dim>(solid.body, [&](const Vec<Dim>& X) { return truncate<Dim>(force(extend<Dim>(X), t)); });
+}
+
+template <int Dim>
+Eigen::VectorXd traction_at(const ElasticSolid<Dim>& solid, const LoadedSides& sides, double t) {
+  const VectorExpression stress(sides.stress);
+  return traction_force<Dim>(solid.body, sides.faces,
+                             [&](const Vec<Dim>& X) { return truncate<Dim>(stress(extend<Dim>(X), t)); });
+}
+
+// The sides of elements whose nodes all lie in the traction's shape.
+template <int Dim>
+LoadedSides find_sides(const TractionSpec& traction, const std::string& name, const ElasticMesh<Dim>& mesh,
+                       const ShapeOptions& options, double edge) {
+  const auto shape = make_shape<Dim>(traction.shape, options);
+  LoadedSides loaded{{}, traction.stress};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (BoundaryFace& face : boundary_faces(mesh)) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const int n : face.nodes) farthest = std::max(farthest, (*shape)(mesh.nodes[std::size_t(n)]));
+    nearest = std::min(nearest, farthest);
+    if (farthest <= on_surface * edge) loaded.faces.push_back(std::move(face));
+  }
+  if (!loaded.faces.empty()) return loaded;
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: traction of solid '{}' holds no whole side of an element; the nearest reaches {:.4g} m "
+                          "out of it. Make its shape larger than the loaded part of the boundary",
+                          traction.shape.where, name, nearest));
+}
+
+template <int Dim>
+void refuse_infinite_forces(const SolidSpec& spec, const ElasticSolid<Dim>& solid) {
+  const auto refuse = [&](const std::string& where, const char* key, const char* place) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: {} of solid '{}' is not a finite number everywhere {} at t = 0",
+                                                 where, key, spec.name, place));
+  };
+  if (!body_force_at(solid, 0).allFinite()) refuse(spec.shape.where, "body_force", "in it");
+  for (std::size_t n = 0; n < solid.tractions.size(); ++n)
+    if (!traction_at(solid, solid.tractions[n], 0).allFinite())
+      refuse(spec.elastic.tractions[n].shape.where, "traction", "on its sides");
+}
+
 }  // namespace
 
 template <int Dim>
@@ -86,11 +132,10 @@ ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& 
   r.surface = surface_of(r.body.mesh);
   r.pins = find_pins<Dim>(spec, r.body.mesh, options);
   r.body_force = e.body_force;
-  if (!body_force_at(r, 0).allFinite())
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: body_force of solid '{}' is not a finite number everywhere in it at "
-                            "t = 0",
-                            spec.shape.where, spec.name));
+  const double edge = mesh_quality(r.body.mesh).shortest_edge;
+  for (const TractionSpec& traction : e.tractions)
+    r.tractions.push_back(find_sides<Dim>(traction, spec.name, r.body.mesh, options, edge));
+  refuse_infinite_forces<Dim>(spec, r);
   return r;
 }
 
@@ -119,10 +164,13 @@ Pins pins_at(const ElasticSolid<Dim>& solid, double t) {
 }
 
 template <int Dim>
-Eigen::VectorXd body_force_at(const ElasticSolid<Dim>& solid, double t) {
-  const VectorExpression force(solid.body_force);
-  if (force.is_constant() && force(Vec3::Zero(), 0).isZero(0)) return {};
-  return body_force<Dim>(solid.body, [&](const Vec<Dim>& X) { return truncate<Dim>(force(extend<Dim>(X), t)); });
+Eigen::VectorXd applied_force_at(const ElasticSolid<Dim>& solid, double t) {
+  Eigen::VectorXd force = body_force_at(solid, t);
+  for (const LoadedSides& sides : solid.tractions) {
+    if (force.size() == 0) force.setZero(solid.body.size());
+    force += traction_at(solid, sides, t);
+  }
+  return force;
 }
 
 // Measured on blocks of quadratic elements with the supernodal factors: 20 n^(4/3) entries in 3D from 10^3 to 10^4
@@ -145,7 +193,7 @@ std::string describe_mesh(const std::string& name, const ElasticMesh<Dim>& mesh)
   template ElasticSolid<Dim> make_elastic_solid<Dim>(const SolidSpec&, const ShapeOptions&, const Vec<Dim>&, \
                                                      const Vec<Dim>&);                                       \
   template Pins pins_at<Dim>(const ElasticSolid<Dim>&, double);                                              \
-  template Eigen::VectorXd body_force_at<Dim>(const ElasticSolid<Dim>&, double);                             \
+  template Eigen::VectorXd applied_force_at<Dim>(const ElasticSolid<Dim>&, double);                          \
   template std::string describe_mesh<Dim>(const std::string&, const ElasticMesh<Dim>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -13,17 +13,25 @@ struct PinnedNodes {
   MotionSpec motion;
 };
 
+// Sides of elements under a stress: force per area at rest, Pa.
+struct LoadedSides {
+  std::vector<BoundaryFace> faces;
+  VectorFormula stress;
+};
+
 template <int Dim>
 struct ElasticSolid {
   ElasticBody<Dim> body;
   ElasticSurface surface;  // at rest
   std::vector<PinnedNodes> pins;
   VectorFormula body_force;  // N/m^3
+  std::vector<LoadedSides> tractions;
 };
 
 // Meshes the solid's shape at its element size, or reads its mesh, and finds the nodes that are pinned. [lower, upper]
-// is the domain. Equal on all ranks. Throws Error(bad_input) naming spec.shape.where, or the pin's where, if the shape
-// cannot be meshed, a pin holds no node, or two pins with different motions hold the same one.
+// is the domain. Equal on all ranks. Throws Error(bad_input) naming spec.shape.where, or the where of a pin or
+// traction, if the shape cannot be meshed, a pin holds no node, two pins with different motions hold the same one, a
+// traction holds no side of an element, or a force is not finite at t = 0.
 template <int Dim>
 ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
                                      const Vec<Dim>& upper);
@@ -32,9 +40,10 @@ ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& 
 template <int Dim>
 Pins pins_at(const ElasticSolid<Dim>& solid, double t);
 
-// The impressed forces at time t beside gravity (N), stacked node by node; empty where there are none.
+// The forces at time t beside gravity (N), of body_force and tractions, stacked node by node; empty where there are
+// none.
 template <int Dim>
-Eigen::VectorXd body_force_at(const ElasticSolid<Dim>& solid, double t);
+Eigen::VectorXd applied_force_at(const ElasticSolid<Dim>& solid, double t);
 
 // What the Cholesky factors of a body with this many unknowns take, bytes, roughly.
 double factor_bytes(int dim, int unknowns);

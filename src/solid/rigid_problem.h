@@ -20,6 +20,9 @@ struct InertiaResponse {
   std::string failure;          // empty if it went well
   Shape shape = Shape::convex;  // indefinite: there is no minimum, nothing else is set
   Eigen::VectorXd velocity, gradient;
+  // The part of the gradient that multipliers of constraints on v make up, of the constraints' own scale: where they
+  // were not met at the velocity, it says nothing. Empty: there is none.
+  Eigen::VectorXd constraint = {};
 };
 
 // e(v), a convex quadratic in the stacked generalised velocities of the free bodies and of the nodes of deformable ones
@@ -32,6 +35,8 @@ class InertiaProblem {
   // factor): K is not always positive semi-definite.
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
+  // The constraints that minimise() is to meet are taken to first order about v from now on.
+  virtual void linearise_at(const Eigen::VectorXd& /*v*/) {}
   // Whether the degrees of freedom that are held have their prescribed velocities at v; those that minimise() returns
   // do.
   virtual bool holds(const Eigen::VectorXd& v) const;

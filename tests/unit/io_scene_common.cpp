@@ -85,7 +85,8 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           v("\"10*sin(x+t)\"", "0", "0") +
           "\nmaterial = { model = \"corotated\", youngs_modulus = 1e6, poisson_ratio = 0.4, damping = 1e-3, "
           "mass_damping = 0.1 }\n[solid.pinned]\n" +
-          placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n";
+          placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n[solid.traction]\n" + placed +
+          "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
   text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
   if (probe == "displacement") text += "solid = \"soft\"\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";

@@ -132,6 +132,22 @@ TEST_CASE("an elastic solid is bounded and has elements") {
   check_refused(ball("body_force = [0, \"1/0\", 0]\n"), "body_force");
 }
 
+TEST_CASE("tractions must be shapes with a stress") {
+  const std::string face = "shape = \"box\", lower = [0, 0, 0], upper = [1, 1, 1]";
+  const ElasticSpec e = parse(ball("traction = { " + face + ", stress = [\"1e3*t\", 0, \"y\"] }\n")).solids[0].elastic;
+  REQUIRE(e.tractions.size() == 1);
+  CHECK(e.tractions[0].shape.kind == "box");
+  CHECK(e.tractions[0].stress == VectorFormula{"1e3*t", "0.0", "y"});
+  check_refused(ball("traction = 3\n"), "solid.0.traction must be a table");
+  check_refused(ball("traction = { " + face + " }\n"), "needs 'stress'");
+  check_refused(ball("traction = { stress = [1, 0, 0] }\n"), "needs 'shape'");
+  check_refused(ball("traction = { " + face + ", stress = [\"x+q\", 0, 0] }\n"), "solid.0.traction.stress");
+  check_refused(ball("traction = { " + face + ", pressure = 3 }\n"), "'pressure'");
+  check_refused(small_scene + "[[solid]]\nshape = \"sphere\"\nradius = 0.2\ncenter = [0.5, 0.5, 0.5]\ntraction = { " +
+                    face + ", stress = [1, 0, 0] }\n",
+                "'traction' in [[solid]] is only for kind = \"elastic\"");
+}
+
 TEST_CASE("pins must be shapes and their motions continuous") {
   check_refused(ball("pinned = 3\n"), "solid.0.pinned must be a table");
   check_refused(ball("pinned = [3]\n"), "solid.0.pinned.0 must be a table");
@@ -183,7 +199,9 @@ TEST_CASE("elastic solids survive being written") {
       "{ shape = \"sphere\", center = [0.5, 0.3, 0.5], radius = 0.1, motion = { translate = "
       "[\"0.1*t\", 0, 0], rotate = { axis = [0, 1, 0], degrees = \"90*t\" } } }";
   for (const std::string& pins : {std::string(), "pinned = " + pin, "pinned = [" + pin + ", " + pin + "]"}) {
-    const Scene scene = parse(ball(pins + "\nbody_force = [0, \"10*t\", \"x\"]"));
+    const Scene scene =
+        parse(ball(pins + "\nbody_force = [0, \"10*t\", \"x\"]\ntraction = [{ shape = \"sphere\", center = "
+                          "[0.5, 0.7, 0.5], radius = 0.1, stress = [\"t\", 0, 1] }]"));
     const std::string written = write_scene(scene);
     INFO(written);
     const Scene again = parse(written);
@@ -193,6 +211,9 @@ TEST_CASE("elastic solids survive being written") {
     CHECK(a.poisson_ratio == b.poisson_ratio);
     CHECK(a.element_size == b.element_size);
     CHECK(a.body_force == b.body_force);
+    REQUIRE(b.tractions.size() == 1);
+    CHECK(a.tractions[0].stress == b.tractions[0].stress);
+    CHECK(a.tractions[0].shape.center == b.tractions[0].shape.center);
     REQUIRE(a.pinned.size() == b.pinned.size());
     for (std::size_t i = 0; i < a.pinned.size(); ++i) {
       CHECK(a.pinned[i].shape.center == b.pinned[i].shape.center);

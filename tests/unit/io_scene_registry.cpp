@@ -29,7 +29,8 @@ std::string concrete_path(const Option& option) {
   std::string path = option.path;
   const auto& kinds = option.only_for.values;
   if (std::find(kinds.begin(), kinds.end(), "rigid") != kinds.end()) path.replace(0, 7, "solid.2");
-  const bool is_inside = path.rfind("solid[].material", 0) == 0 || path.rfind("solid[].pinned", 0) == 0;
+  const bool is_inside = path.rfind("solid[].material", 0) == 0 || path.rfind("solid[].pinned", 0) == 0 ||
+                         path.rfind("solid[].traction", 0) == 0;
   if (is_inside || kinds == std::vector<std::string>{"elastic"}) path.replace(0, 7, "solid.3");
   if (path.rfind("solid[].motion", 0) == 0) path.replace(0, 7, "solid.1");
   for (std::size_t at = path.find("[]"); at != std::string::npos; at = path.find("[]")) path.replace(at, 2, ".0");

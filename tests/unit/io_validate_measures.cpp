@@ -124,6 +124,9 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   };
   CHECK(value("probe_mean", "2") == Approx(1));
   CHECK(value("probe_peak", "2") == Approx(4));
+  spec.to = 1.2;
+  CHECK(value("probe_peak_time", "0.6") == Approx(0.5));
+  spec.to = 10;
   CHECK(value("probe_amplitude", "2") == Approx(3));
   spec.level = "1";
   CHECK(value("probe_period", "2") == Approx(1));
@@ -134,9 +137,9 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  for (const char* kind :
-       {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "column_drift", "volume_drift", "solid_mean",
-        "solid_slope", "solids_stray", "probe_period", "probe_mean", "probe_peak", "probe_amplitude"}) {
+  for (const char* kind : {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "column_drift",
+                           "volume_drift", "solid_mean", "solid_slope", "solids_stray", "probe_period", "probe_mean",
+                           "probe_peak", "probe_peak_time", "probe_amplitude"}) {
     MeasureSpec spec;
     spec.kind = kind;
     try {

@@ -153,13 +153,14 @@ int iterations(const Stokes& s) {
   return a.report.iterations;
 }
 
-// The iterations at each resolution: at most so many, and not growing.
+// The iterations at each resolution: at most so many, and not growing. Between ranks multigrid relaxes less well.
 void check_flat(const std::function<Stokes(int)>& make, const std::vector<int>& sizes, int most) {
+  const bool alone = Communicator().size() == 1;
   std::vector<int> counts;
   for (const int n : sizes) counts.push_back(iterations(make(n)));
   CAPTURE(counts);
-  CHECK(*std::max_element(counts.begin(), counts.end()) <= most);
-  CHECK(counts.back() <= counts.front() + 8);
+  CHECK(*std::max_element(counts.begin(), counts.end()) <= (alone ? most : most + most / 4));
+  CHECK(counts.back() <= counts.front() + (alone ? 5 : 20));
 }
 
 }  // namespace
@@ -212,7 +213,7 @@ TEST_CASE("saddle: iterations stay where they are on finer grids") {
       s.kappa = 0;
       return s;
     };
-    check_flat(make, {32, 64}, 50);
+    check_flat(make, {32, 64}, 45);
   }
   SECTION("a body, massless to heavy") {
     const double density = GENERATE(0.0, 1.0, 1000.0);
@@ -221,7 +222,7 @@ TEST_CASE("saddle: iterations stay where they are on finer grids") {
       add_ball(s, density);
       return s;
     };
-    check_flat(make, {32, 64}, 50);
+    check_flat(make, {32, 64}, 45);
   }
   SECTION("a free surface, whose faces in air have next to no mass") {
     const auto make = [&](int n) {
@@ -249,7 +250,7 @@ TEST_CASE("saddle: iterations in 3D") {
     return s;
   };
   CAPTURE(viscosity);
-  check_flat(make, {12, 20}, 50);
+  check_flat(make, {12, 20}, 48);
 }
 
 TEST_CASE("saddle: the same on one rank as on several") {

@@ -269,14 +269,33 @@ TEST_CASE("Pins hold the nodes that lie in them", "[elastic][meshing]") {
 
 TEST_CASE("Forces on an elastic solid add up", "[elastic][meshing]") {
   SolidSpec spec = block({0, 0, 0}, {0.1, 0.4, 0.2}, 0.05);
-  CHECK(body_force_at(make<3>(spec), 0).size() == 0);
+  CHECK(applied_force_at(make<3>(spec), 0).size() == 0);
   spec.elastic.body_force = {"0", "100*t", "x"};
-  const Eigen::VectorXd f = body_force_at(make<3>(spec), 2);
+  const Eigen::VectorXd f = applied_force_at(make<3>(spec), 2);
   Vec3 sum = Vec3::Zero();
   for (Eigen::Index n = 0; n < f.size() / 3; ++n) sum += f.segment<3>(3 * n);
   CHECK(sum[0] == Approx(0).margin(1e-12));
   CHECK(sum[1] == Approx(200 * 0.008));
   CHECK(sum[2] == Approx(0.05 * 0.008));
+  // On the upper side, 0.1 by 0.2, and on the one at z = 0.2, of which only the lower half.
+  TractionSpec upper{{}, {"0", "50*t", "z"}}, side{{}, {"0", "0", "8"}};
+  upper.shape = spec.shape, side.shape = spec.shape;
+  upper.shape.where = side.shape.where = "scene.toml:12";
+  upper.shape.lower = {-1, 0.4, -1}, upper.shape.upper = {1, 1, 1};
+  side.shape.lower = {-1, -1, 0.2}, side.shape.upper = {1, 0.2, 1};
+  spec.elastic.tractions = {upper, side};
+  const Eigen::VectorXd more = applied_force_at(make<3>(spec), 2) - f;
+  sum.setZero();
+  for (Eigen::Index n = 0; n < more.size() / 3; ++n) sum += more.segment<3>(3 * n);
+  CHECK(sum[0] == Approx(0).margin(1e-12));
+  CHECK(sum[1] == Approx(50 * 2 * 0.1 * 0.2));
+  CHECK(sum[2] == Approx(0.1 * 0.2 * 0.1 + 8 * 0.1 * 0.2));
+  spec.elastic.tractions[1].shape.lower[2] = 0.3;
+  CHECK_THAT(fault<3>(spec), Contains("scene.toml:12: traction of solid 'body' holds no whole side of an element; the "
+                                      "nearest reaches 0.1 m out of it"));
+  spec.elastic.tractions = {upper};
+  spec.elastic.tractions[0].stress = {"0", "1/(y-0.4)", "0"};
+  CHECK_THAT(fault<3>(spec), Contains("scene.toml:12: traction of solid 'body' is not a finite number"));
   spec.elastic.body_force = {"0", "1/(x-x)", "0"};
   CHECK_THAT(fault<3>(spec), Contains("body_force of solid 'body' is not a finite number"));
 }

@@ -60,7 +60,7 @@ struct Projection {
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
     rows = number_rows(input());
-    coupling = couple_solids(setup, geometry, rows, state, dt, dt);
+    coupling = couple_solids(setup, geometry, rows, find_closed_components(input(), rows), state, dt, dt);
   }
 
   ProjectionInput<Dim> input() const {
@@ -215,6 +215,7 @@ double adjointness_error(Projection<Dim>& p) {
   for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
     const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
     if (p.setup.bodies[k].is_elastic()) {
+      p.geometry.cell_fluxes[std::size_t(k)] = p.coupling.cell_fluxes[b];
       set_node_velocity(p.setup.layout, k, v.segment(first, n), p.geometry);
       continue;
     }
@@ -222,11 +223,13 @@ double adjointness_error(Projection<Dim>& p) {
     set_twist(p.setup.layout, k, unstacked<Dim>(v, first, p.state.rigid[k].center), p.geometry);
   }
   double fluxes = 0, size = 0;
-  for (std::size_t n = 0; n < pressure.size(); ++n)
+  for (std::size_t n = 0; n < pressure.size(); ++n) {
+    fluxes += pressure[n] * p.geometry.faces.cell_flux[p.rows.cells[n]];
     for_each_face_of(p.setup.layout, p.rows.cells[n], [&](int a, Site f, int sign, Site) {
       fluxes += sign * pressure[n] * p.geometry.faces.closed_flux.at(a, f);
       size += std::abs(pressure[n] * p.geometry.faces.closed_flux.at(a, f));
     });
+  }
   return std::abs(fluxes - forces) / size;
 }
 

@@ -14,14 +14,15 @@ struct FirstSolve {
   StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, state.phi, g.faces, s.density(), dt};
   PressureRows<Dim> rows = number_rows(in);
-  SolidCoupling<Dim> coupling = couple_solids(s, g, rows, state, dt, dt);
+  NullSpace closed = find_closed_components(in, rows);
+  SolidCoupling<Dim> coupling = couple_solids(s, g, rows, closed, state, dt, dt);
   double c1 = s.density() * s.layout.h() / dt, c2 = dt * s.layout.geometry().face_area();
   DistributedMatrix A = assemble_pressure_matrix(in, rows);
   RowGrid grid = row_grid(in, rows);
-  SpdSolver solver{A, grid, find_closed_components(in, rows), coupling.J, c1* c2, {.tolerance = 1e-8}, s.ranks};
+  SpdSolver solver{A, grid, closed, coupling.J, c1* c2, {.tolerance = 1e-8}, s.ranks};
   Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt));
   Vector p = Vector(b.size());
-  LiquidProblem<Dim> problem{coupling, solver, b, p, c1, c2, s.ranks};
+  LiquidProblem<Dim> problem{coupling, solver, closed, b, p, c1, c2, s.ranks};
 
   explicit FirstSolve(const Scene& scene) : s(scene, Communicator()) {}
   FirstSolve(const FirstSolve&) = delete;
