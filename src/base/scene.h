@@ -176,7 +176,7 @@ struct SolverSpec {
   ViscousSolve viscosity = ViscousSolve::automatic;
   double rheology_tolerance = 1e-4;  // change of velocity between outer iterations, relative
   int rheology_iterations = 30;      // outer ones a step, at most
-  std::string elastic = "auto";  // stiffness of elastic solids in the solve: "factor", "iterate", or by size
+  std::string elastic = "auto";      // stiffness of elastic solids in the solve: "factor", "iterate", or by size
 };
 
 struct OutputSpec {

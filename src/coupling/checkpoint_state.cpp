@@ -155,6 +155,17 @@ void load_elastic(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& s
   }
 }
 
+// What is scalars alone: `scalar(name)` gives one. The step must be known.
+template <int Dim, class Scalar>
+void load_rigid(const Setup<Dim>& s, const Scalar& scalar, State<Dim>& state) {
+  state.rigid.resize(s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_rigid())
+      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
+  if (s.is_viscous() && state.step > 0) state.viscous_loads.resize(s.bodies.size());
+  for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -205,12 +216,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.viscous_rate = scalar("viscous_rate");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
-  state.rigid.resize(s.bodies.size());
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    if (s.bodies[k].is_rigid())
-      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
-  if (s.is_viscous() && state.step > 0) state.viscous_loads.resize(s.bodies.size());
-  for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
+  load_rigid(s, scalar, state);
   load_elastic(s, data, state);
   state.phi = CellField<Dim>(s.layout);
   state.pressure = CellField<Dim>(s.layout);

@@ -97,12 +97,26 @@ void describe_elastic(const Body<Dim>& body, const ElasticMotion& m, SolidState&
   out.angular_velocity = now.angular_velocity;
 }
 
+// Adds force and torque of the pressure on each solid's shares to `loads`, six numbers a solid, of this rank's faces.
+template <int Dim>
+void add_pressure_loads(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, std::size_t k,
+                        const Vec3& about, std::vector<double>& loads) {
+  for (const FaceShare& share : *g.shares[k]) {
+    const double jump = state.pressure[share.face - s.layout.stride(share.axis)] - state.pressure[share.face];
+    const IVec<Dim> i = s.layout.index(share.face);
+    if (jump == 0 || !s.layout.faces(share.axis).contains(i)) continue;
+    Vec3 force = Vec3::Zero();
+    force[share.axis] = share.closed * s.layout.geometry().face_area() * jump;
+    const Vec3 torque = (extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))) - about).cross(force);
+    for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
+  }
+}
+
 // F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
   std::vector<SolidState> solids;
   std::vector<double> loads(6 * s.bodies.size());
-  const double area = s.layout.geometry().face_area();
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     const Pose& pose = g.placed[k].pose;
     const Eigen::Quaterniond q(pose.rotation);
@@ -116,15 +130,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     out.velocity = v.at(out.position);
     out.angular_velocity = v.angular;
     if (s.bodies[k].is_elastic()) describe_elastic(s.bodies[k], state.elastic[k], out);
-    for (const FaceShare& share : *g.shares[k]) {
-      const double jump = state.pressure[share.face - s.layout.stride(share.axis)] - state.pressure[share.face];
-      const IVec<Dim> i = s.layout.index(share.face);
-      if (jump == 0 || !s.layout.faces(share.axis).contains(i)) continue;
-      Vec3 force = Vec3::Zero();
-      force[share.axis] = share.closed * area * jump;
-      const Vec3 torque = (extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))) - out.position).cross(force);
-      for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
-    }
+    add_pressure_loads(s, state, g, k, out.position, loads);
   }
   if (!loads.empty()) s.ranks.global_sum(loads);
   for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)

@@ -6,10 +6,11 @@ namespace seiche {
 
 template <int Dim>
 ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous,
-                                    SaddleSolver& solver, double area, Vector& u, Vector& p, const Communicator& ranks)
+                                    const ViscousSolvers& solvers, double area, Vector& u, Vector& p,
+                                    const Communicator& ranks)
     : CoupledProblem<Dim>(coupling),
       viscous_(viscous),
-      solver_(solver),
+      solvers_(solvers),
       area_(area),
       u_(u),
       p_(p),
@@ -19,9 +20,9 @@ ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const Vi
       last_(coupling.free) {}
 
 template <int Dim>
-std::string ViscousProblem<Dim>::solve(const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g, const Vector& q,
-                                       Eigen::VectorXd& v) {
-  const SaddleReport r = solver_.solve(H, f, g, q, u_, v, p_);
+std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f,
+                                       const Eigen::VectorXd& g, const Vector& q, Eigen::VectorXd& v) {
+  const SaddleReport r = solver.solve(H, f, g, q, u_, v, p_);
   report_.converged = r.converged;
   report_.iterations += r.iterations;
   report_.residual = std::max(report_.residual, r.residual);
@@ -51,7 +52,8 @@ InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen
   if (K.nonZeros() > 0) H = H + K;
   if (!H_.set(uncouple_held(coupling_, H, push))) return indefinite_response();
   Eigen::VectorXd v = last_;
-  if (std::string failure = solve(H_, system.f, push, this->with_missing_fluxes(system.q, -area_), v); !failure.empty())
+  if (std::string failure = solve(solvers_.coupled, H_, system.f, push, this->with_missing_fluxes(system.q, -area_), v);
+      !failure.empty())
     return failed_response(failure);
   this->hold(v);
   last_ = v;
@@ -67,7 +69,8 @@ InertiaResponse ViscousProblem<Dim>::respond(const Eigen::VectorXd& v) {
   add_multiplied(system.G, moving, f);
   add_multiplied(viscous_.J(), moving, q);
   Eigen::VectorXd none;
-  if (std::string failure = solve(none_, f, none, q, none); !failure.empty()) return failed_response(failure);
+  if (std::string failure = solve(solvers_.alone, none_, f, none, q, none); !failure.empty())
+    return failed_response(failure);
   return response_at(v);
 }
 

@@ -6,6 +6,11 @@
 
 namespace seiche {
 
+// The liquid with the bodies, and with the bodies' motion given.
+struct ViscousSolvers {
+  SaddleSolver &coupled, &alone;
+};
+
 // e(v) = 1/2 (v - v*)'M(v - v*) + the least that the liquid's kinetic energy and dissipation add where it makes room:
 //   F u + G v + D'p^ = f,   G'u + (M + H_vv + K) v + J'p^ = M v* + r + g,   D u + J v = q,   p^ = -dt p.
 // What is held has its velocity, and f, g and q know of it.
@@ -14,20 +19,20 @@ class ViscousProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references; `area` is that of a face, `u` and `p` (rows of the system) are the first guess and hold the last
   // solution.
-  ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, SaddleSolver& solver, double area,
-                 Vector& u, Vector& p, const Communicator& ranks);
+  ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, const ViscousSolvers& solvers,
+                 double area, Vector& u, Vector& p, const Communicator& ranks);
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
 
  private:
   using CoupledProblem<Dim>::coupling_;
   using CoupledProblem<Dim>::report_;
-  std::string solve(const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g, const Vector& q,
-                    Eigen::VectorXd& v);
+  std::string solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g,
+                    const Vector& q, Eigen::VectorXd& v);
   InertiaResponse response_at(const Eigen::VectorXd& v) const;
 
   const ViscousStep<Dim>& viscous_;
-  SaddleSolver& solver_;
+  ViscousSolvers solvers_;
   double area_;
   Vector &u_, &p_;
   Communicator ranks_;

@@ -8,22 +8,24 @@
 namespace seiche {
 namespace {
 
-// D M^-1 D' = h^(Dim-2)/rho A
+// Of the liquid with bodies that G and J (empty: none) couple to it; D M^-1 D' = h^(Dim-2)/rho A.
 template <int Dim>
-SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
-                         const ViscousStep<Dim>& viscous) {
-  const ViscousSystem<Dim>& v = viscous.system();
+SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, const ViscousSystem<Dim>& v,
+                         const BlockColumns& G, const BlockColumns& J) {
+  std::vector<int> axes;  // of the rows of F
+  for (const auto& [axis, face] : v.rows.faces) axes.push_back(axis);
   const double schur_scale = std::pow(in.liquid.layout.h(), Dim - 2) / in.liquid.density;
   return SaddleSolver({.F = v.F,
-                       .G = v.G,
+                       .G = G,
                        .D = v.D,
                        .Dt = v.Dt,
-                       .J = viscous.J(),
+                       .J = J,
                        .A = liquid.A,
                        .grid = liquid.grid,
                        .closed = liquid.closed,
                        .schur_scale = schur_scale,
-                       .schur_mass = v.schur_mass},
+                       .schur_mass = v.schur_mass,
+                       .axis = axes},
                       {.tolerance = in.setup.scene.solver.tolerance}, in.setup.ranks);
 }
 
@@ -59,7 +61,7 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const ViscousSystem<Dim>& system = viscous.system();
-  SaddleSolver solver = make_solver(in, liquid, viscous);
+  SaddleSolver solver = make_solver(in, liquid, system, system.G, viscous.J());
   Vector p = guessed_pressure(in, r.rows), u = viscous.gather(pressed);
   Eigen::VectorXd impulse = dt * multiply_transposed(viscous.J(), p, in.setup.ranks);
   make_identical(impulse, in.setup.ranks);
@@ -95,11 +97,13 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   const double dt = in.liquid.dt;
   ViscousStep<Dim> viscous(s, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity, in.u_star);
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
-  SaddleSolver solver = make_solver(in, liquid, viscous);
+  const BlockColumns none;
+  SaddleSolver solver = make_solver(in, liquid, viscous.system(), viscous.system().G, viscous.J());
+  SaddleSolver alone = make_solver(in, liquid, viscous.system(), none, none);
   refuse_impossible_motion(in, liquid, solver.sensed_components(), r);
   Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
   for (double& x : p) x *= -dt;
-  ViscousProblem<Dim> problem(coupling, viscous, solver, s.layout.geometry().face_area(), u, p, s.ranks);
+  ViscousProblem<Dim> problem(coupling, viscous, {solver, alone}, s.layout.geometry().face_area(), u, p, s.ranks);
   r.solids = find_minimum(in, coupling, problem, {}, r);
   refuse_unbalanced_chambers(in, liquid, solver.sensed_components(), r);
   for (double& x : p) x /= -dt;
