@@ -89,6 +89,17 @@ SOFT_3D += elastic("lump", 'shape = "box"\nlower = [0.2, 0.003, 0.2]\nupper = [0
                    "element_size = 0.125")
 SOFT_3D += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
 
+
+def viscous(text, viscosity):
+    return text.replace("viscosity = 0.0", f"viscosity = {viscosity}").replace("friction =", 'slip = "no_slip"\nfriction =')
+
+
+# Pressure and viscosity in one solve, bodies dragged along; mud that stands up to a stress.
+THICK = viscous(SOFT, 20.0)
+MUD = TWENTY_STEPS.replace("viscosity = 0.0",
+                           'rheology = { model = "bingham", viscosity = 5.0, yield_stress = 40.0, regularisation = 0.5 }')
+THICK_3D = viscous(TUMBLE, 50.0).replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
+
 COMPARED = ("time", "liquid_volume", "kinetic_energy", "potential_energy", "momentum_x", "momentum_y", "momentum_z",
             "max_speed")
 
@@ -162,6 +173,23 @@ def elastic_ranks_agree_3d(bench):
     expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
 
 
+def viscous_ranks_agree_2d(bench):
+    """Thick liquid that bends a gate and drags a box and a ball, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, THICK, (2, 3))
+    expect(largest(stats(bench.path("one")), "viscous_dissipation") > 0, "nothing is dissipated")
+
+
+def mud_ranks_agree_2d(bench):
+    """A dam of yield-stress liquid on 1 and 3 ranks, its outer iteration to the end."""
+    ranks_agree(bench, MUD + "rheology_tolerance = 1e-9\nrheology_iterations = 100\n", (3,))
+    expect(largest(stats(bench.path("one")), "rheology_iterations") > 1, "one solve sufficed")
+
+
+def viscous_ranks_agree_3d(bench):
+    """Bodies and a paddle in thick liquid in 3D, on 1 and 3 ranks."""
+    ranks_agree(bench, THICK_3D, (3,))
+
+
 def same_bits_twice(bench, text):
     for out in ("one", "two"):
         bench.simulate(text=text, out=out, ranks=3).needs(0)
@@ -179,11 +207,11 @@ def elastic_same_ranks_same_bits(bench):
     same_bits_twice(bench, SOFT)
 
 
-def killed_at_random(bench, ranks, kills, solids=""):
+def killed_at_random(bench, ranks, kills, solids="", kind=lambda text: text):
     """SIGKILL of a random rank at random moments; what comes out in the end is what an unbroken run gives."""
     seed = random.SystemRandom().randrange(10**6)
     rng = random.Random(seed)
-    text = DAM.replace("0.03125", "0.015625").replace("end = 0.2", "end = 0.4") + solids
+    text = kind(DAM.replace("0.03125", "0.015625").replace("end = 0.2", "end = 0.4") + solids)
     started = time.monotonic()
     bench.simulate(text=text, out="whole", ranks=ranks).needs(0)
     duration = time.monotonic() - started
@@ -232,10 +260,16 @@ def elastic_bodies_killed_at_random(bench):
     killed_at_random(bench, 2, 3, SOFT[len(TWENTY_STEPS):])
 
 
+def viscous_flow_killed_at_random(bench):
+    """kill -9 of one of two ranks of a dam break of thick liquid."""
+    killed_at_random(bench, 2, 2, kind=lambda text: viscous(text, 20.0))
+
+
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d,
-                       elastic_ranks_agree_3d, same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       elastic_ranks_agree_3d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
+                       same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
-                      elastic_bodies_killed_at_random]}
+                      elastic_bodies_killed_at_random, viscous_flow_killed_at_random]}
 
 if __name__ == "__main__":
     sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)
