@@ -71,7 +71,7 @@ void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eige
     }
   }
   for (const SweptSurface<Dim>& surface : c.swept)
-    if (surface.sealed) state.elastic[surface.body].kept_volume[surface.part] = surface.volume;
+    state.elastic[surface.body].kept_volume[surface.part] = surface.volume;
 }
 
 template <int Dim>

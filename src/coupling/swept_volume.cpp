@@ -14,10 +14,9 @@ namespace {
 
 // One part of a body's surface while it is looked at.
 struct Part {
-  bool touches_open = false;    // liquid with a given pressure, or a free surface
-  std::set<int> components;     // closed ones
-  std::set<Link> links;         // of this rank
-  int facets = 0, covered = 0;  // that are not held; the latter have a row beside them
+  bool touches_open = false;  // liquid with a given pressure, or a free surface
+  std::set<int> components;   // closed ones
+  std::set<Link> links;       // of this rank
 };
 
 template <int Dim>
@@ -81,7 +80,6 @@ struct Parts {
   void add_facet(const std::array<int, Dim>& corners, const std::vector<Vec<Dim>>& points) {
     Part& part = parts[std::size_t(solid.surface.part[std::size_t(corners[0])])];
     if (part.touches_open || is_held(corners)) return;
-    ++part.facets;
     Vec<Dim> x = Vec<Dim>::Zero();
     for (const int c : corners) x += points[std::size_t(c)] / Dim;
     IVec<Dim> cell;
@@ -89,7 +87,6 @@ struct Parts {
     if (!s.layout.cells().contains(cell)) return;
     const std::int64_t row = row_before(part, x, outward_normal(corners, points), cell);
     if (row < 0) return;
-    ++part.covered;
     for (const int c : corners) part.links.insert({row, solid.surface.nodes[std::size_t(c)]});
   }
 
@@ -187,8 +184,6 @@ SweptSurface<Dim> make_surface(const Setup<Dim>& s, const ElasticMotion& motion,
           std::isfinite(kept) ? kept : enclosed_volume(solid, part, u),
           s.layout.geometry().face_area(),
           {},
-          false,
-          {},
           0};
 }
 
@@ -217,31 +212,18 @@ std::vector<SweptSurface<Dim>> correct_swept_volume(const Setup<Dim>& s, const P
   for (int p = 0; p < solid.surface.parts; ++p) {
     const Part& part = all.parts[std::size_t(p)];
     if (part.touches_open || part.components.empty()) continue;
-    const bool cavity = enclosed_volume(solid, p, motion.state.u) < 0;
-    if (!cavity && s.ranks.global_sum(std::int64_t(part.covered)) < part.facets) continue;
+    if (enclosed_volume(solid, p, motion.state.u) >= 0) continue;  // no cavity
     surfaces.push_back(make_surface(s, motion, k, p, first, horizon));
-    surfaces.back().components.assign(part.components.begin(), part.components.end());
-    surfaces.back().sealed = cavity;
     correct_part(s, rows, part, surfaces.back(), entries);
   }
   return surfaces;
-}
-
-template <int Dim>
-void find_sealed(std::vector<SweptSurface<Dim>>& surfaces) {
-  std::set<int> sealed;
-  for (const auto& surface : surfaces)
-    if (surface.sealed) sealed.insert(surface.components.begin(), surface.components.end());
-  for (auto& surface : surfaces)
-    for (const int c : surface.components) surface.sealed = surface.sealed || sealed.contains(c);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                     \
   template struct SweptSurface<D>;                                                                                \
   template std::vector<SweptSurface<D>> correct_swept_volume<D>(const Setup<D>&, const PressureRows<D>&,          \
                                                                 const NullSpace&, const ElasticMotion&, int, int, \
-                                                                double, std::vector<FluxEntry>&);                 \
-  template void find_sealed<D>(std::vector<SweptSurface<D>>&);
+                                                                double, std::vector<FluxEntry>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

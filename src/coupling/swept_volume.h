@@ -11,7 +11,7 @@ struct FluxEntry {
   double value;
 };
 
-// A closed part of a body's surface that liquid without a free surface covers. Its flux adds up to what it sweeps:
+// The wall of a cavity with liquid without a free surface in it. Its flux adds up to what it sweeps:
 //   sum_c (J w)_c = -(dV/du)(u + H w_0/2) w,  V the volume that it encloses, w_0 the velocities before.
 // V is not linear in w. What is missing is a flux of its own, the same out of each cell that the part touches.
 template <int Dim>
@@ -23,8 +23,6 @@ struct SweptSurface {
   double horizon;               // H, s
   double volume;                // V at the end of the interval, m^Dim: what it was, or what sealed liquid keeps it at
   double face_area;             // m^(Dim - 1)
-  std::vector<int> components;  // of the closed liquid that it touches
-  bool sealed = false;          // the liquid is in a cavity
   std::vector<int> rows;        // this rank's that it touches
   double row_count = 0;         // over all ranks
 
@@ -32,15 +30,11 @@ struct SweptSurface {
   double missing_flux(const Eigen::VectorXd& w) const;
 };
 
-// Adds to the entries of the body k what makes its closed parts in closed liquid sweep what they do, with the least
-// change in the sum of squares; forces of a uniform pressure gradient stay as they were. Collective.
+// Adds to the entries of the body k what makes the walls of its cavities with closed liquid sweep what they do, with
+// the least change in the sum of squares; forces of a uniform pressure gradient stay as they were. Collective.
 template <int Dim>
 std::vector<SweptSurface<Dim>> correct_swept_volume(const Setup<Dim>& setup, const PressureRows<Dim>& rows,
                                                     const NullSpace& closed, const ElasticMotion& motion, int k,
                                                     int first, double horizon, std::vector<FluxEntry>& entries);
-
-// Which of all surfaces are in cavities, or covered by the liquid of one: their volume is kept over all steps.
-template <int Dim>
-void find_sealed(std::vector<SweptSurface<Dim>>& surfaces);
 
 }  // namespace seiche
