@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 namespace seiche {
+
 template <int Dim>
 LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed,
                                   const Vector& b, Vector& pressure, double c1, double c2, const Communicator& ranks)

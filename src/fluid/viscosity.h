@@ -81,7 +81,7 @@ struct ViscousSystem {
   DistributedMatrix D;              // +- w h^(Dim-1): pressure rows by faces; columns ascend
   DistributedMatrix Dt;             // its transpose
   std::vector<double> q;            // -(closed flux + prescribed + missing flux) h^(Dim-1), m^Dim/s
-  std::vector<double> schur_mass;   // dt mu/h^Dim of each pressure row (Cahouet, Chabard 1988)
+  std::vector<double> schur_mass;   // about dt mu/h^Dim, of each pressure row (Cahouet, Chabard 1988)
   std::shared_ptr<const ViscousSamples<Dim>> samples;
 };
 
