@@ -12,7 +12,9 @@ namespace seiche {
 namespace {
 
 // All levels are stored always; those the run does not have yet as zeros, which the scalar "levels" tells apart.
-constexpr std::array<const char*, 3> level_names{"now", "before", "earlier"};
+using LevelNames = std::array<const char*, 3>;
+constexpr LevelNames level_names{"now", "before", "earlier"};
+constexpr LevelNames gas_level_names{"gas.now", "gas.before", "gas.earlier"};
 
 template <int Dim>
 FieldRecord empty_record(const std::string& name, const Box<Dim>& box) {
@@ -83,6 +85,24 @@ std::shared_ptr<const Level<Dim>> load_level(const Setup<Dim>& s, const std::str
   fill_velocity_ghosts(s.layout, s.halo, s.sides, level->u);
   s.halo.fill_ghosts(level->valid);
   return level;
+}
+
+// Levels that there are not are saved as `none`.
+template <int Dim>
+void save_flow(const Setup<Dim>& s, const LevelNames& names, const Flow<Dim>& flow, const Level<Dim>& none,
+               CheckpointData& data) {
+  save_level(s, names[0], *flow.now, data);
+  save_level(s, names[1], flow.before ? *flow.before : none, data);
+  save_level(s, names[2], flow.earlier ? *flow.earlier : none, data);
+}
+
+template <int Dim>
+Flow<Dim> load_flow(const Setup<Dim>& s, const LevelNames& names, int levels, const CheckpointData& data) {
+  Flow<Dim> flow;
+  flow.now = load_level(s, names[0], data);
+  if (levels >= 2) flow.before = load_level(s, names[1], data);
+  if (levels >= 3) flow.earlier = load_level(s, names[2], data);
+  return flow;
 }
 
 // visit(name, value) of every number of a rigid body's state.
@@ -194,9 +214,8 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
     data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
   });
   const Level<Dim> none = empty_level(s);
-  save_level(s, level_names[0], *state.now, data);
-  save_level(s, level_names[1], state.before ? *state.before : none, data);
-  save_level(s, level_names[2], state.earlier ? *state.earlier : none, data);
+  save_flow(s, level_names, liquid_flow(state), none, data);
+  if (s.has_gas()) save_flow(s, gas_level_names, state.gas, none, data);
   return data;
 }
 
@@ -231,9 +250,10 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
       state.film, [&](const std::string& name, auto& f, int a) { restore<Dim>(s, data, name, s.layout.faces(a), f); });
   fill_level_set_ghosts(s.layout, s.halo, state.phi);
   s.halo.fill_ghosts(state.pressure);
-  state.now = load_level(s, level_names[0], data);
-  if (scalar("levels") >= 2) state.before = load_level(s, level_names[1], data);
-  if (scalar("levels") >= 3) state.earlier = load_level(s, level_names[2], data);
+  const int levels = int(scalar("levels"));
+  const Flow<Dim> liquid = load_flow(s, level_names, levels, data);
+  std::tie(state.now, state.before, state.earlier) = std::tie(liquid.now, liquid.before, liquid.earlier);
+  if (s.has_gas()) state.gas = load_flow(s, gas_level_names, levels, data);
   return state;
 }
 
@@ -246,10 +266,14 @@ std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
   for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {
     boxes.push_back(empty_record<Dim>(name, s.layout.faces(a)));
   });
-  for (const char* level : level_names)
-    for_each_level_field(s, level, [&](const std::string& field, char, int a) {
-      boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
-    });
+  const auto add_levels = [&](const LevelNames& names) {
+    for (const char* level : names)
+      for_each_level_field(s, level, [&](const std::string& field, char, int a) {
+        boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
+      });
+  };
+  add_levels(level_names);
+  if (s.has_gas()) add_levels(gas_level_names);
   return boxes;
 }
 

@@ -96,8 +96,8 @@ class FlowSimulation : public Simulation {
       return attempt_step(setup_, state_, dt, phases_);
     Attempt<Dim> trial = attempt_step(setup_, state_, dt, phases_);
     if (!trial.failure.empty()) return trial;
-    Attempt<Dim> informed = attempt_step(setup_, inform(*trial.state.now, dt), dt, phases_);
-    informed.state.earlier = nullptr;
+    Attempt<Dim> informed = attempt_step(setup_, inform(trial.state, dt), dt, phases_);
+    informed.state.earlier = informed.state.gas.earlier = nullptr;
     informed.state.dt_before = 0;
     return informed;
   }
@@ -115,18 +115,22 @@ class FlowSimulation : public Simulation {
 
   // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) -
   // u(dt).
-  State<Dim> inform(const Level<Dim>& trial, double dt) const {
+  State<Dim> inform(const State<Dim>& trial, double dt) const {
     State<Dim> state = state_;
-    auto now = std::make_shared<Level<Dim>>(*state_.now), before = std::make_shared<Level<Dim>>(*state_.now);
-    now->q = trial.q;
-    before->q = trial.q;
+    std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
+    if (state.gas.now) std::tie(state.gas.now, state.gas.before) = inform(*state_.gas.now, *trial.gas.now);
+    state.dt_now = dt;
+    return state;
+  }
+
+  static std::pair<std::shared_ptr<Level<Dim>>, std::shared_ptr<Level<Dim>>> inform(const Level<Dim>& start,
+                                                                                    const Level<Dim>& trial) {
+    auto now = std::make_shared<Level<Dim>>(start), before = std::make_shared<Level<Dim>>(start);
+    now->q = before->q = trial.q;
     now->n = before->n = trial.n;
     for (int a = 0; a < Dim; ++a)
       for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.u[a][f];
-    state.now = now;
-    state.before = before;
-    state.dt_now = dt;
-    return state;
+    return {now, before};
   }
 
   void accept(Attempt<Dim> a) {
@@ -149,7 +153,7 @@ class FlowSimulation : public Simulation {
     stats_.step = state_.step;
     stats_.time = state_.time;
     stats_.dt = state_.dt_now;
-    measure_liquid(setup_, state_, geometry_.psi, stats_);
+    measure_fluids(setup_, state_, geometry_.psi, stats_);
     measure_rigid(setup_, state_, stats_);
     measure_elastic(setup_, state_, stats_);
     stats_.max_divergence = divergence_;

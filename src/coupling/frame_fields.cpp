@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "coupling/liquid_viscosity.h"
 #include "coupling/measures.h"
+#include "coupling/two_fluids.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -15,11 +16,10 @@ double cell_gradient(const Layout<Dim>& layout, const std::vector<double>& u, in
   return (u[c + da] + u[c + da + db] - u[c - da] - u[c - da + db]) / (4 * layout.h());
 }
 
-// |curl u| in 3D, curl u in 2D, in the liquid; 0 elsewhere. 1/s.
+// |curl u| in 3D, curl u in 2D, where there is fluid; 0 elsewhere. 1/s.
 template <int Dim>
-double vorticity(const Setup<Dim>& s, const State<Dim>& state, Site c) {
-  if (state.phi[c] >= 0) return 0;
-  const FaceField<Dim>& u = state.now->u;
+double vorticity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim>& u, Site c) {
+  if (state.phi[c] >= 0 && !s.has_gas()) return 0;
   const auto part = [&](int a, int b) {
     return cell_gradient(s.layout, u[b], b, a, c) - cell_gradient(s.layout, u[a], a, b, c);
   };
@@ -29,14 +29,14 @@ double vorticity(const Setup<Dim>& s, const State<Dim>& state, Site c) {
 
 }  // namespace
 
-// Pa s, in the liquid; 0 elsewhere.
+// Pa s, that of the gas, or 0, outside the liquid.
 template <int Dim>
 CellField<Dim> viscosity(const Setup<Dim>& s, const State<Dim>& state) {
   CellField<Dim> mu(s.layout);
   const std::string fault = set_liquid_viscosity(s, state.now->u, state.now->valid, state.time, mu);
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    if (state.phi[c] >= 0) mu[c] = 0;
+    if (state.phi[c] >= 0) mu[c] = s.has_gas() ? s.scene.gas.viscosity : 0;
   });
   return mu;
 }
@@ -54,16 +54,17 @@ FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const 
   if (name == "surface")
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
   else if (name == "vel")
-    fill(FrameField::Kind::staggered_vector, [&](Site c) {
-      for (int a = 0; a < 3; ++a)
-        out.values.push_back(a < Dim ? float(state.now->u.at(std::min(a, Dim - 1), c)) : 0.0f);
+    fill(FrameField::Kind::staggered_vector, [&, u = of_both(s, state, &Level<Dim>::u)](Site c) {
+      for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(u.at(std::min(a, Dim - 1), c)) : 0.0f);
     });
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
   else if (name == "viscosity")
     fill(FrameField::Kind::scalar, [&, mu = viscosity(s, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
-    fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(vorticity(s, state, c))); });
+    fill(FrameField::Kind::scalar, [&, u = of_both(s, state, &Level<Dim>::u)](Site c) {
+      out.values.push_back(float(vorticity(s, state, u, c)));
+    });
   else
     throw Error(ExitCode::bug, "no field named '" + name + "'");
   return out;

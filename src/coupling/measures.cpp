@@ -8,7 +8,8 @@
 namespace seiche {
 namespace {
 
-// Velocities on the two faces of a cell along an axis, those without liquid left out.
+// Velocities on the two faces of a cell along an axis; beside a face that the fluid does not touch it moves as on the
+// other one, where it touches neither as continued.
 struct FacePair {
   double low = 0, high = 0;
 };
@@ -16,42 +17,63 @@ struct FacePair {
 template <int Dim>
 FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
   const Site up = cell + s.layout.stride(axis);
-  return {l.valid.at(axis, cell) ? l.u.at(axis, cell) : 0, l.valid.at(axis, up) ? l.u.at(axis, up) : 0};
+  const bool low = l.valid.at(axis, cell), high = l.valid.at(axis, up);
+  return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
+}
+
+// Of one fluid, over this rank's cells.
+struct FluidSums {
+  std::array<double, 7> sums{};  // volume, kinetic and potential energy, momentum, cells
+  double fastest_squared = 0;
+};
+
+// E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
+// g.x with gravity at that time; the fluid is where phi < 0.
+template <int Dim>
+FluidSums sum_fluid(const Setup<Dim>& s, const Level<Dim>& level, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                    double density, const Vec<Dim>& g) {
+  FluidSums r;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (phi[c] > 2 * s.layout.h()) return;
+    const double volume = s.layout.geometry().cell_volume() * liquid_share(s.layout, phi, psi, c);
+    const double mass = density * volume;
+    double speed2 = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const FacePair u = solved_faces(s, level, a, c);
+      r.sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
+      r.sums[3 + a] += 0.5 * mass * (u.low + u.high);
+      speed2 += std::max(u.low * u.low, u.high * u.high);
+    }
+    r.sums[0] += volume;
+    r.sums[2] -= mass * g.dot(s.layout.position(i, cell_offset<Dim>()));
+    if (phi[c] < 0) r.fastest_squared = std::max(r.fastest_squared, speed2), r.sums[6] += 1;
+  });
+  return r;
+}
+
+template <int Dim>
+CellField<Dim> negated(const Layout<Dim>& layout, const CellField<Dim>& f) {
+  CellField<Dim> r(layout);
+  for_each_site(layout, layout.padded(), [&](Site c) { r[c] = -f[c]; });
+  return r;
 }
 
 }  // namespace
 
-// E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
-// g.x
-// with gravity at that time.
 template <int Dim>
-void measure_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
-  const Level<Dim>& level = *state.now;
-  std::array<double, 7> sums{};  // volume, kinetic, potential, momentum
-  double fastest = 0, cells = 0;
+void measure_fluids(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
   const Vec<Dim> g = truncate<Dim>(s.gravity.at(state.time));
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (state.phi[c] > 2 * s.layout.h()) return;
-    const double volume = s.layout.geometry().cell_volume() * liquid_share(s.layout, state.phi, psi, c);
-    const double mass = s.density() * volume;
-    double speed2 = 0;
-    for (int a = 0; a < Dim; ++a) {
-      const FacePair u = solved_faces(s, level, a, c);
-      sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
-      sums[3 + a] += 0.5 * mass * (u.low + u.high);
-      speed2 += std::max(u.low * u.low, u.high * u.high);
-    }
-    sums[0] += volume;
-    sums[2] -= mass * g.dot(s.layout.position(i, cell_offset<Dim>()));
-    if (state.phi[c] < 0) fastest = std::max(fastest, speed2), cells += 1;
-  });
-  s.ranks.global_sum(sums);
-  stats.liquid_volume = sums[0];
-  stats.kinetic_energy = sums[1];
-  stats.potential_energy = sums[2];
-  stats.momentum = {sums[3], sums[4], sums[5]};
-  stats.max_speed = std::sqrt(s.ranks.global_max(fastest));
-  stats.cells_liquid = std::int64_t(s.ranks.global_sum(cells));
+  FluidSums liquid = sum_fluid(s, *state.now, state.phi, psi, s.density(), g), gas;
+  if (s.has_gas()) gas = sum_fluid(s, *state.gas.now, negated(s.layout, state.phi), psi, s.gas_density(), g);
+  s.ranks.global_sum(liquid.sums);
+  s.ranks.global_sum(gas.sums);
+  stats.liquid_volume = liquid.sums[0];
+  stats.gas_volume = gas.sums[0];
+  stats.kinetic_energy = liquid.sums[1] + gas.sums[1];
+  stats.potential_energy = liquid.sums[2] + gas.sums[2];
+  for (int a = 0; a < 3; ++a) stats.momentum[a] = liquid.sums[3 + a] + gas.sums[3 + a];
+  stats.max_speed = std::sqrt(s.ranks.global_max(std::max(liquid.fastest_squared, gas.fastest_squared)));
+  stats.cells_liquid = std::int64_t(liquid.sums[6]);
   stats.volume_corrected = state.corrected_volume;
 }
 
@@ -148,7 +170,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                         \
-  template void measure_liquid<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
+  template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
   template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                       \
   template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                     \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);

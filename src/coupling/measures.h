@@ -4,9 +4,9 @@
 
 namespace seiche {
 
-// Energy, momentum, volume and speed of the liquid. Collective.
+// Energy, momentum, volumes and speed of liquid and gas. Collective.
 template <int Dim>
-void measure_liquid(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
+void measure_fluids(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
 
 // Adds the rigid bodies' energies and momentum.
 template <int Dim>

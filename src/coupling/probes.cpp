@@ -1,5 +1,6 @@
 // Probes: pressure and velocity at a point, surface height above it, front along x.
 #include "coupling/measures.h"
+#include "coupling/two_fluids.h"
 #include "fluid/advection.h"
 #include "grid/ghosts.h"
 #include "grid/interpolation.h"
@@ -25,18 +26,19 @@ double level_set_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>
   return interpolate_linear<Dim>(s.layout, state.phi.data(), index_coordinates<Dim>(s.layout, x, cell_offset<Dim>()));
 }
 
-// True, on all ranks, where x lies in liquid.
+// True, on all ranks, where x lies in a fluid that flows.
 template <int Dim>
 bool is_wet(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
-  return s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
+  return s.has_gas() || s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
 }
 
-// Pressure continued straight from the liquid's cells, so that a probe on a wall reads the wall.
+// Pressure of the fluid at x, continued straight from its cells, so that a probe on a wall reads the wall.
 template <int Dim>
 double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
   std::vector<double> p(state.pressure.data(), state.pressure.data() + s.layout.size());
   std::vector<char> known(p.size(), 0);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[c] = state.phi[c] < 0 && p[c] != 0; });
+  const bool in_liquid = s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[c] = (state.phi[c] < 0) == in_liquid && p[c] != 0; });
   extrapolate(s.layout, s.halo, s.layout.cells(), {2, 2}, p, known);
   extend_beyond_sides<Dim>(s.layout, p.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
   const Vec<Dim> g = index_coordinates<Dim>(s.layout, x, cell_offset<Dim>());
@@ -119,6 +121,16 @@ std::map<std::string, MaterialPoint> find_followed_points(const Setup<Dim>& s) {
   return points;
 }
 
+// Zero where nothing flows.
+template <int Dim>
+Vec3 velocity_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
+  const FaceField<Dim> u = of_both(s, state, &Level<Dim>::u);
+  Vec3 v = Vec3::Zero();
+  if (flows && holds(s.layout, x)) v = extend<Dim>(sample_velocity<Dim>(s.layout, u, x));
+  s.ranks.global_sum(std::span<double>(v.data(), 3));
+  return v;
+}
+
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
   ProbeSample out;
@@ -136,9 +148,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
     case ProbeKind::velocity:
       out.is_vector = true;
       out.defined = is_wet(s, state, x);
-      out.vector = out.defined && holds(s.layout, x) ? extend<Dim>(sample_velocity<Dim>(s.layout, state.now->u, x))
-                                                     : Vec3(Vec3::Zero());
-      s.ranks.global_sum(std::span<double>(out.vector.data(), 3));
+      out.vector = velocity_at(s, state, x, out.defined);
       break;
     case ProbeKind::surface_height:
       take(farthest_liquid(s, state, x, upwards(s).first, upwards(s).second));

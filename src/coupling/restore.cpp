@@ -4,6 +4,8 @@
 #include <unordered_map>
 
 #include "coupling/films.h"
+#include "coupling/transport.h"
+#include "coupling/two_fluids.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -144,6 +146,14 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
 }
 
 template <int Dim>
+void continue_level(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& near,
+                    Level<Dim>& level) {
+  if (s.has_gas()) keep_faces(s.layout, near, level);
+  continue_velocity(s, g, level.valid, level.u);
+  s.halo.fill_ghosts(level.valid);
+}
+
+template <int Dim>
 Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
                                const StepGeometry<Dim>& g) {
@@ -166,17 +176,21 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
   Restored<Dim> restored;
   restored.divergence = max_divergence(in, rows, next.u);
   const FaceField<Dim> solved = next.u;
-  continue_velocity(s, g, next.valid, next.u);
-  s.halo.fill_ghosts(next.valid);
+  if (in.has_gas()) {
+    restored.gas = next;
+    continue_level(s, g, faces_near_gas(s, in.phi), restored.gas);
+  }
+  continue_level(s, g, faces_near_liquid(s, in.phi), next);
   restored.film = measure_film(s, in.faces, solved, next.u);
   restored.level = std::move(next);
   return restored;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                  \
-  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,       \
-                                     FaceField<D>&);                                                           \
-  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template void continue_level<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&, Level<D>&); \
+  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,          \
+                                     FaceField<D>&);                                                              \
+  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,    \
                                            const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

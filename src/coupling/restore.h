@@ -10,7 +10,8 @@ enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 // The flow after a solve.
 template <int Dim>
 struct Restored {
-  Level<Dim> level;
+  Level<Dim> level;  // the liquid's
+  Level<Dim> gas;    // where gas flows
   Film<Dim> film;
   double divergence = 0;  // the largest |net flux|/volume of a cell with a row, 1/s
 };
@@ -25,5 +26,10 @@ Restored<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Di
 template <int Dim>
 void continue_velocity(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid,
                        FaceField<Dim>& u);
+
+// Continues a fluid's level from the faces near it, its only valid ones where there is another fluid.
+template <int Dim>
+void continue_level(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near,
+                    Level<Dim>& level);
 
 }  // namespace seiche

@@ -67,14 +67,17 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
 // Cells inside a body see it on all sides alike: their net area is rounding, and they have no row.
 constexpr double rounding = 1e-12;
 
+// Gas counts as wet by its density.
 template <int Dim>
-ColumnBlock make_block(const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+ColumnBlock make_block(const Setup<Dim>& s, const CellField<Dim>& phi, const PressureRows<Dim>& rows,
+                       const Generalised<Dim>& mask, Sums<Dim>& sums) {
+  const double dry = s.gas_density() / s.density();
   ColumnBlock block;
   block.width = twist_size<Dim>;
   for (const auto& [cell, mode] : sums.cells) {
     const double area = mode.template head<Dim>().norm();
     const bool has_row = rows.row[cell] >= 0;
-    if (area > rounding) sums.surface += area, sums.wet += has_row ? area : 0;
+    if (area > rounding) sums.surface += area, sums.wet += has_row ? area * (phi[cell] < 0 ? 1 : dry) : 0;
     if (!has_row) continue;
     for (int k = 0; k < block.width; ++k) block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
   }
@@ -179,7 +182,7 @@ void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const 
     for (int i = 0; i < n; ++i) c.freedom[c.first[b] + i] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
     sums.push_back(add_up(s, *g.shares[c.bodies[b]], r.center));
     places.push_back(b);
-    c.J.blocks[b] = make_block(rows, mask, sums.back());
+    c.J.blocks[b] = make_block(s, state.phi, rows, mask, sums.back());
     add_mass<Dim>(mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, c.first[b], parts.mass);
   }
   sum_over_ranks(sums, s.ranks);

@@ -136,6 +136,38 @@ FaceField<Dim> initial_velocity(const Setup<Dim>& s, const FaceField<Dim, char>&
 }
 
 template <int Dim>
+FaceField<Dim> initial_gas_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near, std::string& fault) {
+  FaceField<Dim> u(s.layout);
+  const VectorFormula& formula = s.scene.gas.velocity;
+  const VectorExpression velocity(formula);
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!near.at(a, f)) return;
+      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      u.at(a, f) = velocity.component(a, extend<Dim>(x), 0);
+      if (fault.empty() && !std::isfinite(u.at(a, f)))
+        fault = not_finite_text<Dim>(fmt::format("gas.velocity[{}]", a), formula[a], u.at(a, f), x, 0);
+    });
+  return u;
+}
+
+// A fluid's level at the start, with the velocity u on the faces near it.
+template <int Dim>
+std::shared_ptr<const Level<Dim>> initial_level(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+                                                const FaceField<Dim, char>& near, FaceField<Dim> u) {
+  Level<Dim> level = empty_level(s);
+  level.valid = near;
+  level.u = std::move(u);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
+      if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
+    });
+  continue_level(s, g, near, level);
+  return std::make_shared<Level<Dim>>(std::move(level));
+}
+
+template <int Dim>
 CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
   CellField<Dim> phi(s.layout, s.band());
   for (const auto& shape : shapes)
@@ -155,7 +187,7 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
 template <int Dim>
 Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
     : scene(sc),
-      viscous(seiche::is_viscous(sc.liquid)),
+      viscous(seiche::is_viscous(sc.liquid) || (sc.gas.flows() && sc.gas.viscosity > 0)),
       gravity(sc.gravity),
       ranks(r),
       layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],
@@ -231,20 +263,16 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
 
-  Level<Dim> level = empty_level(s);
-  level.valid = faces_near_liquid(s, state.phi);
   std::string fault;
-  level.u = initial_velocity(s, level.valid, shapes, fault);
+  const FaceField<Dim, char> wet = faces_near_liquid(s, state.phi);
+  FaceField<Dim> u = initial_velocity(s, wet, shapes, fault);
+  if (s.has_gas()) {
+    const FaceField<Dim, char> near = faces_near_gas(s, state.phi);
+    state.gas.now = initial_level(s, g, near, initial_gas_velocity(s, near, fault));
+  }
   check_formulas_at_start(s, g, fault);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
-      if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
-    });
-  continue_velocity(s, g, level.valid, level.u);
-  s.halo.fill_ghosts(level.valid);
-  state.film = measure_film(s, g.faces, level.u, level.u);
-  state.now = std::make_shared<Level<Dim>>(std::move(level));
+  state.now = initial_level(s, g, wet, std::move(u));
+  state.film = measure_film(s, g.faces, state.now->u, state.now->u);
   check_fixed_step(s, state);
   return state;
 }

@@ -27,6 +27,7 @@ struct StepStats {
   std::int64_t cells_liquid = 0;
   double wall_seconds = 0;
   // further columns of ours
+  double gas_volume = 0;           // m^3; 0 where no gas flows
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   int rejected = 0;                // attempts at this step that were rejected
   double viscous_dissipation = 0;  // energy that viscosity turned into heat in this step, over dt, W

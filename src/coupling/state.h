@@ -45,6 +45,8 @@ struct Setup {
     return scene.time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
   }
   double density() const { return scene.liquid.density; }
+  bool has_gas() const { return scene.gas.flows(); }
+  double gas_density() const { return has_gas() ? scene.gas.density : 0; }
   // Half width of the level-set band, m: what a step can cross, and the reach of the stencils.
   double band() const { return (std::ceil(scene.time.cfl) + 4) * layout.h(); }
   // Layers the velocity is continued beyond the liquid.
@@ -58,6 +60,12 @@ struct Level {
   FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
   FaceField<Dim> n;            // acceleration by viscosity at this time, m/s^2, where valid; viscous scenes alone
+};
+
+// The time levels of one fluid's flow, continued beyond its own region; null where there is none.
+template <int Dim>
+struct Flow {
+  std::shared_ptr<const Level<Dim>> now, before, earlier;
 };
 
 // At rest, valid nowhere.
@@ -80,6 +88,7 @@ struct State {
   std::int64_t step = 0;
   std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
   double dt_now = 0, dt_before = 0;                        // steps that led to `now` and to `before`
+  Flow<Dim> gas;                                           // where gas flows; now, before, earlier are the liquid's
   Film<Dim> film;                                          // now
   CellField<Dim> phi;                                      // m, ghosts filled
   CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
@@ -92,6 +101,11 @@ struct State {
   double viscous_rate = 0;                                 // mu/(rho h^2) of the last solve at its largest, 1/s
   std::vector<ViscousLoad> viscous_loads;                  // on each solid; empty where the liquid is inviscid
 };
+
+template <int Dim>
+Flow<Dim> liquid_flow(const State<Dim>& state) {
+  return {state.now, state.before, state.earlier};
+}
 
 // How a step went; `state` is only set where it succeeded.
 template <int Dim>

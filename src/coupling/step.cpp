@@ -10,6 +10,7 @@
 #include "coupling/sealed_liquid.h"
 #include "coupling/thin_solids.h"
 #include "coupling/transport.h"
+#include "coupling/two_fluids.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "solid/enclosed_volume.h"
@@ -114,6 +115,8 @@ struct StepInProgress {
     next.step = state.step + 1;
     next.earlier = state.before;
     next.before = state.now;
+    next.gas.earlier = state.gas.before;
+    next.gas.before = state.gas.now;
     next.dt_before = state.dt_now;
     next.dt_now = dt;
   }
@@ -163,7 +166,7 @@ struct StepInProgress {
 
   ProjectionInput<Dim> input() const {
     const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
-    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting};
+    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting, s.gas_density()};
   }
 
   bool solve(const ViscosityField<Dim>* viscosity) {
@@ -171,8 +174,9 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("solve");
     out.state.horizon = choose_horizon(s, out.state, dt);
     const int earlier = out.solve.iterations;
-    solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, out.state.pressure, before.now->q,
-                                               before.now->u, u_star, out.state.horizon, viscosity, fault});
+    const FaceField<Dim> slope = of_both(s, before, &Level<Dim>::q), flow = of_both(s, before, &Level<Dim>::u);
+    solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, out.state.pressure, slope, flow,
+                                               u_star, out.state.horizon, viscosity, fault});
     out.solve = solution.report;
     out.solve.iterations += earlier;
     out.newton_iterations = solution.newton_iterations;
@@ -189,6 +193,10 @@ struct StepInProgress {
         restore_velocity(s, input(), solution.rows, out.state.pressure, solution.u_star, out.geometry);
     set_viscous_acceleration(restored.level);
     auto level = std::make_shared<Level<Dim>>(std::move(restored.level));
+    if (s.has_gas()) {
+      set_viscous_acceleration(restored.gas);
+      out.state.gas.now = std::make_shared<Level<Dim>>(std::move(restored.gas));
+    }
     out.state.film = std::move(restored.film);
     out.divergence = restored.divergence;
     if (s.scene.liquid.separates) {

@@ -25,15 +25,21 @@ double fastest_inflow(const Setup<Dim>& s, const Level<Dim>& level) {
   return fastest;
 }
 
+template <int Dim>
+double speed_at(const Level<Dim>& level, int axis, Site f) {
+  return level.valid.at(axis, f) ? std::abs(level.u.at(axis, f)) : 0.0;
+}
+
 }  // namespace
 
 template <int Dim>
 double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
   double fastest = 0;
   for (int a = 0; a < Dim; ++a)
-    fastest = std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) {
-                         return state.now->valid.at(a, f) ? std::abs(state.now->u.at(a, f)) : 0.0;
-                       }));
+    fastest =
+        std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) {
+                   return std::max(speed_at(*state.now, a, f), state.gas.now ? speed_at(*state.gas.now, a, f) : 0.0);
+                 }));
   return s.ranks.global_max(std::max(fastest, fastest_inflow(s, *state.now)));
 }
 

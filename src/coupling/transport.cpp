@@ -51,14 +51,14 @@ FaceField<Dim, char> interior_faces(const Setup<Dim>& s, const FaceField<Dim, ch
 
 // w = u(t + dt/2), extrapolated from up to three levels within the liquid; elsewhere the present u.
 template <int Dim>
-FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim, char>& interior,
-                             double dt) {
-  FaceField<Dim> w = state.now->u;
-  if (!state.before || s.scene.time.scheme == TimeScheme::first_order) return w;
+FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                             const FaceField<Dim, char>& interior, double dt) {
+  FaceField<Dim> w = flow.now->u;
+  if (!flow.before || s.scene.time.scheme == TimeScheme::first_order) return w;
   if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
-  const bool three = state.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
+  const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
   const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
-  const Level<Dim>&l0 = *state.now, &l1 = *state.before, &l2 = three ? *state.earlier : *state.before;
+  const Level<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (interior.at(a, f) && l1.valid.at(a, f) && l2.valid.at(a, f))
@@ -86,12 +86,12 @@ void smooth(const Setup<Dim>& s, FaceField<Dim>& f) {
 // theta))/2, F the filter's response. 2 c^2 passes keep |r| <= 1 up to Courant number c = 2; beyond it the trend is
 // left out.
 template <int Dim>
-FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
   FaceField<Dim> trend(s.layout);
-  if (!state.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
+  if (!flow.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
   const double courant = fastest_component(s, state) * dt / s.layout.h();
   if (courant > 2) return trend;
-  const Level<Dim>&l0 = *state.now, &l1 = *state.before;
+  const Level<Dim>&l0 = *flow.now, &l1 = *flow.before;
   const double ratio = (dt + state.dt_now) / (state.dt_now + state.dt_before);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -107,11 +107,11 @@ FaceField<Dim> slope_trend(const Setup<Dim>& s, const State<Dim>& state, double 
 // the start and in first order. Impacts change velocity at once whatever dt is, so that their A says nothing of the
 // next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of order h there).
 template <int Dim>
-FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
   FaceField<Dim> acc(s.layout);
   if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
-  const FaceField<Dim> trend = slope_trend(s, state, dt);
-  const Level<Dim>& level = *state.now;
+  const FaceField<Dim> trend = slope_trend(s, state, flow, dt);
+  const Level<Dim>& level = *flow.now;
   const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   const double limit = 0.25 * s.layout.h() / (dt * dt);
   for (int a = 0; a < Dim; ++a)
@@ -132,7 +132,7 @@ double trust_in_viscous_trend(const Setup<Dim>& s, const State<Dim>& state, cons
   bool partial = false;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      const bool wet = state.phi[f] < 0 || state.phi[f - s.layout.stride(a)] < 0;
+      const bool wet = state.phi[f] < 0 || state.phi[f - s.layout.stride(a)] < 0 || s.has_gas();
       partial = partial || (wet && !interior.at(a, f));
     });
   return s.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
@@ -141,21 +141,21 @@ double trust_in_viscous_trend(const Setup<Dim>& s, const State<Dim>& state, cons
 // N(t) - N(t - dt_now) along the path, N the acceleration by viscosity, scaled to a step of dt. Zero where either is
 // not known, and in first order.
 template <int Dim>
-FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim, char>& interior,
-                             double dt) {
+FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                             const FaceField<Dim, char>& interior, double dt) {
   FaceField<Dim> trend(s.layout);
-  if (!s.is_viscous() || !state.before || s.scene.time.scheme == TimeScheme::first_order) return trend;
+  if (!s.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return trend;
   if (dt > 2 * state.dt_now) return trend;
   const double trust = trust_in_viscous_trend(s, state, interior, dt);
   if (trust == 0) return trend;
-  const Level<Dim>& now = *state.now;
-  FaceField<Dim> last = state.before->n, carried(s.layout);
+  const Level<Dim>& now = *flow.now;
+  FaceField<Dim> last = flow.before->n, carried(s.layout);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, last);
   advect_faces(s.layout, now.u, state.dt_now, interior, interior, last, last, carried);
   const double limit = 0.25 * s.layout.h() / (dt * dt);  // as of A
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (interior.at(a, f) && now.valid.at(a, f) == face_solved && state.before->valid.at(a, f) == face_solved)
+      if (interior.at(a, f) && now.valid.at(a, f) == face_solved && flow.before->valid.at(a, f) == face_solved)
         trend.at(a, f) = std::clamp(trust * dt / state.dt_now * (now.n.at(a, f) - carried.at(a, f)), -limit, limit);
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, trend);
@@ -190,6 +190,41 @@ void limit_at_surfaces(const Setup<Dim>& s, const Level<Dim>& level, const FaceF
     });
 }
 
+// What one fluid's flow brings to the faces near where it is now.
+template <int Dim>
+FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                              const FaceField<Dim, char>& near, double dt) {
+  const FaceField<Dim, char> interior = interior_faces(s, flow.now->valid);
+  const FaceField<Dim> path = path_velocity(s, state, flow, interior, dt), acc = acceleration(s, state, flow, dt);
+  const FaceField<Dim> trend = viscous_trend(s, state, flow, interior, dt);
+  FaceField<Dim> carried = flow.now->u;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.padded(),
+                  [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
+  // Faces beside those near liquid follow the viscous stress.
+  FaceField<Dim> u = s.is_viscous() ? flow.now->u : FaceField<Dim>(s.layout);
+  advect_faces(s.layout, path, dt, near, interior, carried, flow.now->u, u);
+  limit_at_surfaces(s, *flow.now, near, interior, u);
+  const Vec3 g = s.gravity.of_step(state.time + dt, dt);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (near.at(a, f) || s.is_viscous()) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
+    });
+  return u;
+}
+
+// Liquid faces keep u, gas faces take that of the gas; where the surface crosses both momenta add up:
+// rho_f u = theta rho u_liquid + (1 - theta) rho_gas u_gas.
+template <int Dim>
+void join(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& gas, FaceField<Dim>& u) {
+  const double ratio = s.gas_density() / s.density();
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      const double theta = liquid_part(phi[f - s.layout.stride(a)], phi[f]);
+      u.at(a, f) = (theta * u.at(a, f) + (1 - theta) * ratio * gas.at(a, f)) / (theta + (1 - theta) * ratio);
+    });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -221,23 +256,19 @@ FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& s, const CellField<Dim>
 }
 
 template <int Dim>
+FaceField<Dim, char> faces_near_gas(const Setup<Dim>& s, const CellField<Dim>& phi) {
+  FaceField<Dim, char> near(s.layout);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a),
+                  [&](Site f) { near.at(a, f) = phi[f] >= 0 || phi[f - s.layout.stride(a)] >= 0; });
+  return near;
+}
+
+template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
-  const FaceField<Dim, char> interior = interior_faces(s, state.now->valid), near = faces_near_liquid(s, phi);
-  const FaceField<Dim> path = path_velocity(s, state, interior, dt), acc = acceleration(s, state, dt);
-  const FaceField<Dim> trend = viscous_trend(s, state, interior, dt);
-  FaceField<Dim> carried = state.now->u;
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.padded(),
-                  [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
-  // Faces beside those near liquid follow the viscous stress.
-  FaceField<Dim> u = s.is_viscous() ? state.now->u : FaceField<Dim>(s.layout);
-  advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
-  limit_at_surfaces(s, *state.now, near, interior, u);
-  const Vec3 g = s.gravity.of_step(state.time + dt, dt);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (near.at(a, f) || s.is_viscous()) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
-    });
+  const FaceField<Dim, char> wet = faces_near_liquid(s, phi);
+  FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt);
+  if (s.has_gas()) join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt), u);
   set_source_velocity(s, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
   return u;
@@ -267,6 +298,7 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                \
   template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);              \
   template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                     \
+  template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                        \
   template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double); \
   template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)

@@ -11,7 +11,8 @@ template <int Dim>
 CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, double dt, double& added);
 
 // u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
-// - q.
+// - q. Where gas flows, each fluid is brought by its own flow, continued beyond the surface, so that neither takes up
+// the other's velocity by interpolation; where the surface crosses, their momenta add up.
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
                                   double dt);
@@ -19,6 +20,10 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& sta
 // 1 on the owned faces with liquid (phi < 0) on at least one side.
 template <int Dim>
 FaceField<Dim, char> faces_near_liquid(const Setup<Dim>& setup, const CellField<Dim>& phi);
+
+// 1 on the owned faces with none on at least one side.
+template <int Dim>
+FaceField<Dim, char> faces_near_gas(const Setup<Dim>& setup, const CellField<Dim>& phi);
 
 // Shifts phi so that the liquid has the expected volume, by at most `limit` (m). Returns the volume restored.
 template <int Dim>

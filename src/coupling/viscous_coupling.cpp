@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "coupling/formula_checks.h"
 #include "coupling/liquid_viscosity.h"
+#include "coupling/two_fluids.h"
 #include "fluid/no_slip_flux.h"
 #include "fluid/rheology.h"
 #include "grid/loops.h"
@@ -66,6 +67,31 @@ BlockColumns scaled(BlockColumns J, double by) {
   return J;
 }
 
+// The mean of the cells around an edge, one cell around the owned ones.
+template <int Dim>
+EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu) {
+  EdgeField<Dim> edge(layout);
+  for_each_site(layout, layout.grown(1), [&](Site c) {
+    for (int p = 0; p < planes<Dim>; ++p) {
+      const auto [a, b] = plane_axes<Dim>(p);
+      const Site da = layout.stride(a), db = layout.stride(b);
+      edge[p][std::size_t(c)] = 0.25 * (mu[c] + mu[c - da] + mu[c - db] + mu[c - da - db]);
+    }
+  });
+  return edge;
+}
+
+// `largest` is meant for the liquid's density: gas counts by its kinematic viscosity.
+template <int Dim>
+void take_in_gas(const Setup<Dim>& s, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
+  const double gas = s.scene.gas.viscosity;
+  mu.largest = std::max(mu.largest, gas * s.density() / s.gas_density());
+  mu.uniform = mu.uniform && mu.value[s.layout.site(s.layout.cells().lower)] == gas;
+  if (mu.uniform) return;
+  if (!mu.edge) mu.edge = mean_at_edges(s.layout, mu.value);
+  mix_gas_viscosity(s, phi, mu.value, *mu.edge);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -82,6 +108,7 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>&
     mu.edge.emplace(s.layout);
     set_edge_viscosity(s.layout, resolve_rheology(s.scene), flow.u, flow.valid, *mu.edge);
   }
+  if (s.has_gas()) take_in_gas(s, phi, mu);
   return mu;
 }
 
@@ -104,11 +131,12 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
       coupling_(coupling),
       rows_(rows),
       solids_(make_solids(s, g, state, coupling)),
+      full_(s.layout, -s.band()),
       input_{.layout = s.layout,
              .halo = s.halo,
              .ranks = s.ranks,
              .sides = s.sides,
-             .phi = in.phi,
+             .phi = in.has_gas() ? full_ : in.phi,
              .faces = in.faces,
              .psi = g.psi,
              .body = g.body,

@@ -55,6 +55,7 @@ class ViscousStep {
   const SolidCoupling<Dim>& coupling_;
   const PressureRows<Dim>& rows_;
   std::vector<ViscousSolid<Dim>> solids_;
+  CellField<Dim> full_;             // the phi of a domain full of fluid
   std::vector<RigidField> motion_;  // of each solid about when the step began
   ViscousInput<Dim> input_;
   ViscousSystem<Dim> system_;

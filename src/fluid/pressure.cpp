@@ -8,12 +8,15 @@ double surface_distance(double phi_liquid, double phi_air) {
   return std::max(phi_liquid / (phi_liquid - phi_air), 1e-8);
 }
 
+double liquid_part(double phi_low, double phi_high) {
+  if ((phi_low < 0) == (phi_high < 0)) return phi_low < 0 ? 1 : 0;
+  return phi_low < 0 ? surface_distance(phi_low, phi_high) : surface_distance(phi_high, phi_low);
+}
+
 template <int Dim>
 double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across) {
   if (in.is_parted(cell) || in.is_parted(across)) return 1;
-  if (in.is_liquid(cell) == in.is_liquid(across)) return in.is_liquid(cell) ? 1 : in.density / in.gas_density;
-  const double theta = in.is_liquid(cell) ? surface_distance(in.phi[cell], in.phi[across])
-                                          : surface_distance(in.phi[across], in.phi[cell]);
+  const double theta = liquid_part(in.phi[cell], in.phi[across]);
   return 1 / (theta + (1 - theta) * in.gas_density / in.density);
 }
 

@@ -52,6 +52,9 @@ NullSpace find_closed_components(const ProjectionInput<Dim>& in, const PressureR
 // large enough to matter breaks hydrostatic rest (docs/decisions/0003).
 double surface_distance(double phi_liquid, double phi_air);
 
+// The liquid's part of the link between two cells' centres.
+double liquid_part(double phi_low, double phi_high);
+
 // rho/rho_f: the liquid's density over that of the link between the centres of two cells, theta rho + (1 - theta)
 // rho_gas with the liquid's part theta of it (Kang, Fedkiw, Liu 2000). Without gas 1/theta: the surface ends the link.
 template <int Dim>

@@ -207,6 +207,17 @@ void check_rheology(const Checker& c, Scene& scene) {
                        viscosity(spec, 0), number_limit, remedy));
 }
 
+// What flowing gas does not go together with.
+void check_gas(const Checker& c, const Scene& scene) {
+  if (scene.gas.present && !scene.gas.flows())
+    c.report("gas.bubbles", "gas.bubbles = \"volume_conserving\" is not in this version");
+  if (scene.gas.flows() && scene.liquid.separates)
+    c.report(
+        "liquid.separates",
+        "liquid.separates = true and flowing gas exclude each other: gas comes in where liquid parts from a solid, "
+        "so leave out separates");
+}
+
 }  // namespace
 
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
@@ -222,6 +233,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
+  if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
 }
 
 }  // namespace seiche

@@ -198,8 +198,7 @@ TEST_CASE("a source of a cylinder begins at start, its from being a point") {
 
 TEST_CASE("what this version does not have is refused with what it has") {
   const std::string ball = "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n";
-  check_all({{small_scene + "[gas]\ndensity = 1.2\n", "scene.toml:6: gas: two-phase flow is not in this version"},
-             {small_scene + "[liquid]\nsurface_tension = 0.07\n", "surface tension is not in this version"},
+  check_all({{small_scene + "[liquid]\nsurface_tension = 0.07\n", "surface tension is not in this version"},
              {small_scene + "[tracking]\nmethod = \"apic\"\n", "this version has \"level_set\""}});
   for (const char* key : {"density", "velocity", "angular_velocity"}) {
     check_all({{solid(fmt::format("kind = \"static\"\n{}{} = 1\n", ball, key)),
@@ -211,6 +210,20 @@ TEST_CASE("what this version does not have is refused with what it has") {
   }
   check_all({{solid(ball + "motion = {}\n"), "'motion' in [[solid]] is only for kind = \"kinematic\""}});
   CHECK_NOTHROW(parse(small_scene + "[liquid]\nviscosity = 0\nsurface_tension = 0\n"));
+}
+
+TEST_CASE("gas has a density, and flows where liquid does not separate") {
+  check_all({{small_scene + "[gas]\ndensity = 0\n", "gas.density"},
+             {small_scene + "[gas]\nviscosity = -1\n", "gas.viscosity"},
+             {small_scene + "[gas]\nbubbles = \"resolve\"\n", "did you mean \"resolved\""},
+             {small_scene + "[liquid]\nseparates = true\n[gas]\n", "flowing gas exclude each other"}});
+  const Scene scene = parse(small_scene + "[gas]\ndensity = 2\nviscosity = 1e-5\nvelocity = [1, 0, 0]\n");
+  CHECK(scene.gas.flows());
+  CHECK(scene.gas.density == 2);
+  CHECK(scene.gas.viscosity == 1e-5);
+  CHECK(write_scene(scene).find("[gas]") != std::string::npos);
+  CHECK(write_scene(parse(write_scene(scene))) == write_scene(scene));
+  CHECK(write_scene(parse(small_scene)).find("[gas]") == std::string::npos);
 }
 
 TEST_CASE("names are unique and fit into a table column") {

@@ -1,0 +1,64 @@
+#include "coupling/two_fluids.h"
+
+#include "fluid/viscous_shares.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Whether a face belongs to the gas: by where it was solved for, else by the surface.
+template <int Dim>
+bool is_gas_face(const State<Dim>& state, const Layout<Dim>& layout, int axis, Site f) {
+  if (state.now->valid.at(axis, f)) return false;
+  return state.gas.now->valid.at(axis, f) || state.phi[f] + state.phi[f - layout.stride(axis)] >= 0;
+}
+
+}  // namespace
+
+template <int Dim>
+FaceField<Dim> of_both(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field) {
+  FaceField<Dim> r = (*state.now).*field;
+  if (!state.gas.now) return r;
+  const FaceField<Dim>& gas = (*state.gas.now).*field;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (is_gas_face(state, s.layout, a, f)) r.at(a, f) = gas.at(a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, r);
+  return r;
+}
+
+template <int Dim>
+void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, Level<Dim>& level) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(layout, layout.faces(a), [&](Site f) {
+      if (marked.at(a, f)) return;
+      level.valid.at(a, f) = 0;
+      level.u.at(a, f) = level.q.at(a, f) = 0;
+    });
+}
+
+template <int Dim>
+void mix_gas_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, CellField<Dim>& cell, EdgeField<Dim>& edge) {
+  const double gas = s.scene.gas.viscosity, h = s.layout.h();
+  const auto mean = [&](double share, double liquid) { return share * liquid + (1 - share) * gas; };
+  for_each_site(s.layout, s.layout.grown(1), [&](Site c) {
+    for (int p = 0; p < planes<Dim>; ++p) {
+      const auto [a, b] = plane_axes<Dim>(p);
+      const Site da = s.layout.stride(a), db = s.layout.stride(b);
+      const double at = 0.25 * (phi[c] + phi[c - da] + phi[c - db] + phi[c - da - db]);
+      double& mu = edge[p][std::size_t(c)];
+      mu = mean(liquid_share_at(at, h), mu);
+    }
+  });
+  for_each_site(s.layout, s.layout.grown(2), [&](Site c) { cell[c] = mean(liquid_share_at(phi[c], h), cell[c]); });
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                   \
+  template FaceField<D> of_both<D>(const Setup<D>&, const State<D>&, FaceField<D> Level<D>::*); \
+  template void keep_faces<D>(const Layout<D>&, const FaceField<D, char>&, Level<D>&);          \
+  template void mix_gas_viscosity<D>(const Setup<D>&, const CellField<D>&, CellField<D>&, EdgeField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,25 @@
+#pragma once
+// Liquid and gas that share one velocity, each with its own flow continued beyond the surface.
+#include "coupling/state.h"
+
+namespace seiche {
+
+// On each face the field of the fluid that is there, of the liquid where there is no other. `field` is one of Level's.
+template <int Dim>
+FaceField<Dim> of_both(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
+
+// Forgets all but the marked faces of a level.
+template <int Dim>
+void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, Level<Dim>& level);
+
+// Liquid's share of the box of a cell's size around a point of distance phi, by a plane across it.
+inline double liquid_share_at(double phi, double h) {
+  return std::clamp(0.5 - phi / h, 0.0, 1.0);
+}
+
+// Takes the gas's viscosity into that of the liquid: the mean by shares in cells and at edges, so that stress across
+// the surface is single-valued.
+template <int Dim>
+void mix_gas_viscosity(const Setup<Dim>& setup, const CellField<Dim>& phi, CellField<Dim>& cell, EdgeField<Dim>& edge);
+
+}  // namespace seiche
