@@ -102,6 +102,21 @@ struct LiquidSpec {
   std::vector<LiquidSourceSpec> sources;
 };
 
+// "resolved": gas flows; "volume_conserving": it has a pressure alone, one in each enclosed region, which keeps its
+// volume.
+enum class Bubbles { resolved, volume_conserving };
+
+// What is beyond the liquid's surface.
+struct GasSpec {
+  bool present = false;  // else pressure 0
+  Bubbles bubbles = Bubbles::resolved;
+  double density = 1.2;  // kg/m^3
+  double viscosity = 0;  // Pa s
+  VectorFormula velocity{"0", "0", "0"};
+
+  bool flows() const { return present && bubbles == Bubbles::resolved; }
+};
+
 enum class SolidKind { fixed, kinematic, rigid, elastic };  // "static", "kinematic", "rigid", "elastic"
 enum class Slip { free_slip, no_slip };
 
@@ -202,6 +217,7 @@ struct Scene {
   DomainSpec domain;
   TimeSpec time;
   LiquidSpec liquid;
+  GasSpec gas;
   std::vector<SolidSpec> solids;
   std::vector<ProbeSpec> probes;
   std::string tracking = "level_set";

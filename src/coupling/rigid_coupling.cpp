@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "linalg/matrix_entries.h"
+
 namespace seiche {
 namespace {
 
@@ -68,16 +70,24 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
 constexpr double rounding = 1e-12;
 
 template <int Dim>
-ColumnBlock make_block(const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+ColumnBlock make_block(const PressureRows<Dim>& rows, const Generalised<Dim>& mask, const Communicator& ranks,
+                       Sums<Dim>& sums) {
   ColumnBlock block;
   block.width = twist_size<Dim>;
+  std::vector<MatrixEntry> of_air;
   for (const auto& [cell, mode] : sums.cells) {
     const double area = mode.template head<Dim>().norm();
-    const bool has_row = rows.row[cell] >= 0;
-    if (area > rounding) sums.surface += area, sums.wet += has_row ? area : 0;
-    if (!has_row) continue;
-    for (int k = 0; k < block.width; ++k) block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
+    const bool wet = rows.has_own(cell);
+    if (area > rounding) sums.surface += area, sums.wet += wet ? area : 0;
+    for (int k = 0; k < block.width && rows.row[cell] >= 0; ++k)
+      if (wet)
+        block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
+      else
+        of_air.push_back({rows.row[cell], k, mask[k] * mode[k]});
   }
+  if (rows.air)
+    for (const MatrixEntry& e : bring_home_sums(of_air, rows.first, rows.cells.size(), ranks))
+      block.add(int(e.row - rows.first), int(e.column), e.value);
   return block;
 }
 
@@ -179,7 +189,7 @@ void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const 
     for (int i = 0; i < n; ++i) c.freedom[c.first[b] + i] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
     sums.push_back(add_up(s, *g.shares[c.bodies[b]], r.center));
     places.push_back(b);
-    c.J.blocks[b] = make_block(rows, mask, sums.back());
+    c.J.blocks[b] = make_block(rows, mask, s.ranks, sums.back());
     add_mass<Dim>(mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, c.first[b], parts.mass);
   }
   sum_over_ranks(sums, s.ranks);

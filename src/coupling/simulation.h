@@ -30,6 +30,9 @@ struct StepStats {
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   int rejected = 0;                // attempts at this step that were rejected
   double viscous_dissipation = 0;  // energy that viscosity turned into heat in this step, over dt, W
+  std::int64_t bubbles = 0;        // enclosed regions of air that keep their volume
+  double air_volume = 0;           // that they have together, m^3
+  double air_lost = 0;             // of those that became too small for the grid, since the start, m^3
   int rheology_iterations = 0;     // solves with viscosities of the last one's shear rate; 0 for Newtonian liquid
 };
 

@@ -40,7 +40,10 @@ std::vector<Column> columns(const StepStats& s) {
           {"volume_corrected", s.volume_corrected},
           {"rejected", std::int64_t(s.rejected)},
           {"viscous_dissipation", s.viscous_dissipation},
-          {"rheology_iterations", std::int64_t(s.rheology_iterations)}};
+          {"rheology_iterations", std::int64_t(s.rheology_iterations)},
+          {"bubbles", s.bubbles},
+          {"air_volume", s.air_volume},
+          {"air_lost", s.air_lost}};
 }
 
 std::vector<Column> columns(const SolidState& s) {

@@ -207,6 +207,15 @@ void check_rheology(const Checker& c, Scene& scene) {
                        viscosity(spec, 0), number_limit, remedy));
 }
 
+// Enclosed air beside what it does not go together with.
+void check_enclosed_air(const Checker& c, const Scene& scene) {
+  if (!scene.gas.present || scene.gas.flows()) return;
+  if (scene.liquid.separates)
+    c.report("liquid.separates",
+             "liquid.separates = true and gas.bubbles = \"volume_conserving\" exclude each other: liquid that parts "
+             "from a solid leaves a gap that no air flows into, so leave out separates");
+}
+
 }  // namespace
 
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
@@ -222,6 +231,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
+  if (context.clean("gas") && context.clean("liquid")) check_enclosed_air(c, scene);
 }
 
 }  // namespace seiche

@@ -294,10 +294,7 @@ Section<Scene> build_scene_section() {
                    &S::time, time_section()),
       block_key<S>({.key = "liquid", .unset = "no liquid", .doc = "the liquid and where it is"}, &S::liquid,
                    liquid_section()),
-      later_key<S>({.key = "gas",
-                    .type = T::table,
-                    .doc = "two-phase flow is not in this version; without [gas] the liquid "
-                           "has a free surface at pressure 0"}),
+      gas_key(),
       list_key<S, SolidSpec>({.key = "solid", .unset = "none", .doc = "solids in the liquid", .most = most_entries},
                              &S::solids, solid_section()),
       list_key<S, ProbeSpec>({.key = "probe",

@@ -23,6 +23,8 @@ std::vector<Key<SolverSpec>> viscous_solver_keys();
 // Reports a liquid that gives both viscosity and rheology.
 void check_one_viscosity(SceneContext& context, const Place& place);
 
+Key<Scene> gas_key();
+
 // Reports a rotation axis that is missing (3D), zero or not along z (2D) in the table at `place`.
 void check_axis(SceneContext& context, const Place& place, const Vec3& axis);
 

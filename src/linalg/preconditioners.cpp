@@ -63,6 +63,7 @@ std::string choose_preconditioner(const std::string& name, const LinearSystem& s
   if (name != "auto") return name;
   const auto rows = system.pattern().global_rows;
   if (rows < rows_worth_a_hierarchy) return "none";
+  if (system.grid().off_grid > 0) return "boomeramg";
   return double(rows) >= share_worth_a_box * double(box_of_rows(system).cells()) ? "multigrid" : "boomeramg";
 }
 
