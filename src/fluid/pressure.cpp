@@ -243,7 +243,6 @@ RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) 
   for_each_index_in_order(in.layout, in.layout.cells(), [&](Site s, const IVec<Dim>&) {
     g.row_of_cell.push_back(rows.has_own(s) ? int(rows.row[s] - rows.first) : -1);
   });
-  g.off_grid = Row(rows.air_row.size());
   return g;
 }
 

@@ -25,7 +25,6 @@ struct RowGrid {
   std::array<int, 3> lower{0, 0, 0}, upper{1, 1, 1};
   std::array<int, 3> periodic{0, 0, 0};  // cells along a periodic axis, else 0
   std::vector<int> row_of_cell;
-  Row off_grid = 0;  // rows, over all ranks, that sit on no cell: those of enclosed air, which touch many others
 };
 
 // Null spaces: the constant on each of `count` components. component[i] of local row i, or -1 where row i belongs to a
