@@ -62,7 +62,8 @@ template <int Dim>
 void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
   if (!s.keeps_air()) return;
   const std::vector<double> volumes = air_volumes(s, state.air, psi, state.phi);
-  stats.bubbles = state.air.count();
+  // Cut cells of solids may hold air by their centres and none outside the solid.
+  stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
   stats.air_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
   stats.air_lost = state.lost_air;
 }
