@@ -186,6 +186,28 @@ void load_rigid(const Setup<Dim>& s, const Scalar& scalar, State<Dim>& state) {
   for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
 }
 
+// Of enclosed air: whose each cell is and the volumes, as bytes.
+template <int Dim>
+void save_air(const Setup<Dim>& s, const State<Dim>& state, CheckpointData& data) {
+  data.fields.push_back(record<Dim>(s, "air", s.layout.cells(), state.air.label));
+  const std::vector<double>& v = state.air.volume;
+  data.texts["air.volume"] = std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(double));
+  data.scalars["air.lost"] = state.lost_air;
+}
+
+template <int Dim, class Scalar>
+void load_air(const Setup<Dim>& s, const CheckpointData& data, const Scalar& scalar, State<Dim>& state) {
+  if (!s.keeps_air()) return;
+  state.lost_air = scalar("air.lost");
+  const auto found = data.texts.find("air.volume");
+  if (found == data.texts.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks 'air.volume'");
+  state.air.volume.resize(found->second.size() / sizeof(double));
+  if (!found->second.empty()) std::memcpy(state.air.volume.data(), found->second.data(), found->second.size());
+  state.air.label = CellField<Dim, std::int64_t>(s.layout, no_air);
+  restore<Dim>(s, data, "air", s.layout.cells(), state.air.label);
+  s.halo.fill_ghosts({state.air.label.data()});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -210,6 +232,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
   if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
+  if (s.keeps_air()) save_air(s, state, data);
   for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
     data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
   });
@@ -236,6 +259,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
   load_rigid(s, scalar, state);
+  load_air(s, data, scalar, state);
   load_elastic(s, data, state);
   state.phi = CellField<Dim>(s.layout);
   state.pressure = CellField<Dim>(s.layout);
@@ -262,6 +286,7 @@ std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
   std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
                                  empty_record<Dim>("pressure", s.layout.cells())};
   if (s.scene.liquid.separates) boxes.push_back(empty_record<Dim>("gap", s.layout.cells()));
+  if (s.keeps_air()) boxes.push_back(empty_record<Dim>("air", s.layout.cells()));
   const Film<Dim> film;
   for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {
     boxes.push_back(empty_record<Dim>(name, s.layout.faces(a)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "linalg/matrix_entries.h"
 #include "solid/elastic_potential.h"
 #include "solid/enclosed_volume.h"
 
@@ -38,6 +39,21 @@ std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shar
     add_entries(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
   });
   return entries;
+}
+
+// Entries from `known` on that belong to regions of air, which may be rows of other ranks, go where their rows are, one
+// a row and column. Collective.
+template <int Dim>
+void bring_home_air(const Setup<Dim>& s, const PressureRows<Dim>& rows, std::size_t known,
+                    std::vector<FluxEntry>& entries) {
+  if (!rows.air) return;
+  const auto of_air = [&](const FluxEntry& e) { return e.row < 0 || e.row >= int(rows.liquid); };
+  std::vector<MatrixEntry> moved;
+  for (std::size_t n = known; n < entries.size(); ++n)
+    if (of_air(entries[n])) moved.push_back({rows.first + entries[n].row, entries[n].column, entries[n].value});
+  entries.erase(std::remove_if(entries.begin() + std::ptrdiff_t(known), entries.end(), of_air), entries.end());
+  for (const MatrixEntry& e : bring_home_sums(moved, rows.first, rows.cells.size(), s.ranks))
+    entries.push_back({int(e.row - rows.first), int(e.column), e.value});
 }
 
 // The shares of one cell.
@@ -184,8 +200,10 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
     std::vector<FluxEntry> entries = spread_shares(s, *g.shares[k], *g.attached[k], rows);
+    bring_home_air(s, rows, 0, entries);
     const std::size_t shown = entries.size();
     keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries);
+    bring_home_air(s, rows, shown, entries);
     for (auto& surface : correct_swept_volume(s, rows, closed, state.elastic[k], k, first, horizon, entries))
       c.swept.push_back(std::move(surface));
     c.cell_fluxes[b] = added_fluxes(entries, shown, rows);

@@ -154,6 +154,7 @@ class FlowSimulation : public Simulation {
     stats_.time = state_.time;
     stats_.dt = state_.dt_now;
     measure_fluids(setup_, state_, geometry_.psi, stats_);
+    measure_air(setup_, state_, geometry_.psi, stats_);
     measure_rigid(setup_, state_, stats_);
     measure_elastic(setup_, state_, stats_);
     stats_.max_divergence = divergence_;

@@ -1,5 +1,8 @@
 #include "coupling/measures.h"
 
+#include <numeric>
+
+#include "coupling/air_volume.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -75,6 +78,16 @@ void measure_fluids(const Setup<Dim>& s, const State<Dim>& state, const NodeFiel
   stats.max_speed = std::sqrt(s.ranks.global_max(std::max(liquid.fastest_squared, gas.fastest_squared)));
   stats.cells_liquid = std::int64_t(liquid.sums[6]);
   stats.volume_corrected = state.corrected_volume;
+}
+
+template <int Dim>
+void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
+  if (!s.keeps_air()) return;
+  const std::vector<double> volumes = air_volumes(s, state.air, psi, state.phi);
+  // Cut cells of solids may hold air by their centres and none outside the solid.
+  stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
+  stats.gas_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
+  stats.air_lost = state.lost_air;
 }
 
 // E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x
@@ -171,6 +184,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
 
 #define SEICHE_INSTANTIATE(D)                                                                         \
   template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
+  template void measure_air<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);    \
   template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                       \
   template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                     \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);

@@ -8,6 +8,10 @@ namespace seiche {
 template <int Dim>
 void measure_fluids(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
 
+// Counts enclosed air. Collective.
+template <int Dim>
+void measure_air(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
+
 // Adds the rigid bodies' energies and momentum.
 template <int Dim>
 void measure_rigid(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "linalg/matrix_entries.h"
+
 namespace seiche {
 namespace {
 
@@ -74,13 +76,20 @@ ColumnBlock make_block(const Setup<Dim>& s, const CellField<Dim>& phi, const Pre
   const double dry = s.gas_density() / s.density();
   ColumnBlock block;
   block.width = twist_size<Dim>;
+  std::vector<MatrixEntry> of_air;
   for (const auto& [cell, mode] : sums.cells) {
     const double area = mode.template head<Dim>().norm();
-    const bool has_row = rows.row[cell] >= 0;
-    if (area > rounding) sums.surface += area, sums.wet += has_row ? area * (phi[cell] < 0 ? 1 : dry) : 0;
-    if (!has_row) continue;
-    for (int k = 0; k < block.width; ++k) block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
+    const bool wet = rows.has_own(cell);
+    if (area > rounding) sums.surface += area, sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
+    for (int k = 0; k < block.width && rows.row[cell] >= 0; ++k)
+      if (wet)
+        block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
+      else
+        of_air.push_back({rows.row[cell], k, mask[k] * mode[k]});
   }
+  if (rows.air)
+    for (const MatrixEntry& e : bring_home_sums(of_air, rows.first, rows.cells.size(), s.ranks))
+      block.add(int(e.row - rows.first), int(e.column), e.value);
   return block;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "coupling/air_volume.h"
 #include "coupling/contact_setup.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
@@ -262,6 +263,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   state.expected_volume = liquid_volume(s, state.phi, g.psi);
+  if (s.keeps_air()) state.air = initial_air(s, g, state.phi);
 
   std::string fault;
   const FaceField<Dim, char> wet = faces_near_liquid(s, state.phi);

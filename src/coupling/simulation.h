@@ -27,10 +27,12 @@ struct StepStats {
   std::int64_t cells_liquid = 0;
   double wall_seconds = 0;
   // further columns of ours
-  double gas_volume = 0;           // m^3; 0 where no gas flows
+  double gas_volume = 0;           // of gas that flows, or of the enclosed air, m^3
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   int rejected = 0;                // attempts at this step that were rejected
   double viscous_dissipation = 0;  // energy that viscosity turned into heat in this step, over dt, W
+  std::int64_t bubbles = 0;        // enclosed regions of air that keep their volume
+  double air_lost = 0;             // of those that became too small for the grid, since the start, m^3
   int rheology_iterations = 0;     // solves with viscosities of the last one's shear rate; 0 for Newtonian liquid
 };
 

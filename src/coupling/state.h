@@ -41,6 +41,7 @@ struct Setup {
   bool has_rigid() const;
   bool has_elastic() const;
   bool is_viscous() const { return viscous; }
+  bool keeps_air() const { return scene.gas.present && scene.gas.bubbles == Bubbles::volume_conserving; }
   ElasticScheme elastic_scheme() const {
     return scene.time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
   }
@@ -99,6 +100,8 @@ struct State {
   double horizon = 0;                                      // s ahead that the solids' velocities were solved for
   Parting<Dim> parting;                                    // where the scene lets liquid part from solids
   double viscous_rate = 0;                                 // mu/(rho h^2) of the last solve at its largest, 1/s
+  AirRegions<Dim> air;                                     // where enclosed air keeps its volume
+  double lost_air = 0;                                     // of regions too small for the grid that vanished, m^Dim
   std::vector<ViscousLoad> viscous_loads;                  // on each solid; empty where the liquid is inviscid
 };
 

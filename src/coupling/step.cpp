@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "coupling/air_volume.h"
 #include "coupling/coupled_solve.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
@@ -149,10 +150,20 @@ struct StepInProgress {
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     keep_sealed_full(s, before, out.state, out.state.phi);
-    out.state.corrected_volume +=
-        control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
-                       0.05 * s.layout.h(), out.state.phi);
+    const double expected = out.state.expected_volume + gap_volume(s, before.parting), limit = 0.05 * s.layout.h();
+    if (s.keeps_air())
+      control_liquid_and_air(expected, limit);
+    else
+      out.state.corrected_volume += control_volume(s, out.geometry.psi, expected, limit, out.state.phi);
     keep_sides_apart(s, before, out.geometry, out.state.phi);
+    if (s.keeps_air())
+      out.state.air = follow_air(s, out.state.air, before.now->u, 0, out.geometry, out.state.phi, out.state.lost_air);
+  }
+
+  void control_liquid_and_air(double expected, double limit) {
+    State<Dim>& next = out.state;
+    next.air = follow_air(s, before.air, before.now->u, dt, out.geometry, next.phi, next.lost_air);
+    next.corrected_volume += control_volumes(s, out.geometry, expected, limit, next.air, next.phi);
   }
 
   bool transport_velocity() {
@@ -166,7 +177,9 @@ struct StepInProgress {
 
   ProjectionInput<Dim> input() const {
     const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
-    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting, s.gas_density()};
+    const AirRegions<Dim>* air = s.keeps_air() ? &out.state.air : nullptr;
+    return {s.layout,        s.halo,  s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting,
+            s.gas_density(), nullptr, air};
   }
 
   bool solve(const ViscosityField<Dim>* viscosity) {
@@ -189,6 +202,7 @@ struct StepInProgress {
   void restore() {
     const PhaseFault fault = phases.enter("restore");
     const auto timed = phases.timers.measure("restore");
+    settle_air(input(), solution.rows, solution.u_star, out.state.pressure);
     Restored<Dim> restored =
         restore_velocity(s, input(), solution.rows, out.state.pressure, solution.u_star, out.geometry);
     set_viscous_acceleration(restored.level);

@@ -32,9 +32,21 @@ struct Parts {
   void start() {
     component = CellField<Dim, std::int64_t>(s.layout, -1);
     for (std::size_t n = 0; n < rows.cells.size(); ++n) component[rows.cells[n]] = closed.component[n];
+    set_component_of_air();
     s.halo.fill_ghosts({component.data()});
     part_of_node = parts_of_nodes(solid);
     parts.resize(std::size_t(solid.surface.parts));
+  }
+
+  void set_component_of_air() {
+    std::vector<double> of_region(rows.air_row.size());
+    for (std::size_t n = rows.liquid; n < rows.cells.size(); ++n)
+      of_region[std::size_t(rows.region(rows.cells[n]))] = closed.component[n];
+    if (of_region.empty()) return;
+    s.ranks.global_sum(of_region);
+    for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+      if (const std::int64_t k = rows.region(c); k >= 0) component[c] = std::int64_t(of_region[std::size_t(k)]);
+    });
   }
 
   // Entries that were taken back do not count.

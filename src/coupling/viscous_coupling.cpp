@@ -167,10 +167,9 @@ void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>&
   add_no_slip_flux(input_, *system_.samples, motion_, flow, added);
   for (int a = 0; a < Dim; ++a)
     for_each_site(layout, layout.grown(1), [&](Site f) { closed_flux.at(a, f) += added.at(a, f); });
-  for (std::size_t n = 0; n < rows_.cells.size(); ++n)
-    for_each_face_of(layout, rows_.cells[n], [&](int a, Site f, int sign, Site) {
-      system_.q[n] -= sign * added.at(a, f) * layout.geometry().face_area();
-    });
+  const auto net = net_over_rows(
+      layout, setup_.ranks, rows_, [](Site) { return 0.0; }, [&](int a, Site f) { return added.at(a, f); });
+  for (std::size_t n = 0; n < net.size(); ++n) system_.q[n] -= net[n] * layout.geometry().face_area();
 }
 
 // What is held is known: f - G v_h, and its columns are left out of G.

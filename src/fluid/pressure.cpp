@@ -1,6 +1,6 @@
 #include "fluid/pressure.h"
 
-#include "grid/loops.h"
+#include "linalg/matrix_entries.h"
 
 namespace seiche {
 
@@ -57,16 +57,30 @@ Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, 
           rows.row[across] < 0};
 }
 
-// Net volume flux out of a cell a unit of face area.
+// Net volume flux out of each row's cells a unit of face area.
 template <int Dim>
-double net_flux(const ProjectionInput<Dim>& in, Site cell, const FaceField<Dim>& u) {
-  double sum = in.faces.cell_flux[cell];
-  for_each_face_of(in.layout, cell, [&](int a, Site f, int sign, Site) {
-    const bool given = in.faces.kind_at(a, f) == FaceKind::prescribed;
-    const double v = given ? in.faces.prescribed.at(a, f) : u.at(a, f);
-    sum += sign * (in.faces.open.at(a, f) * v + in.faces.closed_flux.at(a, f));
+std::vector<double> net_fluxes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u) {
+  return net_over_rows(
+      in.layout, in.ranks, rows, [&](Site cell) { return in.faces.cell_flux[cell]; },
+      [&](int a, Site f) {
+        const bool given = in.faces.kind_at(a, f) == FaceKind::prescribed;
+        const double v = given ? in.faces.prescribed.at(a, f) : u.at(a, f);
+        return in.faces.open.at(a, f) * v + in.faces.closed_flux.at(a, f);
+      });
+}
+
+// Rows of the regions of air, behind those of the cells.
+template <int Dim>
+void number_air(const ProjectionInput<Dim>& in, PressureRows<Dim>& rows) {
+  rows.air = in.air;
+  std::vector<double> row(in.air->volume.size());
+  for (std::size_t n = 0; n < in.air->home.size(); ++n)
+    row[std::size_t(in.air->home[n].first)] = double(rows.first) + double(rows.liquid + n);
+  in.ranks.global_sum(row);
+  rows.air_row.assign(row.begin(), row.end());
+  for_each_site(in.layout, in.layout.cells(), [&](Site c) {
+    if (const std::int64_t k = in.air->label[c]; k >= 0) rows.row[c] = rows.air_row[std::size_t(k)];
   });
-  return sum;
 }
 
 }  // namespace
@@ -83,14 +97,44 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
     else if (in.is_liquid(s))
       ++isolated;
   });
+  rows.liquid = rows.cells.size();
+  if (in.air)
+    for (const auto& [region, cell] : in.air->home) rows.cells.push_back(cell);
   const std::int64_t count = std::int64_t(rows.cells.size());
   rows.first = in.ranks.exclusive_prefix_sum(count);
   rows.global = in.ranks.global_sum(count);
   rows.isolated = in.ranks.global_sum(isolated);
-  for (std::int64_t n = 0; n < count; ++n) rows.row[rows.cells[n]] = rows.first + n;
+  for (std::size_t n = 0; n < rows.liquid; ++n) rows.row[rows.cells[n]] = rows.first + Row(n);
+  if (in.air) number_air(in, rows);
   in.halo.fill_ghosts({rows.row.data()});
   return rows;
 }
+
+namespace {
+
+// Where a column stands behind `from`, or the end: a cell may meet the same air across several faces.
+std::size_t find_column(const DistributedMatrix& m, std::size_t from, Row column) {
+  return std::size_t(std::find(m.column.begin() + std::ptrdiff_t(from), m.column.end(), column) - m.column.begin());
+}
+
+// Each row's entries are those of its links; the diagonal is minus their sum.
+template <int Dim>
+void append_air_rows(const PressureRows<Dim>& rows, const std::vector<MatrixEntry>& links, DistributedMatrix& m) {
+  auto next = links.begin();
+  for (std::size_t n = rows.liquid; n < rows.cells.size(); ++n) {
+    const std::size_t diagonal = m.value.size();
+    m.column.push_back(rows.first + Row(n));
+    m.value.push_back(0);
+    for (; next != links.end() && next->row == rows.first + Row(n); ++next) {
+      m.column.push_back(next->column);
+      m.value.push_back(next->value);
+      m.value[diagonal] -= next->value;
+    }
+    m.row_start.push_back(int(m.value.size()));
+  }
+}
+
+}  // namespace
 
 template <int Dim>
 DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) {
@@ -99,7 +143,9 @@ DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const
   m.global_rows = rows.global;
   m.column.reserve(rows.cells.size() * (2 * Dim + 1));
   m.value.reserve(rows.cells.size() * (2 * Dim + 1));
-  for (Site cell : rows.cells) {
+  std::vector<MatrixEntry> of_air;
+  for (std::size_t n = 0; n < rows.liquid; ++n) {
+    const Site cell = rows.cells[n];
     const std::size_t diagonal = m.value.size();
     m.column.push_back(rows.row[cell]);
     m.value.push_back(0);
@@ -108,11 +154,17 @@ DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const
       const Link link = link_across(in, rows, a, f, cell, across);
       m.value[diagonal] += link.weight;
       if (link.fixed_pressure) return;
-      m.column.push_back(rows.row[across]);
-      m.value.push_back(-link.weight);
+      std::size_t place = m.column.size();
+      if (rows.region(across) >= 0) {
+        of_air.push_back({rows.row[across], rows.row[cell], -link.weight});
+        place = find_column(m, diagonal, rows.row[across]);
+      }
+      if (place == m.column.size()) m.column.push_back(rows.row[across]), m.value.push_back(0);
+      m.value[place] -= link.weight;
     });
     m.row_start.push_back(int(m.value.size()));
   }
+  if (rows.air) append_air_rows(rows, bring_home(of_air, rows.first, rows.cells.size(), in.ranks), m);
   return m;
 }
 
@@ -120,17 +172,22 @@ template <int Dim>
 std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                         const FaceField<Dim>& u) {
   const double scale = in.density * in.layout.h() / in.dt;
-  std::vector<double> b(rows.cells.size());
-  for (std::size_t n = 0; n < b.size(); ++n) {
+  std::vector<double> b = net_fluxes(in, rows, u), of_air(rows.air_row.size());
+  for (std::size_t n = 0; n < rows.liquid; ++n) {
     const Site cell = rows.cells[n];
-    b[n] = -scale * (net_flux(in, cell, u) + in.missing_flux(cell));
+    b[n] = -scale * (b[n] + in.missing_flux(cell));
     for_each_face_of(in.layout, cell, [&](int a, Site f, int, Site across) {
       if (!in.faces.is_unknown(a, f)) return;
       const Link link = link_across(in, rows, a, f, cell, across);
       const bool leaves = in.faces.kind_at(a, f) == FaceKind::outflow;
       b[n] += link.weight * (link.jump + (leaves ? in.faces.side_pressure.at(a, f) : 0));
+      if (const std::int64_t k = rows.region(across); k >= 0) of_air[std::size_t(k)] -= link.weight * link.jump;
     });
   }
+  if (of_air.empty()) return b;
+  in.ranks.global_sum(of_air);
+  for (std::size_t n = rows.liquid; n < b.size(); ++n)
+    b[n] = of_air[std::size_t(rows.region(rows.cells[n]))] - scale * b[n];
   return b;
 }
 
@@ -140,7 +197,7 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
   const Site low = face - in.layout.stride(axis), high = face;
   const double scale = 1 / (in.density * in.layout.h());
   const bool has_low = rows.row[low] >= 0, has_high = rows.row[high] >= 0;
-  if (!has_low && !has_high) return 0;
+  if (!rows.touch_own(low, high)) return 0;
   const double p_low = has_low ? pressure[low] : 0, p_high = has_high ? pressure[high] : 0;
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) {
     const double beyond = in.faces.side_pressure.at(axis, face), over = scale / 0.5;
@@ -148,6 +205,31 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
                    : over * cell_lightness(in, high) * (p_high - beyond);
   }
   return scale * link_lightness(in, low, high) * (p_high - p_low + jump_over(in, axis, face));
+}
+
+// One Jacobi step on the rows of the air: sum of weights p_air = sum of weights (p + jump) + its right-hand side.
+template <int Dim>
+void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
+                CellField<Dim>& pressure) {
+  if (!rows.air) return;
+  const std::size_t count = rows.air_row.size();
+  const Vector b = pressure_right_side(in, rows, u_star);
+  std::vector<double> sums(2 * count);
+  for (std::size_t n = rows.liquid; n < b.size(); ++n) sums[std::size_t(rows.region(rows.cells[n]))] = b[n];
+  for (std::size_t n = 0; n < rows.liquid; ++n)
+    for_each_face_of(in.layout, rows.cells[n], [&](int a, Site f, int, Site across) {
+      const std::int64_t k = rows.region(across);
+      if (k < 0 || !in.faces.is_unknown(a, f)) return;
+      const double weight = link_across(in, rows, a, f, rows.cells[n], across).weight;
+      sums[std::size_t(k)] += weight * pressure[rows.cells[n]];
+      sums[count + std::size_t(k)] += weight;
+    });
+  in.ranks.global_sum(sums);
+  for_each_site(in.layout, in.layout.cells(), [&](Site c) {
+    const std::int64_t k = rows.region(c);
+    if (k >= 0 && sums[count + std::size_t(k)] > 0) pressure[c] = sums[std::size_t(k)] / sums[count + std::size_t(k)];
+  });
+  in.halo.fill_ghosts(pressure);
 }
 
 template <int Dim>
@@ -161,30 +243,47 @@ RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) 
   }
   g.row_of_cell.reserve(std::size_t(in.layout.cells().size()));
   for_each_index_in_order(in.layout, in.layout.cells(), [&](Site s, const IVec<Dim>&) {
-    g.row_of_cell.push_back(rows.row[s] < 0 ? -1 : int(rows.row[s] - rows.first));
+    g.row_of_cell.push_back(rows.has_own(s) ? int(rows.row[s] - rows.first) : -1);
   });
   return g;
 }
 
 template <int Dim>
 double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u) {
+  const std::vector<double> flux = net_fluxes(in, rows, u);
   double largest = 0;
-  for (Site cell : rows.cells) largest = std::max(largest, std::abs(net_flux(in, cell, u) + in.missing_flux(cell)));
+  for (std::size_t n = 0; n < flux.size(); ++n)
+    largest = std::max(largest, std::abs(flux[n] + (n < rows.liquid ? in.missing_flux(rows.cells[n]) : 0)));
   return in.ranks.global_max(largest) / in.layout.h();
 }
+
+namespace {
+
+// sum_f |given flux| of each row's cells.
+template <int Dim>
+std::vector<double> given_sizes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) {
+  const auto of_cell = [&](Site cell) {
+    double sum = 0;
+    for_each_face_of(in.layout, cell, [&](int a, Site f, int, Site) {
+      sum += std::abs(in.faces.open.at(a, f) * in.faces.prescribed.at(a, f) + in.faces.closed_flux.at(a, f));
+    });
+    return sum;
+  };
+  return net_over_rows(in.layout, in.ranks, rows, of_cell, [](int, Site) { return 0.0; });
+}
+
+}  // namespace
 
 template <int Dim>
 VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const NullSpace& closed) {
   std::vector<double> net(closed.count), scale(closed.count);
   const FaceField<Dim> still(in.layout);
+  const std::vector<double> flux = net_fluxes(in, rows, still), size = given_sizes(in, rows);
   for (std::size_t n = 0; n < rows.cells.size(); ++n) {
     const int c = closed.component[n];
     if (c < 0) continue;
-    net[c] += net_flux(in, rows.cells[n], still);
-    for_each_face_of(in.layout, rows.cells[n], [&](int a, Site f, int, Site) {
-      const double given = in.faces.open.at(a, f) * in.faces.prescribed.at(a, f) + in.faces.closed_flux.at(a, f);
-      scale[c] += std::abs(given);
-    });
+    net[c] += flux[n];
+    scale[c] += size[n];
   }
   in.ranks.global_sum(net);
   in.ranks.global_sum(scale);
@@ -206,6 +305,7 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
                                                       const FaceField<D>&);                                           \
   template double face_pressure_slope<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, int, \
                                          Site);                                                                       \
+  template void settle_air<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&, CellField<D>&); \
   template RowGrid row_grid<D>(const ProjectionInput<D>&, const PressureRows<D>&);                                    \
   template double max_divergence<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&);          \
   template VolumeMismatch worst_mismatch<D>(const ProjectionInput<D>&, const PressureRows<D>&, const NullSpace&);

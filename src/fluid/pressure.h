@@ -2,9 +2,11 @@
 // Variational cut-cell pressure projection with a second-order free surface: rows, components, matrix, update.
 #include <string>
 
+#include "fluid/air_regions.h"
 #include "fluid/face_geometry.h"
 #include "fluid/parting.h"
 #include "grid/halo.h"
+#include "grid/loops.h"
 #include "linalg/solve.h"
 
 namespace seiche {
@@ -23,6 +25,7 @@ struct ProjectionInput {
   double gas_density = 0;                 // kg/m^3; 0: beyond the surface there is no more than a pressure of 0
   // p_liquid - p_gas where the surface crosses the link of a face's two cells, Pa; null: 0 everywhere.
   const FaceField<Dim>* surface_jump = nullptr;
+  const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none does
 
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
@@ -34,11 +37,27 @@ struct ProjectionInput {
 // The unknowns: one row a cell of liquid, or gas that flows, that an open face touches and that has not parted.
 template <int Dim>
 struct PressureRows {
-  CellField<Dim, std::int64_t> row;  // global row or -1, filled one cell around
-  std::vector<Site> cells;           // owned cells with a row, in row order
+  CellField<Dim, std::int64_t> row;  // global row or -1, filled one cell around; of enclosed air that of its region
+  std::vector<Site> cells;           // owned cells with a row, in row order, and then one cell a region of air
+  std::size_t liquid = 0;            // so many of them are no region's
   Row first = 0, global = 0;
   std::int64_t isolated = 0;  // liquid cells without an open face, over all ranks
+  const AirRegions<Dim>* air = nullptr;
+  std::vector<Row> air_row;  // of each region, the same on all ranks
+
+  // Region of enclosed air a cell belongs to, or -1.
+  std::int64_t region(Site cell) const { return air ? std::max<std::int64_t>(air->label[cell], -1) : -1; }
+  bool has_own(Site cell) const { return row[cell] >= 0 && region(cell) < 0; }
+  // Whether a face moves what has a pressure of its own.
+  bool touch_own(Site low, Site high) const { return has_own(low) || has_own(high); }
+  bool owns(Row r) const { return r >= first && r < first + Row(cells.size()); }
 };
+
+// sum_f +- of_face(axis, f) + of_cell(cell) of each row: of a region of air summed over its cells, the faces between
+// them left out. Collective.
+template <int Dim, class OfCell, class OfFace>
+std::vector<double> net_over_rows(const Layout<Dim>& layout, const Communicator& ranks, const PressureRows<Dim>& rows,
+                                  const OfCell& of_cell, const OfFace& of_face);
 
 template <int Dim>
 PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in);
@@ -90,8 +109,36 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
 template <int Dim>
 RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 
+// Gives each region of enclosed air the pressure at which just as much flows in as out, to rounding, and all its cells
+// that pressure. Ghosts filled. Collective.
+template <int Dim>
+void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
+                CellField<Dim>& pressure);
+
 // Largest |net flux|/cell volume over the rows, 1/s, over all ranks.
 template <int Dim>
 double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u);
+
+template <int Dim, class OfCell, class OfFace>
+std::vector<double> net_over_rows(const Layout<Dim>& layout, const Communicator& ranks, const PressureRows<Dim>& rows,
+                                  const OfCell& of_cell, const OfFace& of_face) {
+  const auto net = [&](Site cell) {
+    double sum = of_cell(cell);
+    for_each_face_of(layout, cell, [&](int a, Site f, int sign, Site across) {
+      const bool inside = rows.region(cell) >= 0 && rows.row[across] == rows.row[cell];
+      if (!inside) sum += sign * of_face(a, f);
+    });
+    return sum;
+  };
+  std::vector<double> sums, of_air(rows.air_row.size());
+  for (std::size_t n = 0; n < rows.liquid; ++n) sums.push_back(net(rows.cells[n]));
+  if (of_air.empty()) return sums;
+  for_each_index_in_order(layout, layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (const std::int64_t k = rows.region(c); k >= 0) of_air[std::size_t(k)] += net(c);
+  });
+  ranks.global_sum(of_air);
+  for (const auto& [k, cell] : rows.air->home) sums.push_back(of_air[std::size_t(k)]);
+  return sums;
+}
 
 }  // namespace seiche

@@ -5,6 +5,7 @@
 
 #include "fluid/viscous_terms.h"
 #include "grid/loops.h"
+#include "linalg/matrix_entries.h"
 
 namespace seiche {
 namespace {
@@ -144,9 +145,9 @@ double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   constexpr double follower = 1e-3;
   const double full = in.density * in.layout.geometry().cell_volume();
   const Site low = f - in.layout.stride(axis);
-  const bool has_low = in.rows.row[low] >= 0, has_high = in.rows.row[f] >= 0;
+  const bool has_low = in.rows.row[low] >= 0;
   const double w = in.faces.open.at(axis, f);
-  if (!in.faces.is_unknown(axis, f) || w == 0 || (!has_low && !has_high)) return follower * full;
+  if (!in.faces.is_unknown(axis, f) || w == 0 || !in.rows.touch_own(low, f)) return follower * full;
   if (in.faces.kind_at(axis, f) == FaceKind::outflow)
     return 0.5 * w * full / cell_lightness(in.projection, has_low ? low : f);
   return w * full / link_lightness(in.projection, low, f);
@@ -279,6 +280,23 @@ void append_row(Entries& entries, DistributedMatrix& m) {
   m.row_start.push_back(int(m.value.size()));
 }
 
+// The rows of regions of air in D.
+template <int Dim>
+void append_air_rows(const ViscousInput<Dim>& in, const std::vector<MatrixEntry>& entries,
+                     std::vector<double>& mobility, ViscousSystem<Dim>& r) {
+  const auto home = bring_home(entries, in.rows.first, in.rows.cells.size(), in.ranks);
+  in.ranks.global_sum(mobility);
+  auto next = home.begin();
+  for (std::size_t n = in.rows.liquid; n < in.rows.cells.size(); ++n) {
+    Entries row;
+    for (; next != home.end() && next->row == in.rows.first + Row(n); ++next)
+      row.emplace_back(next->column, next->value);
+    append_row(row, r.D);
+    const double m = mobility[std::size_t(in.rows.region(in.rows.cells[n]))];
+    r.schur_mass.push_back(m > 0 ? 1 / m : 0);
+  }
+}
+
 // D_cf = +- w h^(Dim-1); what is known of the fluxes goes to q. The viscous part of the Schur complement is about the
 // diagonal of D diag(dt V)^-1 D', in full cells h^Dim/(dt mu); where walls hold a cell's faces it is much smaller.
 template <int Dim>
@@ -287,29 +305,47 @@ void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag
   r.D.first_row = in.rows.first, r.D.global_rows = in.rows.global;
   r.Dt.first_row = r.rows.first, r.Dt.global_rows = r.rows.global;
   Entries entries;
-  for (Site cell : in.rows.cells) {
-    double known = in.projection.missing_flux(cell), mobility = 0;
+  r.q = net_over_rows(
+      in.layout, in.ranks, in.rows, [](Site) { return 0.0; },
+      [&](int a, Site f) {
+        const bool given = in.faces.kind_at(a, f) == FaceKind::prescribed;
+        return in.faces.closed_flux.at(a, f) + (given ? in.faces.open.at(a, f) * in.faces.prescribed.at(a, f) : 0);
+      });
+  for (std::size_t n = 0; n < in.rows.liquid; ++n) {
+    const Site cell = in.rows.cells[n];
+    double mobility = 0;
     entries.clear();
     for_each_face_of(in.layout, cell, [&](int a, Site f, int sign, Site) {
       const double w = in.faces.open.at(a, f);
-      known += sign * in.faces.closed_flux.at(a, f);
-      if (in.faces.kind_at(a, f) == FaceKind::prescribed) known += sign * w * in.faces.prescribed.at(a, f);
       if (!in.faces.is_unknown(a, f) || w == 0) return;
       entries.emplace_back(r.rows.row.at(a, f), sign * w * area);
       mobility += w * w * area * area / drag.at(a, f);
     });
-    r.q.push_back(-known * area);
+    r.q[n] += in.projection.missing_flux(cell);
     r.schur_mass.push_back(mobility > 0 ? 1 / mobility : 0);
     append_row(entries, r.D);
   }
-  for (const auto& [axis, f] : r.rows.faces) {
+  for (double& known : r.q) known *= -area;
+  std::vector<MatrixEntry> of_air;
+  std::vector<double> mobility(in.rows.air_row.size());
+  for (std::size_t n = 0; n < r.rows.faces.size(); ++n) {
+    const auto [axis, f] = r.rows.faces[n];
     entries.clear();
-    const double w = in.faces.is_unknown(axis, f) ? in.faces.open.at(axis, f) : 0;
-    const Row low = in.rows.row[f - in.layout.stride(axis)], high = in.rows.row[f];
-    if (w > 0 && low >= 0) entries.emplace_back(low, w * area);
-    if (w > 0 && high >= 0) entries.emplace_back(high, -w * area);
+    const Site below = f - in.layout.stride(axis);
+    const bool counts = in.faces.is_unknown(axis, f) && in.rows.touch_own(below, f);
+    const double w = counts ? in.faces.open.at(axis, f) : 0;
+    for (const Site cell : {below, f}) {
+      if (w == 0 || in.rows.row[cell] < 0) continue;
+      const double entry = (cell == f ? -1 : 1) * w * area;
+      entries.emplace_back(in.rows.row[cell], entry);
+      if (const std::int64_t k = in.rows.region(cell); k >= 0) {
+        of_air.push_back({in.rows.row[cell], r.rows.first + Row(n), entry});
+        mobility[std::size_t(k)] += entry * entry / drag.at(axis, f);
+      }
+    }
     append_row(entries, r.Dt);
   }
+  if (in.rows.air) append_air_rows(in, of_air, mobility, r);
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ std::vector<Column> columns(const StepStats& s) {
           {"rejected", std::int64_t(s.rejected)},
           {"viscous_dissipation", s.viscous_dissipation},
           {"rheology_iterations", std::int64_t(s.rheology_iterations)},
-          {"gas_volume", s.gas_volume}};
+          {"gas_volume", s.gas_volume},
+          {"bubbles", s.bubbles},
+          {"air_lost", s.air_lost}};
 }
 
 std::vector<Column> columns(const SolidState& s) {

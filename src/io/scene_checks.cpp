@@ -207,15 +207,15 @@ void check_rheology(const Checker& c, Scene& scene) {
                        viscosity(spec, 0), number_limit, remedy));
 }
 
-// What flowing gas does not go together with.
+// Gas beside what it does not go together with.
 void check_gas(const Checker& c, const Scene& scene) {
-  if (scene.gas.present && !scene.gas.flows())
-    c.report("gas.bubbles", "gas.bubbles = \"volume_conserving\" is not in this version");
-  if (scene.gas.flows() && scene.liquid.separates)
-    c.report(
-        "liquid.separates",
-        "liquid.separates = true and flowing gas exclude each other: gas comes in where liquid parts from a solid, "
-        "so leave out separates");
+  if (!scene.gas.present || !scene.liquid.separates) return;
+  c.report("liquid.separates", scene.gas.flows()
+                                   ? "liquid.separates = true and flowing gas exclude each other: gas comes in where "
+                                     "liquid parts from a solid, so leave out separates"
+                                   : "liquid.separates = true and gas.bubbles = \"volume_conserving\" exclude each "
+                                     "other: liquid that parts from a solid leaves a gap that no air flows into, so "
+                                     "leave out separates");
 }
 
 }  // namespace

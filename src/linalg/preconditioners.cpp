@@ -63,7 +63,8 @@ std::string choose_preconditioner(const std::string& name, const LinearSystem& s
   if (name != "auto") return name;
   const auto rows = system.pattern().global_rows;
   if (rows < rows_worth_a_hierarchy) return "none";
-  return double(rows) >= share_worth_a_box * double(box_of_rows(system).cells()) ? "multigrid" : "boomeramg";
+  const std::int64_t box = box_of_rows(system).cells();  // none where rows are not on the grid: enclosed air
+  return box > 0 && double(rows) >= share_worth_a_box * double(box) ? "multigrid" : "boomeramg";
 }
 
 PreconditionerOrFailure make_preconditioner(const std::string& name, const LinearSystem& system) {
