@@ -10,7 +10,6 @@
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
-#include "solid/thinness.h"
 
 namespace seiche {
 namespace {
@@ -55,20 +54,13 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   std::vector<Body<Dim>> bodies;
   const double h = scene.domain.cell_size;
   const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
-  std::string thin, leaky;
+  std::string thin;
   for (const SolidSpec& spec : scene.solids) {
     bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
-    const Body<Dim>& body = bodies.back();
-    if (body.is_thin()) append_name(spec.name, thin);
-    if (body.is_elastic() && is_thinner_than(body.elastic(), h)) append_name(spec.name, leaky);
+    if (bodies.back().is_thin()) append_name(spec.name, thin);
   }
   if (!thin.empty())
     notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid sees steps of whole cells there", h, thin));
-  if (!leaky.empty())
-    notes.push_back(
-        fmt::format("elastic and thinner than a cell of {:g} m: {}; liquid leaks through, so take a "
-                    "smaller domain.cell_size or a thicker solid",
-                    h, leaky));
   return bodies;
 }
 

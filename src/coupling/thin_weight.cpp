@@ -1,0 +1,58 @@
+#include "coupling/thin_weight.h"
+
+#include <Eigen/Geometry>
+
+namespace seiche {
+namespace {
+
+// Summed gaps of the cells beside a sealed face that are this rank's and have a row, m.
+template <int Dim>
+double wet_gaps(const Layout<Dim>& l, const PressureRows<Dim>& rows, const SealedFace& f) {
+  const Site low = f.face - l.stride(f.axis);
+  double sum = 0;
+  if (l.cells().contains(l.index(low)) && rows.row[low] >= 0) sum += f.gaps[0];
+  if (l.cells().contains(l.index(f.face)) && rows.row[f.face] >= 0) sum += f.gaps[1];
+  return sum;
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::VectorXd weight_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows, int k,
+                              const Vec<Dim>& gravity) {
+  const FaceShares& shares = *g.shares[std::size_t(k)];
+  std::vector<double> force(std::size_t(s.bodies[std::size_t(k)].elastic().body.size()));
+  std::size_t n = 0;  // shares and sealed faces are in the same order
+  for (const SealedFace& f : g.sealed) {
+    if (f.body != k) continue;
+    while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
+    const SurfacePoint<Dim>& point = (*g.attached[std::size_t(k)])[n];
+    const double area = shares[n].closed * s.layout.geometry().face_area();
+    const double weight = area * s.density() * gravity[f.axis] * wet_gaps(s.layout, rows, f);
+    for (int i = 0; i < Dim; ++i) force[std::size_t(Dim * point.corners[i] + f.axis)] += weight * point.weights[i];
+  }
+  s.ranks.global_sum(force);
+  return Eigen::Map<const Eigen::VectorXd>(force.data(), Eigen::Index(force.size()));
+}
+
+template <int Dim>
+Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, const Eigen::VectorXd& forces) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(6);
+  for (std::size_t n = 0; n < solid.body.mesh.nodes.size(); ++n) {
+    const Eigen::Index i = Dim * Eigen::Index(n);
+    const Vec3 x = extend<Dim>(Vec<Dim>(solid.body.mesh.nodes[n] + u.segment<Dim>(i)));
+    const Vec3 f = extend<Dim>(Vec<Dim>(forces.segment<Dim>(i)));
+    load.head<3>() += f;
+    load.tail<3>() += x.cross(f);
+  }
+  return load;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template Eigen::VectorXd weight_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, int, \
+                                            const Vec<D>&);                                                       \
+  template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche
