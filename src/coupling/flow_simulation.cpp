@@ -5,6 +5,7 @@
 #include "coupling/checkpoint_state.h"
 #include "coupling/contact_setup.h"
 #include "coupling/measures.h"
+#include "coupling/thin_weight.h"
 #include "solid/elastic_output.h"
 
 namespace seiche {
@@ -150,6 +151,7 @@ class FlowSimulation : public Simulation {
     stats_.time = state_.time;
     stats_.dt = state_.dt_now;
     measure_liquid(setup_, state_, geometry_.psi, stats_);
+    stats_.liquid_volume -= volume_beyond(setup_, geometry_, state_.phi);
     measure_rigid(setup_, state_, stats_);
     measure_elastic(setup_, state_, stats_);
     stats_.max_divergence = divergence_;

@@ -19,6 +19,8 @@ class PlacedSolid {
   // The share of the way from x to y, at most two cells along each axis, after which an elastic solid's surface comes;
   // 2 where none does.
   double first_crossing(const Vec<Dim>& x, const Vec<Dim>& y) const { return surface_->first_crossing(x, y); }
+  // The normal of an elastic solid's facet that is nearest.
+  Vec<Dim> normal_near(const Vec<Dim>& x) const { return surface_->normal_near(x); }
   // Signed, m; of an elastic solid as SurfaceDistance has it.
   double distance(const Vec<Dim>& x) const;
   // Where a point beside the solid was in another placement: carried along with the nearest point of an elastic one.

@@ -7,6 +7,8 @@
 #include "coupling/formula_checks.h"
 #include "coupling/liquid_viscosity.h"
 #include "coupling/restore.h"
+#include "coupling/thin_solids.h"
+#include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -221,7 +223,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   }
   refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
-  state.expected_volume = liquid_volume(s, state.phi, g.psi);
+  if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);
+  state.expected_volume = liquid_volume(s, state.phi, g.psi) - volume_beyond(s, g, state.phi);
 
   Level<Dim> level = empty_level(s);
   level.valid = faces_near_liquid(s, state.phi);

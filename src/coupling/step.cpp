@@ -9,6 +9,7 @@
 #include "coupling/rheology_iteration.h"
 #include "coupling/sealed_liquid.h"
 #include "coupling/thin_solids.h"
+#include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -146,9 +147,10 @@ struct StepInProgress {
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     keep_sealed_full(s, before, out.state, out.state.phi);
+    if (has_thin_elastic(s)) keep_sides_apart(s, before, out.geometry, out.state.phi);
+    const double uncounted = gap_volume(s, before.parting) + volume_beyond(s, out.geometry, out.state.phi);
     out.state.corrected_volume +=
-        control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
-                       0.05 * s.layout.h(), out.state.phi);
+        control_volume(s, out.geometry.psi, out.state.expected_volume + uncounted, 0.05 * s.layout.h(), out.state.phi);
     keep_sides_apart(s, before, out.geometry, out.state.phi);
   }
 

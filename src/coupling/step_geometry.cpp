@@ -78,15 +78,15 @@ std::array<Vec<Dim>, 2> centers_beside(const Layout<Dim>& layout, int axis, cons
   return {layout.position(below, cell_offset<Dim>()), layout.position(face, cell_offset<Dim>())};
 }
 
-using Gaps = std::array<double, 2>;
-
 template <int Dim>
-Gaps gaps_beside(const Layout<Dim>& layout, const PlacedSolid<Dim>& solid, int axis, const IVec<Dim>& face) {
-  const auto [low, high] = centers_beside(layout, axis, face);
+void measure_gaps(const Layout<Dim>& layout, const PlacedSolid<Dim>& solid, SealedFace& face) {
+  const auto [low, high] = centers_beside(layout, face.axis, layout.index(face.face));
   const auto gap = [&](const Vec<Dim>& x, const Vec<Dim>& across) {
     return solid.distance(x) < 0 ? 0 : layout.h() * std::clamp(solid.first_crossing(x, across), 0., 1.);
   };
-  return {gap(low, high), gap(high, low)};
+  face.gaps = {gap(low, high), gap(high, low)};
+  const double along = solid.normal_near(0.5 * (low + high))[face.axis];
+  face.weight = along * along;
 }
 
 template <int Dim>
@@ -242,7 +242,9 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim
       const bool sealed = thin && seals(*thin, scratch[f], a, i);
       const double closed = sealed ? 1 : 1 - open_part_of_face(layout_, scratch, a, f);
       if (closed > 0) shares.push_back({f, a, closed});
-      if (sealed) g.sealed.push_back({f, a, k, bodies_[k].is_elastic() ? gaps_beside(layout_, *thin, a, i) : Gaps{}});
+      if (!sealed) return;
+      g.sealed.push_back({f, a, k});
+      if (bodies_[k].is_elastic()) measure_gaps(layout_, *thin, g.sealed.back());
     });
   for_each_site(layout_, box, [&](Site s) { scratch[s] = far_away; });
   return shares;

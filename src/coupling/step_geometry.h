@@ -34,8 +34,10 @@ using CellFluxes = std::vector<CellFlux>;
 struct SealedFace {
   Site face;
   int axis, body;
-  // Of an elastic body: how far it is from the centres of the cells below and above, along the axis, m.
+  // Of an elastic body: how far it is from the centres of the cells below and above, along the axis, m; and n_a^2, n
+  // its normal there, which sums to one over the axes.
   std::array<double, 2> gaps{};
+  double weight = 0;
 };
 
 template <int Dim>

@@ -36,6 +36,26 @@ Eigen::VectorXd weight_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, c
 }
 
 template <int Dim>
+bool has_thin_elastic(const Setup<Dim>& s) {
+  return std::any_of(s.bodies.begin(), s.bodies.end(),
+                     [](const Body<Dim>& b) { return b.is_thin() && b.is_elastic(); });
+}
+
+template <int Dim>
+double volume_beyond(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+  if (!has_thin_elastic(s)) return 0;
+  const Layout<Dim>& l = s.layout;
+  double sum = 0;
+  for (const SealedFace& f : g.sealed) {
+    const std::array<Site, 2> cells = {f.face - l.stride(f.axis), f.face};
+    for (std::size_t side = 0; side < 2 && s.bodies[std::size_t(f.body)].is_elastic(); ++side)
+      if (l.cells().contains(l.index(cells[side])) && phi[cells[side]] < 0)
+        sum += f.weight * (0.5 * l.h() - f.gaps[side]) * l.geometry().face_area();
+  }
+  return s.ranks.global_sum(sum);
+}
+
+template <int Dim>
 Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, const Eigen::VectorXd& forces) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(6);
   for (std::size_t n = 0; n < solid.body.mesh.nodes.size(); ++n) {
@@ -51,6 +71,8 @@ Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd
 #define SEICHE_INSTANTIATE(D)                                                                                     \
   template Eigen::VectorXd weight_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, int, \
                                             const Vec<D>&);                                                       \
+  template bool has_thin_elastic<D>(const Setup<D>&);                                                             \
+  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);                 \
   template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

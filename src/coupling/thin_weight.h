@@ -1,5 +1,5 @@
 #pragma once
-// The weight of the liquid beside elastic solids that are thinner than a cell.
+// The weight and the volume of the liquid beside elastic solids that are thinner than a cell.
 #include "coupling/state.h"
 
 namespace seiche {
@@ -11,6 +11,16 @@ namespace seiche {
 template <int Dim>
 Eigen::VectorXd weight_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
                               int k, const Vec<Dim>& gravity);
+
+// Liquid beside thin elastic solids ends in whole cells, the solids between: what that counts too much, m^Dim,
+//   sum_f n_a^2 A (h/2 - d) over the sides of a sealed face with liquid,
+// the mean over the axes of what is between face and solid. Of the sum of all ranks. Collective.
+template <int Dim>
+double volume_beyond(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const CellField<Dim>& phi);
+
+// Whether there are thin elastic solids.
+template <int Dim>
+bool has_thin_elastic(const Setup<Dim>& setup);
 
 // Force and torque about the origin that forces on the nodes of body k add up to (ElasticMotion::extra_load).
 template <int Dim>

@@ -229,6 +229,12 @@ bool SurfaceDistance<Dim>::nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) 
 }
 
 template <int Dim>
+Vec<Dim> SurfaceDistance<Dim>::normal_near(const Vec<Dim>& x) const {
+  const Nearest n = search(x);
+  return n.facet < 0 ? Vec<Dim>(Vec<Dim>::Zero()) : facet_normals_[std::size_t(n.facet)];
+}
+
+template <int Dim>
 double SurfaceDistance<Dim>::distance(const Vec<Dim>& x) const {
   const Nearest n = search(x);
   const double far = reach * layout_.h();
