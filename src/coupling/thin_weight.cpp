@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "levelset/fractions.h"
+
 namespace seiche {
 namespace {
 
@@ -48,9 +50,13 @@ double volume_beyond(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Cell
   double sum = 0;
   for (const SealedFace& f : g.sealed) {
     const std::array<Site, 2> cells = {f.face - l.stride(f.axis), f.face};
-    for (std::size_t side = 0; side < 2 && s.bodies[std::size_t(f.body)].is_elastic(); ++side)
-      if (l.cells().contains(l.index(cells[side])) && phi[cells[side]] < 0)
-        sum += f.weight * (0.5 * l.h() - f.gaps[side]) * l.geometry().face_area();
+    for (std::size_t side = 0; side < 2 && s.bodies[std::size_t(f.body)].is_elastic(); ++side) {
+      const Site c = cells[side];
+      if (!l.cells().contains(l.index(c)) || phi[c] >= 0) continue;
+      const bool within = f.gaps[side] == 0;
+      const double counted = 0.5 * l.h() * (within ? liquid_share(l, phi, g.psi, c) : 1);
+      sum += f.weight * (counted - f.gaps[side]) * l.geometry().face_area();
+    }
   }
   return s.ranks.global_sum(sum);
 }

@@ -14,7 +14,8 @@ Eigen::VectorXd weight_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& 
 
 // Liquid beside thin elastic solids ends in whole cells, the solids between: what that counts too much, m^Dim,
 //   sum_f n_a^2 A (h/2 - d) over the sides of a sealed face with liquid,
-// the mean over the axes of what is between face and solid. Of the sum of all ranks. Collective.
+// the mean over the axes of what is between face and solid; what a cell in the solid has of liquid counts too much,
+// too. Of the sum of all ranks. Collective.
 template <int Dim>
 double volume_beyond(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const CellField<Dim>& phi);
 

@@ -137,7 +137,7 @@ double sag(int dim, int cells, double thickness) {
   const double wanted = 0.1 * t, D = load * (dim == 2 ? 1. / 384 : 0.001265) / wanted;
   const double young = 12 * (1 - poisson * poisson) * D / (t * t * t);
   s.solids.push_back(elastic_box("sheet", {0, 0.31 - t / 2, 0}, {1, 0.31 + t / 2, width}, density, {young, poisson},
-                                 dim == 2 ? 1. / 24 : 1. / 10));
+                                 dim == 2 ? 1. / 48 : 1. / 10));
   // Of the slowest swing, w^2 = load/(wanted m) about, critically damped.
   s.solids[0].elastic.damping = 2 / std::sqrt(load / (wanted * 500));
   for (int a = 0; a < dim; a += 2)
@@ -153,7 +153,8 @@ double sag(int dim, int cells, double thickness) {
   const SurfaceMesh now = sim->solid_surface(0);
   double deepest = 1;
   for (const Vec3& x : now.points) deepest = std::min(deepest, x[1]);
-  CHECK(std::abs(sim->stats().volume_corrected) < 2e-3 * sim->stats().liquid_volume);
+  // Where the level set ends in the sheet is brought into line with what is counted there.
+  CHECK(std::abs(sim->stats().volume_corrected) < 5e-3 * sim->stats().liquid_volume);
   return (0.31 - t / 2 - deepest) / wanted;
 }
 
