@@ -140,6 +140,7 @@ void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
   visit("elastic." + body + ".v_old", m.state.v_old);
   visit("elastic." + body + ".velocity", m.velocity);
   visit("elastic." + body + ".kept_volume", m.kept_volume);
+  visit("elastic." + body + ".extra_load", m.extra_load);
 }
 
 // Vectors as texts: their bytes.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "coupling/thin_weight.h"
 #include "linalg/matrix_entries.h"
 #include "solid/elastic_potential.h"
 #include "solid/enclosed_volume.h"
@@ -199,6 +200,10 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
+    if (s.bodies[k].is_thin()) {
+      c.buoyancy_correction.segment(first, e.u.size()) = weight_beside(s, g, rows, k, gravity);
+      c.push.segment(first, e.u.size()) += dt * c.buoyancy_correction.segment(first, e.u.size());
+    }
     std::vector<FluxEntry> entries = spread_shares(s, *g.shares[k], *g.attached[k], rows);
     bring_home_air(s, rows, 0, entries);
     const std::size_t shown = entries.size();

@@ -5,6 +5,7 @@
 #include "coupling/checkpoint_state.h"
 #include "coupling/contact_setup.h"
 #include "coupling/measures.h"
+#include "coupling/thin_weight.h"
 #include "solid/elastic_output.h"
 
 namespace seiche {
@@ -155,6 +156,7 @@ class FlowSimulation : public Simulation {
     stats_.dt = state_.dt_now;
     measure_fluids(setup_, state_, geometry_.psi, stats_);
     measure_air(setup_, state_, geometry_.psi, stats_);
+    stats_.liquid_volume -= volume_beyond(setup_, geometry_, state_.phi);
     measure_rigid(setup_, state_, stats_);
     measure_elastic(setup_, state_, stats_);
     stats_.max_divergence = divergence_;

@@ -178,6 +178,11 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]) + r.extra_force;
     solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]) + r.extra_torque +
                        (r.center - solids[k].position).cross(r.extra_force);
+    if (!s.bodies[k].is_elastic()) continue;
+    const Eigen::VectorXd& extra = state.elastic[k].extra_load;
+    const Vec3 force = extra.head(3), torque = extra.tail(3);
+    solids[k].force += force;
+    solids[k].torque += torque - solids[k].position.cross(force);
   }
   return solids;
 }

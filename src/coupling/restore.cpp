@@ -75,6 +75,15 @@ class ElasticVelocities {
   std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
 };
 
+// At a face that a thin solid closes.
+template <int Dim>
+Vec<Dim> velocity_of_solid(const Setup<Dim>& s, const StepGeometry<Dim>& g, const ElasticVelocities<Dim>& elastic,
+                           const SealedFace& f) {
+  const Vec3 x = extend<Dim>(s.layout.position(s.layout.index(f.face), face_offset<Dim>(f.axis)));
+  if (!s.bodies[std::size_t(f.body)].is_elastic()) return truncate<Dim>(g.placed[std::size_t(f.body)].twist.at(x));
+  return elastic.at(f.body, f.axis, f.face).value_or(Vec<Dim>::Zero());
+}
+
 // Whether viscous liquid has the velocity of this body (-1: none) at its surface.
 template <int Dim>
 bool liquid_sticks_to(const Setup<Dim>& s, int body) {
@@ -85,10 +94,9 @@ bool liquid_sticks_to(const Setup<Dim>& s, int body) {
 // Where liquid sticks to the solid, what is continued straight passes through the solid's velocity at its surface;
 // farther in than that goes all of it is the solid's.
 template <int Dim>
-void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
-                   const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
+void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const ElasticVelocities<Dim>& elastic,
+                   const FaceField<Dim, char>& valid, const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
   const FaceField<Dim> old = u;
-  const ElasticVelocities<Dim> elastic(s, g);
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
@@ -123,6 +131,7 @@ template <int Dim>
 void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                        FaceField<Dim>& u) {
   FaceField<Dim, char> reached = valid;
+  const ElasticVelocities<Dim> elastic(s, g);
   for (int a = 0; a < Dim; ++a) {
     // Inflow feeds the air before it, too.
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -133,15 +142,14 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
     });
     for (const SealedFace& f : g.sealed)
       if (f.axis == a && !valid.at(a, f.face)) {
-        const Vec3 x = extend<Dim>(s.layout.position(s.layout.index(f.face), face_offset<Dim>(a)));
-        u.at(a, f.face) = g.placed[f.body].twist.at(x)[a];
+        u.at(a, f.face) = velocity_of_solid(s, g, elastic, f)[a];
         reached.at(a, f.face) = 1;
       }
     extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), straight_layers}, u[a], reached[a]);
   }
   keep_prescribed(s, g, u);
   if (s.bodies.empty()) return;
-  follow_solids(s, g, valid, reached, u);
+  follow_solids(s, g, elastic, valid, reached, u);
   keep_prescribed(s, g, u);
 }
 

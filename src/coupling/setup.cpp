@@ -8,10 +8,11 @@
 #include "coupling/formula_checks.h"
 #include "coupling/liquid_viscosity.h"
 #include "coupling/restore.h"
+#include "coupling/thin_solids.h"
+#include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
-#include "solid/thinness.h"
 
 namespace seiche {
 namespace {
@@ -56,20 +57,13 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   std::vector<Body<Dim>> bodies;
   const double h = scene.domain.cell_size;
   const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
-  std::string thin, leaky;
+  std::string thin;
   for (const SolidSpec& spec : scene.solids) {
     bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
-    const Body<Dim>& body = bodies.back();
-    if (body.is_thin()) append_name(spec.name, thin);
-    if (body.is_elastic() && is_thinner_than(body.elastic(), h)) append_name(spec.name, leaky);
+    if (bodies.back().is_thin()) append_name(spec.name, thin);
   }
   if (!thin.empty())
     notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid sees steps of whole cells there", h, thin));
-  if (!leaky.empty())
-    notes.push_back(
-        fmt::format("elastic and thinner than a cell of {:g} m: {}; liquid leaks through, so take a "
-                    "smaller domain.cell_size or a thicker solid",
-                    h, leaky));
   return bodies;
 }
 
@@ -262,7 +256,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   }
   refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
-  state.expected_volume = liquid_volume(s, state.phi, g.psi);
+  if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);
+  state.expected_volume = liquid_volume(s, state.phi, g.psi) - volume_beyond(s, g, state.phi);
   if (s.keeps_air()) state.air = initial_air(s, g, state.phi);
 
   std::string fault;

@@ -2,6 +2,7 @@
 
 #include "coupling/elastic_coupling.h"
 #include "coupling/rigid_coupling.h"
+#include "coupling/thin_weight.h"
 #include "solid/enclosed_volume.h"
 
 namespace seiche {
@@ -67,6 +68,9 @@ void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eige
     } else {
       state.elastic[k].velocity = v.segment(first, c.first[b + 1] - first);
       set_node_velocity(s.layout, k, state.elastic[k].velocity, g);
+      state.elastic[k].extra_load =
+          total_load(s.bodies[k].elastic(), state.elastic[k].state.u,
+                     Eigen::VectorXd(c.buoyancy_correction.segment(first, c.first[b + 1] - first)));
       state.elastic[k].kept_volume.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }

@@ -18,9 +18,12 @@ struct SolidCoupling {
   SparseMatrix mass;     // M; of elastic bodies dt H (M/gamma^2 + C/gamma), see IncrementalPotential
   Eigen::VectorXd push;  // M v*, v* the velocities without liquid, contact and elastic forces
   Eigen::VectorXd free;  // velocities that the bodies would have about, for scale
-  // Of rigid bodies: v*, and the force and torque that make up for the difference between a body's volume and the one
-  // its face shares add up to, so that wet bodies feel exactly rho g times their volume, at their centre (N, N m).
-  Eigen::VectorXd target, buoyancy_correction;
+  // Of rigid bodies: v*.
+  Eigen::VectorXd target;
+  // What makes up for the difference between a body's volume and the one its face shares add up to, so that wet bodies
+  // feel exactly rho g times their volume: of rigid bodies force and torque (N, N m), of thin elastic ones forces on
+  // their nodes; zero for others.
+  Eigen::VectorXd buoyancy_correction;
   std::vector<Freedom> freedom;
   Eigen::VectorXd held;                                // velocities of what is held
   std::shared_ptr<const VelocityPotential> potential;  // of the elastic forces; null: none

@@ -10,6 +10,7 @@
 #include "coupling/rheology_iteration.h"
 #include "coupling/sealed_liquid.h"
 #include "coupling/thin_solids.h"
+#include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "coupling/two_fluids.h"
 #include "grid/loops.h"
@@ -150,7 +151,9 @@ struct StepInProgress {
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
     keep_sealed_full(s, before, out.state, out.state.phi);
-    const double expected = out.state.expected_volume + gap_volume(s, before.parting), limit = 0.05 * s.layout.h();
+    if (has_thin_elastic(s)) keep_sides_apart(s, before, out.geometry, out.state.phi);
+    const double uncounted = gap_volume(s, before.parting) + volume_beyond(s, out.geometry, out.state.phi);
+    const double expected = out.state.expected_volume + uncounted, limit = 0.05 * s.layout.h();
     if (s.keeps_air())
       control_liquid_and_air(expected, limit);
     else

@@ -1,5 +1,8 @@
 #include "coupling/step_geometry.h"
 
+#include <optional>
+
+#include "coupling/placed_solid.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 #include "solid/elastic_motion.h"
@@ -67,6 +70,25 @@ void for_each_static_share(const Layout<Dim>& layout, const StepGeometry<Dim>& g
   }
 }
 
+// Of the cells on both sides of a face.
+template <int Dim>
+std::array<Vec<Dim>, 2> centers_beside(const Layout<Dim>& layout, int axis, const IVec<Dim>& face) {
+  IVec<Dim> below = face;
+  below[axis] -= 1;
+  return {layout.position(below, cell_offset<Dim>()), layout.position(face, cell_offset<Dim>())};
+}
+
+template <int Dim>
+void measure_gaps(const Layout<Dim>& layout, const PlacedSolid<Dim>& solid, SealedFace& face) {
+  const auto [low, high] = centers_beside(layout, face.axis, layout.index(face.face));
+  const auto gap = [&](const Vec<Dim>& x, const Vec<Dim>& across) {
+    return solid.distance(x) < 0 ? 0 : layout.h() * std::clamp(solid.first_crossing(x, across), 0., 1.);
+  };
+  face.gaps = {gap(low, high), gap(high, low)};
+  const double along = solid.normal_near(0.5 * (low + high))[face.axis];
+  face.weight = along * along;
+}
+
 template <int Dim>
 double fastest_node(const Eigen::VectorXd& velocity) {
   double fastest = 0;
@@ -99,25 +121,25 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
 
 // `distance` is that of the face's low corner.
 template <int Dim>
-bool SolidGeometry<Dim>::seals(int k, const Pose& pose, double distance, int axis, const IVec<Dim>& face) const {
-  if (!bodies_[k].is_thin() || std::abs(distance) > 2 * layout_.h()) return false;
-  IVec<Dim> below = face;
-  below[axis] -= 1;
-  const Vec<Dim> high = layout_.position(face, cell_offset<Dim>()), low = layout_.position(below, cell_offset<Dim>());
-  return bodies_[k].lies_between(pose, low, high) || bodies_[k].distance_in(pose, low) < 0 ||
-         bodies_[k].distance_in(pose, high) < 0;
+bool SolidGeometry<Dim>::seals(const PlacedSolid<Dim>& solid, double distance, int axis, const IVec<Dim>& face) const {
+  if (std::abs(distance) > 2 * layout_.h()) return false;
+  const auto [low, high] = centers_beside(layout_, axis, face);
+  return solid.lies_between(low, high) || solid.distance(low) < 0 || solid.distance(high) < 0;
 }
 
 // The static body that seals each face, -1 where none does.
 template <int Dim>
 FaceField<Dim, std::int16_t> SolidGeometry<Dim>::seal_static() const {
   FaceField<Dim, std::int16_t> seal(layout_, -1);
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
-    for (int a = 0; a < Dim && bodies_[k].is_thin() && !bodies_[k].moves(); ++a)
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (!bodies_[k].is_thin() || bodies_[k].moves()) continue;
+    const PlacedSolid<Dim> solid(layout_, bodies_[k], {});
+    for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>& i) {
         const double distance = bodies_[k].distance_at_rest(layout_.position(i, node_offset<Dim>()));
-        if (seals(int(k), {}, distance, a, i)) seal.at(a, f) = std::int16_t(k);
+        if (seals(solid, distance, a, i)) seal.at(a, f) = std::int16_t(k);
       });
+  }
   return seal;
 }
 
@@ -212,13 +234,17 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim
     g.psi[s] = scratch[s];
     g.body[s] = std::int16_t(k);
   });
+  std::optional<PlacedSolid<Dim>> thin;
+  if (bodies_[k].is_thin()) thin.emplace(layout_, bodies_[k], g.placed[k]);
   const Box<Dim> faces = measured_faces(layout_).cut({box.lower, box.upper.array() - 1});
   for (int a = 0; a < Dim && !faces.empty(); ++a)
     for_each_index_in_order(layout_, faces, [&](Site f, const IVec<Dim>& i) {
-      const bool sealed = seals(k, g.placed[k].pose, scratch[f], a, i);
+      const bool sealed = thin && seals(*thin, scratch[f], a, i);
       const double closed = sealed ? 1 : 1 - open_part_of_face(layout_, scratch, a, f);
       if (closed > 0) shares.push_back({f, a, closed});
-      if (sealed) g.sealed.push_back({f, a, k});
+      if (!sealed) return;
+      g.sealed.push_back({f, a, k});
+      if (bodies_[k].is_elastic()) measure_gaps(layout_, *thin, g.sealed.back());
     });
   for_each_site(layout_, box, [&](Site s) { scratch[s] = far_away; });
   return shares;

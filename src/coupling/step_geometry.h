@@ -34,7 +34,14 @@ using CellFluxes = std::vector<CellFlux>;
 struct SealedFace {
   Site face;
   int axis, body;
+  // Of an elastic body: how far it is from the centres of the cells below and above, along the axis, m; and n_a^2, n
+  // its normal there, which sums to one over the axes.
+  std::array<double, 2> gaps{};
+  double weight = 0;
 };
+
+template <int Dim>
+class PlacedSolid;
 
 template <int Dim>
 struct StepGeometry {
@@ -74,7 +81,7 @@ class SolidGeometry {
  private:
   void measure_static();
   FaceField<Dim, std::int16_t> seal_static() const;
-  bool seals(int body, const Pose& pose, double distance, int axis, const IVec<Dim>& face) const;
+  bool seals(const PlacedSolid<Dim>& solid, double distance, int axis, const IVec<Dim>& face) const;
   FaceShares measure_moving(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
   FaceShares measure_elastic(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
   FaceShares take_in(int body, const Box<Dim>& box, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;

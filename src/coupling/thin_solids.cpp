@@ -1,5 +1,6 @@
 #include "coupling/thin_solids.h"
 
+#include "coupling/placed_solid.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -15,8 +16,7 @@ struct Near {
 
 // What stood next to x on its side of a thin body.
 template <int Dim>
-Near find_near(const Setup<Dim>& s, const CellField<Dim>& phi, const Body<Dim>& body, const Pose& pose,
-               const Vec<Dim>& x) {
+Near find_near(const Setup<Dim>& s, const CellField<Dim>& phi, const PlacedSolid<Dim>& solid, const Vec<Dim>& x) {
   const Geometry<Dim>& g = s.layout.geometry();
   constexpr int neighbours = Dim == 2 ? 9 : 27;
   Near near;
@@ -29,7 +29,7 @@ Near find_near(const Setup<Dim>& s, const CellField<Dim>& phi, const Body<Dim>& 
     }
     if (!within || !s.layout.padded().contains(i)) continue;
     bool& present = phi[s.layout.site(i)] < 0 ? near.wet : near.dry;
-    present = present || !body.lies_between(pose, x, s.layout.position(i, cell_offset<Dim>()));
+    present = present || !solid.lies_between(x, s.layout.position(i, cell_offset<Dim>()));
   }
   return near;
 }
@@ -39,23 +39,31 @@ struct ThinSolids {
   const Setup<Dim>& s;
   const State<Dim>& before;
   const StepGeometry<Dim>& g;
-  std::vector<Placement> earlier = place_bodies(s, before);
+  std::vector<std::unique_ptr<PlacedSolid<Dim>>> now, earlier;  // null: not thin
   FaceField<Dim, char> sealed{s.layout, 0};
 
   ThinSolids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry)
       : s(setup), before(state), g(geometry) {
     for (const SealedFace& f : g.sealed) sealed.at(f.axis, f.face) = 1;
+    const std::vector<Placement> placed = place_bodies(s, before);
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+      now.push_back(place(k, g.placed[k]));
+      earlier.push_back(place(k, placed[k]));
+    }
+  }
+
+  std::unique_ptr<PlacedSolid<Dim>> place(std::size_t k, const Placement& placed) const {
+    if (!s.bodies[k].is_thin()) return nullptr;
+    return std::make_unique<PlacedSolid<Dim>>(s.layout, s.bodies[k], placed);
   }
 
   // phi of a cell beside body k as its own side allows.
   double allowed(int k, Site cell, double phi) const {
-    const Body<Dim>& body = s.bodies[k];
-    const Pose& now = g.placed[k].pose;
+    const PlacedSolid<Dim>&solid = *now[std::size_t(k)], &then = *earlier[std::size_t(k)];
     const Vec<Dim> x = s.layout.position(s.layout.index(cell), cell_offset<Dim>());
-    const double distance = body.distance_in(now, x), least = std::max(distance, least_distance * s.layout.h());
+    const double distance = solid.distance(x), least = std::max(distance, least_distance * s.layout.h());
     if (distance <= 0) return phi;
-    const Pose& then = earlier[k].pose;
-    const Near near = find_near(s, before.phi, body, then, truncate<Dim>(then.apply(now.to_rest(extend<Dim>(x)))));
+    const Near near = find_near(s, before.phi, then, solid.carried_to(then, x));
     if (phi < 0 && !near.wet) return least;
     if (phi >= 0 && !near.dry) return -least;
     return phi;

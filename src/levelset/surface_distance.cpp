@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "grid/loops.h"
+#include "levelset/segment_crossing.h"
 
 namespace seiche {
 namespace {
@@ -225,6 +226,29 @@ bool SurfaceDistance<Dim>::nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) 
   if (n.facet < 0 || n.distance2 > reach * reach * layout_.h() * layout_.h()) return false;
   point = {corners(n.facet), n.weights};
   return true;
+}
+
+template <int Dim>
+Vec<Dim> SurfaceDistance<Dim>::normal_near(const Vec<Dim>& x) const {
+  const Nearest n = search(x);
+  return n.facet < 0 ? Vec<Dim>(Vec<Dim>::Zero()) : facet_normals_[std::size_t(n.facet)];
+}
+
+template <int Dim>
+double SurfaceDistance<Dim>::distance(const Vec<Dim>& x) const {
+  const Nearest n = search(x);
+  const double far = reach * layout_.h();
+  if (n.facet < 0 || n.distance2 > far * far) return far;
+  return (is_inside(x, n) ? -1 : 1) * std::sqrt(n.distance2);
+}
+
+template <int Dim>
+double SurfaceDistance<Dim>::first_crossing(const Vec<Dim>& p, const Vec<Dim>& q) const {
+  double first = 2;
+  const auto bin = bins_.find(cell_of(p));
+  if (bin == bins_.end()) return first;
+  for (const int f : bin->second) first = std::min(first, crossing<Dim>(p, q, corner_points(f)).value_or(2));
+  return first;
 }
 
 template class SurfaceDistance<2>;

@@ -28,6 +28,13 @@ class SurfaceDistance {
   void fill(NodeField<Dim>& distance) const;
   // The nearest point of the surface, if it is within two cells.
   bool nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) const;
+  // The unit normal of the nearest facet, outward; zero if that is more than two cells away.
+  Vec<Dim> normal_near(const Vec<Dim>& x) const;
+  // Signed distance of a point, m; two cells where it is farther away.
+  double distance(const Vec<Dim>& x) const;
+  // The share of the way from p to q at which it meets the surface first; 2 where it does not. q lies at most two cells
+  // from p's cell along each axis.
+  double first_crossing(const Vec<Dim>& p, const Vec<Dim>& q) const;
 
   static constexpr int margin = 4;  // cells
 

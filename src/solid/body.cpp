@@ -35,8 +35,8 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
     mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
     for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
   }
-  if (is_thinner_than(*this, options.cell_size, lower, upper))
-    thin_ = std::make_shared<const ThinSurface<Dim>>(surface_);
+  thin_ = is_thinner_than(*this, options.cell_size, lower, upper);
+  if (thin_) thin_surface_ = std::make_shared<const ThinSurface<Dim>>(surface_);
   if (spec.kind != SolidKind::kinematic) return;
   const MotionSpec& m = spec.motion;
   motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
@@ -46,6 +46,7 @@ template <int Dim>
 void Body<Dim>::make_elastic(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
   elastic_ = std::make_unique<ElasticSolid<Dim>>(make_elastic_solid<Dim>(spec_, options, lower, upper));
   surface_ = elastic_->surface.facets;
+  thin_ = is_thinner_than(*elastic_, options.cell_size);
   const ElasticBody<Dim>& body = elastic_->body;
   // Row sums of M: what each node has of the mass.
   const Eigen::VectorXd masses = body.mass * Eigen::VectorXd::Ones(body.size());
@@ -90,7 +91,7 @@ double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
 
 template <int Dim>
 bool Body<Dim>::lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const {
-  return thin_->meets(truncate<Dim>(pose.to_rest(extend<Dim>(x))), truncate<Dim>(pose.to_rest(extend<Dim>(y))));
+  return thin_surface_->meets(truncate<Dim>(pose.to_rest(extend<Dim>(x))), truncate<Dim>(pose.to_rest(extend<Dim>(y))));
 }
 
 template <int Dim>

@@ -45,8 +45,8 @@ class Body {
   const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
   double radius() const { return radius_; }                        // of a rigid body about its centre of mass, m
   // Whether a grid can miss it (solid/thinness.h).
-  bool is_thin() const { return thin_ != nullptr; }
-  // Of a thin body in this pose: whether the segment from x to y meets its surface.
+  bool is_thin() const { return thin_; }
+  // Of a thin body in this pose, not of an elastic one: whether the segment from x to y meets its surface.
   bool lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const;
   // As prescribed.
   Pose pose(double t) const;
@@ -76,7 +76,8 @@ class Body {
   MassProperties mass_;
   SurfaceMesh surface_;
   double radius_ = 0;
-  std::shared_ptr<const ThinSurface<Dim>> thin_;
+  bool thin_ = false;
+  std::shared_ptr<const ThinSurface<Dim>> thin_surface_;  // of a thin one that is not elastic
 };
 
 }  // namespace seiche

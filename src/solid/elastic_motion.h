@@ -11,6 +11,8 @@ struct ElasticMotion {
   // Of each part of the surface: the volume that it must keep, m^Dim, where liquid sealed in a cavity covers it; else
   // not a number.
   Eigen::VectorXd kept_volume;
+  // Force and torque about the origin from the liquid beyond its pressure on the faces, stacked (N, N m).
+  Eigen::VectorXd extra_load;
 };
 
 // The rest shape, moving as the scene says.

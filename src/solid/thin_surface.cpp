@@ -1,39 +1,12 @@
 #include "solid/thin_surface.h"
 
-#include <Eigen/Geometry>
+#include "levelset/segment_crossing.h"
 
 namespace seiche {
+
 namespace {
 
-// Shares of a segment or element by which it counts as longer, so that what goes through an edge meets one of the
-// elements there: far above rounding, far below what a grid sees.
-constexpr double slack = 1e-9;
-
-bool within(double share) {
-  return share >= -slack && share <= 1 + slack;
-}
-
-double cross(const Vec<2>& a, const Vec<2>& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
-// p + s (q - p) = a + t (b - a)
-bool meet(const Vec<2>& p, const Vec<2>& q, const Vec<2>& a, const Vec<2>& b) {
-  const Vec<2> d = q - p, e = b - a;
-  const double det = cross(d, e);
-  if (std::abs(det) <= slack * d.norm() * e.norm()) return false;
-  return within(cross(a - p, e) / det) && within(cross(a - p, d) / det);
-}
-
-// p + s (q - p) = a + u (b - a) + v (c - a) (Moeller, Trumbore 1997)
-bool meet(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b, const Vec<3>& c) {
-  const Vec<3> d = q - p, e = b - a, f = c - a, n = e.cross(f), from = p - a;
-  const double det = -d.dot(n);
-  if (std::abs(det) <= slack * d.norm() * n.norm()) return false;
-  const Vec<3> m = from.cross(d);
-  const double u = f.dot(m) / det, v = -e.dot(m) / det;
-  return within(from.dot(n) / det) && within(u) && within(v) && within(u + v);
-}
+constexpr double slack = crossing_slack;
 
 }  // namespace
 
@@ -53,10 +26,9 @@ template <int Dim>
 bool ThinSurface<Dim>::meets_element(int element, const Vec<Dim>& p, const Vec<Dim>& q) const {
   const auto& x = surface_.points;
   const contact::Element<Dim>& e = surface_.elements[element];
-  if constexpr (Dim == 2)
-    return meet(p, q, x[e[0]], x[e[1]]);
-  else
-    return meet(p, q, x[e[0]], x[e[1]], x[e[2]]);
+  std::array<Vec<Dim>, Dim> facet;
+  for (int i = 0; i < Dim; ++i) facet[i] = x[e[i]];
+  return crossing<Dim>(p, q, facet).has_value();
 }
 
 template <int Dim>

@@ -84,6 +84,9 @@ SOFT = TWENTY_STEPS + elastic("gate", 'shape = "box"\nlower = [0.41, 0.0]\nupper
 SOFT += elastic("lump", 'shape = "box"\nlower = [0.76, 0.002]\nupper = [0.9, 0.1]', "element_size = 0.06")
 SOFT += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
 
+# The same with a gate a seventh of a cell thick.
+SHEET = SOFT.replace("lower = [0.41, 0.0]\nupper = [0.48, 0.25]", "lower = [0.41, 0.0]\nupper = [0.4145, 0.25]")
+
 SOFT_3D = SPLASH.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
 SOFT_3D += elastic("lump", 'shape = "box"\nlower = [0.2, 0.003, 0.2]\nupper = [0.42, 0.25, 0.45]',
                    "element_size = 0.125")
@@ -165,6 +168,11 @@ def elastic_ranks_agree_2d(bench):
     """A gate, a soft box on the floor and a floating ball on 1, 2 and 3 ranks."""
     ranks_agree(bench, SOFT, (2, 3))
     expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
+
+
+def sheet_ranks_agree(bench):
+    """A gate thinner than a cell, a soft box on the floor and a floating ball on 1, 2 and 3 ranks."""
+    ranks_agree(bench, SHEET, (2, 3))
 
 
 def elastic_ranks_agree_3d(bench):
@@ -260,16 +268,21 @@ def elastic_bodies_killed_at_random(bench):
     killed_at_random(bench, 2, 3, SOFT[len(TWENTY_STEPS):])
 
 
+def sheet_killed_at_random(bench):
+    """The same with a gate thinner than a cell."""
+    killed_at_random(bench, 2, 2, SHEET[len(TWENTY_STEPS):])
+
+
 def viscous_flow_killed_at_random(bench):
     """kill -9 of one of two ranks of a dam break of thick liquid."""
     killed_at_random(bench, 2, 2, kind=lambda text: viscous(text, 20.0))
 
 
-TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d,
+TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
                        same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
-                      elastic_bodies_killed_at_random, viscous_flow_killed_at_random]}
+                      elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random]}
 
 if __name__ == "__main__":
     sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)
