@@ -8,6 +8,27 @@ double surface_distance(double phi_liquid, double phi_air) {
   return std::max(phi_liquid / (phi_liquid - phi_air), 1e-8);
 }
 
+template <int Dim>
+double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across) {
+  if (in.is_parted(cell) || in.is_parted(across)) return 1;
+  if (in.is_liquid(cell) == in.is_liquid(across)) return in.is_liquid(cell) ? 1 : in.density / in.gas_density;
+  const double theta = in.is_liquid(cell) ? surface_distance(in.phi[cell], in.phi[across])
+                                          : surface_distance(in.phi[across], in.phi[cell]);
+  return 1 / (theta + (1 - theta) * in.gas_density / in.density);
+}
+
+template <int Dim>
+double cell_lightness(const ProjectionInput<Dim>& in, Site cell) {
+  return in.has_gas() && !in.is_liquid(cell) ? in.density / in.gas_density : 1;
+}
+
+template <int Dim>
+double jump_over(const ProjectionInput<Dim>& in, int axis, Site face) {
+  const bool low = in.is_liquid(face - in.layout.stride(axis)), high = in.is_liquid(face);
+  if (!in.surface_jump || low == high) return 0;
+  return (low ? 1 : -1) * in.surface_jump->at(axis, face);
+}
+
 namespace {
 
 template <int Dim>
@@ -17,25 +38,20 @@ bool touches_unknown(const ProjectionInput<Dim>& in, Site cell) {
   return any;
 }
 
-// w/theta of a face with an unknown velocity, seen from the row's cell; `fixed_pressure` is set where no row is across.
+// w rho/rho_f of a face with an unknown velocity, seen from the row's cell, and what the cell's pressure is above that
+// across where both balance; `fixed_pressure` is set where no row is across.
 struct Link {
-  double weight = 0;
+  double weight = 0, jump = 0;
   bool fixed_pressure = false;
 };
-
-// Cells from a row's cell to where p = 0 towards a cell without one: the free surface, or the centre of a parted cell.
-template <int Dim>
-double distance_to_air(const ProjectionInput<Dim>& in, Site cell, Site across) {
-  return in.is_parted(across) ? 1 : surface_distance(in.phi[cell], in.phi[across]);
-}
 
 template <int Dim>
 Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, int axis, Site face, Site cell,
                  Site across) {
   const double w = in.faces.open.at(axis, face);
-  if (in.faces.kind_at(axis, face) == FaceKind::outflow) return {w / 0.5, true};
-  if (rows.row[across] >= 0) return {w, false};
-  return {w / distance_to_air(in, cell, across), true};
+  if (in.faces.kind_at(axis, face) == FaceKind::outflow) return {w / 0.5 * cell_lightness(in, cell), 0, true};
+  return {w * link_lightness(in, cell, across), (cell == face ? -1 : 1) * jump_over(in, axis, face),
+          rows.row[across] < 0};
 }
 
 // Net volume flux out of a cell a unit of face area.
@@ -58,10 +74,10 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
   rows.row = CellField<Dim, std::int64_t>(in.layout, -1);
   std::int64_t isolated = 0;
   for_each_index_in_order(in.layout, in.layout.cells(), [&](Site s, const IVec<Dim>&) {
-    if (in.phi[s] >= 0 || in.is_parted(s)) return;
+    if (!(in.is_liquid(s) || in.has_gas()) || in.is_parted(s)) return;
     if (touches_unknown(in, s))
       rows.cells.push_back(s);
-    else
+    else if (in.is_liquid(s))
       ++isolated;
   });
   const std::int64_t count = std::int64_t(rows.cells.size());
@@ -106,8 +122,10 @@ std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const Pr
     const Site cell = rows.cells[n];
     b[n] = -scale * (net_flux(in, cell, u) + in.missing_flux(cell));
     for_each_face_of(in.layout, cell, [&](int a, Site f, int, Site across) {
-      if (in.faces.kind_at(a, f) != FaceKind::outflow) return;
-      b[n] += link_across(in, rows, a, f, cell, across).weight * in.faces.side_pressure.at(a, f);
+      if (!in.faces.is_unknown(a, f)) return;
+      const Link link = link_across(in, rows, a, f, cell, across);
+      const bool leaves = in.faces.kind_at(a, f) == FaceKind::outflow;
+      b[n] += link.weight * (link.jump + (leaves ? in.faces.side_pressure.at(a, f) : 0));
     });
   }
   return b;
@@ -119,14 +137,14 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
   const Site low = face - in.layout.stride(axis), high = face;
   const double scale = 1 / (in.density * in.layout.h());
   const bool has_low = rows.row[low] >= 0, has_high = rows.row[high] >= 0;
+  if (!has_low && !has_high) return 0;
+  const double p_low = has_low ? pressure[low] : 0, p_high = has_high ? pressure[high] : 0;
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) {
-    const double beyond = in.faces.side_pressure.at(axis, face);
-    return scale / 0.5 * (has_low ? beyond - pressure[low] : has_high ? pressure[high] - beyond : 0);
+    const double beyond = in.faces.side_pressure.at(axis, face), over = scale / 0.5;
+    return has_low ? over * cell_lightness(in, low) * (beyond - p_low)
+                   : over * cell_lightness(in, high) * (p_high - beyond);
   }
-  if (has_low && has_high) return scale * (pressure[high] - pressure[low]);
-  if (has_low) return -scale * pressure[low] / distance_to_air(in, low, high);
-  if (has_high) return scale * pressure[high] / distance_to_air(in, high, low);
-  return 0;
+  return scale * link_lightness(in, low, high) * (p_high - p_low + jump_over(in, axis, face));
 }
 
 template <int Dim>
@@ -176,6 +194,9 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
+  template double link_lightness<D>(const ProjectionInput<D>&, Site, Site);                                           \
+  template double cell_lightness<D>(const ProjectionInput<D>&, Site);                                                 \
+  template double jump_over<D>(const ProjectionInput<D>&, int, Site);                                                 \
   template PressureRows<D> number_rows<D>(const ProjectionInput<D>&);                                                 \
   template DistributedMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);          \
   template std::vector<double> pressure_right_side<D>(const ProjectionInput<D>&, const PressureRows<D>&,              \

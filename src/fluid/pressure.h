@@ -20,13 +20,18 @@ struct ProjectionInput {
   double density;                         // kg/m^3
   double dt;                              // s
   const Parting<Dim>* parting = nullptr;  // where liquid may part from solids
+  double gas_density = 0;                 // kg/m^3; 0: beyond the surface there is no more than a pressure of 0
+  // p_liquid - p_gas where the surface crosses the link of a face's two cells, Pa; null: 0 everywhere.
+  const FaceField<Dim>* surface_jump = nullptr;
 
+  bool has_gas() const { return gas_density > 0; }
+  bool is_liquid(Site cell) const { return phi[cell] < 0; }
   bool is_parted(Site cell) const { return parting && parting->parted[cell]; }
   // Flux that a cell must take in before it is full, per face area, m/s.
   double missing_flux(Site cell) const { return parting ? parting->gap[cell] * layout.h() / dt : 0; }
 };
 
-// The unknowns: one row a liquid cell that an open face touches and that has not parted.
+// The unknowns: one row a cell of liquid, or gas that flows, that an open face touches and that has not parted.
 template <int Dim>
 struct PressureRows {
   CellField<Dim, std::int64_t> row;  // global row or -1, filled one cell around
@@ -47,8 +52,19 @@ NullSpace find_closed_components(const ProjectionInput<Dim>& in, const PressureR
 // large enough to matter breaks hydrostatic rest (docs/decisions/0003).
 double surface_distance(double phi_liquid, double phi_air);
 
-// sum_f w (p_i - p_j)/theta = -(rho h/dt) sum_f +-(w u* + closed flux), p = 0 at the surface (Gibou et al. 2002; Ng,
-// Min, Gibou 2009). Scaled by h^(2-Dim) rho/dt.
+// rho/rho_f: the liquid's density over that of the link between the centres of two cells, theta rho + (1 - theta)
+// rho_gas with the liquid's part theta of it (Kang, Fedkiw, Liu 2000). Without gas 1/theta: the surface ends the link.
+template <int Dim>
+double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across);
+// rho over the density of a cell.
+template <int Dim>
+double cell_lightness(const ProjectionInput<Dim>& in, Site cell);
+// p_low - p_high at the surface where it crosses the link of a face's cells, Pa; else 0.
+template <int Dim>
+double jump_over(const ProjectionInput<Dim>& in, int axis, Site face);
+
+// sum_f w rho/rho_f (p_i - p_j -+ jump) = -(rho h/dt) sum_f +-(w u* + closed flux); without gas p = jump at the surface
+// (Gibou et al. 2002; Ng, Min, Gibou 2009). Scaled by h^(2-Dim) rho/dt.
 template <int Dim>
 DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 template <int Dim>
@@ -62,7 +78,8 @@ struct VolumeMismatch {
 template <int Dim>
 VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const NullSpace& closed);
 
-// (p_high - p_low)/(theta rho h): the acceleration the pressure gives a face, sign turned. Zero where no row touches.
+// (p_high - p_low +- jump)/(rho_f h): the acceleration the pressure gives a face, sign turned. Zero where no row
+// touches.
 template <int Dim>
 double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                            const CellField<Dim>& pressure, int axis, Site face);

@@ -137,7 +137,7 @@ class RowAssembly {
   ViscousTerms<Dim> terms_;
 };
 
-// rho w theta h^Dim as the projection has it. A face without a pressure follows the stress: a thousandth of a full
+// rho_f w h^Dim as the projection has it. A face without a pressure follows the stress: a thousandth of a full
 // face's mass towards u* is enough to fix what no stress holds.
 template <int Dim>
 double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
@@ -147,18 +147,18 @@ double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   const bool has_low = in.rows.row[low] >= 0, has_high = in.rows.row[f] >= 0;
   const double w = in.faces.open.at(axis, f);
   if (!in.faces.is_unknown(axis, f) || w == 0 || (!has_low && !has_high)) return follower * full;
-  if (in.faces.kind_at(axis, f) == FaceKind::outflow) return 0.5 * w * full;
-  if (has_low && has_high) return w * full;
-  const Site inside = has_low ? low : f, across = has_low ? f : low;
-  return w * full * (in.projection.is_parted(across) ? 1 : surface_distance(in.phi[inside], in.phi[across]));
+  if (in.faces.kind_at(axis, f) == FaceKind::outflow)
+    return 0.5 * w * full / cell_lightness(in.projection, has_low ? low : f);
+  return w * full / link_lightness(in.projection, low, f);
 }
 
-// -+ dt w h^(Dim-1) p beyond outflow sides, from a row on their upper or lower side.
+// -+ dt w h^(Dim-1) p beyond outflow sides, from a row on their upper or lower side, and -dt w h^(Dim-1) (p_low -
+// p_high) where the surface crosses.
 template <int Dim>
-double side_impulse(const ViscousInput<Dim>& in, int axis, Site f) {
-  if (in.faces.kind_at(axis, f) != FaceKind::outflow) return 0;
-  const double push =
-      in.dt * in.faces.open.at(axis, f) * in.layout.geometry().face_area() * in.faces.side_pressure.at(axis, f);
+double given_impulse(const ViscousInput<Dim>& in, int axis, Site f) {
+  const double area = in.dt * in.faces.open.at(axis, f) * in.layout.geometry().face_area();
+  if (in.faces.kind_at(axis, f) != FaceKind::outflow) return -area * jump_over(in.projection, axis, f);
+  const double push = area * in.faces.side_pressure.at(axis, f);
   if (in.rows.row[f] >= 0) return push;
   return in.rows.row[f - in.layout.stride(axis)] >= 0 ? -push : 0;
 }
@@ -211,7 +211,7 @@ FaceField<Dim> assemble_rows(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r)
   for (std::size_t n = 0; n < parts.size(); ++n) {
     const auto [axis, f] = r.rows.faces[n];
     r.mass.push_back(face_mass(in, axis, f));
-    r.f.push_back(r.mass[n] * in.u_star.at(axis, f) + side_impulse(in, axis, f) + parts[n].known);
+    r.f.push_back(r.mass[n] * in.u_star.at(axis, f) + given_impulse(in, axis, f) + parts[n].known);
     drag.at(axis, f) = parts[n].entries[0].second;
     parts[n].entries[0].second += r.mass[n];
     for (const auto& [column, value] : parts[n].entries) r.F.column.push_back(column), r.F.value.push_back(value);
