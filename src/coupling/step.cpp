@@ -8,6 +8,7 @@
 #include "coupling/restore.h"
 #include "coupling/rheology_iteration.h"
 #include "coupling/sealed_liquid.h"
+#include "coupling/surface_tension.h"
 #include "coupling/thin_solids.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
@@ -105,6 +106,7 @@ struct StepInProgress {
   Phases& phases;
   Attempt<Dim> out;
   FaceField<Dim> u_star;
+  std::optional<SurfaceTension<Dim>> tension;
   CoupledSolution<Dim> solution;
 
   StepInProgress(const Setup<Dim>& setup, const State<Dim>& state, double step, Phases& p)
@@ -150,6 +152,7 @@ struct StepInProgress {
         control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
                        0.05 * s.layout.h(), out.state.phi);
     keep_sides_apart(s, before, out.geometry, out.state.phi);
+    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, out.state.phi, dt);
   }
 
   bool transport_velocity() {
@@ -163,7 +166,8 @@ struct StepInProgress {
 
   ProjectionInput<Dim> input() const {
     const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
-    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting};
+    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting, 0,
+            tension ? &tension->jump : nullptr};
   }
 
   bool solve(const ViscosityField<Dim>* viscosity) {

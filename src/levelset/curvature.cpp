@@ -1,5 +1,6 @@
 #include "levelset/curvature.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
