@@ -1,6 +1,8 @@
 #include "coupling/surface_tension.h"
 
 #include "coupling/contact_angle.h"
+#include "coupling/tension_balance.h"
+#include "coupling/tension_filter.h"
 #include "grid/loops.h"
 #include "levelset/curvature.h"
 
@@ -15,27 +17,44 @@ double density_at_surface(const Setup<Dim>& s) {
   return s.density();
 }
 
+// Where the scheme is semi-implicit and the step too long for explicit tension.
+template <int Dim>
+void filter_for_step(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed, double dt,
+                     FaceField<Dim>& kappa) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  if (liquid.tension_scheme != TensionScheme::semi_implicit) return;
+  const double length = filter_length(liquid.surface_tension, density_at_surface(s), s.layout.h(), dt);
+  if (length == 0) return;
+  s.halo.fill_ghosts(kappa);
+  filter_curvature(s, phi, crossed, length, kappa);
+}
+
 }  // namespace
 
 template <int Dim>
 SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
-                                    double /*dt*/) {
+                                    double dt) {
   SurfaceTension<Dim> r{FaceField<Dim>(s.layout)};
+  FaceField<Dim, char> crossed(s.layout);
   const CellField<Dim> continued = continue_at_contact_angle(s, g, phi);
-  const double sigma = s.scene.liquid.surface_tension;
   double crossings = 0, by_differences = 0;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      const bool crossed = (phi[f - s.layout.stride(a)] < 0) != (phi[f] < 0);
-      if (!crossed || !g.faces.is_unknown(a, f)) return;
+      if ((phi[f - s.layout.stride(a)] < 0) == (phi[f] < 0) || !g.faces.is_unknown(a, f)) return;
       const SurfaceCurvature kappa = curvature_at_crossing<Dim>(s.layout, continued, a, f);
-      r.jump.at(a, f) = sigma * kappa.value;
+      crossed.at(a, f) = 1;
+      r.jump.at(a, f) = kappa.value;
       ++crossings;
       by_differences += kappa.source == CurvatureSource::differences;
     });
-  s.halo.fill_ghosts(r.jump);
   r.crossings = std::int64_t(s.ranks.global_sum(crossings));
   r.by_differences = std::int64_t(s.ranks.global_sum(by_differences));
+  s.halo.fill_ghosts(crossed);
+  filter_for_step(s, phi, crossed, dt, r.jump);
+  balance_closed_pieces(s, g.faces, phi, crossed, r.jump);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= s.scene.liquid.surface_tension; });
+  s.halo.fill_ghosts(r.jump);
   return r;
 }
 
