@@ -70,14 +70,14 @@ void filter_curvature(const Setup<Dim>& s, const CellField<Dim>& phi, const Face
   constexpr double tolerance = 1e-10;  // far below the error of curvature
   constexpr int most = 2000;           // what is left then is still a curvature, only less smooth
   conjugate_gradients(filter, filter, before, after, {tolerance * norm(before, s.ranks), most}, s.ranks);
-  for (std::size_t n = 0; n < after.size(); ++n) after[n] -= before[n];
-  const CellField<Dim>& change = graph.spread(after);
+  // What links of one cell differ by is as short as can be: it goes as well.
+  const CellField<Dim>& smooth = graph.spread(after);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (!crossed.at(a, f)) return;
       const Site low = f - s.layout.stride(a);
       const double t = phi[low] / (phi[low] - phi[f]);
-      kappa.at(a, f) += (1 - t) * change[low] + t * change[f];
+      kappa.at(a, f) = (1 - t) * smooth[low] + t * smooth[f];
     });
 }
 
