@@ -92,8 +92,15 @@ struct RheologySpec {
   std::optional<double> regularisation;  // shear rate below which stiffness is bounded, 1/s; unset: fluid/rheology.h
 };
 
+// What holds the surface back: its tension as it is, in steps short enough for the shortest capillary waves, or as
+// waves that a step cannot follow bear it, which leaves the step free.
+enum class TensionScheme { explicit_steps, semi_implicit };
+
 struct LiquidSpec {
   double density = 1000;
+  double surface_tension = 0;  // N/m
+  double contact_angle = 90;   // degrees, within the liquid, where its surface meets walls and solids
+  TensionScheme tension_scheme = TensionScheme::explicit_steps;
   Formula viscosity = "0.0";  // Pa s; not used where there is a rheology
   RheologySpec rheology;
   bool separates = false;  // pressure at walls and solids is held at or above zero: liquid may part from them
@@ -169,6 +176,7 @@ struct SolidSpec {
   RigidSpec rigid;                 // rigid and elastic
   ElasticSpec elastic;             // elastic
   std::optional<double> friction;  // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
+  std::optional<double> contact_angle;  // degrees; unset: that of the liquid
 };
 
 enum class ProbeKind { pressure, velocity, surface_height, front, displacement };

@@ -9,6 +9,7 @@
 #include "coupling/restore.h"
 #include "coupling/rheology_iteration.h"
 #include "coupling/sealed_liquid.h"
+#include "coupling/surface_tension.h"
 #include "coupling/thin_solids.h"
 #include "coupling/thin_weight.h"
 #include "coupling/transport.h"
@@ -108,6 +109,7 @@ struct StepInProgress {
   Phases& phases;
   Attempt<Dim> out;
   FaceField<Dim> u_star;
+  std::optional<SurfaceTension<Dim>> tension;
   CoupledSolution<Dim> solution;
 
   StepInProgress(const Setup<Dim>& setup, const State<Dim>& state, double step, Phases& p)
@@ -161,6 +163,7 @@ struct StepInProgress {
     keep_sides_apart(s, before, out.geometry, out.state.phi);
     if (s.keeps_air())
       out.state.air = follow_air(s, out.state.air, before.now->u, 0, out.geometry, out.state.phi, out.state.lost_air);
+    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, out.state.phi, dt);
   }
 
   void control_liquid_and_air(double expected, double limit) {
@@ -181,8 +184,9 @@ struct StepInProgress {
   ProjectionInput<Dim> input() const {
     const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
     const AirRegions<Dim>* air = s.keeps_air() ? &out.state.air : nullptr;
-    return {s.layout,        s.halo,  s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting,
-            s.gas_density(), nullptr, air};
+    const FaceField<Dim>* jump = tension ? &tension->jump : nullptr;
+    return {s.layout,        s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting,
+            s.gas_density(), jump,   air};
   }
 
   bool solve(const ViscosityField<Dim>* viscosity) {

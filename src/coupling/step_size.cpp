@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "coupling/contact_setup.h"
+#include "coupling/surface_tension.h"
 #include "grid/loops.h"
 #include "solid/enclosed_volume.h"
 
@@ -46,14 +47,16 @@ double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
 namespace {
 
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
-// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2.
+// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension add.
 template <int Dim>
 double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),
                reach = s.scene.time.cfl * s.layout.h();
-  if (g == 0) return v > 0 ? reach / v : std::numeric_limits<double>::infinity();
+  const double capillary = capillary_step(s);
+  if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
-  return std::min(flow, 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g)));
+  const double waves = 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g));
+  return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
 }
 
 constexpr double rounding = 1e-9;  // relative, of a motion that takes just the whole reach

@@ -225,6 +225,12 @@ void join(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& 
     });
 }
 
+// Cells from the surface that curvature reads: a cell along it, and the stencil of the cubic interpolant there.
+template <int Dim>
+double kept_of_surface(const Setup<Dim>& s) {
+  return s.scene.liquid.surface_tension > 0 ? 3 : 0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -242,7 +248,7 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, d
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
-  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved}, phi);
+  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved, kept_of_surface(s)}, phi);
   return phi;
 }
 

@@ -8,21 +8,6 @@ namespace {
 
 using T = OptionType;
 
-// A property that this version knows only as zero.
-Key<LiquidSpec> zero_key(Option option, const std::string& reason) {
-  option.fallback = "0.0";
-  Key<LiquidSpec> key{option, {}, {}};
-  key.read = [option, reason](SceneContext& c, const Place& p, LiquidSpec&) {
-    double value = 0;
-    read_value(c, p, option, value);
-    if (value != 0) c.report(p, p.path + ": " + reason);
-  };
-  key.write = [option](const LiquidSpec&, int, const std::string& path, SceneLines& lines) {
-    lines.push_back({join_path(path, option.key), option.key, option.fallback});
-  };
-  return key;
-}
-
 Section<LiquidRegionSpec> region_section() {
   Section<LiquidRegionSpec> s;
   s.keys = lift<LiquidRegionSpec>(shape_section(), &LiquidRegionSpec::shape);
@@ -99,9 +84,9 @@ Section<LiquidSpec> liquid_section() {
                            "false: it clings to them"},
                    &S::separates),
       viscosity_key(),
-      zero_key(
-          {.key = "surface_tension", .unit = "N/m", .range = between(0, number_limit), .doc = "only 0 in this version"},
-          "surface tension is not in this version; leave it out or set it to 0"),
+      surface_tension_key(),
+      tension_scheme_key(),
+      value_key<S>(contact_angle_option("where the surface meets sides and solids"), &S::contact_angle),
       rheology_key(),
       value_key<S>({.key = "velocity",
                     .type = T::formula_vector,

@@ -20,6 +20,10 @@ Section<MotionSpec> motion_section();
 Key<LiquidSpec> viscosity_key();
 Key<LiquidSpec> rheology_key();
 std::vector<Key<SolverSpec>> viscous_solver_keys();
+// Of surface tension. `where` ends the angle's description.
+Key<LiquidSpec> surface_tension_key();
+Key<LiquidSpec> tension_scheme_key();
+Option contact_angle_option(const std::string& where);
 // Reports a liquid that gives both viscosity and rheology.
 void check_one_viscosity(SceneContext& context, const Place& place);
 

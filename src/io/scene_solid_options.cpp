@@ -80,6 +80,9 @@ Section<SolidSpec> solid_section() {
                                          .unset = "that of the other solid; 0 if both leave it out",
                                          .doc = "Coulomb's coefficient in contacts with other solids"},
                                         &SolidSpec::friction));
+  Option angle = contact_angle_option("at this solid");
+  angle.unset = "that of [liquid]";
+  s.keys.push_back(value_key<SolidSpec>(angle, &SolidSpec::contact_angle));
   for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
     const bool is_elastic = solid.kind == SolidKind::elastic;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
 #include "io/validate_measures.h"
@@ -131,6 +132,40 @@ double mean_period(const Points& points, double level) {
   if (times.size() < 3) fail(fmt::format("no period: the value passes {:g} only {} times", level, times.size()));
   const std::size_t periods = (times.size() - 1) / 2;
   return (times[2 * periods] - times[0]) / double(periods);
+}
+
+double rms_difference(const Points& y, const Points& z) {
+  if (y.empty() || z.empty()) fail("no samples to compare");
+  const double slack = 1e-9 * (z.back().first - z.front().first);
+  if (z.front().first < y.front().first - slack || z.back().first > y.back().first + slack)
+    fail(fmt::format("samples from {:g} to {:g} do not reach the data's {:g} to {:g}", y.front().first, y.back().first,
+                     z.front().first, z.back().first));
+  double sum = 0;
+  for (const auto& [x, value] : z) {
+    const auto above = std::lower_bound(y.begin() + 1, y.end() - 1, Points::value_type{x, -1e300});
+    const auto [x0, y0] = *(above - 1);
+    const auto [x1, y1] = *above;
+    const double at = y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+    sum += (at - value) * (at - value);
+  }
+  return std::sqrt(sum / double(z.size()));
+}
+
+double energy_decay(const Points& y, double level) {
+  Points extremes;  // x and ln|y - level|, one between any two crossings
+  std::optional<std::pair<double, double>> best;
+  bool crossed = false;
+  for (std::size_t n = 1; n < y.size(); ++n) {
+    const double before = y[n - 1].second - level, now = y[n].second - level;
+    if ((before < 0) != (now < 0)) {
+      if (crossed && best) extremes.emplace_back(best->first, std::log(best->second));
+      crossed = true;
+      best.reset();
+    }
+    if (!best || std::abs(now) > best->second) best = {y[n].first, std::abs(now)};
+  }
+  if (extremes.size() < 3) fail(fmt::format("no decay: only {} swings about {:g}", extremes.size(), level));
+  return -2 * slope_during(extremes, extremes.front().first, extremes.back().first);
 }
 
 std::vector<double> csv_column(const std::string& text, const std::string& name) {

@@ -119,6 +119,30 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
   return {largest, {}, largest};
 }
 
+// The largest magnitude over from <= t <= to.
+Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
+  const std::string text = read_whole_file(run.stats());
+  const std::vector<double> times = csv_column(text, "time"), values = csv_column(text, spec.column);
+  Points points;
+  for (std::size_t n = 0; n < times.size(); ++n) points.emplace_back(times[n], values[n]);
+  double largest = 0;
+  for (const auto& [time, value] : points_during(points, spec.from, spec.to))
+    largest = std::max(largest, std::abs(value));
+  return itself(largest / constant(spec.unit));
+}
+
+Measurement probe_rms(const MeasureSpec& spec, const RunPaths& run) {
+  Points points = probe_points(read_whole_file(run.probes()), spec.probe);
+  const double time_unit = constant(spec.time_unit), unit = constant(spec.length_unit), level = constant(spec.level);
+  for (auto& [time, value] : points) time /= time_unit, value = (value - level) / unit;
+  return itself(rms_difference(points, csv_points(read_whole_file(spec.data))));
+}
+
+Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = probe_points(read_whole_file(run.probes()), spec.probe);
+  return itself(std::abs(energy_decay(points, constant(spec.level))));
+}
+
 // Mean over from <= t <= to, weighted so that oscillations leave next to nothing.
 Measurement solid_mean(const MeasureSpec& spec, const RunPaths& run) {
   const double mean =
@@ -189,7 +213,10 @@ const std::vector<MeasureKind>& kinds() {
       {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope},
       {"max_of_column", {"column"}, max_of_column},
+      {"column_peak", {"column", "from", "to", "unit"}, column_peak},
       {"column_drift", {"column"}, column_drift},
+      {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms},
+      {"probe_decay", {"probe", "level"}, probe_decay},
       {"volume_drift", {}, volume_drift_of_run},
       {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean},
       {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope},
@@ -236,6 +263,7 @@ Section<MeasureSpec> measure_section() {
       parameter({.key = "reference", .type = T::formula}, &S::reference),
       parameter({.key = "time_unit", .type = T::formula, .unit = "s", .range = positive()}, &S::time_unit),
       parameter({.key = "length_unit", .type = T::formula, .unit = "m", .range = positive()}, &S::length_unit),
+      parameter({.key = "unit", .type = T::formula}, &S::unit),
       parameter({.key = "from"}, &S::from),
       parameter({.key = "to"}, &S::to),
       parameter({.key = "data", .type = T::file}, &S::data),

@@ -31,6 +31,29 @@ double crossing(const double* f, Site d) {
   return theta > 0 && theta < 1 ? theta : a / (a - b);
 }
 
+// |grad phi| by fourth-order central differences.
+template <int Dim>
+double smooth_norm(const Layout<Dim>& layout, const double* f) {
+  double sum = 0;
+  for (int a = 0; a < Dim; ++a) {
+    const Site d = layout.stride(a);
+    const double slope = (8 * (f[d] - f[-d]) - (f[2 * d] - f[-2 * d])) / 12;
+    sum += slope * slope;
+  }
+  return std::sqrt(sum);
+}
+
+// Marks what is kept: |grad phi| within 0.1 of 1. phi in cells, ghosts filled.
+template <int Dim>
+CellField<Dim, char> keep_near_zero(const Layout<Dim>& layout, double kept, const CellField<Dim>& phi) {
+  constexpr double off = 0.1;
+  CellField<Dim, char> fixed(layout, 0);
+  for_each_site(layout, layout.cells(), [&](Site s) {
+    fixed[s] = std::abs(phi[s]) < kept && std::abs(smooth_norm(layout, phi.data() + s) - 1) < off;
+  });
+  return fixed;
+}
+
 // What the relaxation needs of a band cell's initial values: for each neighbour, the distance in cells to the zero
 // crossing or 1, and the smallest of these for the step.
 template <int Dim>
@@ -45,14 +68,15 @@ struct BandCell {
 template <int Dim>
 class Relaxation {
  public:
-  Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi)
+  Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
+             const CellField<Dim, char>& fixed, CellField<Dim>& phi)
       : layout_(layout),
         halo_(halo),
         limit_(options.band),
         entering_(std::min(options.entering, layout.halo())),
         phi_(phi),
         start_(phi) {
-    collect();
+    collect(fixed);
   }
 
   // Heun steps: two forward steps averaged with the start.
@@ -71,9 +95,9 @@ class Relaxation {
   }
 
  private:
-  void collect() {
+  void collect(const CellField<Dim, char>& fixed) {
     for_each_index_in_order(layout_, layout_.cells(), [&](Site s, const IVec<Dim>&) {
-      if (start_[s] != 0 && near_band(s)) cells_.push_back(describe(s));
+      if (start_[s] != 0 && !fixed[s] && near_band(s)) cells_.push_back(describe(s));
     });
     change_.resize(cells_.size());
   }
@@ -176,7 +200,8 @@ void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const Redistan
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  Relaxation<Dim>(layout, halo, options, phi).run(options.iterations);
+  const CellField<Dim, char> fixed = keep_near_zero(layout, options.kept, phi);
+  Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }
 

@@ -64,6 +64,8 @@ TEST_CASE("every default is written out") {
                            "viscosity = 0.0",
                            "separates = false",
                            "surface_tension = 0.0",
+                           "surface_tension_scheme = \"explicit\"",
+                           "contact_angle = 90.0",
                            "method = \"level_set\"",
                            "tolerance = 1e-08",
                            "preconditioner = \"auto\"",

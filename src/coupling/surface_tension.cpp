@@ -1,0 +1,76 @@
+#include "coupling/surface_tension.h"
+
+#include "coupling/contact_angle.h"
+#include "coupling/tension_balance.h"
+#include "coupling/tension_filter.h"
+#include "grid/loops.h"
+#include "levelset/curvature.h"
+
+namespace seiche {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// The density that both sides of the surface move with.
+template <int Dim>
+double density_at_surface(const Setup<Dim>& s) {
+  return s.density();
+}
+
+// Where the scheme is semi-implicit and the step too long for explicit tension.
+template <int Dim>
+void filter_for_step(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed, double dt,
+                     FaceField<Dim>& kappa) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  if (liquid.tension_scheme != TensionScheme::semi_implicit) return;
+  const double length = filter_length(liquid.surface_tension, density_at_surface(s), s.layout.h(), dt);
+  if (length == 0) return;
+  s.halo.fill_ghosts(kappa);
+  filter_curvature(s, phi, crossed, length, kappa);
+}
+
+}  // namespace
+
+template <int Dim>
+SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
+                                    double dt) {
+  SurfaceTension<Dim> r{FaceField<Dim>(s.layout)};
+  FaceField<Dim, char> crossed(s.layout);
+  const CellField<Dim> continued = continue_at_contact_angle(s, g, phi);
+  double crossings = 0, by_differences = 0;
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      if ((phi[f - s.layout.stride(a)] < 0) == (phi[f] < 0) || !g.faces.is_unknown(a, f)) return;
+      const SurfaceCurvature kappa = curvature_at_crossing<Dim>(s.layout, continued, a, f);
+      crossed.at(a, f) = 1;
+      r.jump.at(a, f) = kappa.value;
+      ++crossings;
+      by_differences += kappa.source == CurvatureSource::differences;
+    });
+  r.crossings = std::int64_t(s.ranks.global_sum(crossings));
+  r.by_differences = std::int64_t(s.ranks.global_sum(by_differences));
+  s.halo.fill_ghosts(crossed);
+  filter_for_step(s, phi, crossed, dt, r.jump);
+  balance_closed_pieces(s, g.faces, phi, crossed, r.jump);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= s.scene.liquid.surface_tension; });
+  s.halo.fill_ghosts(r.jump);
+  return r;
+}
+
+template <int Dim>
+double capillary_step(const Setup<Dim>& s) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  if (!has_surface_tension(s) || liquid.tension_scheme == TensionScheme::semi_implicit)
+    return std::numeric_limits<double>::infinity();
+  const double h = s.layout.h();
+  return std::sqrt(density_at_surface(s) * h * h * h / (4 * pi * liquid.surface_tension));
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template SurfaceTension<D> surface_tension<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&, double); \
+  template double capillary_step<D>(const Setup<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche
