@@ -203,7 +203,7 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, d
   CellField<Dim> joined = state.phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
   CellField<Dim> phi(s.layout);
-  advect_level_set(s.layout, state.now->u, dt, s.band(), joined, phi);
+  advect_level_set(s.layout, state.now->u, s.tampering.surface_advection * dt, s.band(), joined, phi);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
@@ -225,13 +225,14 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, 
   const FaceField<Dim, char> interior = interior_faces(s, state.now->valid), near = faces_near_liquid(s, phi);
   const FaceField<Dim> path = path_velocity(s, state, interior, dt), acc = acceleration(s, state, dt);
   const FaceField<Dim> trend = viscous_trend(s, state, interior, dt);
+  const double way = s.tampering.velocity_advection * dt;
   FaceField<Dim> carried = state.now->u;
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.padded(),
                   [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
   // Faces beside those near liquid follow the viscous stress.
   FaceField<Dim> u = s.is_viscous() ? state.now->u : FaceField<Dim>(s.layout);
-  advect_faces(s.layout, path, dt, near, interior, carried, state.now->u, u);
+  advect_faces(s.layout, path, way, near, interior, carried, state.now->u, u);
   limit_at_surfaces(s, *state.now, near, interior, u);
   const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
