@@ -65,9 +65,11 @@ void name_axes(const CaseSpec& one, Chart& chart) {
 Chart error_chart(const std::vector<ReportedResult>& all) {
   Chart chart{"cell size, m", "error", Chart::Axes::logarithmic, {}};
   std::map<Formula, Points> errors;
+  std::map<Formula, std::string> names;  // the first run to meet it
   Points bars;
   for (const ReportedResult& row : measured_of(all)) {
     errors[reference_of(row.one, row.resolution)].emplace_back(row.result.cell_size, row.result.measured.error);
+    names.emplace(reference_of(row.one, row.resolution), row.resolution.name);
     bars.emplace_back(row.result.cell_size, *max_error_of(row.one, row.resolution));
   }
   std::sort(bars.begin(), bars.end());
@@ -76,7 +78,7 @@ Chart error_chart(const std::vector<ReportedResult>& all) {
     std::sort(points.begin(), points.end());
     if (chart.curves.size() < most_curves)
       chart.curves.push_back(
-          {errors.size() == 1 ? "error" : "error, " + reference.substr(0, 24), points, Curve::Style::line_and_marks});
+          {errors.size() == 1 ? "error" : "error, from " + names[reference], points, Curve::Style::line_and_marks});
   }
   chart.curves.push_back({"bar", bars, Curve::Style::marks});
   chart.curves.push_back(slope_line(chart.curves[0].points, all[0].one.min_order.value_or(2)));

@@ -60,10 +60,13 @@ Scales scales_of(const Chart& chart) {
   return s;
 }
 
-// Powers of ten, with 2 and 5 between where they are few.
+// Powers of ten, with digits between where they are few.
 std::vector<double> logarithmic_steps(double low, double high) {
   std::vector<double> steps;
-  const std::vector<double> digits = high - low > 2.5 ? std::vector<double>{1} : std::vector<double>{1, 2, 5};
+  const double decades = high - low;
+  const std::vector<double> digits = decades > 2.5   ? std::vector<double>{1}
+                                     : decades > 0.9 ? std::vector<double>{1, 2, 5}
+                                                     : std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 8};
   for (int power = int(std::floor(low)); power <= int(std::ceil(high)); ++power)
     for (const double digit : digits) {
       const double value = digit * std::pow(10.0, power);
@@ -138,7 +141,8 @@ std::vector<double> round_steps(double low, double high, int count) {
   for (const double digit : {5.0, 2.0, 1.0})
     if (digit * power >= raw * (1 - 1e-9)) step = digit * power;
   std::vector<double> steps;
-  for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n) steps.push_back(n * step);
+  for (double n = std::ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n)
+    steps.push_back(n == 0 ? 0 : n * step);
   return steps;
 }
 

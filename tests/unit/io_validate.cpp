@@ -208,29 +208,29 @@ TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and
 
 TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
   const ScratchFolder folder;
-  put_case(folder, "one", case_text("max_speed", 1.5));
-  put_case(folder, "two", case_text("dt", 1.5));  // the same scene: the run of the first serves
+  put_case(folder, "first", case_text("max_speed", 1.5));
+  put_case(folder, "second", case_text("dt", 1.5));  // the same scene: the run of the first serves
   const auto cached = [](const Outcome& o) { return o.json.find("\"cached\": true") != std::string::npos; };
-  CHECK_FALSE(cached(validate(folder, {"one"}, "quick")));
-  CHECK(fs::exists(folder / "out" / "one" / "8" / "validate.txt"));
-  const Outcome again = validate(folder, {"one"}, "quick");
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));
+  CHECK(fs::exists(folder / "out" / "first" / "8" / "validate.txt"));
+  const Outcome again = validate(folder, {"first"}, "quick");
   CHECK(cached(again));
   CHECK(again.code == ExitCode::done);
   CHECK(again.table.find("(") != std::string::npos);  // the seconds of an earlier run
-  validate(folder, {"two"}, "quick");
-  CHECK_FALSE(fs::exists(folder / "out" / "two" / "8" / "stats.csv"));
+  validate(folder, {"second"}, "quick");
+  CHECK_FALSE(fs::exists(folder / "out" / "second" / "8" / "stats.csv"));
 
   ValidateOptions fresh;
   fresh.earlier = Earlier::ignore;
-  CHECK_FALSE(cached(validate(folder, {"one"}, "quick", fresh)));
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick", fresh)));
   ValidateOptions broken;
   broken.tampering = "divergence:0.5";
-  CHECK_FALSE(cached(validate(folder, {"one"}, "quick", broken)));
-  CHECK_FALSE(cached(validate(folder, {"one"}, "quick")));  // which the broken run had replaced
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick", broken)));
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));  // which the broken run had replaced
   std::string faster = scene_text;
   faster.replace(faster.find("[1.0, 0.0]", faster.find("velocity")), 10, "[1.1, 0.0]");
-  put(folder / "cases" / "one" / "scene.toml", faster);
-  CHECK_FALSE(cached(validate(folder, {"one"}, "quick")));
+  put(folder / "cases" / "first" / "scene.toml", faster);
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));
 }
 
 TEST_CASE("a report alone runs nothing and says what is missing") {
