@@ -24,12 +24,18 @@ void add_validate(CLI::App& program, VerbContext& context) {
       ->capture_default_str();
   verb->add_flag_callback(
       "--list", [words] { words->task = Task::list; }, "Show the cases and run nothing");
-  verb->add_option("--out", options.out, "Folder for the runs and validation.json; runs there are replaced")
-      ->capture_default_str();
+  verb->add_option("--out", options.out, "Folder for the runs, validation.json and report.html")->capture_default_str();
   verb->add_option("--cases", options.cases,
                    "Folder of the cases; default: ./validation, else the one that came with the program");
   verb->add_option("--threads", options.threads, "Threads a rank; default: the machine's, shared among its ranks")
       ->check(CLI::Range(1, 4096));
+  verb->add_flag_callback(
+      "--fresh", [&options] { options.earlier = Earlier::ignore; },
+      "Run what was run before, too: an earlier run of the same scene, program and ranks else counts");
+  verb->add_flag_callback(
+      "--report-only", [&options] { options.making = Making::report; }, "Run nothing: report on the runs in --out");
+  verb->add_option("--write-docs", options.docs, "Write the report as Markdown to this file as well");
+  verb->add_option("--break", options.tampering, "Test only: operator:factor")->group("");
   verb->footer(
       "Exit codes: 0 all cases passed; 1 a case missed its bar (a fault of ours: the table and validation.json say "
       "which); 2 wrong command line, case or scene, nothing was run; 3 a case could not be run to its end or measured; "

@@ -40,7 +40,8 @@ std::vector<char> pinned_points(const ElasticSolid<Dim>& solid) {
 }  // namespace
 
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies) {
+ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies,
+                                     const Tampering& tampering) {
   std::vector<ContactBody> contact;
   for (const Body<Dim>& body : bodies) {
     ContactBody& c = contact.emplace_back();
@@ -55,6 +56,7 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<
       c.pinned = pinned_points(body.elastic());
     }
     c.friction = body.spec().friction;
+    if (c.friction) *c.friction *= tampering.friction;
     c.name = body.spec().name;
   }
   return {contact, closed_sides<Dim>(scene.domain)};
@@ -149,12 +151,12 @@ double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   return largest_safe_fraction(*s.contact, contact_motions(s, state, dt), dt, velocities_over(s, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                       \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&);        \
-  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                         \
-  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                               \
-  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const State<D>&, double); \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                      \
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&, const Tampering&); \
+  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                                    \
+  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                                          \
+  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const State<D>&, double);            \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                                 \
   template double safe_share<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -6,7 +6,8 @@ namespace seiche {
 
 // All solids of the scene, and every closed side of the domain as a wall.
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies);
+ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies,
+                                     const Tampering& tampering);
 
 // Refuses rigid and elastic bodies that touch or overlap something at the start: Error(bad_input) naming the pairs and
 // depths.

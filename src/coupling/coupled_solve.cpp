@@ -31,6 +31,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.ranks);
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
+  for (double& flux : b) flux *= s.tampering.divergence;
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},

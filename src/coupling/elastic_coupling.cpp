@@ -216,7 +216,8 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});
   }
-  if (!shares.empty()) c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), dt, horizon);
+  if (!shares.empty())
+    c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), s.tampering.elastic_forces * dt, horizon);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                             \

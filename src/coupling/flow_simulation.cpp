@@ -16,7 +16,8 @@ constexpr int most_halvings = 7;
 template <int Dim>
 class FlowSimulation : public Simulation {
  public:
-  FlowSimulation(const Scene& scene, const Communicator& ranks) : setup_(scene, ranks), state_(initial_state(setup_)) {
+  FlowSimulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering)
+      : setup_(scene, ranks, tampering), state_(initial_state(setup_)) {
     geometry_ = measure_geometry();
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_.notes;
@@ -206,8 +207,12 @@ class FlowSimulation : public Simulation {
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks) {
-  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks);
-  return std::make_unique<FlowSimulation<3>>(scene, ranks);
+  return make_simulation(scene, ranks, {});
+}
+
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering) {
+  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, tampering);
+  return std::make_unique<FlowSimulation<3>>(scene, ranks, tampering);
 }
 
 // Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there

@@ -178,7 +178,7 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
       }
       if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s, g.body[f])) next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
-      next.u.at(a, f) = u_star.at(a, f) - in.dt * next.q.at(a, f);
+      next.u.at(a, f) = u_star.at(a, f) - s.tampering.pressure_gradient * in.dt * next.q.at(a, f);
     });
   s.halo.fill_ghosts(next.u);
   Restored<Dim> restored;

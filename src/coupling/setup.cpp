@@ -180,8 +180,9 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
 }  // namespace
 
 template <int Dim>
-Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
+Setup<Dim>::Setup(const Scene& sc, const Communicator& r, const Tampering& t)
     : scene(sc),
+      tampering(t),
       viscous(seiche::is_viscous(sc.liquid) || (sc.gas.flows() && sc.gas.viscosity > 0)),
       gravity(sc.gravity),
       ranks(r),
@@ -192,7 +193,7 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r)
       bodies(make_bodies<Dim>(sc, notes)),
       solids(layout, sides, bodies),
       sources(make_sources<Dim>(sc, notes)) {
-  if (has_rigid() || has_elastic()) contact.emplace(make_contact_scene(sc, bodies));
+  if (has_rigid() || has_elastic()) contact.emplace(make_contact_scene(sc, bodies, tampering));
   followed = find_followed_points(*this);
 }
 

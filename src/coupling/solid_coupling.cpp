@@ -51,6 +51,8 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g
   CouplingParts<Dim> parts{c, {}};
   couple_rigid_bodies(s, g, rows, state, dt, horizon, parts);
   couple_elastic_bodies(s, g, rows, closed, state, dt, horizon, parts);
+  for (ColumnBlock& block : c.J.blocks)
+    for (double& flux : block.value) flux *= s.tampering.solid_flux;
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
   make_identical(c.buoyancy_correction, s.ranks);

@@ -6,6 +6,7 @@
 #include "base/gravity.h"
 #include "coupling/simulation.h"
 #include "coupling/step_geometry.h"
+#include "coupling/tampering.h"
 #include "fluid/pressure.h"
 #include "fluid/viscosity.h"
 #include "solid/contact.h"
@@ -24,6 +25,7 @@ struct Source {
 template <int Dim>
 struct Setup {
   Scene scene;
+  Tampering tampering;
   bool viscous;
   Gravity gravity;
   std::vector<std::string> notes;  // of reading the shapes, for the log
@@ -37,7 +39,7 @@ struct Setup {
   std::vector<Source<Dim>> sources;
   std::map<std::string, MaterialPoint> followed;  // by displacement probes, by their names
 
-  Setup(const Scene& scene, const Communicator& ranks);
+  Setup(const Scene& scene, const Communicator& ranks, const Tampering& tampering = {});
   bool has_rigid() const;
   bool has_elastic() const;
   bool is_viscous() const { return viscous; }

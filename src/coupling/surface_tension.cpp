@@ -14,7 +14,7 @@ constexpr double pi = 3.14159265358979323846;
 // The density that both sides of the surface move with.
 template <int Dim>
 double density_at_surface(const Setup<Dim>& s) {
-  return s.density();
+  return s.density() + s.gas_density();
 }
 
 // Where the scheme is semi-implicit and the step too long for explicit tension.
@@ -67,7 +67,7 @@ double capillary_step(const Setup<Dim>& s) {
   return std::sqrt(density_at_surface(s) * h * h * h / (4 * pi * liquid.surface_tension));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
+#define SEICHE_INSTANTIATE(D)                                                                                          \
   template SurfaceTension<D> surface_tension<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&, double); \
   template double capillary_step<D>(const Setup<D>&);
 SEICHE_INSTANTIATE(2)

@@ -203,7 +203,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
                   [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
   // Faces beside those near liquid follow the viscous stress.
   FaceField<Dim> u = s.is_viscous() ? flow.now->u : FaceField<Dim>(s.layout);
-  advect_faces(s.layout, path, dt, near, interior, carried, flow.now->u, u);
+  advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, carried, flow.now->u, u);
   limit_at_surfaces(s, *flow.now, near, interior, u);
   const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
@@ -244,7 +244,7 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, d
   CellField<Dim> joined = state.phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
   CellField<Dim> phi(s.layout);
-  advect_level_set(s.layout, state.now->u, dt, s.band(), joined, phi);
+  advect_level_set(s.layout, state.now->u, s.tampering.surface_advection * dt, s.band(), joined, phi);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;

@@ -100,6 +100,7 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>&
   ViscosityField<Dim> mu{CellField<Dim>(s.layout), 0, false};
   const std::string fault = first_text(s.ranks, set_liquid_viscosity(s, flow.u, flow.valid, t, mu.value));
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  for_each_site(s.layout, s.layout.padded(), [&](Site c) { mu.value[c] *= s.tampering.viscosity; });
   const LiquidSpec& liquid = s.scene.liquid;
   mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
   const double largest = local_max(s.layout, s.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "coupling/tampering.h"
 #include "io/checkpoint.h"
 #include "io/run_agree.h"
 #include "io/run_fault.h"
@@ -14,6 +15,12 @@
 namespace seiche {
 namespace fs = std::filesystem;
 namespace {
+
+// Throws Error(bad_input).
+void check_test_options(const SessionOptions& session) {
+  parse_injection(session.inject);
+  parse_tampering(session.tampering);
+}
 
 // A scene as all ranks read it.
 Scene read_together(const fs::path& file, const std::vector<Override>& overrides, const Communicator& ranks) {
@@ -84,7 +91,7 @@ Continuation read_run(const ResumeOptions& options, const Communicator& ranks, R
 ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   const Communicator& ranks = around.ranks;
   RunLog log(ranks, around.console, options.session.verbosity);
-  agree(ranks, "reading the options", [&] { parse_injection(options.session.inject); });
+  agree(ranks, "reading the options", [&] { check_test_options(options.session); });
   Scene scene = read_together(options.scene, options.overrides, ranks);
   if (options.session.frames) scene.time.end = std::min(scene.time.end, end_of_frames(*options.session.frames, scene));
   check_machine(scene, ranks);
@@ -98,7 +105,7 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
 ExitCode resume_command(const ResumeOptions& options, const Surroundings& around) {
   const Communicator& ranks = around.ranks;
   RunLog log(ranks, around.console, options.session.verbosity);
-  agree(ranks, "reading the options", [&] { parse_injection(options.session.inject); });
+  agree(ranks, "reading the options", [&] { check_test_options(options.session); });
   const auto directory = open_directory(options.folder, ExistingOutput::resume, ranks);
   Continuation run = read_run(options, ranks, log);
   apply_new_end(options, run.scene);

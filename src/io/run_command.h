@@ -22,6 +22,7 @@ struct SessionOptions {
   std::optional<double> walltime;  // s
   double watchdog = 600;           // s without progress after which the run is ended
   std::string inject;              // see run_fault.h
+  std::string tampering;           // see coupling/tampering.h
   Verbosity verbosity = Verbosity::normal;
 };
 

@@ -24,7 +24,7 @@ namespace {
 // Does a file of this name, relative to the run's folder, belong to a run?
 bool is_ours(const std::string& name) {
   static const std::regex pattern(
-      "(scene\\.toml|stats\\.csv|solids\\.csv|probes\\.csv|summary\\.json|log\\.txt|stop|lock)(\\.tmp)?"
+      "(scene\\.toml|stats\\.csv|solids\\.csv|probes\\.csv|summary\\.json|log\\.txt|validate\\.txt|stop|lock)(\\.tmp)?"
       "|frames/(frame|solids|fluid)\\.[0-9]+\\.(vdb|vtu|vti)(\\.tmp)?|frames/(solids|fluid)\\.pvd(\\.tmp)?"
       "|checkpoints/[0-9]+(\\.tmp)?/(COMMIT|rank\\.[0-9]+)(\\.tmp)?|pictures/.*\\.(png|gif|mp4)");
   return std::regex_match(name, pattern);

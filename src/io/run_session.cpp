@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 
+#include "coupling/tampering.h"
 #include "fluid/rheology.h"
 #include "grid/thread_limit.h"
 #include "io/run_agree.h"
@@ -127,7 +128,8 @@ ExitCode run_session(const Session& session, const Restore& restore) {
                     [&](const std::string& phase) { end_hung_run(around, session.options.watchdog, phase); });
   try {
     watchdog.beat("setting up");
-    const std::unique_ptr<Simulation> simulation = make_simulation(session.scene, around.ranks);
+    const std::unique_ptr<Simulation> simulation =
+        make_simulation(session.scene, around.ranks, parse_tampering(session.options.tampering));
     prepare_files(session);
     watchdog.beat("restoring");
     const RunState start = restore ? restore(*simulation) : RunState{};

@@ -78,6 +78,22 @@ Section<ResolutionSpec> resolution_section() {
   return s;
 }
 
+Section<PlotSpec> plot_section() {
+  using S = PlotSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "data", .type = T::file, .presence = Presence::required, .doc = "the reference's"},
+                   &S::data),
+      value_key<S>(
+          {.key = "time_unit", .type = T::formula, .unit = "s", .range = positive(), .doc = "its first column"},
+          &S::time_unit),
+      value_key<S>({.key = "value_unit", .type = T::formula, .doc = "its second column"}, &S::value_unit),
+      value_key<S>({.key = "x", .type = T::text, .doc = "name of the axis"}, &S::x),
+      value_key<S>({.key = "y", .type = T::text, .doc = "name of the axis"}, &S::y),
+  };
+  return s;
+}
+
 void check_case(SceneContext& c, const Place& p, const CaseSpec& spec) {
   std::vector<std::string> names;
   for (const ResolutionSpec& resolution : spec.resolutions) {
@@ -100,11 +116,14 @@ Section<CaseSpec> case_section() {
       tags_key(),
       value_key<S>({.key = "scene", .type = T::file, .unset = "each resolution's", .doc = "scene file"}, &S::scene),
       value_key<S>({.key = "others", .type = T::text, .doc = "what others report"}, &S::others),
+      value_key<S>({.key = "known", .type = T::text, .doc = "why bars are missed"}, &S::known),
       value_key<S>(error_bar, &S::max_error),
       value_key<S>({.key = "min_order", .range = positive(), .unset = "no bar", .doc = "least order of convergence"},
                    &S::min_order),
       block_key<S>({.key = "measure", .presence = Presence::required, .doc = "what is measured"}, &S::measure,
                    measure_section()),
+      block_key<S>({.key = "plot", .unset = "none", .doc = "a reference's series to show beside the measured one"},
+                   &S::plot, plot_section()),
       list_key<S>({.key = "resolution", .presence = Presence::required, .doc = "runs, coarse to fine", .most = 100},
                   &S::resolutions, resolution_section()),
   };

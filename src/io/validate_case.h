@@ -24,6 +24,13 @@ struct MeasureSpec {
   std::filesystem::path data;                  // CSV: header and two columns, or those of csv_lines()
 };
 
+// The measured series over a reference's, for the report.
+struct PlotSpec {
+  std::filesystem::path data;                 // CSV: header and two columns
+  Formula time_unit = "1", value_unit = "1";  // constants: what makes times and values what the columns hold
+  std::string x = "time, s", y = "value";     // names of the axes
+};
+
 struct ResolutionSpec {
   std::string name;
   std::optional<std::filesystem::path> scene;  // unset: the case's
@@ -38,9 +45,11 @@ struct CaseSpec {
   std::string name;  // of its folder
   std::filesystem::path folder;
   std::string title, others;
+  std::string known;  // why bars are missed, as far as known
   std::vector<std::string> tags;
   std::filesystem::path scene;
   MeasureSpec measure;
+  PlotSpec plot;  // no data: none
   std::optional<double> max_error, min_order;
   std::vector<ResolutionSpec> resolutions;
 };
@@ -58,6 +67,10 @@ std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std
 bool belongs_to(const ResolutionSpec& resolution, const std::string& level);
 const std::filesystem::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution);
 std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution);
+// The least order that is asked for over three resolutions or more is that of a fit; what two of them show may be this
+// much less.
+constexpr double order_scatter = 0.2;
+
 const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolution);
 
 // Where the cases are when the user does not say: `here`/validation, else share/seiche/validation beside the folder

@@ -18,10 +18,6 @@ namespace {
 
 using T = OptionType;
 
-double constant(const Formula& formula) {
-  return Expression(formula)(Vec3(0, 0, 0), 0);
-}
-
 Measurement against(double value, double reference) {
   return {value, reference, std::abs(value / reference - 1)};
 }
@@ -103,11 +99,31 @@ Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   return against(0.5 * (high - low), constant(spec.reference));
 }
 
-Measurement front_slope(const MeasureSpec& spec, const RunPaths& run) {
+Points front_series(const MeasureSpec& spec, const RunPaths& run) {
   Points points = probe_points(read_whole_file(run.probes()), spec.probe);
   const double time_unit = constant(spec.time_unit), length_unit = constant(spec.length_unit);
   for (auto& [time, length] : points) time /= time_unit, length /= length_unit;
-  return against(slope_between(points, spec.from, spec.to),
+  return points;
+}
+
+Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
+  return probe_points(read_whole_file(run.probes()), spec.probe);
+}
+
+Points column_series(const MeasureSpec& spec, const RunPaths& run) {
+  const std::string text = read_whole_file(run.stats());
+  const std::vector<double> times = csv_column(text, "time"), values = csv_column(text, spec.column);
+  Points points;
+  for (std::size_t n = 0; n < times.size(); ++n) points.emplace_back(times[n], values[n]);
+  return points;
+}
+
+Points solid_series(const MeasureSpec& spec, const RunPaths& run) {
+  return solid_points(read_whole_file(run.solids()), spec.solid, spec.column);
+}
+
+Measurement front_slope(const MeasureSpec& spec, const RunPaths& run) {
+  return against(slope_between(front_series(spec, run), spec.from, spec.to),
                  slope_between(csv_points(read_whole_file(spec.data)), spec.from, spec.to));
 }
 
@@ -197,6 +213,7 @@ struct MeasureKind {
   const char* name;
   std::vector<const char*> keys;  // of [measure], all required
   Measurement (*measure)(const MeasureSpec&, const RunPaths&);
+  Points (*series)(const MeasureSpec&, const RunPaths&) = nullptr;
 };
 
 const std::vector<MeasureKind>& kinds() {
@@ -205,26 +222,33 @@ const std::vector<MeasureKind>& kinds() {
       {"region_l2", {"velocity", "region"}, region_l2},
       {"line_extrema", {"data"}, line_extrema},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
-      {"period_of_probe", {"probe", "level", "reference"}, period_of_probe},
-      {"probe_period", {"probe", "column", "level", "reference"}, probe_period},
-      {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean},
-      {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak},
-      {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time},
-      {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude},
-      {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope},
-      {"max_of_column", {"column"}, max_of_column},
-      {"column_peak", {"column", "from", "to", "unit"}, column_peak},
-      {"column_drift", {"column"}, column_drift},
-      {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms},
-      {"probe_decay", {"probe", "level"}, probe_decay},
+      {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
+      {"probe_period", {"probe", "column", "level", "reference"}, probe_period, component_of_probe},
+      {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
+      {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
+      {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},
+      {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude, component_of_probe},
+      {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope, front_series},
+      {"max_of_column", {"column"}, max_of_column, column_series},
+      {"column_peak", {"column", "from", "to", "unit"}, column_peak, column_series},
+      {"column_drift", {"column"}, column_drift, column_series},
+      {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
+      {"probe_decay", {"probe", "level"}, probe_decay, scalar_series},
       {"volume_drift", {}, volume_drift_of_run},
-      {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean},
-      {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope},
-      {"solid_peak", {"solid", "column", "from", "to", "reference"}, solid_peak},
-      {"solid_period", {"solid", "column", "level", "from", "to", "reference"}, solid_period},
+      {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean, solid_series},
+      {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope, solid_series},
+      {"solid_peak", {"solid", "column", "from", "to", "reference"}, solid_peak, solid_series},
+      {"solid_period", {"solid", "column", "level", "from", "to", "reference"}, solid_period, solid_series},
       {"solids_stray", {"from", "length_unit"}, solids_stray},
   };
   return table;
+}
+
+const MeasureKind& kind_of(const MeasureSpec& spec) {
+  const auto kind =
+      std::find_if(kinds().begin(), kinds().end(), [&](const MeasureKind& row) { return row.name == spec.kind; });
+  if (kind == kinds().end()) throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
+  return *kind;
 }
 
 std::vector<std::string> kind_names() {
@@ -246,6 +270,11 @@ Key<MeasureSpec> parameter(Option option, Member member) {
 }
 
 }  // namespace
+
+Points measured_series(const MeasureSpec& spec, const RunPaths& run) {
+  const MeasureKind& kind = kind_of(spec);
+  return kind.series ? kind.series(spec, run) : Points();
+}
 
 Section<MeasureSpec> measure_section() {
   using S = MeasureSpec;
@@ -271,12 +300,13 @@ Section<MeasureSpec> measure_section() {
   return s;
 }
 
+double constant(const Formula& formula) {
+  return Expression(formula)(Vec3(0, 0, 0), 0);
+}
+
 Measurement measure(const MeasureSpec& spec, const RunPaths& run) {
-  const auto kind =
-      std::find_if(kinds().begin(), kinds().end(), [&](const MeasureKind& row) { return row.name == spec.kind; });
-  if (kind == kinds().end()) throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
   try {
-    const Measurement result = kind->measure(spec, run);
+    const Measurement result = kind_of(spec).measure(spec, run);
     if (std::isfinite(result.error)) return result;
   } catch (const Error& error) {  // whatever was missing or unreadable, the run is not measured
     throw Error(ExitCode::cannot_continue, error.what());

@@ -18,8 +18,15 @@ struct Measurement {
   double error = 0;                 // what the bar is about, never negative
 };
 
+// The value of a formula that is a constant.
+double constant(const Formula& formula);
+
 // Reads what the run left in its directory. Throws Error(cannot_continue) when that does not hold what is measured.
 Measurement measure(const MeasureSpec& spec, const RunPaths& run);
+
+// What a measure's figure is taken from, over time (s); of front_slope in its units. Empty for measures of frames.
+// Throws Error as measure() does.
+std::vector<std::pair<double, double>> measured_series(const MeasureSpec& spec, const RunPaths& run);
 
 // The keys of [measure].
 Section<MeasureSpec> measure_section();

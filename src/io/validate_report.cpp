@@ -44,7 +44,7 @@ std::string array(const std::vector<std::string>& items, const std::string& inde
 
 std::string json_result(const ReportedResult& row, const std::string& indent) {
   const CaseResult& r = row.result;
-  const bool measured = r.verdict != Verdict::failed;
+  const bool measured = is_measured(r);
   const auto if_measured = [&](double value) { return measured ? json(value) : "null"; };
   return object({{"resolution", json_string(row.resolution.name)},
                  {"result", json_string(verdict_name(r.verdict))},
@@ -54,9 +54,11 @@ std::string json_result(const ReportedResult& row, const std::string& indent) {
                  {"error", if_measured(r.measured.error)},
                  {"max_error", json(max_error_of(row.one, row.resolution))},
                  {"order", json(r.order)},
+                 {"fitted_order", json(r.fitted_order)},
                  {"min_order", json(row.one.min_order)},
                  {"others", json_string(row.resolution.others)},
                  {"wall_seconds", json(r.wall_seconds)},
+                 {"cached", r.cached ? "true" : "false"},
                  {"run", json_string(r.run.string())},
                  {"message", json_string(r.message)}},
                 indent);
@@ -70,21 +72,25 @@ std::string json_case(const CaseSpec& one, const std::vector<std::string>& resul
                  {"tags", fmt::format("[{}]", fmt::join(tags, ", "))},
                  {"measure", json_string(one.measure.kind)},
                  {"others", json_string(one.others)},
+                 {"known", json_string(one.known)},
                  {"results", array(results, "      ")}},
                 "    ");
 }
 
 std::vector<std::string> json_cases(const Report& report) {
   std::vector<std::string> cases;
-  for (std::size_t first = 0; first < report.results.size();) {
-    const CaseSpec& one = report.results[first].one;
+  for (const auto& rows : by_case(report)) {
     std::vector<std::string> results;
-    for (; first < report.results.size() && report.results[first].one.name == one.name; ++first) {
-      results.push_back(json_result(report.results[first], "        "));
-    }
-    cases.push_back(json_case(one, results));
+    for (const ReportedResult& row : rows) results.push_back(json_result(row, "        "));
+    cases.push_back(json_case(rows[0].one, results));
   }
   return cases;
+}
+
+// "12.3", of an earlier run "(12.3)".
+std::string seconds(const CaseResult& r) {
+  if (r.verdict == Verdict::absent) return "-";
+  return r.cached ? fmt::format("({:.1f})", r.wall_seconds) : fmt::format("{:.1f}", r.wall_seconds);
 }
 
 std::ptrdiff_t count(const Report& report, Verdict verdict) {
@@ -100,32 +106,48 @@ std::string verdict_name(Verdict verdict) {
       return "pass";
     case Verdict::missed:
       return "MISS";
+    case Verdict::absent:
+      return "not run";
     default:
       return "FAILED";
   }
 }
 
+bool is_measured(const CaseResult& result) {
+  return result.verdict == Verdict::passed || result.verdict == Verdict::missed;
+}
+
+std::vector<std::vector<ReportedResult>> by_case(const Report& report) {
+  std::vector<std::vector<ReportedResult>> cases;
+  for (const ReportedResult& row : report.results) {
+    if (cases.empty() || cases.back()[0].one.name != row.one.name) cases.emplace_back();
+    cases.back().push_back(row);
+  }
+  return cases;
+}
+
 std::string table_header(const TableWidths& w) {
-  return fmt::format("{:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>5}  {:>5}  {:<6}  {:>7}  {}", "case", w.name,
-                     "resolution", w.resolution, "measured", "reference", "error", "bar", "order", "bar", "", "seconds",
-                     "others report");
+  return fmt::format("{:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>5}  {:>5}  {:>5}  {:<7}  {:>8}  {}", "case",
+                     w.name, "resolution", w.resolution, "measured", "reference", "error", "bar", "order", "fit", "bar",
+                     "", "seconds", "others report");
 }
 
 std::string table_row(const TableWidths& w, const ReportedResult& row) {
   const CaseResult& r = row.result;
-  const bool measured = r.verdict != Verdict::failed;
+  const bool measured = is_measured(r);
   const auto short_number = [](const std::optional<double>& v) { return v ? fmt::format("{:.2f}", *v) : "-"; };
-  return fmt::format("{:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>5}  {:>5}  {:<6}  {:>7.1f}  {}", row.one.name,
-                     w.name, row.resolution.name, w.resolution, measured ? number(r.measured.value) : "-",
+  const std::string& why = r.message;
+  return fmt::format("{:<{}}  {:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>5}  {:>5}  {:>5}  {:<7}  {:>8}  {}",
+                     row.one.name, w.name, row.resolution.name, w.resolution, measured ? number(r.measured.value) : "-",
                      number(r.measured.reference), measured ? number(r.measured.error) : "-",
-                     number(max_error_of(row.one, row.resolution)), short_number(r.order),
-                     r.order ? short_number(row.one.min_order) : "-", verdict_name(r.verdict), r.wall_seconds,
-                     measured ? row.resolution.others : r.message.substr(0, r.message.find('\n')));
+                     number(max_error_of(row.one, row.resolution)), short_number(r.order), short_number(r.fitted_order),
+                     r.order ? short_number(row.one.min_order) : "-", verdict_name(r.verdict), seconds(r),
+                     measured ? row.resolution.others : why.substr(0, why.find('\n')));
 }
 
 std::string table_summary(const Report& report) {
   std::string text = fmt::format("{} pass", count(report, Verdict::passed));
-  for (const Verdict verdict : {Verdict::missed, Verdict::failed}) {
+  for (const Verdict verdict : {Verdict::missed, Verdict::failed, Verdict::absent}) {
     if (const auto n = count(report, verdict)) text += fmt::format(", {} {}", n, verdict_name(verdict));
   }
   return text;

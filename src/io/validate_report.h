@@ -21,7 +21,11 @@ struct Report {
   std::vector<ReportedResult> results;  // those of one case beside each other
 };
 
-std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED"
+std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED", "not run"
+bool is_measured(const CaseResult& result);
+
+// The results of each case, in order.
+std::vector<std::vector<ReportedResult>> by_case(const Report& report);
 
 // Widths of the first two columns.
 struct TableWidths {

@@ -7,8 +7,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "coupling/tampering.h"
 #include "io/checked_file.h"
+#include "io/info.h"
 #include "io/run_agree.h"
+#include "io/validate_cache.h"
+#include "io/validate_html.h"
+#include "io/validate_judge.h"
+#include "io/validate_markdown.h"
 #include "io/validate_report.h"
 
 namespace seiche {
@@ -22,7 +28,15 @@ constexpr auto patience = std::chrono::seconds(3);
 struct Planned {
   const CaseSpec* one;
   const ResolutionSpec* resolution;
-  double cell_size = 0;  // m
+  Scene scene;
+  bool last_of_reference = false;  // no finer run of the case is to meet the same reference
+};
+
+// A validation under way. The cache is rank 0's.
+struct Validation {
+  const ValidateOptions& options;
+  const Surroundings& around;
+  RunCache cache;
 };
 
 std::vector<CaseSpec> read_chosen(const ValidateOptions& options, const Communicator& ranks) {
@@ -41,11 +55,16 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const std::string&
     for (const CaseSpec& one : cases) {
       for (const ResolutionSpec& resolution : one.resolutions) {
         if (!belongs_to(resolution, level)) continue;
-        const Scene scene = read_scene(scene_of(one, resolution), resolution.overrides);
-        runs.push_back({&one, &resolution, scene.domain.cell_size});
+        runs.push_back({&one, &resolution, read_scene(scene_of(one, resolution), resolution.overrides)});
       }
     }
   });
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    const Planned* next = n + 1 < runs.size() ? &runs[n + 1] : nullptr;
+    runs[n].last_of_reference =
+        !next || next->one != runs[n].one ||
+        reference_of(*next->one, *next->resolution) != reference_of(*runs[n].one, *runs[n].resolution);
+  }
   return runs;
 }
 
@@ -81,57 +100,118 @@ Measurement measure_on_root(const MeasureSpec& spec, const fs::path& run, const 
   return result;
 }
 
-ExitCode run_and_measure(const Planned& run, const ValidateOptions& options, const Surroundings& around,
-                         CaseResult& result) {
+// Whether a run is to be had, and where: an earlier one, or one that is made now.
+struct Found {
+  ExitCode code = ExitCode::done;
+  bool any = true, cached = false;
+  fs::path run;
+};
+
+// Rank 0 looks; all ranks get the answer. `identity` is filled on rank 0.
+Found look_for_run(const Planned& run, const Validation& v, std::string& identity) {
+  Found found;
+  agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
+    identity = run_identity(run.scene, v.around.ranks.size(), v.options.tampering);
+    const auto earlier = v.cache.find(run.scene, identity);
+    found.cached = earlier.has_value();
+    found.run = earlier.value_or(v.options.out / run.one->name / run.resolution->name);
+  });
+  const std::string text = v.around.ranks.broadcast((found.cached ? "1" : "0") + found.run.string());
+  found.cached = text[0] == '1';
+  found.run = text.substr(1);
+  found.any = found.cached || v.options.making == Making::runs;
+  return found;
+}
+
+Found obtain_run(const Planned& run, Validation& v) {
+  std::string identity;
+  Found found = look_for_run(run, v, identity);
+  if (found.cached || !found.any) return found;
+  v.cache.forget(found.run);
   RunOptions own;
   own.scene = scene_of(*run.one, *run.resolution);
-  own.out = result.run;
+  own.out = found.run;
   own.overrides = run.resolution->overrides;
   own.existing = ExistingOutput::overwrite;
-  own.session.threads = options.threads;
-  const ExitCode code = run_command(own, {around.ranks, around.emergency, console_of(run, around.console)});
-  MeasureSpec spec = run.one->measure;
-  spec.reference = reference_of(*run.one, *run.resolution);
-  if (code == ExitCode::done) result.measured = measure_on_root(spec, result.run, around.ranks);
-  return code;
+  own.session.threads = v.options.threads;
+  own.session.tampering = v.options.tampering;
+  found.code = run_command(own, {v.around.ranks, v.around.emergency, console_of(run, v.around.console)});
+  if (found.code == ExitCode::done)
+    agree_on_root(v.around.ranks, "keeping the run", [&] { v.cache.keep(found.run, identity); });
+  return found;
+}
+
+// A measure of this resolution.
+MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution) {
+  MeasureSpec spec = one.measure;
+  spec.reference = reference_of(one, resolution);
+  return spec;
+}
+
+ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) {
+  const Found found = obtain_run(run, v);
+  result.run = found.run;
+  result.cached = found.cached;
+  if (!found.any) result.verdict = Verdict::absent;
+  if (!found.any || found.code != ExitCode::done) return found.code;
+  result.measured = measure_on_root(measure_of(*run.one, *run.resolution), result.run, v.around.ranks);
+  result.verdict = Verdict::missed;  // until judged
+  return found.code;
 }
 
 // As run_and_measure, but a simulation that could not go on, on all ranks together, is a result.
-ExitCode attempt(const Planned& run, const ValidateOptions& options, const Surroundings& around, CaseResult& result) {
+ExitCode attempt(const Planned& run, Validation& v, CaseResult& result) {
   try {
-    const ExitCode code = run_and_measure(run, options, around, result);
-    if (code == ExitCode::done) result.verdict = Verdict::missed;  // until judged
-    return code;
+    return run_and_measure(run, v, result);
   } catch (const Error& error) {
     const bool together =
-        error.code() == ExitCode::cannot_continue && around.emergency.meet(int(error.code()), patience).has_value();
+        error.code() == ExitCode::cannot_continue && v.around.emergency.meet(int(error.code()), patience).has_value();
     if (!together) throw;
     result.message = error.what();
     return ExitCode::done;
   }
 }
 
-// The result before this one in the report, if it is of the same case and is to meet the same reference.
-const CaseResult* coarser(const Report& report, const CaseSpec& one, const ResolutionSpec& resolution) {
-  if (report.results.empty() || report.results.back().one.name != one.name) return nullptr;
-  const ReportedResult& last = report.results.back();
-  if (reference_of(one, last.resolution) != reference_of(one, resolution)) return nullptr;
-  return last.result.verdict == Verdict::failed ? nullptr : &last.result;
+// Of an earlier run as it was when it was made; rank 0's answer counts.
+double seconds_of(const fs::path& run) {
+  try {
+    return std::strtod(json_value(read_whole_file(RunPaths{run}.summary()), "wall_seconds").c_str(), nullptr);
+  } catch (const Error&) {
+    return 0;
+  }
 }
 
-ExitCode run_one(const Planned& run, const ValidateOptions& options, const Surroundings& around, Report& report) {
-  CaseResult result;
-  result.cell_size = run.cell_size;
-  result.run = options.out / run.one->name / run.resolution->name;
-  const auto began = Clock::now();
-  const ExitCode code = attempt(run, options, around, result);
-  if (code != ExitCode::done) return code;
-  result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  if (result.verdict != Verdict::failed) {
-    const CaseResult* before = coarser(report, *run.one, *run.resolution);
-    if (run.one->min_order && before) result.order = observed_order(*before, result);
-    result.verdict = judge(*run.one, *run.resolution, result);
+// The results of the same case before this one that are to meet the same reference, coarse to fine.
+std::vector<CaseResult> coarser(const Report& report, const Planned& run) {
+  std::vector<CaseResult> found;
+  for (auto row = report.results.rbegin(); row != report.results.rend(); ++row) {
+    const bool same = row->one.name == run.one->name &&
+                      reference_of(*run.one, row->resolution) == reference_of(*run.one, *run.resolution);
+    if (!same) break;
+    const bool measured = row->result.verdict == Verdict::passed || row->result.verdict == Verdict::missed;
+    if (measured) found.insert(found.begin(), row->result);
   }
+  return found;
+}
+
+void judge_by_all(const Planned& run, const Report& report, CaseResult& result) {
+  std::vector<CaseResult> all = coarser(report, run);
+  if (!all.empty()) result.order = observed_order(all.back(), result);
+  all.push_back(result);
+  if (run.last_of_reference) result.fitted_order = fitted_order(all);
+  result.verdict = judge(*run.one, *run.resolution, result);
+}
+
+ExitCode run_one(const Planned& run, Validation& v, Report& report) {
+  CaseResult result;
+  result.cell_size = run.scene.domain.cell_size;
+  result.run = v.options.out / run.one->name / run.resolution->name;
+  const auto began = Clock::now();
+  const ExitCode code = attempt(run, v, result);
+  if (code != ExitCode::done) return code;
+  result.wall_seconds =
+      result.cached ? seconds_of(result.run) : std::chrono::duration<double>(Clock::now() - began).count();
+  if (result.verdict == Verdict::missed) judge_by_all(run, report, result);
   report.results.push_back({*run.one, *run.resolution, result});
   return ExitCode::done;
 }
@@ -152,12 +232,20 @@ void write_report(const Report& report, const ValidateOptions& options, const Co
   });
 }
 
+// The pages for people.
+void write_pages(const Report& report, const ValidateOptions& options, const Communicator& ranks) {
+  agree_on_root(ranks, "writing the report", [&] {
+    write_file(options.out / "report.html", format_html(report));
+    if (options.docs) write_file(*options.docs, format_markdown(report));
+  });
+}
+
 ExitCode code_of(const Report& report) {
   const auto any = [&](Verdict verdict) {
     return std::any_of(report.results.begin(), report.results.end(),
                        [&](const ReportedResult& row) { return row.result.verdict == verdict; });
   };
-  if (any(Verdict::failed)) return ExitCode::cannot_continue;
+  if (any(Verdict::failed) || any(Verdict::absent)) return ExitCode::cannot_continue;
   return any(Verdict::missed) ? ExitCode::bug : ExitCode::done;
 }
 
@@ -170,19 +258,6 @@ std::string resolutions_of(const CaseSpec& one, const std::string& level) {
 }
 
 }  // namespace
-
-std::optional<double> observed_order(const CaseResult& coarse, const CaseResult& fine) {
-  const double cells = coarse.cell_size / fine.cell_size, errors = coarse.measured.error / fine.measured.error;
-  if (cells == 1 || !(errors > 0) || !std::isfinite(errors)) return std::nullopt;
-  return std::log(errors) / std::log(cells);
-}
-
-Verdict judge(const CaseSpec& one, const ResolutionSpec& resolution, const CaseResult& result) {
-  const std::optional<double> bar = max_error_of(one, resolution);
-  const bool small = bar && result.measured.error <= *bar;
-  const bool steep = !result.order || !one.min_order || *result.order >= *one.min_order;
-  return small && steep ? Verdict::passed : Verdict::missed;
-}
 
 ExitCode list_cases(const ValidateOptions& options, const Surroundings& around) {
   const std::vector<CaseSpec> cases = read_chosen(options, around.ranks);
@@ -206,11 +281,14 @@ ExitCode validate_command(const ValidateOptions& options, const Surroundings& ar
     throw Error(ExitCode::bad_input,
                 fmt::format("the chosen cases have no resolution of level '{}'; give --level full", options.level));
   }
+  agree(around.ranks, "reading the options", [&] { parse_tampering(options.tampering); });
+  Validation validation{options, around,
+                        RunCache(options.out, around.ranks.is_root() ? options.earlier : Earlier::ignore)};
   Report report{options.level, around.ranks.size(), runs.size(), {}};
   write_report(report, options, around.ranks);
   say(table_header(widths));
   for (const Planned& run : runs) {
-    const ExitCode code = run_one(run, options, around, report);
+    const ExitCode code = run_one(run, validation, report);
     if (code != ExitCode::done) {
       say(fmt::format("stopped in {} {}; validate again to run it anew", run.one->name, run.resolution->name));
       return code;
@@ -218,7 +296,9 @@ ExitCode validate_command(const ValidateOptions& options, const Surroundings& ar
     say(table_row(widths, report.results.back()));
     write_report(report, options, around.ranks);
   }
-  say(fmt::format("{}; figures in {}", table_summary(report), (options.out / "validation.json").string()));
+  write_pages(report, options, around.ranks);
+  say(fmt::format("{}; figures in {}, plots and pictures in {}", table_summary(report),
+                  (options.out / "validation.json").string(), (options.out / "report.html").string()));
   return code_of(report);
 }
 

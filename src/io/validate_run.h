@@ -6,23 +6,29 @@
 #include <vector>
 
 #include "io/run_command.h"
+#include "io/validate_cache.h"
 #include "io/validate_case.h"
 #include "io/validate_measures.h"
 
 namespace seiche {
 
-enum class Verdict { passed, missed, failed };  // failed: could not be run or measured
+// failed: could not be run or measured; absent: only earlier runs were asked for, and there is none
+enum class Verdict { passed, missed, failed, absent };
 
 // One resolution of a case, run and judged.
 struct CaseResult {
   Verdict verdict = Verdict::failed;
   Measurement measured;
-  std::optional<double> order;  // of convergence from the resolution before; only where the case asks for one
-  double cell_size = 0;         // m
-  double wall_seconds = 0;
-  std::string message;  // why it failed
+  std::optional<double> order;         // of convergence from the resolution before
+  std::optional<double> fitted_order;  // over all resolutions with this reference, at the last of them
+  double cell_size = 0;                // m
+  double wall_seconds = 0;             // of the run, whenever it was made
+  bool cached = false;                 // an earlier run was taken
+  std::string message;                 // why it failed
   std::filesystem::path run;
 };
+
+enum class Making { runs, report };  // report: of the runs that there are
 
 struct ValidateOptions {
   std::vector<std::string> words;              // names and tags; none: all cases
@@ -30,20 +36,19 @@ struct ValidateOptions {
   std::optional<std::filesystem::path> cases;  // unset: find_cases_folder()
   std::filesystem::path out = "out/validate";
   std::optional<int> threads;
+  Earlier earlier = Earlier::use;
+  Making making = Making::runs;
+  std::optional<std::filesystem::path> docs;  // where to write the report as Markdown
+  std::string tampering;                      // see coupling/tampering.h
 };
 
 // Writes one line a case to the console.
 ExitCode list_cases(const ValidateOptions& options, const Surroundings& around);
 
-// Runs the chosen cases in out/<case>/<resolution>/, prints a table row after each and keeps out/validation.json. Cases
-// that could not go on are rows of the table. Returns done (all passed), bug (a bar was missed), cannot_continue (a
-// case could not be run or measured), stopped. Throws Error(bad_input) before anything is run. Collective.
+// Runs the chosen cases in out/<case>/<resolution>/ as far as they have no run yet, prints a table row after each,
+// keeps out/validation.json and writes out/report.html. Cases that could not go on are rows of the table. Returns done
+// (all passed), bug (a bar was missed), cannot_continue (a case could not be run or measured, or is absent), stopped.
+// Throws Error(bad_input) before anything is run. Collective.
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around);
-
-// Passed or missed, by both bars.
-Verdict judge(const CaseSpec& one, const ResolutionSpec& resolution, const CaseResult& result);
-
-// log(e_coarse / e_fine) / log(h_coarse / h_fine); nothing for equal cells or errors that are not positive.
-std::optional<double> observed_order(const CaseResult& coarse, const CaseResult& fine);
 
 }  // namespace seiche

@@ -3,6 +3,10 @@
 
 #include "base/error.h"
 #include "io/info.h"
+#include "io/validate_charts.h"
+#include "io/validate_html.h"
+#include "io/validate_judge.h"
+#include "io/validate_markdown.h"
 #include "io/validate_report.h"
 #include "io/validate_run.h"
 #include "io_scratch.h"
@@ -51,14 +55,14 @@ struct Outcome {
   std::string table, json;
 };
 
-Outcome validate(const ScratchFolder& folder, const std::vector<std::string>& words, const std::string& level) {
+Outcome validate(const ScratchFolder& folder, const std::vector<std::string>& words, const std::string& level,
+                 ValidateOptions options = {}) {
   const Communicator ranks;
   const EmergencyChannel emergency(ranks);
   Outcome outcome;
   Console console;
   console.line = [&](const std::string& text) { outcome.table += text + "\n"; };
   console.warning = [](const std::string&) {};
-  ValidateOptions options;
   options.words = words;
   options.level = level;
   options.cases = folder / "cases";
@@ -150,21 +154,34 @@ TEST_CASE("the cases folder is found here, beside an installed program, and arou
   CHECK(find_cases_folder(here, tree / "build/release/seiche") == here / "validation");
 }
 
-TEST_CASE("both bars decide, and the order is that of the errors") {
+TEST_CASE("error, fitted order and the order of two resolutions decide") {
   CaseSpec one;
   one.max_error = 1;
-  one.min_order = 1.8;
+  one.min_order = 1.9;
   CaseResult fine = result_of(0.1, 0.25);
   fine.order = observed_order(result_of(0.2, 1), fine);
   CHECK(*fine.order == Approx(2).epsilon(1e-12));  // rounding of two logarithms
   CHECK(judge(one, {}, fine) == Verdict::passed);
-  one.min_order = 2.2;
+  fine.order = 1.75;
+  CHECK(judge(one, {}, fine) == Verdict::passed);  // within order_scatter
+  fine.fitted_order = 1.75;
+  CHECK(judge(one, {}, fine) == Verdict::missed);
+  fine.fitted_order = 1.95;
+  fine.order = 1.6;
   CHECK(judge(one, {}, fine) == Verdict::missed);
   one.min_order.reset();
+  CHECK(judge(one, {}, fine) == Verdict::passed);
   one.max_error = 0.2;
   CHECK(judge(one, {}, fine) == Verdict::missed);
-  CHECK_FALSE(observed_order(result_of(0.1, 1), fine));
+  CHECK_FALSE(observed_order(result_of(0.1, 1), result_of(0.1, 1)));
   CHECK_FALSE(observed_order(result_of(0.2, 1), result_of(0.1, 0)));
+}
+
+TEST_CASE("the fitted order is that of a line through all errors") {
+  // Pairs of 1.89 and 2.11: 2.0 between the ends of three equal steps, which is what least squares give there.
+  const double e = 1, f = e / std::pow(2, 1.89), g = f / std::pow(2, 2.11);
+  CHECK(*fitted_order({result_of(0.4, e), result_of(0.2, f), result_of(0.1, g)}) == Approx(2).epsilon(1e-12));
+  CHECK_FALSE(fitted_order({result_of(0.1, 1)}));
 }
 
 TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and stand in the report") {
@@ -187,6 +204,85 @@ TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and
   const Outcome failed = validate(folder, {"one"}, "quick");  // by tag: all three
   CHECK(failed.code == ExitCode::cannot_continue);
   CHECK(failed.table.find("no_such_column") != std::string::npos);
+}
+
+TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
+  const ScratchFolder folder;
+  put_case(folder, "first", case_text("max_speed", 1.5));
+  put_case(folder, "second", case_text("dt", 1.5));  // the same scene: the run of the first serves
+  const auto cached = [](const Outcome& o) { return o.json.find("\"cached\": true") != std::string::npos; };
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));
+  CHECK(fs::exists(folder / "out" / "first" / "8" / "validate.txt"));
+  const Outcome again = validate(folder, {"first"}, "quick");
+  CHECK(cached(again));
+  CHECK(again.code == ExitCode::done);
+  CHECK(again.table.find("(") != std::string::npos);  // the seconds of an earlier run
+  validate(folder, {"second"}, "quick");
+  CHECK_FALSE(fs::exists(folder / "out" / "second" / "8" / "stats.csv"));
+
+  ValidateOptions fresh;
+  fresh.earlier = Earlier::ignore;
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick", fresh)));
+  ValidateOptions broken;
+  broken.tampering = "divergence:0.5";
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick", broken)));
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));  // which the broken run had replaced
+  std::string faster = scene_text;
+  faster.replace(faster.find("[1.0, 0.0]", faster.find("velocity")), 10, "[1.1, 0.0]");
+  put(folder / "cases" / "first" / "scene.toml", faster);
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));
+}
+
+TEST_CASE("a report alone runs nothing and says what is missing") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 1.5));
+  validate(folder, {"one"}, "quick");
+  ValidateOptions only;
+  only.making = Making::report;
+  only.docs = folder / "page.md";
+  const Outcome outcome = validate(folder, {"one"}, "full", only);
+  CHECK(outcome.code == ExitCode::cannot_continue);
+  CHECK(outcome.table.find("1 pass, 1 not run") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out" / "one" / "16"));
+  const std::string page = contents(folder / "page.md");
+  CHECK(page.find("seiche validate one --level full") != std::string::npos);
+  CHECK(page.find("**not run**") != std::string::npos);
+}
+
+TEST_CASE("the pages show misses with their cause, plots and a picture") {
+  const ScratchFolder folder;
+  const std::string known = "known = \"the sun <was> in its eyes\"\n";
+  put_case(folder, "one", known + case_text("max_speed", 0.5));
+  put(folder / "cases" / "one" / "README.md", "# A & B\n");
+  ValidateOptions options;
+  options.docs = folder / "page.md";
+  CHECK(validate(folder, {"one"}, "full", options).code == ExitCode::bug);
+  const std::string html = contents(folder / "out" / "report.html"), page = contents(folder / "page.md");
+  CHECK(html.find("# A &amp; B") != std::string::npos);
+  CHECK(html.find("the sun &lt;was&gt; in its eyes") != std::string::npos);
+  CHECK(html.find("<polyline") != std::string::npos);
+  CHECK(html.find("data:image/png;base64,iVBORw0KGgo") != std::string::npos);
+  CHECK(html.find("http") == std::string::npos);  // it needs no other file
+  CHECK(page.find("**MISS**") != std::string::npos);
+  CHECK(page.find("Misses its bar: the sun") != std::string::npos);
+}
+
+TEST_CASE("the parts of plots") {
+  CHECK(base64("") == "");
+  CHECK(base64("M") == "TQ==");
+  CHECK(base64("Ma") == "TWE=");
+  CHECK(base64("Man") == "TWFu");
+  CHECK(round_steps(0, 10, 5) == std::vector<double>{0, 2, 4, 6, 8, 10});
+  Points points;
+  for (int n = 0; n < 5000; ++n) points.emplace_back(n, n == 3210 ? 7.0 : n == 4000 ? -3.0 : 0.0);
+  const Points few = thinned(points, 800);
+  CHECK(few.size() <= 1000);
+  const auto holds = [&](double y) {
+    return std::any_of(few.begin(), few.end(), [&](const auto& p) { return p.second == y; });
+  };
+  CHECK(holds(7));
+  CHECK(holds(-3));
+  CHECK(format_svg({"x", "y", Chart::Axes::logarithmic, {{"none", {{1, 0}, {2, -1}}, Curve::Style::line}}}).empty());
 }
 
 TEST_CASE("a wrong scene is refused before any case is run") {

@@ -1,0 +1,100 @@
+#include "io/validate_cache.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "io/checked_file.h"
+#include "io/checkpoint_crc.h"
+#include "io/info.h"
+#include "io/run_directory.h"
+#include "io/scene_writer.h"
+#include "io/validate_case.h"
+
+namespace seiche {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path identity_file(const fs::path& run) {
+  return run / "validate.txt";
+}
+
+std::string sum_of(const fs::path& file) {
+  try {
+    const std::string bytes = read_whole_file(file);
+    return fmt::format("{:08x} of {} bytes", crc32c(bytes), bytes.size());
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_input, error.what());
+  }
+}
+
+const std::string& sum_of_program() {
+  static const std::string sum = sum_of(program_file());
+  return sum;
+}
+
+std::vector<fs::path> files_of(const Scene& scene) {
+  std::vector<fs::path> files;
+  const auto add = [&](const ShapeSpec& shape) {
+    if (!shape.file.empty()) files.push_back(shape.file);
+  };
+  for (const auto& region : scene.liquid.regions) add(region.shape);
+  for (const auto& source : scene.liquid.sources) add(source.shape);
+  for (const auto& solid : scene.solids) {
+    add(solid.shape);
+    for (const auto& pin : solid.elastic.pinned) add(pin.shape);
+    for (const auto& traction : solid.elastic.tractions) add(traction.shape);
+  }
+  return files;
+}
+
+// Empty unless the folder holds a finished run that was kept.
+std::string key_of(const fs::path& run) {
+  try {
+    const RunPaths paths{run};
+    if (json_value(read_whole_file(paths.summary()), "ended") != "finished") return {};
+    return read_whole_file(identity_file(run)) + read_whole_file(paths.scene());
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code failed;
+  for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed))
+    if (it->is_directory(failed)) found.push_back(it->path());
+  return found;
+}
+
+}  // namespace
+
+std::string run_identity(const Scene& scene, int ranks, const std::string& tampering) {
+  std::string text = fmt::format("seiche {}, program {}\nranks {}\n", version(), sum_of_program(), ranks);
+  if (!tampering.empty()) text += fmt::format("broken {}\n", tampering);
+  for (const fs::path& file : files_of(scene)) text += fmt::format("file {}\n", sum_of(file));
+  return text;
+}
+
+RunCache::RunCache(const fs::path& out, Earlier earlier) {
+  if (earlier == Earlier::ignore) return;
+  for (const fs::path& one : folders_in(out))
+    for (const fs::path& run : folders_in(one))
+      if (const std::string key = key_of(run); !key.empty()) runs_.emplace(key, run);
+}
+
+std::optional<fs::path> RunCache::find(const Scene& scene, const std::string& identity) const {
+  const auto found = runs_.find(identity + write_scene(scene));
+  return found == runs_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void RunCache::forget(const fs::path& run) {
+  std::erase_if(runs_, [&](const auto& entry) { return entry.second == run; });
+}
+
+void RunCache::keep(const fs::path& run, const std::string& identity) {
+  write_file(identity_file(run), identity);
+  if (const std::string key = key_of(run); !key.empty()) runs_.emplace(key, run);
+}
+
+}  // namespace seiche

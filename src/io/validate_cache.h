@@ -1,0 +1,34 @@
+#pragma once
+// Runs that need not be made again: those of the same scene by the same program on as many ranks.
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/scene.h"
+
+namespace seiche {
+
+// What makes a run the same but for its scene: version and bytes of the program, ranks, what is broken for a test, the
+// bytes of the files that the scene names. Throws Error(bad_input) where such a file cannot be read.
+std::string run_identity(const Scene& scene, int ranks, const std::string& tampering);
+
+enum class Earlier { use, ignore };
+
+// Finished runs by scene and identity. On rank 0 alone.
+class RunCache {
+ public:
+  // Looks at the runs in out/<case>/<resolution>/ unless earlier ones are to be ignored.
+  RunCache(const std::filesystem::path& out, Earlier earlier);
+  // The folder of such a run, if there is one.
+  std::optional<std::filesystem::path> find(const Scene& scene, const std::string& identity) const;
+  // The run in this folder is about to be replaced.
+  void forget(const std::filesystem::path& run);
+  // Remembers the run, here and in its folder. Throws Error(output_failed).
+  void keep(const std::filesystem::path& run, const std::string& identity);
+
+ private:
+  std::map<std::string, std::filesystem::path> runs_;  // by identity and scene
+};
+
+}  // namespace seiche

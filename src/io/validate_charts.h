@@ -1,0 +1,22 @@
+#pragma once
+// What the report of a case shows beside its figures.
+#include "io/validate_report.h"
+#include "io/validate_svg.h"
+
+namespace seiche {
+
+// Errors over the cell size with bars and a slope; no curves where there are fewer than two cell sizes.
+Chart error_chart(const std::vector<ReportedResult>& rows);
+
+// What was measured over time, in all runs of the case, over the reference's series where the case has one.
+Chart series_chart(const std::vector<ReportedResult>& rows);
+
+// PNG of the last frame of a run; empty, with the reason, where it cannot be shown.
+struct Picture {
+  std::string png, reason;
+};
+Picture last_picture(const std::filesystem::path& run);
+
+std::string base64(const std::string& bytes);
+
+}  // namespace seiche

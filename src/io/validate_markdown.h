@@ -1,0 +1,18 @@
+#pragma once
+// The report as a page of the documentation.
+#include "io/validate_report.h"
+
+namespace seiche {
+
+std::string format_markdown(const Report& report);
+
+// What it takes to run a case again, at the report's level.
+std::string command_of(const Report& report, const CaseSpec& one);
+
+// A figure of four digits, "-" for none.
+std::string figure(const std::optional<double>& value);
+
+// Words on a case's misses: the known cause, or that there is none; empty where all passed.
+std::string words_on_misses(const std::vector<ReportedResult>& rows);
+
+}  // namespace seiche
