@@ -163,6 +163,18 @@ void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, d
   parts.coupling.push.segment(first, push.size()) = dt * push;
 }
 
+// 1/2 (w - w_0 - dt g)'m (w - w_0 - dt g), w_0 the velocities of the last solve.
+template <int Dim>
+void add_liquid_beside(const Eigen::VectorXd& m, const Eigen::VectorXd& gravity, const Eigen::VectorXd& before,
+                       double dt, int first, CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  for (int i = 0; i < int(m.size()); ++i)
+    if (m[i] > 0) parts.mass.emplace_back(first + i, first + i, m[i]);
+  c.mass_beside.segment(first, m.size()) = m;
+  c.push.segment(first, m.size()) += m.cwiseProduct(before + dt * gravity);
+  c.buoyancy_correction.segment(first, m.size()) = m.cwiseProduct(gravity);
+}
+
 // M times what is linear in the deformed positions, from -1 to 1 over the body: forces, moments, what bends and
 // stretches.
 template <int Dim>
@@ -200,10 +212,8 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-    if (s.bodies[k].is_thin()) {
-      c.buoyancy_correction.segment(first, e.u.size()) = weight_beside(s, g, rows, k, gravity);
-      c.push.segment(first, e.u.size()) += dt * c.buoyancy_correction.segment(first, e.u.size());
-    }
+    if (s.bodies[k].is_thin())
+      add_liquid_beside(mass_beside(s, g, rows, k), g_nodes, state.elastic[k].velocity, dt, first, parts);
     std::vector<FluxEntry> entries = spread_shares(s, *g.shares[k], *g.attached[k], rows);
     bring_home_air(s, rows, 0, entries);
     const std::size_t shown = entries.size();

@@ -221,16 +221,18 @@ FaceShares SolidGeometry<Dim>::measure_elastic(int k, const Placement& placed, N
   return shares;
 }
 
-// Takes the distances of a body to the nodes of a box into psi, and the parts of faces it closes. Leaves the scratch as
-// it was.
+// Takes the distances of a body to the nodes of a box into psi, and the parts of faces it closes; of a thin elastic one
+// the faces that it seals alone. Leaves the scratch as it was.
 template <int Dim>
 FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim>& scratch,
                                        StepGeometry<Dim>& g) const {
   FaceShares shares;
   if (box.empty()) return shares;
+  // What a thin elastic body stretches by over a cell cannot leave it through a sliver beside sealed faces.
+  const bool whole_faces = bodies_[k].is_thin() && bodies_[k].is_elastic();
   for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>&) {
     scratch[s] = snapped(scratch[s], layout_.h());
-    if (scratch[s] >= g.psi[s]) return;
+    if (whole_faces || scratch[s] >= g.psi[s]) return;
     g.psi[s] = scratch[s];
     g.body[s] = std::int16_t(k);
   });
@@ -240,7 +242,7 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim
   for (int a = 0; a < Dim && !faces.empty(); ++a)
     for_each_index_in_order(layout_, faces, [&](Site f, const IVec<Dim>& i) {
       const bool sealed = thin && seals(*thin, scratch[f], a, i);
-      const double closed = sealed ? 1 : 1 - open_part_of_face(layout_, scratch, a, f);
+      const double closed = sealed ? 1 : whole_faces ? 0 : 1 - open_part_of_face(layout_, scratch, a, f);
       if (closed > 0) shares.push_back({f, a, closed});
       if (!sealed) return;
       g.sealed.push_back({f, a, k});

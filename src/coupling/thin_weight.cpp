@@ -20,21 +20,20 @@ double wet_gaps(const Layout<Dim>& l, const PressureRows<Dim>& rows, const Seale
 }  // namespace
 
 template <int Dim>
-Eigen::VectorXd weight_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows, int k,
-                              const Vec<Dim>& gravity) {
+Eigen::VectorXd mass_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows, int k) {
   const FaceShares& shares = *g.shares[std::size_t(k)];
-  std::vector<double> force(std::size_t(s.bodies[std::size_t(k)].elastic().body.size()));
+  std::vector<double> mass(std::size_t(s.bodies[std::size_t(k)].elastic().body.size()));
   std::size_t n = 0;  // shares and sealed faces are in the same order
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
     const SurfacePoint<Dim>& point = (*g.attached[std::size_t(k)])[n];
     const double area = shares[n].closed * s.layout.geometry().face_area();
-    const double weight = area * s.density() * gravity[f.axis] * wet_gaps(s.layout, rows, f);
-    for (int i = 0; i < Dim; ++i) force[std::size_t(Dim * point.corners[i] + f.axis)] += weight * point.weights[i];
+    const double of_face = area * s.density() * wet_gaps(s.layout, rows, f);
+    for (int i = 0; i < Dim; ++i) mass[std::size_t(Dim * point.corners[i] + f.axis)] += of_face * point.weights[i];
   }
-  s.ranks.global_sum(force);
-  return Eigen::Map<const Eigen::VectorXd>(force.data(), Eigen::Index(force.size()));
+  s.ranks.global_sum(mass);
+  return Eigen::Map<const Eigen::VectorXd>(mass.data(), Eigen::Index(mass.size()));
 }
 
 template <int Dim>
@@ -74,11 +73,10 @@ Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd
   return load;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template Eigen::VectorXd weight_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, int, \
-                                            const Vec<D>&);                                                       \
-  template bool has_thin_elastic<D>(const Setup<D>&);                                                             \
-  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);                 \
+#define SEICHE_INSTANTIATE(D)                                                                                    \
+  template Eigen::VectorXd mass_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, int); \
+  template bool has_thin_elastic<D>(const Setup<D>&);                                                            \
+  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);                \
   template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

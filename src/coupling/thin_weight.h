@@ -1,16 +1,17 @@
 #pragma once
-// The weight and the volume of the liquid beside elastic solids that are thinner than a cell.
+// The mass and the volume of the liquid beside elastic solids that are thinner than a cell.
 #include "coupling/state.h"
 
 namespace seiche {
 
-// Pressure acts on the faces that body k seals as it is at the centres of the cells beside them. What the liquid
-// between these and the body weighs, on each node, N:
-//   sum_f s A rho g_a (d_low + d_high) e_a,   d the gaps of the cells with a row.
-// So a wet body feels rho g times its volume along each axis, and a column of liquid all its weight. Collective.
+// Pressure acts on the faces that body k seals as it is at the centres of the cells beside them, and these faces have
+// no liquid of their own. What is between the centres and the body moves with it and weighs on it: of each unknown, kg,
+//   sum_f s A rho (d_low + d_high),   d the gaps of the cells with a row,
+// spread to the nodes. So a wet body feels rho g times its volume along each axis, a column of liquid rests on it with
+// all its weight, and light sheets do not move without inertia. Collective.
 template <int Dim>
-Eigen::VectorXd weight_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                              int k, const Vec<Dim>& gravity);
+Eigen::VectorXd mass_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
+                            int k);
 
 // Liquid beside thin elastic solids ends in whole cells, the solids between: what that counts too much, m^Dim,
 //   sum_f n_a^2 A (h/2 - d) over the sides of a sealed face with liquid,

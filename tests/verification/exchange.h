@@ -151,8 +151,7 @@ struct Balance {
       const int k = p.coupling.bodies[b];
       const double m = p.setup.bodies[k].mass().mass;
       if (p.setup.bodies[k].is_elastic()) {
-        add_elastic(p, k,
-                    p.coupling.buoyancy_correction.segment(p.coupling.first[b], p.state.elastic[k].velocity.size()));
+        add_elastic(p, k, p.coupling.first[b]);
         continue;
       }
       const RigidState &now = p.state.rigid[k], &old = p.before[k];
@@ -173,11 +172,15 @@ struct Balance {
   }
 
   // Linear momentum alone: pressure acts at face centres, and the elastic forces balance where the solve leads to.
-  void add_elastic(const Projection<Dim>& p, int k, const Eigen::VectorXd& extra) {
+  void add_elastic(const Projection<Dim>& p, int k, int first) {
     const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
     const Eigen::VectorXd dv = p.state.elastic[k].velocity - p.elastic_before[k].state.v, momentum = body.mass * dv;
     for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
-    for (int n = 0; n < int(extra.size()); ++n) correction.linear[n % Dim] += dt * extra[n];
+    const Eigen::VectorXd more = p.state.elastic[k].velocity - p.elastic_before[k].velocity;
+    for (int n = 0; n < int(more.size()); ++n) {
+      change.linear[n % Dim] += p.coupling.mass_beside[first + n] * more[n];
+      correction.linear[n % Dim] += dt * p.coupling.buoyancy_correction[first + n];
+    }
     gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.gravity.at(0);
   }
 
