@@ -105,6 +105,7 @@ void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before,
   std::vector<double> in_all(now.volume.size()), kept(before.volume.size());
   for (const auto& [pair, n] : cells)
     if (pair.second >= 0) in_all[std::size_t(pair.second)] += n;
+  // Regions in cut cells may have no volume to share by.
   const auto part = [&](const auto& pair, double n) {
     if (pair.second < 0) return n * cell;
     return std::max(measured[std::size_t(pair.second)], 1e-3 * cell) * n / in_all[std::size_t(pair.second)];
@@ -113,9 +114,10 @@ void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before,
     if (pair.first >= 0) kept[std::size_t(pair.first)] += part(pair, n);
   for (const auto& [pair, n] : cells) {
     if (pair.second < 0) continue;
-    const double m = part(pair, n);
-    now.volume[std::size_t(pair.second)] +=
-        pair.first < 0 ? m : before.volume[std::size_t(pair.first)] * (m / kept[std::size_t(pair.first)]);
+    const auto k = std::size_t(pair.second);
+    now.volume[k] += pair.first < 0
+                         ? measured[k] * n / in_all[k]
+                         : before.volume[std::size_t(pair.first)] * (part(pair, n) / kept[std::size_t(pair.first)]);
   }
   for (std::size_t n = 0; n < now.volume.size(); ++n)
     if (in_all[n] == 0) now.volume[n] = measured[n];
@@ -163,7 +165,8 @@ double control_volumes(const Setup<Dim>& s, const StepGeometry<Dim>& g, double e
     for (double& v : air.volume) v *= 1 + (excess - lacking) / enclosed;
   std::vector<double> shift(open + 1);
   for (std::size_t k = 0; k <= open; ++k) {
-    const double area = (grown[k] - volume[k]) / probe, wanted = k < open ? air.volume[k] - volume[k] : excess - lacking;
+    const double area = (grown[k] - volume[k]) / probe,
+                 wanted = k < open ? air.volume[k] - volume[k] : excess - lacking;
     shift[k] = area > 0 ? std::clamp(wanted / area, -limit, limit) : 0;
   }
   for_each_site(s.layout, s.layout.padded(), [&](Site c) {
@@ -173,13 +176,13 @@ double control_volumes(const Setup<Dim>& s, const StepGeometry<Dim>& g, double e
   return liquid_volume(s, phi, g.psi) - liquid;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template std::vector<double> air_volumes<D>(const Setup<D>&, const AirRegions<D>&, const NodeField<D>&,             \
-                                              const CellField<D>&);                                                   \
-  template AirRegions<D> initial_air<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);                \
-  template AirRegions<D> follow_air<D>(const Setup<D>&, const AirRegions<D>&, const FaceField<D>&, double,            \
-                                       const StepGeometry<D>&, const CellField<D>&, double&);                         \
-  template double control_volumes<D>(const Setup<D>&, const StepGeometry<D>&, double, double, AirRegions<D>&,         \
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template std::vector<double> air_volumes<D>(const Setup<D>&, const AirRegions<D>&, const NodeField<D>&,     \
+                                              const CellField<D>&);                                           \
+  template AirRegions<D> initial_air<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);        \
+  template AirRegions<D> follow_air<D>(const Setup<D>&, const AirRegions<D>&, const FaceField<D>&, double,    \
+                                       const StepGeometry<D>&, const CellField<D>&, double&);                 \
+  template double control_volumes<D>(const Setup<D>&, const StepGeometry<D>&, double, double, AirRegions<D>&, \
                                      CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

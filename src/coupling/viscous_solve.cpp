@@ -57,9 +57,8 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   FaceGeometry<Dim> faces = in.liquid.faces;
   faces.side_pressure.fill(0);  // part of the slope
   const ProjectionInput<Dim>& p0 = in.liquid;
-  const ProjectionInput<Dim> unpressed{p0.layout,  p0.halo, p0.ranks,   p0.phi,        faces,
-                                       p0.density, dt,      p0.parting, p0.gas_density,
-                                       nullptr,    p0.air};
+  const ProjectionInput<Dim> unpressed{p0.layout, p0.halo,    p0.ranks,       p0.phi,  faces, p0.density,
+                                       dt,        p0.parting, p0.gas_density, nullptr, p0.air};
   ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const ViscousSystem<Dim>& system = viscous.system();

@@ -102,8 +102,7 @@ class Labelling {
     const std::string bytes(reinterpret_cast<const char*>(labels.data()), count * sizeof(std::int64_t));
     for (const std::string& part : in_.ranks.all_gather(bytes)) {
       std::memcpy(labels.data(), part.data(), part.size());
-      for (std::size_t k = 0; k < count; ++k)
-        changed = adopt(node_of_region(std::int64_t(k)), labels[k]) || changed;
+      for (std::size_t k = 0; k < count; ++k) changed = adopt(node_of_region(std::int64_t(k)), labels[k]) || changed;
     }
     return changed;
   }

@@ -224,8 +224,7 @@ void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, c
   in.ranks.global_sum(sums);
   for_each_site(in.layout, in.layout.cells(), [&](Site c) {
     const std::int64_t k = rows.region(c);
-    if (k >= 0 && sums[count + std::size_t(k)] > 0)
-      pressure[c] = sums[std::size_t(k)] / sums[count + std::size_t(k)];
+    if (k >= 0 && sums[count + std::size_t(k)] > 0) pressure[c] = sums[std::size_t(k)] / sums[count + std::size_t(k)];
   });
   in.halo.fill_ghosts(pressure);
 }
