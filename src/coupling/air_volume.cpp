@@ -54,6 +54,9 @@ std::vector<double> volumes_of(const Setup<Dim>& s, const CellField<Dim, std::in
   return volume;
 }
 
+// Cells that a region now has of one before; either may be open_air.
+using Overlaps = std::map<std::pair<std::int64_t, std::int64_t>, double>;
+
 struct Overlap {
   std::int64_t before, now;
   double cells;
@@ -72,10 +75,9 @@ Site origin(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, Site 
 
 // How many cells each region now has of each before, over all ranks.
 template <int Dim>
-std::map<std::pair<std::int64_t, std::int64_t>, double> overlaps(const Setup<Dim>& s, const AirRegions<Dim>& before,
-                                                                 const AirRegions<Dim>& now, const FaceField<Dim>& u,
-                                                                 double dt) {
-  std::map<std::pair<std::int64_t, std::int64_t>, double> mine, all;
+Overlaps overlaps(const Setup<Dim>& s, const AirRegions<Dim>& before, const AirRegions<Dim>& now,
+                  const FaceField<Dim>& u, double dt) {
+  Overlaps mine, all;
   for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
     if (now.label[c] == no_air) return;
     std::int64_t from = dt > 0 ? before.label[origin(s.layout, u, dt, c)] : no_air;
@@ -96,29 +98,57 @@ std::map<std::pair<std::int64_t, std::int64_t>, double> overlaps(const Setup<Dim
   return all;
 }
 
+// Where the surface is cut off by a rim, cells beside it change sides to and fro: each would take a cell's air along.
+// Up to 2^Dim cells between a region that stays and the open air are therefore nobody's, and splinters below a cell's
+// volume leave theirs with the larger part, so that they vanish and it is whole.
+template <int Dim>
+Overlaps without_blur(Overlaps cells, const std::vector<double>& measured, std::size_t before, double cell) {
+  constexpr double blur = 1 << Dim;
+  std::vector<char> stays(before), comes(measured.size()), has_large(before);
+  for (const auto& [pair, n] : cells) {
+    if (pair.first < 0 || pair.second < 0) continue;
+    stays[std::size_t(pair.first)] = comes[std::size_t(pair.second)] = 1;
+    if (measured[std::size_t(pair.second)] >= cell) has_large[std::size_t(pair.first)] = 1;
+  }
+  for (auto& [pair, n] : cells) {
+    if (pair.first >= 0 && pair.second >= 0) {
+      if (has_large[std::size_t(pair.first)] && measured[std::size_t(pair.second)] < cell) n = 0;
+    } else if (n <= blur && (pair.first >= 0 ? stays[std::size_t(pair.first)]
+                                             : pair.second >= 0 && comes[std::size_t(pair.second)])) {
+      n = 0;
+    }
+  }
+  return cells;
+}
+
 // V_n = sum_b V_b m_bn / sum_n m_bn, m_bn the part of n's measured volume that came from b; from what was open m_n.
 template <int Dim>
-void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before,
-                     const std::map<std::pair<std::int64_t, std::int64_t>, double>& cells,
+void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before, const Overlaps& found,
                      const std::vector<double>& measured, AirRegions<Dim>& now, double& lost) {
   const double cell = s.layout.geometry().cell_volume();
+  const Overlaps cells = without_blur<Dim>(found, measured, before.volume.size(), cell);
   std::vector<double> in_all(now.volume.size()), kept(before.volume.size());
+  std::vector<char> known(now.volume.size());
+  for (const auto& [pair, n] : found)
+    if (pair.second >= 0) known[std::size_t(pair.second)] = 1;
   for (const auto& [pair, n] : cells)
     if (pair.second >= 0) in_all[std::size_t(pair.second)] += n;
+  // Regions in cut cells may have no volume to share by.
   const auto part = [&](const auto& pair, double n) {
-    if (pair.second < 0) return n * cell;
+    if (pair.second < 0 || n == 0) return n * cell;
     return std::max(measured[std::size_t(pair.second)], 1e-3 * cell) * n / in_all[std::size_t(pair.second)];
   };
   for (const auto& [pair, n] : cells)
     if (pair.first >= 0) kept[std::size_t(pair.first)] += part(pair, n);
   for (const auto& [pair, n] : cells) {
-    if (pair.second < 0) continue;
-    const double m = part(pair, n);
-    now.volume[std::size_t(pair.second)] +=
-        pair.first < 0 ? m : before.volume[std::size_t(pair.first)] * (m / kept[std::size_t(pair.first)]);
+    if (pair.second < 0 || n == 0) continue;
+    const auto k = std::size_t(pair.second);
+    now.volume[k] += pair.first < 0
+                         ? measured[k] * n / in_all[k]
+                         : before.volume[std::size_t(pair.first)] * (part(pair, n) / kept[std::size_t(pair.first)]);
   }
   for (std::size_t n = 0; n < now.volume.size(); ++n)
-    if (in_all[n] == 0) now.volume[n] = measured[n];
+    if (!known[n]) now.volume[n] = measured[n];
   for (std::size_t b = 0; b < kept.size(); ++b)
     if (kept[b] == 0) lost += before.volume[b];
 }

@@ -30,7 +30,10 @@ PreconditionerOrFailure diagonal_scaling(const LinearSystem& system) {
   return {std::make_unique<DiagonalScaling>(system), {}};
 }
 PreconditionerOrFailure boomeramg(const LinearSystem& system) {
-  return make_boomeramg(system);
+  // Rows that touch thousands of others, those of enclosed air, are not on the grid. Aggressive coarsening costs them
+  // iterations (docs/decisions/0012-enclosed-air.md).
+  const bool on_grid = box_of_rows(system).cells() > 0;
+  return on_grid ? make_boomeramg(system) : make_boomeramg(system, {.aggressive_levels = 0});
 }
 PreconditionerOrFailure multigrid(const LinearSystem& system) {
   return make_pfmg(system);

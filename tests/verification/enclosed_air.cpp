@@ -31,21 +31,21 @@ std::string about_axis(int dim, std::string text) {
   return text;
 }
 
-SolidSpec glass(int dim, double lowered = 0) {
+SolidSpec glass(int dim, const std::string& shape) {
   SolidSpec s;
   s.name = "glass";
   s.shape.kind = "expression";
-  s.shape.phi = about_axis(dim, "max(max(R-0.24, abs(y-0.5)-0.2), -max(R-0.16, y-0.62))");
-  s.shape.transform.translate = {0, -lowered, 0};
+  s.shape.phi = about_axis(dim, shape);
   s.shape.where = "test";
   return s;
 }
 
-// Water up to 0.85, but for the air in the glass down to 0.41.
+// Water up to 0.92, but for the air in the glass down to 0.41. The walls are thick: where the two surfaces meet, in the
+// middle of the wall, phi has a corner, whose rounding must not reach the liquid.
 Scene glass_scene(int dim, int cells) {
   Scene s = pool_scene(dim, cells);
-  test::add_liquid(s, about_axis(dim, "max(y-0.85, -max(R-0.2, abs(y-0.53)-0.12))"));
-  s.solids.push_back(glass(dim));
+  test::add_liquid(s, about_axis(dim, "max(y-0.92, -max(R-0.285, abs(y-0.54)-0.13))"));
+  s.solids.push_back(glass(dim, "max(max(R-0.47, abs(y-0.55)-0.25), -max(R-0.1, y-0.54))"));
   return s;
 }
 
@@ -59,6 +59,14 @@ double value_at(const Simulation& sim, const Scene& s, const std::string& field,
   return f.values.at(n);
 }
 
+// Height at which liquid ends that begins at the floor below x.
+double top_of_liquid(const Simulation& sim, const Scene& s, Vec3 x, double until) {
+  double top = 0, phi = -1;
+  for (x[1] = 0.5 * s.domain.cell_size; x[1] < until && phi < 0; x[1] += s.domain.cell_size)
+    if (phi = value_at(sim, s, "surface", x); phi < 0) top = x[1] - phi;
+  return top;
+}
+
 void add_bubble(std::string& liquid, const Vec3& x, double radius) {
   liquid = fmt::format("max({}, {}-sqrt((x-{})^2+(y-{})^2+(z-{})^2))", liquid, radius, x[0], x[1], x[2]);
 }
@@ -67,17 +75,17 @@ void add_bubble(std::string& liquid, const Vec3& x, double radius) {
 
 TEST_CASE("air in a glass under water rests at the pressure of its depth") {
   for (int dim : {2, 3}) {
-    Scene s = glass_scene(dim, dim == 2 ? 48 : 24);
+    Scene s = glass_scene(dim, dim == 2 ? 48 : 32);
     s.solver.tolerance = 1e-13;  // the bar is a speed, as in rest.cpp
     s.time.max_step = 0.01;
     const auto sim = make_simulation(s, Communicator());
     const double before = sim->stats().gas_volume;
     double fastest = 0;
     for (int n = 0; n < 50; ++n) fastest = std::max(fastest, sim->step(sim->time() + 1).max_speed);
-    const double p = value_at(*sim, s, "pressure", {0.5, 0.55, dim == 3 ? 0.5 : 0});
-    WARN(dim << "D: " << fastest << " m/s, pressure " << p << " Pa, of the depth " << rho * g * 0.44);
+    const double p = value_at(*sim, s, "pressure", {0.5, 0.48, dim == 3 ? 0.5 : 0});
+    WARN(dim << "D: " << fastest << " m/s, pressure " << p << " Pa, of the depth " << rho * g * 0.51);
     CHECK(fastest <= 1e-10);
-    CHECK(p == Approx(rho * g * 0.44).epsilon(0.01));
+    CHECK(p == Approx(rho * g * 0.51).epsilon(0.01));
     CHECK(sim->stats().bubbles == 1);
     CHECK(sim->stats().gas_volume == Approx(before).epsilon(1e-10));
   }
@@ -150,34 +158,33 @@ TEST_CASE("as much flows into a bubble as out of it, to rounding") {
   check_balance<3>();
 }
 
+// From 0.4 s on, when the rim is under water, to 2 s, when the glass has come to rest, water closing over the glass
+// catches small pockets that come and go; they are not the glass's.
 TEST_CASE("an upturned glass pushed under water keeps its air for five seconds") {
   for (int dim : {2, 3}) {
-    Scene s = pool_scene(dim, dim == 2 ? 40 : 20);
+    Scene s = pool_scene(dim, dim == 2 ? 40 : 24);
     test::add_liquid(s, "y-0.55");
-    s.solids.push_back(glass(dim, -0.26));
+    s.solids.push_back(glass(dim, "max(max(R-0.24, abs(y-0.76)-0.2), -max(R-0.16, y-0.88))"));
     s.solids[0].kind = SolidKind::kinematic;
     s.solids[0].motion.translate = {"0", "t < 2 ? -0.18*(1-cos(pi*t/2)) : -0.36", "0"};
     const auto sim = make_simulation(s, Communicator());
+    const double z = dim == 3 ? 0.5 : 0;
+    test::SettledMean pressure{3, 5}, depth{3, 5};  // the pool sloshes
     double enclosed = 0, worst = 0;
     while (sim->time() < 5) {
       const StepStats stats = sim->step(5);
-      if (enclosed == 0) enclosed = stats.gas_volume;
-      if (enclosed > 0) worst = std::max(worst, std::abs(stats.gas_volume / enclosed - 1));
+      if (enclosed == 0 && stats.time > 0.4) enclosed = stats.gas_volume;
+      if (stats.time > 2) worst = std::max(worst, std::abs(stats.gas_volume / enclosed - 1));
+      if (stats.time < 3) continue;
+      const double level = top_of_liquid(*sim, s, {0.1, 0, z}, 1), surface = top_of_liquid(*sim, s, {0.5, 0, z}, 0.5);
+      pressure.add(stats.time, stats.dt, value_at(*sim, s, "pressure", {0.5, 0.48, z}));
+      depth.add(stats.time, stats.dt, level - surface);
     }
-    // The surface within: the depth at which liquid begins below the axis.
-    double surface = 0;
-    const double z = dim == 3 ? 0.5 : 0, h = s.domain.cell_size;
-    for (double y = 0.5 * h; y < 0.5; y += h)
-      if (const double phi = value_at(*sim, s, "surface", {0.5, y, z}); phi < 0) surface = y - phi;
-    double level = 0;
-    for (double y = 0.5 * h; y < 1; y += h)
-      if (const double phi = value_at(*sim, s, "surface", {0.1, y, z}); phi < 0) level = y - phi;
-    const double p = value_at(*sim, s, "pressure", {0.5, 0.5, z});
-    WARN(dim << "D: the air's volume is off by " << worst << " at most; pressure " << p << " Pa, of the depth "
-             << rho * g * (level - surface));
+    WARN(dim << "D: the air's volume is off by " << worst << " at most; mean pressure " << pressure.value()
+             << " Pa, of the depth " << rho * g * depth.value());
     CHECK(enclosed > 0);
     CHECK(worst <= 0.005);
-    CHECK(p == Approx(rho * g * (level - surface)).epsilon(0.01));
+    CHECK(pressure.value() == Approx(rho * g * depth.value()).epsilon(0.01));
   }
 }
 
@@ -202,8 +209,9 @@ TEST_CASE("a ball in a bubble feels nothing of the liquid around it") {
 TEST_CASE("ten thousand bubbles") {
   const int n = 100;
   Scene s = pool_scene(2, 6 * n);
-  test::add_liquid(s, fmt::format("max(y-0.97, ({0}-sqrt((mod(x,{1})-{2})^2+(mod(y,{1})-{2})^2)))", 1.9 / (6 * n),
-                                  1.0 / n, 0.5 / n));
+  test::add_liquid(s,
+                   fmt::format("max(y-0.97, {0}-sqrt((x/{1}-0.5-rint(x/{1}-0.5))^2+(y/{1}-0.5-rint(y/{1}-0.5))^2)*{1})",
+                               1.9 / (6 * n), 1.0 / n));
   s.liquid.velocity = {"0.1*sin(2*pi*y)", "0.1*sin(2*pi*x)", "0"};
   const auto sim = make_simulation(s, Communicator());
   const double before = sim->stats().gas_volume;
@@ -213,4 +221,50 @@ TEST_CASE("ten thousand bubbles") {
   WARN(sim->stats().bubbles << " bubbles, " << most << " iterations, air " << sim->stats().gas_volume / before);
   CHECK(sim->stats().gas_volume == Approx(before).epsilon(0.01));
   CHECK(most <= 20);
+}
+
+// Two bubbles rise below a lid of still water, meet and break through it: what merges adds up, what opens is let go,
+// and no volume comes from nowhere on the way.
+TEST_CASE("bubbles that merge keep what they have together") {
+  Scene s = pool_scene(2, 64);
+  std::string liquid = "y-0.9";
+  for (const double x : {0.39, 0.61}) liquid = fmt::format("max({}, 0.1-sqrt((x-{})^2+(y-0.3)^2))", liquid, x);
+  test::add_liquid(s, liquid);
+  const auto sim = make_simulation(s, Communicator());
+  const double before = sim->stats().gas_volume;
+  double worst = 0, lost = 0;
+  std::int64_t most = 0;
+  while (sim->time() < 0.35) {
+    const StepStats stats = sim->step(0.35);
+    most = std::max(most, stats.bubbles);
+    lost = stats.air_lost;
+    worst = std::max(worst, std::abs(stats.gas_volume + lost - before) / before);
+  }
+  WARN("up to " << most << " bubbles; volumes are off by " << worst << ", lost " << lost / before);
+  CHECK(sim->stats().gas_volume > 0);
+  CHECK(worst <= 0.005);
+}
+
+// The lid is clamped between two walls, with air below it that carries it and the water above.
+TEST_CASE("a bubble under an elastic lid keeps its volume") {
+  Scene s = pool_scene(2, 32);
+  test::add_liquid(s, "max(y-0.8, -max(y-0.55, 0.35-y))");
+  SolidSpec lid = test::rigid_box("lid", {1, 0.1, 0}, {0.5, 0.55, 0}, 1100);
+  lid.kind = SolidKind::elastic;
+  lid.elastic.youngs_modulus = 1e5;
+  lid.elastic.poisson_ratio = 0.4;
+  lid.elastic.element_size = 0.05;
+  for (const double x : {0.0, 1.0}) {
+    PinSpec pin;
+    pin.shape = test::rigid_box("", {0.05, 0.2, 0}, {x, 0.55, 0}, 1).shape;
+    lid.elastic.pinned.push_back(pin);
+  }
+  s.solids.push_back(lid);
+  const auto sim = make_simulation(s, Communicator());
+  const double before = sim->stats().gas_volume;
+  double worst = 0;
+  while (sim->time() < 1) worst = std::max(worst, std::abs(sim->step(1).gas_volume / before - 1));
+  WARN("off by " << worst);
+  CHECK(worst <= 1e-4);
+  CHECK(sim->stats().max_speed < 0.1);
 }
