@@ -152,7 +152,7 @@ struct StepInProgress {
         control_volume(s, out.geometry.psi, out.state.expected_volume + gap_volume(s, before.parting),
                        0.05 * s.layout.h(), out.state.phi);
     keep_sides_apart(s, before, out.geometry, out.state.phi);
-    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, out.state.phi, dt);
+    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, before.phi, out.state.phi, dt);
   }
 
   bool transport_velocity() {
@@ -166,7 +166,15 @@ struct StepInProgress {
 
   ProjectionInput<Dim> input() const {
     const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
-    return {s.layout, s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting, 0,
+    return {s.layout,
+            s.halo,
+            s.ranks,
+            out.state.phi,
+            out.geometry.faces,
+            s.density(),
+            dt,
+            parting,
+            0,
             tension ? &tension->jump : nullptr};
   }
 

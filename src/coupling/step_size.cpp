@@ -41,7 +41,8 @@ double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
 namespace {
 
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
-// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension add.
+// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension
+// add.
 template <int Dim>
 double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),

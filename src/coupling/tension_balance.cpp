@@ -42,8 +42,8 @@ CellField<Dim, std::int64_t> label_pieces(const Setup<Dim>& s, const SurfaceGrap
   return label;
 }
 
-// Sums over a piece: force_a = sum over links along a of +-kappa, response_ab = sum of +-n_b; + from liquid to air along
-// a.
+// Sums over a piece: force_a = sum over links along a of +-kappa, response_ab = sum of +-n_b; + from liquid to air
+// along a.
 template <int Dim>
 struct Piece {
   double held = 0;  // cells next to what may hold the piece

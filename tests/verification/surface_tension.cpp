@@ -97,9 +97,9 @@ TEST_CASE("a drop at rest comes to rest at La = 12000, and its energy does not g
 
 TEST_CASE("the pressure in a drop is sigma kappa") {
   for (int dim : {2, 3}) {
-    Scene s = drop_scene(dim, dim == 2 ? 32 : 20, 1,
-                         dim == 2 ? "sqrt((x-0.503)^2+(y-0.494)^2)-0.4" : "sqrt((x-0.503)^2+(y-0.494)^2+(z-0.51)^2)-0.4",
-                         0);
+    Scene s =
+        drop_scene(dim, dim == 2 ? 32 : 20, 1,
+                   dim == 2 ? "sqrt((x-0.503)^2+(y-0.494)^2)-0.4" : "sqrt((x-0.503)^2+(y-0.494)^2+(z-0.51)^2)-0.4", 0);
     add_probe(s, ProbeKind::pressure, {0.503, 0.494, dim == 3 ? 0.51 : 0.0});
     for (const double density : {1.0, 1000.0}) {
       s.liquid.density = density;
