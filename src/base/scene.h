@@ -172,10 +172,10 @@ struct SolidSpec {
   SolidKind kind = SolidKind::fixed;
   ShapeSpec shape;
   Slip slip = Slip::free_slip;
-  MotionSpec motion;               // kinematic
-  RigidSpec rigid;                 // rigid and elastic
-  ElasticSpec elastic;             // elastic
-  std::optional<double> friction;  // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
+  MotionSpec motion;                    // kinematic
+  RigidSpec rigid;                      // rigid and elastic
+  ElasticSpec elastic;                  // elastic
+  std::optional<double> friction;       // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
   std::optional<double> contact_angle;  // degrees; unset: that of the liquid
 };
 

@@ -163,7 +163,7 @@ struct StepInProgress {
     keep_sides_apart(s, before, out.geometry, out.state.phi);
     if (s.keeps_air())
       out.state.air = follow_air(s, out.state.air, before.now->u, 0, out.geometry, out.state.phi, out.state.lost_air);
-    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, out.state.phi, dt);
+    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, before.phi, out.state.phi, dt);
   }
 
   void control_liquid_and_air(double expected, double limit) {

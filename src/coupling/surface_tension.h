@@ -12,18 +12,18 @@ bool has_surface_tension(const Setup<Dim>& setup) {
 // The jump on the faces whose cells' link the surface crosses, and how its curvatures were found.
 template <int Dim>
 struct SurfaceTension {
-  FaceField<Dim> jump;  // p_liquid - p_gas = sigma kappa, Pa; 0 elsewhere
+  FaceField<Dim> jump;                             // p_liquid - p_gas = sigma kappa, Pa; 0 elsewhere
   std::int64_t crossings = 0, by_differences = 0;  // over all ranks
 };
 
-// For phi (m) and solids at the end of a step of dt. Collective.
+// For phi (m) and solids at the end of a step of dt, and phi before it. Collective.
 template <int Dim>
 SurfaceTension<Dim> surface_tension(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
-                                    const CellField<Dim>& phi, double dt);
+                                    const CellField<Dim>& before, const CellField<Dim>& phi, double dt);
 
 // Longest step for capillary waves, s: sqrt((rho + rho_gas) h^3/(4 pi sigma)) (Brackbill, Kothe, Zemach 1992);
-// infinite without tension or where the scheme is semi-implicit. Surface and velocity leapfrog, stable for omega dt < 2:
-// the shortest waves of the grid, omega^2 = 8 (3D; 2D 4) * 2.3 (1.8) sigma/(rho h^3) by the symbols of curvature and
+// infinite without tension or where the scheme is semi-implicit. Surface and velocity leapfrog, stable for omega dt <
+// 2: the shortest waves of the grid, omega^2 = 8 (3D; 2D 4) * 2.3 (1.8) sigma/(rho h^3) by the symbols of curvature and
 // projection, have omega dt = 1.21 (0.75) there.
 template <int Dim>
 double capillary_step(const Setup<Dim>& setup);

@@ -4,8 +4,9 @@
 
 namespace seiche {
 
-// The semi-implicit curvature. At the end of a step curvature is kappa_e = kappa - dt Lap_s u_n, u_n the normal velocity
-// that the jump sigma kappa_e itself makes (Hysing 2006; Sussman, Ohta 2009). For a wave of wavenumber k on deep liquid
+// The semi-implicit curvature. At the end of a step curvature is kappa_e = kappa - dt Lap_s u_n, u_n the normal
+// velocity that the jump sigma kappa_e itself makes (Hysing 2006; Sussman, Ohta 2009). For a wave of wavenumber k on
+// deep liquid
 //   (1 + beta (omega dt)^2) kappa_e = kappa,   omega^2 = sigma k^3/rho
 // so that implicit curvature is curvature without its waves that are too short for the step. Here
 //   (1 + (l Lap_s)^4) kappa_e = kappa,   read (l k)^4,   (1/l)^3 = s^2 rho/(sigma dt^2)

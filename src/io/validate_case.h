@@ -19,7 +19,7 @@ struct MeasureSpec {
   std::string probe, column, solid;            // names
   Formula level = "0", reference = "0";        // constants
   Formula time_unit = "1", length_unit = "1";  // constants, s and m: what makes times and lengths dimensionless
-  Formula unit = "1";         // that a figure is counted in
+  Formula unit = "1";                          // that a figure is counted in
   double from = 0, to = 0;                     // dimensionless lengths; of solids and of columns of probes: s
   std::filesystem::path data;                  // CSV: header and two columns, or those of csv_lines()
 };

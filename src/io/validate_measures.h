@@ -58,8 +58,8 @@ double settled_mean(const Points& points, double from, double to);
 // time and a column of one solid, from the text of solids.csv.
 Points solid_points(const std::string& text, const std::string& solid, const std::string& column);
 
-// Root of the mean square of y(x) - z(x) over the points of z, y by straight lines. Throws Error(cannot_continue) where y
-// does not reach as far as z.
+// Root of the mean square of y(x) - z(x) over the points of z, y by straight lines. Throws Error(cannot_continue) where
+// y does not reach as far as z.
 double rms_difference(const Points& y, const Points& z);
 
 // Rate b, per unit of x, at which the square of a swing of y(x) about `level` dies away, exp(-b x): twice the

@@ -13,12 +13,12 @@ struct SurfaceCurvature {
 };
 
 // Curvature where the surface crosses the link across a face, phi of different sign in its two cells. The surface is
-// taken as a graph over its tangent there: heights along the normal at the crossing and h to each side of it (2D: 3, 3D:
-// 5 zeros of the cubic interpolant of phi), kappa = -H''/(1 + H'^2)^(3/2) by second differences. On spheres of radius R
-// the error is (h/R)^2/4 of kappa, whichever way the grid lies; heights over an axis, usual where all that is known are
-// volumes of cells, lose 25 times as much on the diagonals in 3D. Where a height is not found, div(grad phi/|grad phi|)
-// in both cells, interpolated. At most (Dim - 1)/h in magnitude: no rounder drop is resolved. phi valid four cells
-// around the owned ones.
+// taken as a graph over its tangent there: heights along the normal at the crossing and h to each side of it (2D: 3,
+// 3D: 5 zeros of the cubic interpolant of phi), kappa = -H''/(1 + H'^2)^(3/2) by second differences. On spheres of
+// radius R the error is (h/R)^2/4 of kappa, whichever way the grid lies; heights over an axis, usual where all that is
+// known are volumes of cells, lose 25 times as much on the diagonals in 3D. Where a height is not found, div(grad
+// phi/|grad phi|) in both cells, interpolated. At most (Dim - 1)/h in magnitude: no rounder drop is resolved. phi valid
+// four cells around the owned ones.
 template <int Dim>
 SurfaceCurvature curvature_at_crossing(const Layout<Dim>& layout, const CellField<Dim>& phi, int axis, Site face);
 

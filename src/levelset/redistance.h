@@ -13,8 +13,8 @@ struct RedistanceOptions {
 
 // Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka
 // 2000; du Chene, Min, Gibou 2008). Fills ghosts. Collective. The relaxation moves the zero
-// by some 1e-3 cells a call, by another amount at each place, which curvature would feel; what is `kept` it leaves alone,
-// where |grad phi| is within a tenth of 1.
+// by some 1e-3 cells a call, by another amount at each place, which curvature would feel; what is `kept` it leaves
+// alone, where |grad phi| is within a tenth of 1.
 template <int Dim>
 void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
                 CellField<Dim>& phi);

@@ -54,6 +54,10 @@ std::string fault(const std::string& text, const Overrides& overrides, const std
   return "";
 }
 
+const std::string liquid_text =
+    "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
+    "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = ";
+
 std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe) {
   const auto v = [&](const char* x, const char* y, const char* z) { return vector_text(dimension, {x, y, z}); };
   const std::string form = geometry(dimension, shape);
@@ -67,9 +71,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += fmt::format("[domain.boundary]\nx_lower = {}\nx_upper = {}\ny_lower = \"no_slip\"\n",
                       side_text(dimension, side), side == "periodic" ? "\"periodic\"" : "{ type = \"outflow\" }");
   text += "[time]\nend = 2\nframe_rate = 30\ncfl = 2\nmax_step = 0.01\nfixed_step = 0.005\nscheme = \"first_order\"\n";
-  text += "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
-          "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = " +
-          v("\"sin(x)\"", "0", "0") + "\n";
+  text += liquid_text + v("\"sin(x)\"", "0", "0") + "\n";
   text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
   text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\nuntil = 1.5\n";

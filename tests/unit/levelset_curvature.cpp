@@ -26,9 +26,8 @@ template <int Dim, class Phi, class Kappa>
 Errors measure(int n, const Phi& level, const Kappa& kappa) {
   const Layout<Dim> layout = unit_cube<Dim>(n);
   CellField<Dim> phi(layout);
-  for_each_index(layout, layout.padded(), [&](Site s, const IVec<Dim>& i) {
-    phi[s] = level(Vec<Dim>(layout.position(i, cell_offset<Dim>())));
-  });
+  for_each_index(layout, layout.padded(),
+                 [&](Site s, const IVec<Dim>& i) { phi[s] = level(Vec<Dim>(layout.position(i, cell_offset<Dim>()))); });
   Errors e;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(layout, layout.faces(a), [&](Site f, const IVec<Dim>& i) {
@@ -94,8 +93,9 @@ TEST_CASE("curvature of an ellipse whose phi is no distance: order 2") {
   CHECK(std::log2(first.largest / last.largest) / 3 > 1.9);
 }
 
-TEMPLATE_TEST_CASE_SIG("curvature: planes have none, bubbles that of drops with the sign turned, tiny drops at most 1/h",
-                       "", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "curvature: planes have none, bubbles that of drops with the sign turned, tiny drops at most 1/h", "",
+    ((int Dim), Dim), 2, 3) {
   const Vec<Dim> n = Vec<Dim>::LinSpaced(1, 1.7).normalized(), c = Vec<Dim>::Constant(0.5);
   const auto plane = measure<Dim>(
       16, [&](const Vec<Dim>& x) { return (x - c).dot(n); }, [](const Vec<Dim>&) { return 1.0; });
