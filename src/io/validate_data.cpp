@@ -134,21 +134,37 @@ double mean_period(const Points& points, double level) {
   return (times[2 * periods] - times[0]) / double(periods);
 }
 
-double rms_difference(const Points& y, const Points& z) {
+namespace {
+
+// y less z where z is given.
+std::vector<double> differences(const Points& y, const Points& z) {
   if (y.empty() || z.empty()) fail("no samples to compare");
   const double slack = 1e-9 * (z.back().first - z.front().first);
   if (z.front().first < y.front().first - slack || z.back().first > y.back().first + slack)
     fail(fmt::format("samples from {:g} to {:g} do not reach the data's {:g} to {:g}", y.front().first, y.back().first,
                      z.front().first, z.back().first));
-  double sum = 0;
+  std::vector<double> d;
   for (const auto& [x, value] : z) {
     const auto above = std::lower_bound(y.begin() + 1, y.end() - 1, Points::value_type{x, -1e300});
     const auto [x0, y0] = *(above - 1);
     const auto [x1, y1] = *above;
-    const double at = y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-    sum += (at - value) * (at - value);
+    d.push_back(y0 + (y1 - y0) * (x - x0) / (x1 - x0) - value);
   }
+  return d;
+}
+
+}  // namespace
+
+double rms_difference(const Points& y, const Points& z) {
+  double sum = 0;
+  for (const double d : differences(y, z)) sum += d * d;
   return std::sqrt(sum / double(z.size()));
+}
+
+double largest_difference(const Points& y, const Points& z) {
+  double largest = 0;
+  for (const double d : differences(y, z)) largest = std::max(largest, std::abs(d));
+  return largest;
 }
 
 double energy_decay(const Points& y, double level) {

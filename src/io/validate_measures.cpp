@@ -147,11 +147,20 @@ Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
   return itself(largest / constant(spec.unit));
 }
 
-Measurement probe_rms(const MeasureSpec& spec, const RunPaths& run) {
+// (value - level)/length_unit over time/time_unit.
+Points scaled_probe(const MeasureSpec& spec, const RunPaths& run) {
   Points points = probe_points(read_whole_file(run.probes()), spec.probe);
   const double time_unit = constant(spec.time_unit), unit = constant(spec.length_unit), level = constant(spec.level);
   for (auto& [time, value] : points) time /= time_unit, value = (value - level) / unit;
-  return itself(rms_difference(points, csv_points(read_whole_file(spec.data))));
+  return points;
+}
+
+Measurement probe_rms(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(rms_difference(scaled_probe(spec, run), csv_points(read_whole_file(spec.data))));
+}
+
+Measurement probe_deviation(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(largest_difference(scaled_probe(spec, run), csv_points(read_whole_file(spec.data))));
 }
 
 Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
@@ -233,6 +242,7 @@ const std::vector<MeasureKind>& kinds() {
       {"column_peak", {"column", "from", "to", "unit"}, column_peak, column_series},
       {"column_drift", {"column"}, column_drift, column_series},
       {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
+      {"probe_deviation", {"probe", "level", "time_unit", "length_unit", "data"}, probe_deviation, scalar_series},
       {"probe_decay", {"probe", "level"}, probe_decay, scalar_series},
       {"volume_drift", {}, volume_drift_of_run},
       {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean, solid_series},

@@ -61,6 +61,8 @@ Points solid_points(const std::string& text, const std::string& solid, const std
 // Root of the mean square of y(x) - z(x) over the points of z, y by straight lines. Throws Error(cannot_continue) where
 // y does not reach as far as z.
 double rms_difference(const Points& y, const Points& z);
+// Their largest magnitude, likewise.
+double largest_difference(const Points& y, const Points& z);
 
 // Rate b, per unit of x, at which the square of a swing of y(x) about `level` dies away, exp(-b x): twice the
 // least-squares slope of ln|y - level| over the extremes between crossings, sign turned. Throws Error(cannot_continue)

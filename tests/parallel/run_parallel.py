@@ -97,6 +97,15 @@ def viscous(text, viscosity):
     return text.replace("viscosity = 0.0", f"viscosity = {viscosity}").replace("friction =", 'slip = "no_slip"\nfriction =')
 
 
+# The same beside gas that flows, with surface tension; and with enclosed air under a lid.
+def gassy(text):
+    return viscous(text, 0.1).replace("density = 1000.0", "density = 1000.0\nsurface_tension = 0.07", 1) + "[gas]\ndensity = 1.2\nviscosity = 1e-4\n"
+
+
+def airy(text):
+    return text + '[gas]\nbubbles = "volume_conserving"\n'
+
+
 # Pressure and viscosity in one solve, bodies dragged along; mud that stands up to a stress.
 THICK = viscous(SOFT, 20.0)
 MUD = TWENTY_STEPS.replace("viscosity = 0.0",
@@ -198,6 +207,23 @@ def viscous_ranks_agree_3d(bench):
     ranks_agree(bench, THICK_3D, (3,))
 
 
+def gas_ranks_agree_2d(bench):
+    """Boxes and a ball in liquid and gas, with surface tension, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, gassy(BOXES), (2, 3))
+    expect(largest(stats(bench.path("one")), "gas_volume") > 0, "there is no gas")
+
+
+def gas_ranks_agree_3d(bench):
+    """A splash under gas in 3D, on 1 and 3 ranks."""
+    ranks_agree(bench, gassy(SPLASH), (3,))
+
+
+def air_ranks_agree_2d(bench):
+    """Boxes and a ball under enclosed air, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, airy(BOXES), (2, 3))
+    expect(largest(stats(bench.path("one")), "bubbles") > 0, "no air is enclosed")
+
+
 def same_bits_twice(bench, text):
     for out in ("one", "two"):
         bench.simulate(text=text, out=out, ranks=3).needs(0)
@@ -278,11 +304,22 @@ def viscous_flow_killed_at_random(bench):
     killed_at_random(bench, 2, 2, kind=lambda text: viscous(text, 20.0))
 
 
+def gas_killed_at_random(bench):
+    """kill -9 of one of two ranks of a dam break under gas."""
+    killed_at_random(bench, 2, 2, kind=gassy)
+
+
+def air_killed_at_random(bench):
+    """kill -9 of one of two ranks of a dam break under enclosed air."""
+    killed_at_random(bench, 2, 2, kind=airy)
+
+
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
-                       same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
-                      elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random]}
+                      elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
+                      gas_killed_at_random, air_killed_at_random]}
 
 if __name__ == "__main__":
     sys.exit(1 if run_table(TABLES, sys.argv[1:]) else 0)
