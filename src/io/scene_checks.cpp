@@ -209,6 +209,8 @@ void check_rheology(const Checker& c, Scene& scene) {
 
 // Enclosed air beside what it does not go together with.
 void check_enclosed_air(const Checker& c, const Scene& scene) {
+  if (scene.gas.flows())
+    c.report("gas", "gas: two-phase flow is not in this version; bubbles = \"volume_conserving\" is");
   if (!scene.gas.present || scene.gas.flows()) return;
   if (scene.liquid.separates)
     c.report("liquid.separates",
