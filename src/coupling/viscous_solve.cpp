@@ -42,6 +42,11 @@ FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, dou
 }
 
 template <int Dim>
+ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometry<Dim>& faces) {
+  return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.parting, p.gas_density, nullptr, p.air};
+}
+
+template <int Dim>
 void take_loads(const ViscousStep<Dim>& viscous, const FaceField<Dim>& u, CoupledSolution<Dim>& r) {
   r.viscous_loads = viscous.loads(u, r.solids);
   r.dissipation = viscous.dissipation(u, r.solids);
@@ -56,9 +61,7 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   const FaceField<Dim> pressed = shifted(in, in.u_star, -dt);
   FaceGeometry<Dim> faces = in.liquid.faces;
   faces.side_pressure.fill(0);  // part of the slope
-  const ProjectionInput<Dim>& p0 = in.liquid;
-  const ProjectionInput<Dim> unpressed{p0.layout, p0.halo,    p0.ranks,       p0.phi,  faces, p0.density,
-                                       dt,        p0.parting, p0.gas_density, nullptr, p0.air};
+  const ProjectionInput<Dim> unpressed = with_faces(in.liquid, faces);
   ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const ViscousSystem<Dim>& system = viscous.system();

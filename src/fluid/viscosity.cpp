@@ -303,7 +303,6 @@ template <int Dim>
 void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag, ViscousSystem<Dim>& r) {
   const double area = in.layout.geometry().face_area();
   r.D.first_row = in.rows.first, r.D.global_rows = in.rows.global;
-  r.Dt.first_row = r.rows.first, r.Dt.global_rows = r.rows.global;
   Entries entries;
   r.q = net_over_rows(
       in.layout, in.ranks, in.rows, [](Site) { return 0.0; },
@@ -326,6 +325,14 @@ void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag
     append_row(entries, r.D);
   }
   for (double& known : r.q) known *= -area;
+}
+
+// Its transpose, and with it the rows of D that belong to regions of air.
+template <int Dim>
+void assemble_gradient(const ViscousInput<Dim>& in, const FaceField<Dim>& drag, ViscousSystem<Dim>& r) {
+  const double area = in.layout.geometry().face_area();
+  r.Dt.first_row = r.rows.first, r.Dt.global_rows = r.rows.global;
+  Entries entries;
   std::vector<MatrixEntry> of_air;
   std::vector<double> mobility(in.rows.air_row.size());
   for (std::size_t n = 0; n < r.rows.faces.size(); ++n) {
@@ -358,6 +365,7 @@ ViscousSystem<Dim> assemble_viscosity(const ViscousInput<Dim>& in) {
   const FaceField<Dim> drag = assemble_rows(in, r);
   assemble_bodies(in, r);
   assemble_divergence(in, drag, r);
+  assemble_gradient(in, drag, r);
   return r;
 }
 

@@ -198,7 +198,9 @@ TEST_CASE("a source of a cylinder begins at start, its from being a point") {
 
 TEST_CASE("what this version does not have is refused with what it has") {
   const std::string ball = "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n";
-  check_all({{small_scene + "[tracking]\nmethod = \"apic\"\n", "this version has \"level_set\""}});
+  check_all({{small_scene + "[liquid]\nseparates = true\n[gas]\nbubbles = \"volume_conserving\"\n",
+              "liquid.separates = true and gas.bubbles = \"volume_conserving\" exclude each other"},
+             {small_scene + "[tracking]\nmethod = \"apic\"\n", "this version has \"level_set\""}});
   for (const char* key : {"density", "velocity", "angular_velocity"}) {
     check_all({{solid(fmt::format("kind = \"static\"\n{}{} = 1\n", ball, key)),
                 "is only for kind = \"rigid\" or \"elastic\""}});

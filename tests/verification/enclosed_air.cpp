@@ -91,6 +91,44 @@ TEST_CASE("air in a glass under water rests at the pressure of its depth") {
   }
 }
 
+// Net fluxes of the regions' rows over the sum of |flux| of their cells' faces.
+template <int Dim>
+std::vector<double> relative_fluxes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                                    const FaceField<Dim>& u) {
+  const auto flux = [&](int a, Site f) { return in.faces.kind_at(a, f) == FaceKind::prescribed ? 0 : u.at(a, f); };
+  const auto size = [&](Site c) {
+    double sum = 0;
+    for_each_face_of(in.layout, c, [&](int a, Site f, int, Site) { sum += std::abs(flux(a, f)); });
+    return sum;
+  };
+  const std::vector<double> net = net_over_rows(
+      in.layout, in.ranks, rows, [](Site) { return 0.0; }, flux);
+  const std::vector<double> all = net_over_rows(in.layout, in.ranks, rows, size, [](int, Site) { return 0.0; });
+  std::vector<double> relative;
+  for (std::size_t n = rows.liquid; n < net.size(); ++n) relative.push_back(net[n] / all[n]);
+  return relative;
+}
+
+// u less what the pressure of a sloppy solve gives it, the air settled.
+template <int Dim>
+FaceField<Dim> projected(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u) {
+  const NullSpace closed = find_closed_components(in, rows);
+  CHECK(closed.count == 0);
+  std::vector<double> p(rows.cells.size());
+  REQUIRE(solve_spd(assemble_pressure_matrix(in, rows), row_grid(in, rows), closed, pressure_right_side(in, rows, u), p,
+                    {.tolerance = 1e-6}, in.ranks)
+              .converged);
+  CellField<Dim> pressure(in.layout);
+  for (std::size_t n = 0; n < p.size(); ++n) pressure[rows.cells[n]] = p[n];
+  settle_air(in, rows, u, pressure);
+  FaceField<Dim> restored(in.layout);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(in.layout, in.layout.faces(a), [&](Site f) {
+      restored.at(a, f) = u.at(a, f) - in.dt * face_pressure_slope(in, rows, pressure, a, f);
+    });
+  return restored;
+}
+
 // The balance of each region is closed to rounding whatever the tolerance of the solve, here of two bubbles and of a
 // pocket below a lid, with random velocities before the projection.
 template <int Dim>
@@ -106,7 +144,7 @@ void check_balance() {
   const std::vector<Body<Dim>> bodies;
   const StepGeometry<Dim> g = SolidGeometry<Dim>(layout, sides, bodies).measure({}, 0);
   CellField<Dim> phi(layout);
-  FaceField<Dim> u(layout), restored(layout);
+  FaceField<Dim> u(layout);
   for_each_index(layout, layout.cells(), [&](Site c, const IVec<Dim>& i) {
     const Vec<Dim> x = layout.position(i, cell_offset<Dim>());
     const double first = 0.15 - (x - Vec<Dim>::Constant(0.3)).norm(),
@@ -123,33 +161,9 @@ void check_balance() {
   CHECK(air.any_open);
   const ProjectionInput<Dim> in{layout, halo, ranks, phi, g.faces, rho, 0.01, nullptr, 0, nullptr, &air};
   const PressureRows<Dim> rows = number_rows(in);
-  const NullSpace closed = find_closed_components(in, rows);
-  CHECK(closed.count == 0);
-  std::vector<double> p(rows.cells.size());
-  REQUIRE(solve_spd(assemble_pressure_matrix(in, rows), row_grid(in, rows), closed, pressure_right_side(in, rows, u), p,
-                    {.tolerance = 1e-6}, ranks)
-              .converged);
-  CellField<Dim> pressure(layout);
-  for (std::size_t n = 0; n < p.size(); ++n) pressure[rows.cells[n]] = p[n];
-  settle_air(in, rows, u, pressure);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(layout, layout.faces(a), [&](Site f) {
-      restored.at(a, f) = u.at(a, f) - in.dt * face_pressure_slope(in, rows, pressure, a, f);
-    });
-  const auto none = [](Site) { return 0.0; };
-  const auto flux = [&](int a, Site f) {
-    return g.faces.kind_at(a, f) == FaceKind::prescribed ? 0 : restored.at(a, f);
-  };
-  const auto size = [&](Site c) {
-    double sum = 0;
-    for_each_face_of(layout, c, [&](int a, Site f, int, Site) { sum += std::abs(flux(a, f)); });
-    return sum;
-  };
-  const std::vector<double> net = net_over_rows(layout, ranks, rows, none, flux);
-  const std::vector<double> all = net_over_rows(layout, ranks, rows, size, [](int, Site) { return 0.0; });
-  for (std::size_t n = rows.liquid; n < net.size(); ++n) {
-    WARN(Dim << "D: net flux into a bubble " << net[n] / all[n] << " of what crosses its faces");
-    CHECK(std::abs(net[n]) <= 1e-12 * all[n]);
+  for (const double net : relative_fluxes(in, rows, projected(in, rows, u))) {
+    WARN(Dim << "D: net flux into a bubble " << net << " of what crosses its faces");
+    CHECK(std::abs(net) <= 1e-12);
   }
 }
 
@@ -177,7 +191,7 @@ TEST_CASE("an upturned glass pushed under water keeps its air for five seconds")
       if (stats.time > 2) worst = std::max(worst, std::abs(stats.gas_volume / enclosed - 1));
       if (stats.time < 3) continue;
       const double level = top_of_liquid(*sim, s, {0.1, 0, z}, 1), surface = top_of_liquid(*sim, s, {0.5, 0, z}, 0.5);
-      pressure.add(stats.time, stats.dt, value_at(*sim, s, "pressure", {0.5, 0.48, z}));
+      pressure.add(stats.time, stats.dt, value_at(*sim, s, "pressure", {0.5, 0.3, z}));
       depth.add(stats.time, stats.dt, level - surface);
     }
     WARN(dim << "D: the air's volume is off by " << worst << " at most; mean pressure " << pressure.value()
