@@ -29,6 +29,31 @@ void filter_for_step(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceF
   filter_curvature(s, phi, crossed, length, kappa);
 }
 
+// The links of a liquid cell that the surface all but touches cross it in next to one place, and what their jumps
+// differ by would blow through the cell at 1/theta: for theta below a quarter, kappa goes over to the cell's mean,
+// weighted with 1/theta. Halos of kappa and crossed filled.
+template <int Dim>
+void agree_in_slivers(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
+                      FaceField<Dim>& kappa) {
+  constexpr double small = 0.25;
+  const FaceField<Dim> old = kappa;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (!crossed.at(a, f)) return;
+      const Site low = f - s.layout.stride(a), cell = phi[f] < 0 ? f : low;
+      const double theta = surface_distance(phi[cell], phi[phi[f] < 0 ? low : f]);
+      if (theta >= small) return;
+      double sum = 0, weights = 0;
+      for_each_face_of(s.layout, cell, [&](int b, Site g, int, Site across) {
+        if (!crossed.at(b, g)) return;
+        const double weight = 1 / surface_distance(phi[cell], phi[across]);
+        sum += weight * old.at(b, g);
+        weights += weight;
+      });
+      kappa.at(a, f) += (1 - theta / small) * (sum / weights - kappa.at(a, f));
+    });
+}
+
 // phi a little after the end of the step, as it has moved in it: curvature from there damps a wave of frequency omega
 // by ahead omega^2 dt/2. The leapfrog of surface and velocity by itself damps nothing, and what curvature makes of the
 // grid's irregular crossings would feed waves of a few cells; these have omega dt near 1, resolved ones next to none.
@@ -61,6 +86,8 @@ SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>
   r.crossings = std::int64_t(s.ranks.global_sum(crossings));
   r.by_differences = std::int64_t(s.ranks.global_sum(by_differences));
   s.halo.fill_ghosts(crossed);
+  s.halo.fill_ghosts(r.jump);
+  agree_in_slivers(s, phi, crossed, r.jump);
   filter_for_step(s, phi, crossed, dt, r.jump);
   balance_closed_pieces(s, g.faces, phi, crossed, r.jump);
   for (int a = 0; a < Dim; ++a)
