@@ -24,6 +24,15 @@ FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site c
   return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
 }
 
+// The larger speed of a cell's faces along an axis that the fluid touches.
+template <int Dim>
+double fastest_solved(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
+  double fastest = 0;
+  for (const Site f : {cell, cell + s.layout.stride(axis)})
+    if (l.valid.at(axis, f)) fastest = std::max(fastest, std::abs(l.u.at(axis, f)));
+  return fastest;
+}
+
 // Of one fluid, over this rank's cells.
 struct FluidSums {
   std::array<double, 7> sums{};  // volume, kinetic and potential energy, momentum, cells
@@ -45,7 +54,7 @@ FluidSums sum_fluid(const Setup<Dim>& s, const Level<Dim>& level, const CellFiel
       const FacePair u = solved_faces(s, level, a, c);
       r.sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
       r.sums[3 + a] += 0.5 * mass * (u.low + u.high);
-      speed2 += std::max(u.low * u.low, u.high * u.high);
+      speed2 += std::pow(fastest_solved(s, level, a, c), 2);
     }
     r.sums[0] += volume;
     r.sums[2] -= mass * g.dot(s.layout.position(i, cell_offset<Dim>()));

@@ -29,9 +29,16 @@ void filter_for_step(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceF
   filter_curvature(s, phi, crossed, length, kappa);
 }
 
+// rho_f/rho of a link that the surface crosses.
+template <int Dim>
+double link_density(const Setup<Dim>& s, double phi_low, double phi_high) {
+  const double theta = liquid_part(phi_low, phi_high);
+  return theta + (1 - theta) * s.gas_density() / s.density();
+}
+
 // The links of a liquid cell that the surface all but touches cross it in next to one place, and what their jumps
-// differ by would blow through the cell at 1/theta: for theta below a quarter, kappa goes over to the cell's mean,
-// weighted with 1/theta. Halos of kappa and crossed filled.
+// differ by would blow through the cell at rho/rho_f: for densities below a quarter, kappa goes over to the cell's
+// mean, weighted with rho/rho_f. Halos of kappa and crossed filled.
 template <int Dim>
 void agree_in_slivers(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
                       FaceField<Dim>& kappa) {
@@ -41,26 +48,38 @@ void agree_in_slivers(const Setup<Dim>& s, const CellField<Dim>& phi, const Face
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (!crossed.at(a, f)) return;
       const Site low = f - s.layout.stride(a), cell = phi[f] < 0 ? f : low;
-      const double theta = surface_distance(phi[cell], phi[phi[f] < 0 ? low : f]);
-      if (theta >= small) return;
+      const double density = link_density(s, phi[low], phi[f]);
+      if (density >= small) return;
       double sum = 0, weights = 0;
       for_each_face_of(s.layout, cell, [&](int b, Site g, int, Site across) {
         if (!crossed.at(b, g)) return;
-        const double weight = 1 / surface_distance(phi[cell], phi[across]);
+        const double weight = 1 / link_density(s, phi[cell], phi[across]);
         sum += weight * old.at(b, g);
         weights += weight;
       });
-      kappa.at(a, f) += (1 - theta / small) * (sum / weights - kappa.at(a, f));
+      kappa.at(a, f) += (1 - density / small) * (sum / weights - kappa.at(a, f));
     });
+}
+
+// nu/sqrt(sigma h/rho) with the means of both fluids; 0 where the liquid's viscosity is no constant.
+template <int Dim>
+double grid_ohnesorge(const Setup<Dim>& s) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  const Expression mu(liquid.viscosity);
+  if (!liquid.rheology.model.empty() || !mu.is_constant()) return 0;
+  const double viscosity = mu(Vec3::Zero(), 0) + (s.has_gas() ? s.scene.gas.viscosity : 0), rho = density_at_surface(s);
+  return viscosity / std::sqrt(rho * liquid.surface_tension * s.layout.h());
 }
 
 // phi a little after the end of the step, as it has moved in it: curvature from there damps a wave of frequency omega
 // by ahead omega^2 dt/2. The leapfrog of surface and velocity by itself damps nothing, and what curvature makes of the
-// grid's irregular crossings would feed waves of a few cells; these have omega dt near 1, resolved ones next to none.
+// grid's irregular crossings would feed waves of a few cells; these have omega dt near 1, resolved ones less. Viscosity
+// of nu/sqrt(sigma h/rho) above 0.01 ... 0.02 damps them by itself.
 template <int Dim>
 CellField<Dim> look_ahead(const Setup<Dim>& s, const CellField<Dim>& before, const CellField<Dim>& phi) {
-  constexpr double ahead = 0.3;
   CellField<Dim> r = phi;
+  const double ahead = 0.3 * std::clamp(2 - grid_ohnesorge(s) / 0.01, 0.0, 1.0);
+  if (ahead == 0) return r;
   for_each_site(s.layout, s.layout.cells(), [&](Site c) { r[c] += ahead * (phi[c] - before[c]); });
   return r;
 }

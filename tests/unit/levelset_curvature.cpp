@@ -104,7 +104,7 @@ TEMPLATE_TEST_CASE_SIG(
       32, [&](const Vec<Dim>& x) { return 0.3 - (x - c).norm(); }, [](const Vec<Dim>&) { return -(Dim - 1) / 0.3; });
   CHECK(bubble.largest < 1e-2);
   const auto tiny = measure<Dim>(
-      16, [&](const Vec<Dim>& x) { return (x - c).norm() - 0.045; }, [](const Vec<Dim>&) { return (Dim - 1) * 16.0; });
+      16, [&](const Vec<Dim>& x) { return (x - c).norm() - 0.06; }, [](const Vec<Dim>&) { return (Dim - 1) * 16.0; });
   CHECK(tiny.crossings > 0);
   CHECK(tiny.largest <= 2);  // |kappa| <= (Dim - 1)/h
 }
