@@ -20,6 +20,13 @@ bool iterates_on_bodies(const Setup<Dim>& s) {
   return s.has_elastic() && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
+// PFMG takes 24 to 44 iterations where BoomerAMG takes 15, or is not positive definite, where coefficients jump.
+template <int Dim>
+std::string preconditioner(const Setup<Dim>& s) {
+  const std::string& choice = s.scene.solver.preconditioner;
+  return s.has_gas() && choice == "auto" ? "boomeramg" : choice;
+}
+
 // Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.
 template <int Dim>
 void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
@@ -27,7 +34,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   const Setup<Dim>& s = input.setup;
   const ProjectionInput<Dim>& in = input.liquid;
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
-  const SolveOptions options{.tolerance = s.scene.solver.tolerance, .preconditioner = s.scene.solver.preconditioner};
+  const SolveOptions options{.tolerance = s.scene.solver.tolerance, .preconditioner = preconditioner(s)};
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.ranks);
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);

@@ -3,7 +3,6 @@
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
 #include "coupling/sources.h"
-#include "coupling/two_fluids.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -245,7 +244,7 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, d
   CellField<Dim> joined = state.phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
   CellField<Dim> phi(s.layout);
-  advect_level_set(s.layout, of_both(s, state, &Level<Dim>::u), s.tampering.surface_advection * dt, s.band(), joined, phi);
+  advect_level_set(s.layout, state.now->u, s.tampering.surface_advection * dt, s.band(), joined, phi);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;

@@ -136,7 +136,7 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
 }
 
 // The largest magnitude over from <= t <= to.
-Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
+double largest_of_column(const MeasureSpec& spec, const RunPaths& run) {
   const std::string text = read_whole_file(run.stats());
   const std::vector<double> times = csv_column(text, "time"), values = csv_column(text, spec.column);
   Points points;
@@ -144,7 +144,15 @@ Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
   double largest = 0;
   for (const auto& [time, value] : points_during(points, spec.from, spec.to))
     largest = std::max(largest, std::abs(value));
-  return itself(largest / constant(spec.unit));
+  return largest / constant(spec.unit);
+}
+
+Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(largest_of_column(spec, run));
+}
+
+Measurement column_extreme(const MeasureSpec& spec, const RunPaths& run) {
+  return against(largest_of_column(spec, run), constant(spec.reference));
 }
 
 // (value - level)/length_unit over time/time_unit.
@@ -240,6 +248,7 @@ const std::vector<MeasureKind>& kinds() {
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope, front_series},
       {"max_of_column", {"column"}, max_of_column, column_series},
       {"column_peak", {"column", "from", "to", "unit"}, column_peak, column_series},
+      {"column_extreme", {"column", "from", "to", "unit", "reference"}, column_extreme, column_series},
       {"column_drift", {"column"}, column_drift, column_series},
       {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
       {"probe_deviation", {"probe", "level", "time_unit", "length_unit", "data"}, probe_deviation, scalar_series},
