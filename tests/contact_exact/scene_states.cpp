@@ -131,7 +131,11 @@ void check(const std::string& name, const Scene& scene, int steps) {
   WARN(name << ": " << steps << " steps, up to " << faults.most_contacts << " contacts; " << faults.crossings
             << " crossings, " << faults.outside << " points outside, " << faults.wound
             << " states with one in another; least det F " << faults.least_volume);
-  CHECK(faults.crossings == 0);
+  // Known to fail: the bellows' walls are pinned to the side of the plate that they move with, and touch it.
+  if (name == "flooded_bellows_2d")
+    CHECK_NOFAIL(faults.crossings == 0);
+  else
+    CHECK(faults.crossings == 0);
   CHECK(faults.outside == 0);
   CHECK(faults.wound == 0);
   CHECK(faults.least_volume > 0);
@@ -244,8 +248,6 @@ TEST_CASE("no accepted state of the scenes has solids that intersect") {
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(SEICHE_SCENES))
     if (entry.path().extension() == ".toml") files.insert(entry.path());
-  // Its walls are pinned to the side of the plate that they move with: what is joined touches.
-  files.erase(std::filesystem::path(SEICHE_SCENES) / "flooded_bellows_2d.toml");
   for (const auto& file : files) {
     const Scene scene = coarse_scene(file);
     if (!has_free_solids(scene)) continue;
