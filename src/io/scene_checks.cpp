@@ -40,11 +40,7 @@ void check_extent(const Checker& c, DomainSpec& d, int axis) {
         "domain.cell_size",
         fmt::format("the domain is {} m long along {}: {} cells of {} m; it must be a whole "
                     "number of cells (upper {} = {} would be)",
-                    extent, name, cells, d.cell_size, name, d.lower[axis] + std::max(2.0, whole) * d.cell_size));
-  }
-  if (whole < 2) {
-    return c.report("domain.cell_size",
-                    fmt::format("the domain is {} cell(s) wide along {}; it must have at least 2", whole, name));
+                    extent, name, cells, d.cell_size, name, d.lower[axis] + std::max(1.0, whole) * d.cell_size));
   }
   d.cells[axis] = int(whole);
 }
@@ -56,6 +52,7 @@ void check_cell_count(const Checker& c, const DomainSpec& d, int dimension) {
     cells *= d.cells[axis];
     product += fmt::format("{}{}", axis ? " x " : "", d.cells[axis]);
   }
+  if (cells == 1) c.report("domain.cell_size", "the domain is a single cell; lower cell_size");
   if (cells <= INT32_MAX) return;
   c.report("domain.cell_size",
            fmt::format("{} = {:.3g} cells; the linear solvers (hypre) number rows with 32-bit integers, so "

@@ -98,7 +98,7 @@ Section<DomainSpec> domain_section() {
                     .unit = "m",
                     .range = positive(),
                     .presence = Presence::required,
-                    .doc = "edge of a cell; each extent must be a whole number of cells, at least 2"},
+                    .doc = "edge of a cell; each extent must be a whole number of cells"},
                    &S::cell_size),
       block_key<S>({.key = "boundary", .unset = "free_slip on all sides", .doc = "what each side of the domain does"},
                    &S::sides, boundary_section()),

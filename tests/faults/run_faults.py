@@ -65,7 +65,7 @@ def no_solids_no_container(bench):
 
 def full_closed_container(bench):
     """Filled to the lid, at rest, on odd and even sizes: stays at rest with no divergence."""
-    for cells in ([16, 16], [24, 20], [33, 17], [17, 13], [17, 13, 11]):
+    for cells in ([16, 16], [24, 20], [33, 17], [17, 13], [17, 13, 11], [1, 16, 9]):
         out = "out" + "x".join(map(str, cells))
         bench.simulate("--set", "solver.tolerance=1e-12", text=box_scene(cells, EVERYWHERE), out=out).needs(0)
         last = stats(bench.path(out))[-1]
@@ -107,12 +107,17 @@ def droplets_and_enclosed_cells(bench):
 
 
 def odd_and_thin_grids(bench):
-    """Odd, prime and long thin grids."""
-    for cells in ([17, 13], [31, 7], [2, 2], [4, 4, 500], [3, 5, 7]):
-        half = [n * 0.0625 / 2 for n in cells]
-        lower = ", ".join(["-1.0"] * len(cells))
-        pool = region(f'shape = "box"\nlower = [{lower}]\nupper = [{", ".join(map(str, half[:1] + [half[1]] + [99.0] * (len(cells) - 2)))}]')
-        bench.simulate("--frames", "1", text=box_scene(cells, pool), out="out" + "x".join(map(str, cells))).needs(0)
+    """Odd, prime and long thin grids, one cell thick too."""
+    for cells in ([17, 13], [31, 7], [2, 2], [4, 4, 500], [3, 5, 7], [1, 16], [16, 1], [1, 9, 8], [9, 1, 8], [9, 8, 1], [1, 16, 1]):
+        upper = ", ".join(str(n * 0.0625 / 2) if axis < 2 and n > 1 else "99.0" for axis, n in enumerate(cells))
+        pool = region(f'shape = "box"\nlower = [{", ".join(["-1.0"] * len(cells))}]\nupper = [{upper}]')
+        thin = "xyz"[cells.index(1)] if 1 in cells else ""
+        for name, sides in {"walls": "", "periodic": f'[domain.boundary]\n{thin}_lower = "periodic"\n{thin}_upper = "periodic"\n'}.items():
+            if sides and not thin:
+                continue
+            bench.simulate("--frames", "1", text=box_scene(cells, pool, sides), ranks=3 if sides else 0,
+                           out=f"out_{name}_" + "x".join(map(str, cells))).needs(0)
+    bench.simulate(text=box_scene([1, 1, 1], ""), out="single").needs(2, "single cell")
 
 
 def nothing_to_do(bench):

@@ -120,13 +120,13 @@ TEST_CASE("physical ranges hold") {
        {small_scene + "[solver]\ntolerance = 0.1\n", "solver.tolerance must be > 0 and <= 0.01; it is 0.1"}});
 }
 
-TEST_CASE("the domain is a whole number of cells, two at least, and no more than the solvers can number") {
+TEST_CASE("the domain is a whole number of cells, more than one, and no more than the solvers can number") {
   check_all({{domain("[1, 1, 1]", "0"), "scene.toml:3: domain.cell_size must be > 0 m; it is 0"},
              {domain("[1, 1, 1]", "-1"), "domain.cell_size must be > 0 m"},
              {domain("[1, 0, 1]", "0.5"), "the domain must have lower < upper; along y they are 0 and 0"},
              {domain("[1, -1, 1]", "0.5"), "along y"},
-             {domain("[1, 1, 1]", "1"), "the domain is 1 cell(s) wide along x; it must have at least 2"},
-             {domain("[1, 4, 4]", "1"), "along x; it must have at least 2"},
+             {domain("[1, 1, 1]", "1"), "the domain is a single cell; lower cell_size"},
+             {domain("[0.4, 4, 4]", "1"), "along x: 0.4 cells of 1 m"},
              {domain("[1, 1.003, 1]", "0.125"), "it must be a whole number of cells (upper y = 1 would be)"},
              {domain("[1, 1, 1]", "0.3"), "along x: 3.3333333333333335 cells of 0.3 m"},
              {domain("[1e5, 1e5, 1e5]", "1"),
@@ -135,6 +135,7 @@ TEST_CASE("the domain is a whole number of cells, two at least, and no more than
              {domain("[1291, 1291, 1291]", "1"), "32-bit"},
              {domain("[1, 1, 1]", "1e-300"), "raise cell_size"}});
   CHECK(parse(domain("[2, 2, 2]", "1")).domain.cells == std::array{2, 2, 2});
+  CHECK(parse(domain("[1, 4, 4]", "1")).domain.cells == std::array{1, 4, 4});
   CHECK(parse(domain("[1290, 1290, 1290]", "1")).domain.cells[0] == 1290);             // 1290^3 < 2^31 < 1291^3
   CHECK(parse(domain("[0.3, 0.7, 0.9]", "0.1")).domain.cells == std::array{3, 7, 9});  // no decimal of these is exact
 }
