@@ -122,9 +122,15 @@ void SpdSolver::make(const std::string& name, Built& built) const {
     built.diagonal = system_.bodies().diagonal();
   }
   // Rows that deformable bodies fill are coarsened badly by aggressive coarsening (twice the iterations), and one sweep
-  // does not smooth them (a third more).
-  built.made = filled && name == "boomeramg" ? make_boomeramg(*system, {.aggressive_levels = 0, .sweeps = 2})
-                                             : make_preconditioner(name, *system);
+  // does not smooth them (a third more). Jumps: docs/decisions/0002-preconditioner-choice.md.
+  if (name != "boomeramg")
+    built.made = make_preconditioner(name, *system);
+  else if (filled)
+    built.made = make_boomeramg(*system, {.aggressive_levels = 0, .sweeps = 2});
+  else if (options_.jumps)
+    built.made = make_boomeramg(*system, {.elements_per_row = 6, .aggressive_levels = 0});
+  else
+    built.made = make_preconditioner(name, *system);
 }
 
 SpdSolver::Built& SpdSolver::build(const std::string& name) {

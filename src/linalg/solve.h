@@ -16,6 +16,7 @@ struct SolveOptions {
   double tolerance = 1e-8;   // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence left in the flow
   int max_iterations = 400;  // of a rung with a hierarchy; rungs with "none" get ten times as many
   std::string preconditioner = "auto";
+  bool jumps = false;  // coefficients differ by orders of magnitude, as those of liquid and gas do
   int fail_rungs = 0;  // for tests: the first rungs of the ladder return a wrong x and claim success
 };
 
