@@ -25,7 +25,7 @@ Eigen::VectorXd AddedMassModel::masked(Eigen::VectorXd g) const {
   return g;
 }
 
-InertiaResponse AddedMassModel::minimise(const SmallMatrix& K, const Eigen::VectorXd& r) {
+InertiaResponse AddedMassModel::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
   Eigen::MatrixXd H = T_;
   if (K.nonZeros() > 0) H += K;
   hold_fixed(H);
@@ -70,7 +70,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   const double agreed = std::max(tolerances * tolerance, least_tolerance);
   ContactInLiquid r;
   const int n = problem.size();
-  const InertiaResponse alone = problem.minimise(SmallMatrix(n, n), Eigen::VectorXd::Zero(n));
+  const InertiaResponse alone = problem.minimise(SparseMatrix(n, n), Eigen::VectorXd::Zero(n));
   r.contact.failure = alone.failure;
   if (!alone.failure.empty()) return r;
   AddedMassModel model(Eigen::MatrixXd(coupling.mass) + solver.added_mass_estimate(), alone.velocity, alone.gradient,

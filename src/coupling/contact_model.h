@@ -13,7 +13,7 @@ class AddedMassModel : public InertiaProblem {
   // v0, g0: velocities and the true gradient there. Fixed degrees of freedom stay as they are.
   AddedMassModel(Eigen::MatrixXd T, const Eigen::VectorXd& v0, const Eigen::VectorXd& g0, std::vector<Freedom> freedom);
   int size() const override { return int(v0_.size()); }
-  InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
+  InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
 
   // T^-1 (g - model's gradient at v): how far off the model's velocities are where the true gradient at v is g.

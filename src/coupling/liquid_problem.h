@@ -19,7 +19,7 @@ class LiquidProblem : public CoupledProblem<Dim> {
   // From now on minimise() solves for velocities and pressures together, without factors of H: for bodies too large to
   // factor. That H has no minimum is then only found out where the iteration meets v'H v < 0. Kept by reference.
   void solve_together(KktSolver& kkt) { kkt_ = &kkt; }
-  InertiaResponse minimise(const SmallMatrix& K, const Eigen::VectorXd& r) override;
+  InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
 
  private:

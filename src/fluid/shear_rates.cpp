@@ -35,22 +35,33 @@ double ShearRates<Dim>::shear(int plane, Site e) const {
   return (along_b + along_a) / layout_.h();
 }
 
-// 0 where no edge counts.
+// The mean over those of the four sites at `site` and one step `towards` along either axis of the plane that count:
+// `value` adds to the sum and says whether its site does. 0 where none does.
 template <int Dim>
-double ShearRates<Dim>::mean_squared_shear(int plane, Site c, const IVec<Dim>& index) const {
+template <class Value>
+double ShearRates<Dim>::mean_of_four(int plane, Site site, const IVec<Dim>& index, int towards,
+                                     const Value& value) const {
   const auto [a, b] = axes_of_plane<Dim>(plane);
   double sum = 0;
   int count = 0;
   for (int corner = 0; corner < 4; ++corner) {
-    Site e = c;
+    Site s = site;
     IVec<Dim> i = index;
-    if (corner & 1) e += layout_.stride(a), ++i[a];
-    if (corner & 2) e += layout_.stride(b), ++i[b];
-    if (lies_in_side(a, i) || lies_in_side(b, i) || !is_valid(plane, e)) continue;
-    sum += shear(plane, e) * shear(plane, e);
-    ++count;
+    if (corner & 1) s += towards * layout_.stride(a), i[a] += towards;
+    if (corner & 2) s += towards * layout_.stride(b), i[b] += towards;
+    if (value(s, i, sum)) ++count;
   }
   return count > 0 ? sum / count : 0;
+}
+
+template <int Dim>
+double ShearRates<Dim>::mean_squared_shear(int plane, Site c, const IVec<Dim>& index) const {
+  const auto [a, b] = axes_of_plane<Dim>(plane);
+  return mean_of_four(plane, c, index, 1, [&, a = a, b = b](Site e, const IVec<Dim>& i, double& sum) {
+    if (lies_in_side(a, i) || lies_in_side(b, i) || !is_valid(plane, e)) return false;
+    sum += shear(plane, e) * shear(plane, e);
+    return true;
+  });
 }
 
 template <int Dim>
@@ -73,19 +84,11 @@ double ShearRates<Dim>::of_cell(Site c, const IVec<Dim>& index) const {
 // Over the cells of the domain that the edge is an edge of.
 template <int Dim>
 double ShearRates<Dim>::mean_around(int plane, Site e, const IVec<Dim>& index, int left_out) const {
-  const auto [a, b] = axes_of_plane<Dim>(plane);
-  double sum = 0;
-  int count = 0;
-  for (int corner = 0; corner < 4; ++corner) {
-    Site c = e;
-    IVec<Dim> i = index;
-    if (corner & 1) c -= layout_.stride(a), --i[a];
-    if (corner & 2) c -= layout_.stride(b), --i[b];
-    if (!is_inside(i)) continue;
+  return mean_of_four(plane, e, index, -1, [&](Site c, const IVec<Dim>& i, double& sum) {
+    if (!is_inside(i)) return false;
     sum += squared_rate(c, i, left_out);
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
+    return true;
+  });
 }
 
 // Whether the edge has a shear of its own: it does where its faces count, and in a side (not in two) where those of the

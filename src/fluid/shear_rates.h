@@ -32,6 +32,8 @@ class ShearRates {
   double shear(int plane, Site edge) const;
   bool lies_in_side(int axis, const IVec<Dim>& index) const;
   bool is_inside(const IVec<Dim>& cell) const;
+  template <class Value>
+  double mean_of_four(int plane, Site site, const IVec<Dim>& index, int towards, const Value& value) const;
   double mean_squared_shear(int plane, Site cell, const IVec<Dim>& index) const;
   double squared_rate(Site cell, const IVec<Dim>& index, int left_out) const;
   double mean_around(int plane, Site edge, const IVec<Dim>& index, int left_out) const;

@@ -4,8 +4,6 @@
 namespace seiche {
 namespace {
 
-using T = OptionType;
-
 Section<GasSpec> gas_section() {
   using S = GasSpec;
   Section<S> s;
@@ -16,16 +14,10 @@ Section<GasSpec> gas_section() {
                "resolved: gas flows, with one velocity field and pressure for both; volume_conserving: each enclosed "
                "region of air has one pressure and keeps its volume, and nothing flows in it"},
           &S::bubbles, {{"resolved", Bubbles::resolved}, {"volume_conserving", Bubbles::volume_conserving}}),
-      value_key<S>({.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"}, &S::density),
+      value_key<S>(density_option(), &S::density),
       value_key<S>({.key = "viscosity", .unit = "Pa s", .range = between(0, number_limit), .doc = "0: inviscid"},
                    &S::viscosity),
-      value_key<S>({.key = "velocity",
-                    .type = T::formula_vector,
-                    .unit = "m/s",
-                    .variables = "xyzt",
-                    .unset = "zero",
-                    .doc = "initial velocity (expressions at t = 0)"},
-                   &S::velocity),
+      value_key<S>(initial_velocity_option(), &S::velocity),
   };
   s.finish = [](SceneContext&, const Place&, S& gas) { gas.present = true; };
   return s;

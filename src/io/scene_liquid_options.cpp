@@ -73,11 +73,24 @@ Section<LiquidSourceSpec> source_section() {
 
 }  // namespace
 
+Option density_option() {
+  return {.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"};
+}
+
+Option initial_velocity_option() {
+  return {.key = "velocity",
+          .type = T::formula_vector,
+          .unit = "m/s",
+          .variables = "xyzt",
+          .unset = "zero",
+          .doc = "initial velocity (expressions at t = 0)"};
+}
+
 Section<LiquidSpec> liquid_section() {
   using S = LiquidSpec;
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"}, &S::density),
+      value_key<S>(density_option(), &S::density),
       value_key<S>({.key = "separates",
                     .type = T::boolean,
                     .doc = "true: liquid may part from walls and solids, whose pressure on it stays at or above zero; "
@@ -88,13 +101,7 @@ Section<LiquidSpec> liquid_section() {
       tension_scheme_key(),
       value_key<S>(contact_angle_option("where the surface meets sides and solids"), &S::contact_angle),
       rheology_key(),
-      value_key<S>({.key = "velocity",
-                    .type = T::formula_vector,
-                    .unit = "m/s",
-                    .variables = "xyzt",
-                    .unset = "zero",
-                    .doc = "initial velocity (expressions at t = 0)"},
-                   &S::velocity),
+      value_key<S>(initial_velocity_option(), &S::velocity),
       list_key<S, LiquidRegionSpec>({.key = "region",
                                      .unset = "no liquid",
                                      .doc = "where liquid is at t = 0: the union of all",

@@ -28,6 +28,9 @@ Option contact_angle_option(const std::string& where);
 void check_one_viscosity(SceneContext& context, const Place& place);
 
 Key<Scene> gas_key();
+// Of liquid and gas alike.
+Option density_option();
+Option initial_velocity_option();
 
 // Reports a rotation axis that is missing (3D), zero or not along z (2D) in the table at `place`.
 void check_axis(SceneContext& context, const Place& place, const Vec3& axis);

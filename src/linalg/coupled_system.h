@@ -6,8 +6,6 @@
 
 namespace seiche {
 
-using SmallMatrix = SparseMatrix;
-
 // The null space with some of its components left out.
 NullSpace without(NullSpace null_space, const std::vector<int>& components);
 
