@@ -46,7 +46,8 @@ void fill_cavity(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, int patch,
   });
 }
 
-// Cells that were sealed, and those that open faces join to them now: walls move by less than a cell.
+// Cells that were sealed, and those that open faces join to them now: walls move by less than a cell. These are cut,
+// their centres up to most of a cell within the wall: the surface lies deep enough if they are a cell from it.
 template <int Dim>
 void fill_marked(const Setup<Dim>& s, const CellField<Dim, char>& sealed, const FaceGeometry<Dim>& faces,
                  CellField<Dim>& phi) {
@@ -56,7 +57,7 @@ void fill_marked(const Setup<Dim>& s, const CellField<Dim, char>& sealed, const 
       const Site d = s.layout.stride(a);
       full = full || (sealed[c - d] && faces.open.at(a, c) > 0) || (sealed[c + d] && faces.open.at(a, c + d) > 0);
     }
-    if (full) phi[c] = std::min(phi[c], -depth * s.layout.h());
+    if (full) phi[c] = std::min(phi[c], -s.layout.h());
   });
 }
 

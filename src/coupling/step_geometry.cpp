@@ -114,6 +114,7 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);
   still_.faces = FaceGeometry<Dim>(layout);
+  joints_ = find_joints(bodies, snap * layout.h());
   for (const Body<Dim>& body : bodies)
     radius_.push_back(body.moves() && !body.is_elastic() ? surface_radius(layout, body) : 0);
   measure_static();
@@ -253,20 +254,25 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim
 }
 
 // Static bodies keep their part of a face. Moving ones share the rest where they would close more than that, or leave a
-// gap that counts as closed, in proportion to what each would close alone.
+// gap that counts as closed, in proportion to what each would close alone. At joints the gap is that between the faces'
+// corners in any solid: at edges, where distances bend, shares of two solids that meet leave slits.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
   FaceField<Dim> moving(layout_);
   for (const FaceShares& list : shares)
     for (const FaceShare& s : list) moving.at(s.axis, s.face) += s.closed;
+  const NodeField<Dim, char> joints = mark_joints(layout_, bodies_, joints_, g.placed);
   for (FaceShares& list : shares)
     for (FaceShare& s : list) {
       const double room = still_.faces.open.at(s.axis, s.face), wanted = moving.at(s.axis, s.face);
       const bool alone = room == 1 && wanted == s.closed;
-      const double gap = room - wanted;
+      double gap = room - wanted;
+      const bool joined = !joints_.empty() && joints[s.face] && !alone;
+      if (joined) gap = std::min(gap, open_part_of_face(layout_, g.psi, s.axis, s.face));
       const bool closes = gap <= 0 || (!alone && gap < snap);
-      if (closes) s.closed *= room / wanted;
-      g.faces.open.at(s.axis, s.face) = closes ? 0 : gap;
+      if (closes) gap = 0;
+      if (closes || joined) s.closed *= (room - gap) / wanted;
+      g.faces.open.at(s.axis, s.face) = gap;
       g.faces.kind.at(s.axis, s.face) = char(closes ? FaceKind::closed : FaceKind::open);
     }
 }

@@ -8,12 +8,14 @@ using namespace seiche::test;
 
 namespace {
 
+constexpr double g = 9.81;  // m/s^2
+
 // A channel with four walls, full, in which the liquid goes round in two vortices at up to 1 m/s.
 Scene full_channel() {
   Scene s = box_scene(2, 48);
   s.domain.cells[1] = 24;
   s.domain.upper[1] = 0.5;
-  s.gravity = {0, -9.81, 0};
+  s.gravity = {0, -g, 0};
   add_liquid(s, "-1");
   s.liquid.velocity = {"sin(6.2831853*x)*cos(6.2831853*y)", "-cos(6.2831853*x)*sin(6.2831853*y)", "0"};
   s.time.cfl = 2;
@@ -39,7 +41,7 @@ struct Outcome {
   std::int64_t steps = 0;
 };
 
-// -g (m y_m - rho integral of y over the body): what gravity gives as the light body rises and liquid sinks in its
+// g (m y_m - rho integral of y over the body): what gravity gives as the light body rises and liquid sinks in its
 // place.
 double lift(const Scene& s, const Simulation& sim, double mass) {
   const SurfaceMesh surface = sim.solid_surface(0);
@@ -48,7 +50,7 @@ double lift(const Scene& s, const Simulation& sim, double mass) {
     const Vec3 &p = surface.points[std::size_t(a)], &q = surface.points[std::size_t(b)];
     moment -= (q[0] - p[0]) * (p[1] * p[1] + p[1] * q[1] + q[1] * q[1]) / 6;
   }
-  return -s.gravity[1] * (mass * sim.solids()[0].position[1] - s.liquid.density * moment);
+  return g * (mass * sim.solids()[0].position[1] - s.liquid.density * moment);
 }
 
 Outcome run(Scene s, const SolidSpec& solid, double end) {
