@@ -14,6 +14,8 @@ constexpr double far_away = 1e30;
 // Cells: nodes nearer than this to a solid count as on it, and gaps between two solids narrower than this as closed, so
 // that no sliver faces arise.
 constexpr double snap = 1e-3;
+// The same at joints: contact asks for 2.5e-3 cells between edges at the start.
+constexpr double joint_gap = 1e-2;
 constexpr int margin = 4;  // cells around a rigid body within which its distance is known
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
@@ -114,7 +116,7 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);
   still_.faces = FaceGeometry<Dim>(layout);
-  joints_ = find_joints(bodies, snap * layout.h());
+  joints_ = find_joints(bodies, joint_gap * layout.h());
   for (const Body<Dim>& body : bodies)
     radius_.push_back(body.moves() && !body.is_elastic() ? surface_radius(layout, body) : 0);
   measure_static();
@@ -269,7 +271,7 @@ void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeomet
       double gap = room - wanted;
       const bool joined = !joints_.empty() && joints[s.face] && !alone;
       if (joined) gap = std::min(gap, open_part_of_face(layout_, g.psi, s.axis, s.face));
-      const bool closes = gap <= 0 || (!alone && gap < snap);
+      const bool closes = gap <= 0 || (!alone && gap < (joined ? joint_gap : snap));
       if (closes) gap = 0;
       if (closes || joined) s.closed *= (room - gap) / wanted;
       g.faces.open.at(s.axis, s.face) = gap;
