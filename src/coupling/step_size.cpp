@@ -183,9 +183,13 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
+  const bool planned = s.has_elastic() && state.step > 0 && !spec.fixed_step;
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
-  if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
+  if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
+    dt = state.horizon;
+  else if (!spec.fixed_step)
+    dt = limit_of_solids(s, state, std::min(dt, remaining));
   if (s.has_elastic() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
