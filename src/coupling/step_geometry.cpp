@@ -269,9 +269,9 @@ void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeomet
       const double room = still_.faces.open.at(s.axis, s.face), wanted = moving.at(s.axis, s.face);
       const bool alone = room == 1 && wanted == s.closed;
       double gap = room - wanted;
-      const bool joined = !joints_.empty() && joints[s.face] && !alone;
+      const bool joined = !joints_.empty() && joints[s.face];
       if (joined) gap = std::min(gap, open_part_of_face(layout_, g.psi, s.axis, s.face));
-      const bool closes = gap <= 0 || (!alone && gap < (joined ? joint_gap : snap));
+      const bool closes = gap <= 0 || (joined ? gap < joint_gap : !alone && gap < snap);
       if (closes) gap = 0;
       if (closes || joined) s.closed *= (room - gap) / wanted;
       g.faces.open.at(s.axis, s.face) = gap;

@@ -203,7 +203,7 @@ Scene flooded_tube(const std::filesystem::path& file) {
   Scene s = box_scene(3, 20);
   s.gravity = {0, -9.81, 0};
   s.domain.cells[1] = 12, s.domain.upper[1] = 0.6;
-  add_liquid(s, "max(max(abs(x-0.5), abs(z-0.5))-0.25, y-0.42)");
+  add_liquid(s, "max(max(abs(x-0.5), abs(z-0.5))-0.25, y-0.46)");
   SolidSpec tube = elastic_solid("tube", 1100, {1e5, 0.4}, 0.1);
   tube.shape.kind = "mesh";
   tube.shape.file = file.string();
