@@ -210,6 +210,20 @@ void load_air(const Setup<Dim>& s, const CheckpointData& data, const Scalar& sca
   s.halo.fill_ghosts({state.air.label.data()});
 }
 
+// Of cells, where the scene has them.
+template <int Dim>
+void load_marks(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
+  if (s.scene.liquid.separates) {
+    state.parting = Parting<Dim>(s.layout);
+    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
+  }
+  if (s.may_seal()) {
+    state.sealed = CellField<Dim, char>(s.layout);
+    restore<Dim>(s, data, "sealed", s.layout.cells(), state.sealed);
+    s.halo.fill_ghosts({state.sealed.data()});
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -268,15 +282,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.pressure = CellField<Dim>(s.layout);
   restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);
   restore<Dim>(s, data, "pressure", s.layout.cells(), state.pressure);
-  if (s.scene.liquid.separates) {
-    state.parting = Parting<Dim>(s.layout);
-    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
-  }
-  if (s.may_seal()) {
-    state.sealed = CellField<Dim, char>(s.layout);
-    restore<Dim>(s, data, "sealed", s.layout.cells(), state.sealed);
-    s.halo.fill_ghosts({state.sealed.data()});
-  }
+  load_marks(s, data, state);
   state.film = {FaceField<Dim>(s.layout), FaceField<Dim>(s.layout)};
   for_each_film_field<Dim>(
       state.film, [&](const std::string& name, auto& f, int a) { restore<Dim>(s, data, name, s.layout.faces(a), f); });
