@@ -139,6 +139,7 @@ void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
   visit("elastic." + body + ".u_old", m.state.u_old);
   visit("elastic." + body + ".v_old", m.state.v_old);
   visit("elastic." + body + ".velocity", m.velocity);
+  visit("elastic." + body + ".cavity", m.cavity);
   visit("elastic." + body + ".kept_volume", m.kept_volume);
   visit("elastic." + body + ".extra_load", m.extra_load);
 }
@@ -209,6 +210,20 @@ void load_air(const Setup<Dim>& s, const CheckpointData& data, const Scalar& sca
   s.halo.fill_ghosts({state.air.label.data()});
 }
 
+// Of cells, where the scene has them.
+template <int Dim>
+void load_marks(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
+  if (s.scene.liquid.separates) {
+    state.parting = Parting<Dim>(s.layout);
+    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
+  }
+  if (s.may_seal()) {
+    state.sealed = CellField<Dim, char>(s.layout);
+    restore<Dim>(s, data, "sealed", s.layout.cells(), state.sealed);
+    s.halo.fill_ghosts({state.sealed.data()});
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -233,6 +248,7 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
   if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
+  if (s.may_seal()) data.fields.push_back(record<Dim>(s, "sealed", s.layout.cells(), state.sealed));
   if (s.keeps_air()) save_air(s, state, data);
   for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
     data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
@@ -266,10 +282,7 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.pressure = CellField<Dim>(s.layout);
   restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);
   restore<Dim>(s, data, "pressure", s.layout.cells(), state.pressure);
-  if (s.scene.liquid.separates) {
-    state.parting = Parting<Dim>(s.layout);
-    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
-  }
+  load_marks(s, data, state);
   state.film = {FaceField<Dim>(s.layout), FaceField<Dim>(s.layout)};
   for_each_film_field<Dim>(
       state.film, [&](const std::string& name, auto& f, int a) { restore<Dim>(s, data, name, s.layout.faces(a), f); });
@@ -287,6 +300,7 @@ std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
   std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
                                  empty_record<Dim>("pressure", s.layout.cells())};
   if (s.scene.liquid.separates) boxes.push_back(empty_record<Dim>("gap", s.layout.cells()));
+  if (s.may_seal()) boxes.push_back(empty_record<Dim>("sealed", s.layout.cells()));
   if (s.keeps_air()) boxes.push_back(empty_record<Dim>("air", s.layout.cells()));
   const Film<Dim> film;
   for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {

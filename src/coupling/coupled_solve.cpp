@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/sealed_liquid.h"
 #include "coupling/solve_parts.h"
 #include "coupling/viscous_solve.h"
 
@@ -63,6 +64,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   set_held_velocities(s, coupling, input.geometry);
+  take_prescribed_fluxes(s, input.geometry, r.rows, coupling.swept);
   const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
@@ -70,7 +72,10 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
     if (route == ViscousRoute::split) act_before_pressure(input, liquid, coupling, r);
     if (r.failure.empty()) solve_pressure(input, liquid, coupling, r);
   }
-  if (r.failure.empty()) set_velocities(s, coupling, r.solids, input.geometry, input.state);
+  if (r.failure.empty()) {
+    set_velocities(s, coupling, r.solids, input.geometry, input.state);
+    mark_sealed(s, r.rows, coupling.swept, input.state);
+  }
   for (RigidState& body : input.state.rigid) body.horizon = input.horizon;
   return r;
 }

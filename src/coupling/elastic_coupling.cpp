@@ -6,7 +6,7 @@
 #include "coupling/thin_weight.h"
 #include "linalg/matrix_entries.h"
 #include "solid/elastic_potential.h"
-#include "solid/enclosed_volume.h"
+#include "solid/surface_patches.h"
 
 namespace seiche {
 namespace {
@@ -63,33 +63,40 @@ struct CellShares {
 };
 
 // In a wall of a cavity a cell or two thick the nearest point to a face may be on the other side. All shares of a cell
-// are to hang on the side that cuts its faces: the others move to where its nearest share hangs.
+// are to hang on the side that cuts its faces: the others move to where its nearest share hangs. What hangs on pinned
+// facets between the sides stays.
 template <int Dim>
 void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const FaceShares& shares,
                       const Attachments<Dim>& attached, const PressureRows<Dim>& rows,
                       std::vector<FluxEntry>& entries) {
-  if (solid.surface.parts == 1) return;
-  const std::vector<int> part_of_node = parts_of_nodes(solid);
+  if (solid.patches.size() == 1) return;
+  const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
   for_each_cell_of_shares(s, shares, rows,
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
-  const auto part = [&](std::size_t n) { return part_of_node[std::size_t(attached[n].corners[0])]; };
-  const auto hangs = [&](std::size_t n) { return attached[n].weights != decltype(attached[n].weights){}; };
+  const auto patch = [&](std::size_t n) {
+    int of = -1;
+    for (const int node : attached[n].corners) of = std::max(of, patch_of_node[std::size_t(node)]);
+    return of;
+  };
+  const auto hangs = [&](std::size_t n) {
+    return attached[n].weights != decltype(attached[n].weights){} && patch(n) >= 0;
+  };
   const auto center = [&](std::size_t n) {
     return s.layout.position(s.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
   };
   for (const auto& [cell, of] : cells) {
-    std::vector<double> cut(std::size_t(solid.surface.parts));
+    std::vector<double> cut(solid.patches.size());
     constexpr double whole = 1e-3;  // what a face that is closed altogether counts for
     for (const auto& [n, sign] : of.shares)
-      if (hangs(n)) cut[std::size_t(part(n))] += shares[n].closed * (1 - shares[n].closed + whole);
+      if (hangs(n)) cut[std::size_t(patch(n))] += shares[n].closed * (1 - shares[n].closed + whole);
     const int own = int(std::max_element(cut.begin(), cut.end()) - cut.begin());
     const int row = int(rows.row[cell] - rows.first);
     for (const auto& [n, sign] : of.shares) {
-      if (!hangs(n) || part(n) == own) continue;
+      if (!hangs(n) || patch(n) == own) continue;
       std::size_t best = n;
       for (const auto& [m, ignored] : of.shares) {
-        if (!hangs(m) || part(m) != own) continue;
+        if (!hangs(m) || patch(m) != own) continue;
         if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
       }
       add_entries(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
@@ -193,6 +200,19 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
   return body.mass * f;
 }
 
+// J of the elastic bodies, and what their faces do not show.
+template <int Dim>
+void set_columns(const PressureRows<Dim>& rows, const std::vector<std::size_t>& shown, std::vector<BodyEntries> bodies,
+                 SolidCoupling<Dim>& c) {
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const std::size_t b = std::size_t(std::find(c.bodies.begin(), c.bodies.end(), bodies[n].body) - c.bodies.begin());
+    c.cell_fluxes[b] = added_fluxes(bodies[n].entries, shown[n], rows);
+    Eigen::MatrixXd loads = std::move(c.J.blocks[b].loads);
+    c.J.blocks[b] = make_block(std::move(bodies[n].entries), c.freedom, c.first[b], c.first[b + 1] - c.first[b]);
+    c.J.blocks[b].loads = std::move(loads);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -201,6 +221,8 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
                            CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
   std::vector<ElasticShare<Dim>> shares;
+  std::vector<BodyEntries> entries;
+  std::vector<std::size_t> shown;  // of the entries of each body, by its faces
   const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
     const int k = c.bodies[b], first = c.first[b];
@@ -214,18 +236,16 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
     if (s.bodies[k].is_thin())
       add_liquid_beside(mass_beside(s, g, rows, k), g_nodes, state.elastic[k].velocity, dt, first, parts);
-    std::vector<FluxEntry> entries = spread_shares(s, *g.shares[k], *g.attached[k], rows);
-    bring_home_air(s, rows, 0, entries);
-    const std::size_t shown = entries.size();
-    keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries);
-    bring_home_air(s, rows, shown, entries);
-    for (auto& surface : correct_swept_volume(s, rows, closed, state.elastic[k], k, first, horizon, entries))
-      c.swept.push_back(std::move(surface));
-    c.cell_fluxes[b] = added_fluxes(entries, shown, rows);
-    c.J.blocks[b] = make_block(std::move(entries), c.freedom, first, int(e.u.size()));
+    entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
+    bring_home_air(s, rows, 0, entries.back().entries);
+    shown.push_back(entries.back().entries.size());
+    keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries.back().entries);
+    bring_home_air(s, rows, shown.back(), entries.back().entries);
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});
   }
+  c.swept = correct_swept_volume(s, g, rows, closed, state.elastic, horizon, entries);
+  set_columns(rows, shown, std::move(entries), c);
   if (!shares.empty())
     c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), s.tampering.elastic_forces * dt, horizon);
 }

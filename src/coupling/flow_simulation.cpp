@@ -7,6 +7,7 @@
 #include "coupling/measures.h"
 #include "coupling/thin_weight.h"
 #include "solid/elastic_output.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 namespace {
@@ -116,13 +117,26 @@ class FlowSimulation : public Simulation {
   }
 
   // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) -
-  // u(dt).
+  // u(dt); and the cavities.
   State<Dim> inform(const State<Dim>& trial, double dt) const {
     State<Dim> state = state_;
     std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
     if (state.gas.now) std::tie(state.gas.now, state.gas.before) = inform(*state_.gas.now, *trial.gas.now);
     state.dt_now = dt;
+    take_cavities(trial, state);
     return state;
+  }
+
+  // Walls of cavities that the trial found keep in the first step, too, what they hold at the start.
+  void take_cavities(const State<Dim>& trial, State<Dim>& state) const {
+    state.sealed = trial.sealed;
+    for (std::size_t k = 0; k < setup_.bodies.size(); ++k) state.elastic[k].cavity = trial.elastic[k].cavity;
+    for (const CavityWalls<Dim>& walls : kept_cavities(setup_.bodies, state.elastic)) {
+      std::vector<Eigen::VectorXd> u;
+      for (const WallPatch<Dim>& wall : walls) u.push_back(state.elastic[std::size_t(wall.body)].state.u);
+      const double volume = enclosed_volume(walls, u);
+      for (const WallPatch<Dim>& wall : walls) state.elastic[std::size_t(wall.body)].kept_volume[wall.patch] = volume;
+    }
   }
 
   static std::pair<std::shared_ptr<Level<Dim>>, std::shared_ptr<Level<Dim>>> inform(const Level<Dim>& start,

@@ -32,9 +32,9 @@ bool holds_air(const Setup<Dim>& s, const AirRegions<Dim>& air, const NodeField<
 }
 
 template <int Dim>
-void fill_cavity(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, int part, const Eigen::VectorXd& u,
+void fill_cavity(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, int patch, const Eigen::VectorXd& u,
                  const AirRegions<Dim>& air, CellField<Dim>& phi) {
-  const SurfaceMesh wall = wall_of_cavity(solid, part);
+  const SurfaceMesh wall = wall_of_cavity(solid, patch);
   const std::vector<Vec<Dim>> points = surface_points(solid, u);
   const SurfaceDistance<Dim> surface(s.layout, wall, points);
   NodeField<Dim> distance(s.layout, 1e30);
@@ -46,24 +46,56 @@ void fill_cavity(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, int part, 
   });
 }
 
+// Cells that were sealed, and those that open faces join to them now: walls move by less than a cell. These are cut,
+// their centres up to most of a cell within the wall: the surface lies deep enough if they are a cell from it.
+template <int Dim>
+void fill_marked(const Setup<Dim>& s, const CellField<Dim, char>& sealed, const FaceGeometry<Dim>& faces,
+                 CellField<Dim>& phi) {
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    bool full = sealed[c] != 0;
+    for (int a = 0; a < Dim; ++a) {
+      const Site d = s.layout.stride(a);
+      full = full || (sealed[c - d] && faces.open.at(a, c) > 0) || (sealed[c + d] && faces.open.at(a, c + d) > 0);
+    }
+    if (full) phi[c] = std::min(phi[c], -s.layout.h());
+  });
+}
+
 }  // namespace
 
 template <int Dim>
-void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State<Dim>& after, CellField<Dim>& phi) {
-  bool any = false;
+void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State<Dim>& after,
+                      const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+  bool any = s.may_seal();
+  if (any) fill_marked(s, before.sealed, g.faces, phi);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     if (!s.bodies[k].is_elastic()) continue;
-    const Eigen::VectorXd &kept = before.elastic[k].kept_volume, &u = after.elastic[k].state.u;
-    for (int part = 0; part < int(kept.size()); ++part) {
-      if (!std::isfinite(kept[part]) || kept[part] >= 0) continue;
-      fill_cavity(s, s.bodies[k].elastic(), part, u, before.air, phi);
+    const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+    const Eigen::VectorXd& cavity = before.elastic[k].cavity;
+    for (int p = 0; p < int(cavity.size()); ++p) {
+      if (!(cavity[p] >= 0) || !solid.patches[std::size_t(p)].is_closed()) continue;
+      fill_cavity(s, solid, p, after.elastic[k].state.u, before.air, phi);
       any = true;
     }
   }
   if (any) fill_level_set_ghosts(s.layout, s.halo, phi);
 }
 
-template void keep_sealed_full<2>(const Setup<2>&, const State<2>&, const State<2>&, CellField<2>&);
-template void keep_sealed_full<3>(const Setup<3>&, const State<3>&, const State<3>&, CellField<3>&);
+template <int Dim>
+void mark_sealed(const Setup<Dim>& s, const PressureRows<Dim>& rows, const std::vector<SweptCavity<Dim>>& cavities,
+                 State<Dim>& state) {
+  if (!s.may_seal()) return;
+  state.sealed = CellField<Dim, char>(s.layout);
+  for (const SweptCavity<Dim>& cavity : cavities)
+    for (const int n : cavity.cells) state.sealed[rows.cells[std::size_t(n)]] = 1;
+  s.halo.fill_ghosts({state.sealed.data()});
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template void keep_sealed_full<D>(const Setup<D>&, const State<D>&, const State<D>&, const StepGeometry<D>&, \
+                                    CellField<D>&);                                                            \
+  template void mark_sealed<D>(const Setup<D>&, const PressureRows<D>&, const std::vector<SweptCavity<D>>&, State<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
 
 }  // namespace seiche

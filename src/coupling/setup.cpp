@@ -208,6 +208,14 @@ bool Setup<Dim>::has_elastic() const {
 }
 
 template <int Dim>
+bool Setup<Dim>::may_seal() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) {
+    return b.is_elastic() && std::any_of(b.elastic().patches.begin(), b.elastic().patches.end(),
+                                         [](const SurfacePatch<Dim>& p) { return !p.is_closed(); });
+  });
+}
+
+template <int Dim>
 std::vector<Placement> place_bodies(const Setup<Dim>& s, const State<Dim>& state) {
   auto placed = place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
   for (std::size_t k = 0; k < placed.size(); ++k) {
@@ -251,6 +259,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
   if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
+  if (s.may_seal()) state.sealed = CellField<Dim, char>(s.layout);
   for (const Body<Dim>& body : s.bodies) {
     state.rigid.push_back(initial_rigid_state(body));
     state.elastic.push_back(initial_elastic_motion(body));

@@ -75,10 +75,15 @@ void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eige
           total_load(s.bodies[k].elastic(), state.elastic[k].state.u,
                      Eigen::VectorXd(c.buoyancy_correction.segment(first, c.first[b + 1] - first)));
       state.elastic[k].kept_volume.setConstant(std::numeric_limits<double>::quiet_NaN());
+      state.elastic[k].cavity = state.elastic[k].kept_volume;
     }
   }
-  for (const SweptSurface<Dim>& surface : c.swept)
-    state.elastic[surface.body].kept_volume[surface.part] = surface.volume;
+  for (std::size_t n = 0; n < c.swept.size(); ++n)
+    for (const WallPatch<Dim>& wall : c.swept[n].walls) {
+      ElasticMotion& motion = state.elastic[std::size_t(wall.body)];
+      motion.cavity[wall.patch] = double(n);
+      motion.kept_volume[wall.patch] = c.swept[n].volume;
+    }
 }
 
 template <int Dim>
@@ -93,13 +98,13 @@ void set_held_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, StepG
 template <int Dim>
 Eigen::VectorXd velocities_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   std::vector<double> all;
+  const auto elastic = elastic_velocities_over(s.bodies, state.elastic, state.time, dt, state.horizon);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     if (s.bodies[k].is_rigid()) {
       const auto v = stacked<Dim>(state.rigid[k].velocity, state.rigid[k].angular_velocity);
       all.insert(all.end(), v.begin(), v.end());
     } else if (s.bodies[k].is_elastic()) {
-      const auto w = velocity_over(s.bodies[k].elastic(), state.elastic[k], state.time, dt, state.horizon);
-      all.insert(all.end(), w.begin(), w.end());
+      all.insert(all.end(), elastic[k].begin(), elastic[k].end());
     }
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));

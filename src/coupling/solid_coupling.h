@@ -28,7 +28,7 @@ struct SolidCoupling {
   std::vector<Freedom> freedom;
   Eigen::VectorXd held;                                // velocities of what is held
   std::shared_ptr<const VelocityPotential> potential;  // of the elastic forces; null: none
-  std::vector<SweptSurface<Dim>> swept;
+  std::vector<SweptCavity<Dim>> swept;
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // of each block: flux that its faces do not show
 
   int size() const { return first.back(); }
@@ -58,7 +58,7 @@ void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling,
 template <int Dim>
 void set_held_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
 
-// The unknowns' values over a coming step of dt: as the last solve left them, but see velocity_over.
+// The unknowns' values over a coming step of dt: as the last solve left them, but see elastic_velocities_over.
 template <int Dim>
 Eigen::VectorXd velocities_over(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 

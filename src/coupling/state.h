@@ -42,6 +42,7 @@ struct Setup {
   Setup(const Scene& scene, const Communicator& ranks, const Tampering& tampering = {});
   bool has_rigid() const;
   bool has_elastic() const;
+  bool may_seal() const;  // together with other solids, elastic ones that pins divide
   bool is_viscous() const { return viscous; }
   bool keeps_air() const { return scene.gas.present && scene.gas.bubbles == Bubbles::volume_conserving; }
   ElasticScheme elastic_scheme() const {
@@ -104,7 +105,8 @@ struct State {
   double viscous_rate = 0;                                 // mu/(rho h^2) of the last solve at its largest, 1/s
   AirRegions<Dim> air;                                     // where enclosed air keeps its volume
   double lost_air = 0;                                     // of regions too small for the grid that vanished, m^Dim
-  std::vector<ViscousLoad> viscous_loads;                  // on each solid; empty where the liquid is inviscid
+  CellField<Dim, char> sealed;  // liquid that elastic walls, their pins and what these stand on seal; may be empty
+  std::vector<ViscousLoad> viscous_loads;  // on each solid; empty where the liquid is inviscid
 };
 
 template <int Dim>
@@ -168,6 +170,11 @@ std::string fault_of_pinned_solids(const Setup<Dim>& setup, const std::vector<Pl
 // the coming step is meant to be just that long: their motion is second order in time then.
 template <int Dim>
 double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt);
+
+// Whether the flow and the solids after a solve allow a step of the length that it was planned for (State::horizon).
+// Collective.
+template <int Dim>
+bool can_go_as_planned(const Setup<Dim>& setup, const State<Dim>& state);
 
 // dt, or as much shorter as it takes that no rigid body meets another solid on the way; 0 where nothing is short
 // enough.

@@ -128,11 +128,11 @@ struct StepInProgress {
   void move_bodies() {
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
       if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], dt);
+    std::vector<Eigen::VectorXd> w = elastic_velocities_over(s.bodies, before.elastic, before.time, dt, before.horizon);
     for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-      ElasticMotion& m = out.state.elastic[k];
       if (!s.bodies[k].is_elastic()) continue;
-      m.velocity = velocity_over(s.bodies[k].elastic(), m, before.time, dt, before.horizon);
-      advance(s.elastic_scheme(), dt, m);
+      out.state.elastic[k].velocity = std::move(w[k]);
+      advance(s.elastic_scheme(), dt, out.state.elastic[k]);
     }
   }
 
@@ -152,7 +152,7 @@ struct StepInProgress {
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
-    keep_sealed_full(s, before, out.state, out.state.phi);
+    keep_sealed_full(s, before, out.state, out.geometry, out.state.phi);
     if (has_thin_elastic(s)) keep_sides_apart(s, before, out.geometry, out.state.phi);
     const double uncounted = gap_volume(s, before.parting) + volume_beyond(s, out.geometry, out.state.phi);
     const double expected = out.state.expected_volume + uncounted, limit = 0.05 * s.layout.h();
@@ -192,7 +192,6 @@ struct StepInProgress {
   bool solve(const ViscosityField<Dim>* viscosity) {
     const PhaseFault fault = phases.enter("solve");
     const auto timed = phases.timers.measure("solve");
-    out.state.horizon = choose_horizon(s, out.state, dt);
     const int earlier = out.solve.iterations;
     const FaceField<Dim> slope = of_both(s, before, &Level<Dim>::q), flow = of_both(s, before, &Level<Dim>::u);
     solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, out.state.pressure, slope, flow,
@@ -249,16 +248,39 @@ struct StepInProgress {
     const StepGeometry<Dim> measured = out.geometry;
     RheologyIteration<Dim> rheology(s, out.state.phi, *before.now, out.state.time);
     do {
-      CellField<Dim> guess = std::move(out.state.pressure);
-      out.state = moved;
-      out.state.pressure = std::move(guess);
-      out.geometry = measured;
+      start_again(moved, measured);
       if (!solve(&rheology.viscosity())) return;
       restore();
       if (!out.failure.empty()) return;
     } while (rheology.is_unsettled_by(*out.state.now));
     out.rheology_iterations = rheology.count();
     out.state.viscous_rate = rheology.viscosity().largest / (s.density() * s.layout.h() * s.layout.h());
+  }
+
+  // The solve leads the elastic bodies to the end of the coming step, which is planned before it is known how fast they
+  // and the flow will be. Where these turn out too fast a shorter one is solved for: cut short, it would go straight
+  // towards where the longer one leads, and stretch what turns.
+  void solve_for_a_step_to_come() {
+    constexpr int most_plans = 5;  // the next one is cut
+    out.state.horizon = choose_horizon(s, out.state, dt);
+    if (!s.has_elastic() || s.scene.time.fixed_step) return solve_and_restore();
+    const State<Dim> moved = out.state;
+    const StepGeometry<Dim> measured = out.geometry;
+    for (int plans = 1;; ++plans) {
+      solve_and_restore();
+      if (!out.failure.empty() || plans == most_plans || can_go_as_planned(s, out.state)) return;
+      const double shorter = choose_horizon(s, out.state, dt);
+      start_again(moved, measured);
+      out.state.horizon = shorter;
+    }
+  }
+
+  // But for the pressure, the first guess of the next solve.
+  void start_again(const State<Dim>& moved, const StepGeometry<Dim>& measured) {
+    CellField<Dim> guess = std::move(out.state.pressure);
+    out.state = moved;
+    out.state.pressure = std::move(guess);
+    out.geometry = measured;
   }
 };
 
@@ -270,7 +292,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double d
   step.move_bodies();
   step.transport_surface();
   step.measure_geometry();
-  if (step.transport_velocity()) step.solve_and_restore();
+  if (step.transport_velocity()) step.solve_for_a_step_to_come();
   return std::move(step.out);
 }
 

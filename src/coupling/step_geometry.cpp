@@ -14,6 +14,8 @@ constexpr double far_away = 1e30;
 // Cells: nodes nearer than this to a solid count as on it, and gaps between two solids narrower than this as closed, so
 // that no sliver faces arise.
 constexpr double snap = 1e-3;
+// The same at joints: contact asks for 2.5e-3 cells between edges at the start.
+constexpr double joint_gap = 1e-2;
 constexpr int margin = 4;  // cells around a rigid body within which its distance is known
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
@@ -114,6 +116,7 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);
   still_.faces = FaceGeometry<Dim>(layout);
+  joints_ = find_joints(bodies, joint_gap * layout.h());
   for (const Body<Dim>& body : bodies)
     radius_.push_back(body.moves() && !body.is_elastic() ? surface_radius(layout, body) : 0);
   measure_static();
@@ -253,20 +256,25 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim
 }
 
 // Static bodies keep their part of a face. Moving ones share the rest where they would close more than that, or leave a
-// gap that counts as closed, in proportion to what each would close alone.
+// gap that counts as closed, in proportion to what each would close alone. At joints the gap is that between the faces'
+// corners in any solid: at edges, where distances bend, shares of two solids that meet leave slits.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
   FaceField<Dim> moving(layout_);
   for (const FaceShares& list : shares)
     for (const FaceShare& s : list) moving.at(s.axis, s.face) += s.closed;
+  const NodeField<Dim, char> joints = mark_joints(layout_, bodies_, joints_, g.placed);
   for (FaceShares& list : shares)
     for (FaceShare& s : list) {
       const double room = still_.faces.open.at(s.axis, s.face), wanted = moving.at(s.axis, s.face);
       const bool alone = room == 1 && wanted == s.closed;
-      const double gap = room - wanted;
-      const bool closes = gap <= 0 || (!alone && gap < snap);
-      if (closes) s.closed *= room / wanted;
-      g.faces.open.at(s.axis, s.face) = closes ? 0 : gap;
+      double gap = room - wanted;
+      const bool joined = !joints_.empty() && joints[s.face];
+      if (joined) gap = std::min(gap, open_part_of_face(layout_, g.psi, s.axis, s.face));
+      const bool closes = gap <= 0 || (joined ? gap < joint_gap : !alone && gap < snap);
+      if (closes) gap = 0;
+      if (closes || joined) s.closed *= (room - gap) / wanted;
+      g.faces.open.at(s.axis, s.face) = gap;
       g.faces.kind.at(s.axis, s.face) = char(closes ? FaceKind::closed : FaceKind::open);
     }
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "coupling/joints.h"
 #include "fluid/face_geometry.h"
 #include "fluid/sides.h"
 #include "levelset/surface_distance.h"
@@ -93,7 +94,8 @@ class SolidGeometry {
   const Layout<Dim>& layout_;
   const Sides<Dim>& sides_;
   const std::vector<Body<Dim>>& bodies_;
-  StepGeometry<Dim> still_;     // of the static bodies
+  StepGeometry<Dim> still_;  // of the static bodies
+  std::vector<JoinedFacet<Dim>> joints_;
   std::vector<double> radius_;  // of the moving bodies about their pivots, m
 };
 

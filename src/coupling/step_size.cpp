@@ -105,12 +105,11 @@ double until_frame(const TimeSpec& spec, double t) {
 template <int Dim>
 double share_without_inversion(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   double share = 1;
+  const auto w = elastic_velocities_over(s.bodies, state.elastic, state.time, dt, state.horizon);
   for (std::size_t k = 0; k < s.bodies.size(); ++k)
     if (s.bodies[k].is_elastic())
-      share = std::min(share,
-                       inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
-                                            Eigen::VectorXd(dt * velocity_over(s.bodies[k].elastic(), state.elastic[k],
-                                                                               state.time, dt, state.horizon))));
+      share = std::min(share, inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
+                                                   Eigen::VectorXd(dt * w[k])));
   return share;
 }
 
@@ -172,14 +171,25 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 }
 
 template <int Dim>
+bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
+  const double until = state.time + until_frame(s.scene.time, state.time);
+  const double dt = std::min(state.horizon, limit_of_flow(s, state, until));
+  return limit_of_solids(s, state, dt) >= state.horizon * (1 - 1e-9);
+}
+
+template <int Dim>
 double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const TimeSpec& spec = s.scene.time;
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
+  const bool planned = s.has_elastic() && state.step > 0 && !spec.fixed_step;
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
-  if (!spec.fixed_step) dt = limit_of_solids(s, state, std::min(dt, remaining));
+  if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
+    dt = state.horizon;
+  else if (!spec.fixed_step)
+    dt = limit_of_solids(s, state, std::min(dt, remaining));
   if (s.has_elastic() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
@@ -204,6 +214,8 @@ template std::string fault_of_pinned_flow<3>(const Setup<3>&, const State<3>&, d
 template std::string fault_of_pinned_solids<3>(const Setup<3>&, const std::vector<Placement>&, double, double);
 template double choose_horizon<2>(const Setup<2>&, const State<2>&, double);
 template double choose_horizon<3>(const Setup<3>&, const State<3>&, double);
+template bool can_go_as_planned<2>(const Setup<2>&, const State<2>&);
+template bool can_go_as_planned<3>(const Setup<3>&, const State<3>&);
 template double hold_back<2>(const Setup<2>&, const State<2>&, double);
 template double hold_back<3>(const Setup<3>&, const State<3>&, double);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);

@@ -1,7 +1,8 @@
 #pragma once
 // The volume that elastic bodies sweep in liquid without a free surface: what their faces show is made to add up to
-// what their surface does (docs/method.md, "Sealed liquid").
+// what their surfaces do (docs/method.md, "Sealed liquid").
 #include "coupling/state.h"
+#include "solid/enclosed_volume.h"
 
 namespace seiche {
 
@@ -11,30 +12,45 @@ struct FluxEntry {
   double value;
 };
 
-// The wall of a cavity with liquid without a free surface in it. Its flux adds up to what it sweeps:
-//   sum_c (J w)_c = -(dV/du)(u + H w_0/2) w,  V the volume that it encloses, w_0 the velocities before.
-// V is not linear in w. What is missing is a flux of its own, the same out of each cell that the part touches.
+// The entries of an elastic body, whose unknowns in the coupling begin with `first`.
+struct BodyEntries {
+  int body, first;
+  std::vector<FluxEntry> entries;
+};
+
+// A cavity with liquid without a free surface in it. The flux of what moves into it adds up to what its walls sweep:
+//   sum_c (J w)_c + prescribed = -(V(u + H w) - volume)/H,  V what the walls enclose.
+// Columns of J of the patches' nodes add up to -dV/du at u + H w_0/2, w_0 the velocities before. What else is missing
+// is a flux of its own, the same out of each cell that the walls touch.
 template <int Dim>
-struct SweptSurface {
-  const ElasticSolid<Dim>* solid;
-  int body, part;
-  int first;                    // unknown of the body in the coupling
-  Eigen::VectorXd u, gradient;  // at the start of the interval; dV/du as above
-  double horizon;               // H, s
+struct SweptCavity {
+  CavityWalls<Dim> walls;
+  std::vector<int> first;                    // of each wall: first unknown of its body in the coupling
+  std::vector<Eigen::VectorXd> u, gradient;  // likewise: at the start of the interval; dV/du as above
+  double horizon;                            // H, s
   double volume;                // V at the end of the interval, m^Dim: what it was, or what sealed liquid keeps it at
   double face_area;             // m^(Dim - 1)
-  std::vector<int> rows;        // this rank's that it touches
+  std::vector<int> rows = {};   // this rank's that the walls touch
   double row_count = 0;         // over all ranks
+  std::vector<int> cells = {};  // this rank's rows of the liquid in it, where not all of its walls are elastic
+  double prescribed = 0;        // flux out of all of these of what is held and moves as prescribed, per face area, m/s
 
   // Flux out of each of the rows, per face area (m/s), with which V(u + H w) = volume to first order about w.
   double missing_flux(const Eigen::VectorXd& w) const;
 };
 
-// Adds to the entries of the body k what makes the walls of its cavities with closed liquid sweep what they do, with
-// the least change in the sum of squares; forces of a uniform pressure gradient stay as they were. Collective.
+// Finds the cavities, and adds to the entries of the elastic bodies what makes their walls sweep what they do, with the
+// least change in the sum of squares; where walls are closed forces of a uniform pressure gradient stay as they were.
+// Collective.
 template <int Dim>
-std::vector<SweptSurface<Dim>> correct_swept_volume(const Setup<Dim>& setup, const PressureRows<Dim>& rows,
-                                                    const NullSpace& closed, const ElasticMotion& motion, int k,
-                                                    int first, double horizon, std::vector<FluxEntry>& entries);
+std::vector<SweptCavity<Dim>> correct_swept_volume(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                                                   const PressureRows<Dim>& rows, const NullSpace& closed,
+                                                   const std::vector<ElasticMotion>& motions, double horizon,
+                                                   std::vector<BodyEntries>& bodies);
+
+// Takes note of what the geometry has of prescribed fluxes. Collective.
+template <int Dim>
+void take_prescribed_fluxes(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
+                            std::vector<SweptCavity<Dim>>& cavities);
 
 }  // namespace seiche

@@ -18,7 +18,8 @@ ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   }
   for (const int dof : pins_at(solid, 0).dofs) m.state.v[dof] = 0;
   m.velocity = m.state.v;
-  m.kept_volume.setConstant(solid.surface.parts, std::numeric_limits<double>::quiet_NaN());
+  m.kept_volume.setConstant(Eigen::Index(solid.patches.size()), std::numeric_limits<double>::quiet_NaN());
+  m.cavity = m.kept_volume;
   m.extra_load.setZero(6);
   return m;
 }

@@ -8,9 +8,9 @@ namespace seiche {
 struct ElasticMotion {
   ElasticState state;        // displacements and velocities now, and one step earlier
   Eigen::VectorXd velocity;  // w: mean velocity of the nodes over the coming step, m/s
-  // Of each part of the surface: the volume that it must keep, m^Dim, where liquid sealed in a cavity covers it; else
-  // not a number.
-  Eigen::VectorXd kept_volume;
+  // Of each patch of the surface: the number of the cavity with sealed liquid that it is a wall of, and the volume that
+  // this must keep, m^Dim; else not numbers.
+  Eigen::VectorXd cavity, kept_volume;
   // Force and torque about the origin from the liquid beyond its pressure on the faces, stacked (N, N m).
   Eigen::VectorXd extra_load;
 };

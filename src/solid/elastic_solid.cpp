@@ -10,16 +10,13 @@
 #include "base/error.h"
 #include "base/expression.h"
 #include "solid/elastic_meshing.h"
+#include "solid/surface_patches.h"
 
 namespace seiche {
 namespace {
 
 constexpr double on_surface = 1e-6;  // of an element's edge: a pin that ends at a face of the solid holds its nodes
 constexpr double pi = 3.14159265358979323846;
-
-bool same_motion(const MotionSpec& a, const MotionSpec& b) {
-  return a.translate == b.translate && a.degrees == b.degrees && a.axis == b.axis && a.center == b.center;
-}
 
 // The nodes at which the pin's shape is not positive.
 template <int Dim>
@@ -121,6 +118,10 @@ void refuse_infinite_forces(const SolidSpec& spec, const ElasticSolid<Dim>& soli
 
 }  // namespace
 
+bool same_motion(const MotionSpec& a, const MotionSpec& b) {
+  return a.translate == b.translate && a.degrees == b.degrees && a.axis == b.axis && a.center == b.center;
+}
+
 template <int Dim>
 ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
                                      const Vec<Dim>& upper) {
@@ -131,6 +132,7 @@ ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& 
       {spec.rigid.density, lame_of(e.youngs_modulus, e.poisson_ratio), e.mass_damping, e.damping});
   r.surface = surface_of(r.body.mesh);
   r.pins = find_pins<Dim>(spec, r.body.mesh, options);
+  r.patches = find_patches<Dim>(r.surface, r.pins);
   r.body_force = e.body_force;
   const double edge = mesh_quality(r.body.mesh).shortest_edge;
   for (const TractionSpec& traction : e.tractions)

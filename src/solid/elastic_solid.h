@@ -13,6 +13,22 @@ struct PinnedNodes {
   MotionSpec motion;
 };
 
+bool same_motion(const MotionSpec& a, const MotionSpec& b);
+
+// A piece of an elastic solid's surface: a closed part of it, or, where pinned facets divide such a part, what lies
+// between them.
+template <int Dim>
+struct SurfacePatch {
+  // What would join a side of it to a point, corner -1, that moves with the pins that it ends at.
+  struct Closing {
+    std::array<int, Dim> corners;
+    int pin;  // index of the pins, -1: the side's ends move differently
+  };
+  std::vector<std::array<int, Dim>> facets;  // corners are points of the surface
+  std::vector<Closing> closings;             // empty: it is closed
+  bool is_closed() const { return closings.empty(); }
+};
+
 // Sides of elements under a stress: force per area at rest, Pa.
 struct LoadedSides {
   std::vector<BoundaryFace> faces;
@@ -24,7 +40,8 @@ struct ElasticSolid {
   ElasticBody<Dim> body;
   ElasticSurface surface;  // at rest
   std::vector<PinnedNodes> pins;
-  VectorFormula body_force;  // N/m^3
+  std::vector<SurfacePatch<Dim>> patches;  // without facets that are pinned where there are several of one part
+  VectorFormula body_force;                // N/m^3
   std::vector<LoadedSides> tractions;
 };
 

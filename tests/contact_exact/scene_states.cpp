@@ -131,11 +131,7 @@ void check(const std::string& name, const Scene& scene, int steps) {
   WARN(name << ": " << steps << " steps, up to " << faults.most_contacts << " contacts; " << faults.crossings
             << " crossings, " << faults.outside << " points outside, " << faults.wound
             << " states with one in another; least det F " << faults.least_volume);
-  // Known to fail: the bellows' walls are pinned to the side of the plate that they move with, and touch it.
-  if (name == "flooded_bellows_2d")
-    CHECK_NOFAIL(faults.crossings == 0);
-  else
-    CHECK(faults.crossings == 0);
+  CHECK(faults.crossings == 0);
   CHECK(faults.outside == 0);
   CHECK(faults.wound == 0);
   CHECK(faults.least_volume > 0);
