@@ -2,6 +2,7 @@
 
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
+#include "coupling/shear_jump.h"
 #include "coupling/sources.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
@@ -274,7 +275,10 @@ template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
   const FaceField<Dim, char> wet = faces_near_liquid(s, phi);
   FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt);
-  if (s.has_gas()) join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt), u);
+  if (s.has_gas()) {
+    join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt), u);
+    add_shear_jump(s, state, phi, dt, u);
+  }
   set_source_velocity(s, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
   return u;

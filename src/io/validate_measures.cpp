@@ -10,6 +10,7 @@
 #include "io/checked_file.h"
 #include "io/frames.h"
 #include "io/info.h"
+#include "io/validate_contour.h"
 #include "io/validate_frames.h"
 
 namespace seiche {
@@ -32,6 +33,26 @@ vdb::Frame last_frame(const RunPaths& run) {
 
 Measurement itself(double error) {
   return {error, {}, error};
+}
+
+// Of the frames, by their times.
+Points circularities(const MeasureSpec&, const RunPaths& run) {
+  Points points;
+  for (const auto& entry : fs::directory_iterator(run.frames())) {
+    if (entry.path().extension() != ".vdb") continue;
+    const vdb::Frame frame = vdb::decode(entry.path());
+    points.emplace_back(frame.time, circularity(frame));
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+Measurement least_circularity(const MeasureSpec& spec, const RunPaths& run) {
+  double least = 1;
+  for (const auto& [time, value] : points_during(circularities(spec, run), spec.from, spec.to))
+    least = std::min(least, value);
+  const double reference = constant(spec.reference);
+  return {least, reference, std::abs(least - reference)};
 }
 
 Measurement vector_l2(const MeasureSpec& spec, const RunPaths& run) {
@@ -239,6 +260,7 @@ const std::vector<MeasureKind>& kinds() {
       {"region_l2", {"velocity", "region"}, region_l2},
       {"line_extrema", {"data"}, line_extrema},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
+      {"circularity", {"from", "to", "reference"}, least_circularity, circularities},
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
       {"probe_period", {"probe", "column", "level", "reference"}, probe_period, component_of_probe},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "io/validate_contour.h"
 #include "io/validate_frames.h"
 #include "io/validate_measures.h"
 #include "io_scratch.h"
@@ -94,6 +95,52 @@ TEST_CASE("a surface is compared with a formula near it alone") {
                                          8, [](int, const Vec3&) { return 0.0; }, none),
                                      "y"),
                   Error);
+}
+
+// A circle's is 1, a square's sqrt(pi)/2, of two equal circles together 1/sqrt(2); of the inside or the outside alike.
+TEST_CASE("circularity of outlines") {
+  const auto still = [](int, const Vec3&) { return 0.0; };
+  const auto circle = [](double x0, double r) {
+    return [=](const Vec3& x) { return std::hypot(x[0] - x0, x[1] - 0.507) - r; };
+  };
+  const auto of = [&](int n, const std::function<double(const Vec3&)>& phi) {
+    return circularity(square_frame(n, still, phi));
+  };
+  const auto whole = circle(0.491, 0.25);
+  const double coarse = 1 - of(40, whole), fine = 1 - of(80, whole);
+  CHECK(std::abs(fine) < 1e-4);
+  CHECK(std::abs(fine) < 0.35 * std::abs(coarse));  // second order: 0.25
+  CHECK(of(80, [&](const Vec3& x) { return -whole(x); }) == Approx(1 - fine).epsilon(1e-6));
+  const auto square = [](const Vec3& x) { return std::max(std::abs(x[0] - 0.5), std::abs(x[1] - 0.5)) - 0.303; };
+  CHECK(of(80, square) == Approx(0.5 * std::sqrt(3.14159265358979)).epsilon(0.01));  // corners are cut off
+  const auto left = circle(0.25, 0.15), right = circle(0.75, 0.15);
+  CHECK(of(80, [&](const Vec3& x) { return std::min(left(x), right(x)); }) == Approx(std::sqrt(0.5)).epsilon(1e-3));
+  CHECK_THROWS_WITH(of(16, [](const Vec3& x) { return x[1] - 0.5; }), Catch::Contains("domain's sides"));
+  CHECK_THROWS_WITH(of(16, none), Catch::Contains("no surface"));
+}
+
+TEST_CASE("the least circularity of the frames in a time is measured") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::filesystem::create_directories(run.frames());
+  for (int n = 0; n < 4; ++n) {
+    auto frame = square_frame(
+        40, [](int, const Vec3&) { return 0.0; },
+        [&](const Vec3& x) { return std::hypot(x[0] - 0.5, (1 + 0.2 * n) * (x[1] - 0.5)) - 0.25; });
+    frame.time = n;
+    put(run.frames() / fmt::format("frame.{:04}.vdb", n), vdb::encode(frame));
+  }
+  MeasureSpec spec;
+  spec.kind = "circularity";
+  spec.from = 0;
+  spec.to = 2;
+  spec.reference = "1";
+  const Measurement least = measure(spec, run);
+  CHECK(least.error == Approx(1 - least.value));
+  CHECK(measured_series(spec, run).size() == 4);
+  CHECK(measured_series(spec, run)[2].second == least.value);
+  spec.from = spec.to = 0;
+  CHECK(measure(spec, run).error < 1e-3);
 }
 
 TEST_CASE("the worst of several extremes is the error of a run") {
