@@ -54,6 +54,10 @@ Measurement surface_deviation(const MeasureSpec& spec, const RunPaths& run) {
   return itself(surface_difference(last_frame(run), spec.surface) / constant(spec.length_unit));
 }
 
+Measurement misplaced(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(surface_misplaced(last_frame(run), spec.surface) / constant(spec.unit));
+}
+
 Measurement period_of_probe(const MeasureSpec& spec, const RunPaths& run) {
   const Points points = probe_points(read_whole_file(run.probes()), spec.probe);
   return against(mean_period(points, constant(spec.level)), constant(spec.reference));
@@ -171,6 +175,20 @@ Measurement probe_deviation(const MeasureSpec& spec, const RunPaths& run) {
   return itself(largest_difference(scaled_probe(spec, run), csv_points(read_whole_file(spec.data))));
 }
 
+Measurement probe_growth(const MeasureSpec& spec, const RunPaths& run) {
+  return against(growth_rate(scalar_series(spec, run), constant(spec.level), spec.from, spec.to),
+                 constant(spec.reference));
+}
+
+// Of two probes' settled means.
+Measurement probe_difference(const MeasureSpec& spec, const RunPaths& run) {
+  const std::string text = read_whole_file(run.probes());
+  const auto mean = [&](const std::string& probe) {
+    return settled_mean(probe_points(text, probe, spec.column), spec.from, spec.to);
+  };
+  return against(mean(spec.probe) - mean(spec.minus), constant(spec.reference));
+}
+
 Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
   const Points points = probe_points(read_whole_file(run.probes()), spec.probe);
   return itself(std::abs(energy_decay(points, constant(spec.level))));
@@ -239,6 +257,7 @@ const std::vector<MeasureKind>& kinds() {
       {"region_l2", {"velocity", "region"}, region_l2},
       {"line_extrema", {"data"}, line_extrema},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
+      {"surface_misplaced", {"surface", "unit"}, misplaced},
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
       {"probe_period", {"probe", "column", "level", "reference"}, probe_period, component_of_probe},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
@@ -253,6 +272,11 @@ const std::vector<MeasureKind>& kinds() {
       {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
       {"probe_deviation", {"probe", "level", "time_unit", "length_unit", "data"}, probe_deviation, scalar_series},
       {"probe_decay", {"probe", "level"}, probe_decay, scalar_series},
+      {"probe_growth", {"probe", "level", "from", "to", "reference"}, probe_growth, scalar_series},
+      {"probe_difference",
+       {"probe", "minus", "column", "from", "to", "reference"},
+       probe_difference,
+       component_of_probe},
       {"volume_drift", {}, volume_drift_of_run},
       {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean, solid_series},
       {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope, solid_series},
@@ -305,6 +329,7 @@ Section<MeasureSpec> measure_section() {
       parameter({.key = "region", .type = T::formula, .variables = "xyzt"}, &S::region),
       parameter({.key = "surface", .type = T::formula, .unit = "m", .variables = "xyzt"}, &S::surface),
       parameter({.key = "probe", .type = T::text}, &S::probe),
+      parameter({.key = "minus", .type = T::text}, &S::minus),
       parameter({.key = "column", .type = T::text}, &S::column),
       parameter({.key = "solid", .type = T::text}, &S::solid),
       parameter({.key = "level", .type = T::formula}, &S::level),
