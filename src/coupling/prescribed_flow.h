@@ -17,8 +17,8 @@ std::shared_ptr<const Level<Dim>> prescribed_level(const Setup<Dim>& setup, cons
 template <int Dim>
 double fastest_prescribed(const Setup<Dim>& setup, const CellField<Dim>& phi, double t);
 
-// The longest step from the state's time that crosses at most cfl cells at its begin, middle and end, s; at most
-// `remaining`. Collective.
+// The longest step from the state's time that crosses at most cfl cells with the flow at its begin and end and at times
+// between, s; at most `remaining`. Collective.
 template <int Dim>
 double limit_of_prescribed(const Setup<Dim>& setup, const State<Dim>& state, double remaining);
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
+#include "base/expression.h"
 #include "scenes.h"
 
 using namespace seiche;
@@ -57,6 +58,7 @@ TEST_CASE("a ball swings to and fro with a prescribed flow, as a ball and of one
       WARN(dim << "D, t = " << end << ": " << away << " cells, " << sim->step_count() << " steps, "
                << sim->stats().volume_corrected / sim->stats().liquid_volume << " of the volume restored");
       CHECK(away < 0.1);
+      CHECK(sim->step_count() > 12 * end);  // 6.4 cells each way
       CHECK(sim->stats().liquid_volume == Approx(sim->expected_volume()).epsilon(1e-6));
       CHECK(sim->stats().max_divergence < 1e-12);
       CHECK(sim->stats().solver_iterations == 0);
