@@ -17,7 +17,7 @@ const std::string swirl = flat_scene + "[liquid]\nprescribed_velocity = [\"0.5-y
 TEST_CASE("a prescribed flow is read and written, and there is none unless it is given") {
   const Scene scene = parse(swirl);
   REQUIRE(scene.liquid.prescribed_velocity);
-  CHECK(*scene.liquid.prescribed_velocity == VectorFormula{"0.5-y", "cos(t)*x", "0"});
+  CHECK(*scene.liquid.prescribed_velocity == VectorFormula{"0.5-y", "cos(t)*x", "0.0"});
   CHECK(parse(write_scene(scene)).liquid.prescribed_velocity == scene.liquid.prescribed_velocity);
   CHECK(!parse(flat_scene).liquid.prescribed_velocity);
   CHECK(write_scene(parse(flat_scene)).find("prescribed_velocity") == std::string::npos);
@@ -39,7 +39,8 @@ TEST_CASE("what a prescribed flow would feel nothing of is refused by name") {
     CHECK_THAT(fault(swirl + more), Contains("liquid.prescribed_velocity: a flow that is given for all times") &&
                                         Contains("nothing of " + name + "; leave out this"));
   }
-  CHECK_THAT(fault(swirl + "separates = true\n[gas]\n"), Contains("liquid.separates, [gas]; leave out these"));
+  CHECK_THAT(fault(swirl + "separates = true\nviscosity = 1\n"),
+             Contains("nothing of liquid.viscosity, liquid.separates; leave out these"));
   CHECK_THAT(fault(flat_scene + "[liquid]\nprescribed_velocty = [0, 0]\n"),
              Contains("did you mean 'prescribed_velocity'"));
 }
