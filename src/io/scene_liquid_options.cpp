@@ -71,6 +71,18 @@ Section<LiquidSourceSpec> source_section() {
   return s;
 }
 
+Key<LiquidSpec> prescribed_velocity_key() {
+  return value_key<LiquidSpec>(
+      {.key = "prescribed_velocity",
+       .type = T::formula_vector,
+       .unit = "m/s",
+       .variables = "xyzt",
+       .unset = "the flow is solved for",
+       .doc = "the flow at all times, which should be free of divergence: nothing is solved, the surface "
+              "alone moves with it, through sides of the domain too; for scenes of liquid alone"},
+      &LiquidSpec::prescribed_velocity);
+}
+
 }  // namespace
 
 Section<LiquidSpec> liquid_section() {
@@ -95,14 +107,7 @@ Section<LiquidSpec> liquid_section() {
                     .unset = "zero",
                     .doc = "initial velocity (expressions at t = 0)"},
                    &S::velocity),
-      value_key<S>({.key = "prescribed_velocity",
-                    .type = T::formula_vector,
-                    .unit = "m/s",
-                    .variables = "xyzt",
-                    .unset = "the flow is solved for",
-                    .doc = "the flow at all times, which should be free of divergence: nothing is solved, the surface "
-                           "alone moves with it, through sides of the domain too; for scenes of liquid alone"},
-                   &S::prescribed_velocity),
+      prescribed_velocity_key(),
       list_key<S, LiquidRegionSpec>({.key = "region",
                                      .unset = "no liquid",
                                      .doc = "where liquid is at t = 0: the union of all",

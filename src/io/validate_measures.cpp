@@ -97,6 +97,15 @@ Measurement probe_peak_time(const MeasureSpec& spec, const RunPaths& run) {
   return against(peak->first, constant(spec.reference));
 }
 
+Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
+  return probe_points(read_whole_file(run.probes()), spec.probe);
+}
+
+// When the probe first has a value, in s.
+Measurement probe_arrival(const MeasureSpec& spec, const RunPaths& run) {
+  return against(scalar_series(spec, run).front().first, constant(spec.reference));
+}
+
 // Half the way between the extremes.
 Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
@@ -108,10 +117,6 @@ Points front_series(const MeasureSpec& spec, const RunPaths& run) {
   const double time_unit = constant(spec.time_unit), length_unit = constant(spec.length_unit);
   for (auto& [time, length] : points) time /= time_unit, length /= length_unit;
   return points;
-}
-
-Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
-  return probe_points(read_whole_file(run.probes()), spec.probe);
 }
 
 Points column_series(const MeasureSpec& spec, const RunPaths& run) {
@@ -263,6 +268,7 @@ const std::vector<MeasureKind>& kinds() {
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
       {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
       {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},
+      {"probe_arrival", {"probe", "reference"}, probe_arrival, scalar_series},
       {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude, component_of_probe},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope, front_series},
       {"max_of_column", {"column"}, max_of_column, column_series},
