@@ -105,6 +105,7 @@ struct LiquidSpec {
   RheologySpec rheology;
   bool separates = false;  // pressure at walls and solids is held at or above zero: liquid may part from them
   VectorFormula velocity{"0", "0", "0"};
+  std::optional<VectorFormula> prescribed_velocity;  // at all times: nothing is solved, the surface alone moves
   std::vector<LiquidRegionSpec> regions;
   std::vector<LiquidSourceSpec> sources;
 };

@@ -95,8 +95,8 @@ class FlowSimulation : public Simulation {
  private:
   // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
   Attempt<Dim> attempt(double dt) {
-    if (state_.step > 0 || setup_.scene.time.scheme == TimeScheme::first_order)
-      return attempt_step(setup_, state_, dt, phases_);
+    const bool solved = !setup_.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
+    if (state_.step > 0 || !solved) return attempt_step(setup_, state_, dt, phases_);
     Attempt<Dim> trial = attempt_step(setup_, state_, dt, phases_);
     if (!trial.failure.empty()) return trial;
     Attempt<Dim> informed = attempt_step(setup_, inform(trial.state, dt), dt, phases_);

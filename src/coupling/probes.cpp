@@ -10,15 +10,21 @@
 namespace seiche {
 namespace {
 
-// The one rank whose owned cells hold x (points on the domain's upper sides belong to the last cells).
+// The cell that holds x (points on the domain's upper sides belong to the last cells).
 template <int Dim>
-bool holds(const Layout<Dim>& layout, const Vec<Dim>& x) {
+IVec<Dim> cell_of(const Layout<Dim>& layout, const Vec<Dim>& x) {
   IVec<Dim> i;
   for (int a = 0; a < Dim; ++a) {
     const double g = (x[a] - layout.geometry().lower[a]) / layout.h();
     i[a] = std::clamp(int(std::floor(g)), 0, layout.geometry().cells[a] - 1);
   }
-  return layout.cells().contains(i);
+  return i;
+}
+
+// On the one rank whose owned cells hold x.
+template <int Dim>
+bool holds(const Layout<Dim>& layout, const Vec<Dim>& x) {
+  return layout.cells().contains(cell_of(layout, x));
 }
 
 template <int Dim>
@@ -30,6 +36,13 @@ double level_set_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>
 template <int Dim>
 bool is_wet(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
   return s.has_gas() || s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
+}
+
+// True, on all ranks, where x lies in air that keeps its volume.
+template <int Dim>
+bool is_in_enclosed_air(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
+  if (!s.keeps_air()) return false;
+  return s.ranks.any(holds(s.layout, x) && state.air.label[s.layout.site(cell_of(s.layout, x))] >= 0);
 }
 
 // Pressure of the fluid at x, continued straight from its cells, so that a probe on a wall reads the wall.
@@ -159,7 +172,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   };
   switch (probe.kind) {
     case ProbeKind::pressure:
-      out.defined = is_wet(s, state, x);
+      out.defined = is_wet(s, state, x) || is_in_enclosed_air(s, state, x);
       if (out.defined) out.value = pressure_at(s, state, x);
       break;
     case ProbeKind::velocity:

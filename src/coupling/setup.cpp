@@ -7,6 +7,7 @@
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/liquid_viscosity.h"
+#include "coupling/prescribed_flow.h"
 #include "coupling/restore.h"
 #include "coupling/thin_solids.h"
 #include "coupling/thin_weight.h"
@@ -278,7 +279,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
     state.gas.now = initial_level(s, g, near, initial_gas_velocity(s, near, fault));
   }
   check_formulas_at_start(s, g, fault);
-  state.now = initial_level(s, g, wet, std::move(u));
+  state.now = s.has_prescribed_flow() ? prescribed_level(s, state.phi, 0) : initial_level(s, g, wet, std::move(u));
   state.film = measure_film(s, g.faces, state.now->u, state.now->u);
   check_fixed_step(s, state);
   return state;

@@ -49,6 +49,7 @@ struct Setup {
     return scene.time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
   }
   double density() const { return scene.liquid.density; }
+  bool has_prescribed_flow() const { return scene.liquid.prescribed_velocity.has_value(); }
   bool has_gas() const { return scene.gas.flows(); }
   double gas_density() const { return has_gas() ? scene.gas.density : 0; }
   // Half width of the level-set band, m: what a step can cross, and the reach of the stencils.

@@ -6,6 +6,7 @@
 #include "coupling/coupled_solve.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
+#include "coupling/prescribed_flow.h"
 #include "coupling/restore.h"
 #include "coupling/rheology_iteration.h"
 #include "coupling/sealed_liquid.h"
@@ -140,7 +141,11 @@ struct StepInProgress {
     const PhaseFault fault = phases.enter("transport");
     const auto timed = phases.timers.measure("surface");
     double added = 0;
-    out.state.phi = seiche::transport_surface(s, before, dt, added);
+    if (s.has_prescribed_flow())
+      out.state.phi =
+          seiche::transport_surface(s, before, prescribed_flow(s, before.phi, before.time + 0.5 * dt), dt, added);
+    else
+      out.state.phi = seiche::transport_surface(s, before, before.now->u, dt, added);
     out.state.expected_volume += added;
     inject(s, fault, out.state.phi.data());
   }
@@ -170,6 +175,13 @@ struct StepInProgress {
     State<Dim>& next = out.state;
     next.air = follow_air(s, before.air, before.now->u, dt, out.geometry, next.phi, next.lost_air);
     next.corrected_volume += control_volumes(s, out.geometry, expected, limit, next.air, next.phi);
+  }
+
+  // In place of the solve, where the scene gives the flow.
+  void prescribe_velocity() {
+    out.failure = find_non_finite(s, "phi", s.layout.cells(), out.state.phi.data());
+    out.state.now = prescribed_level(s, out.state.phi, out.state.time);
+    out.divergence = largest_divergence(s, out.state.phi, out.state.now->u);
   }
 
   bool transport_velocity() {
@@ -289,10 +301,15 @@ struct StepInProgress {
 template <int Dim>
 Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double dt, Phases& phases) {
   StepInProgress<Dim> step(s, state, dt, phases);
+  if (s.has_prescribed_flow()) step.out.failure = fault_of_prescribed(s, state, dt);
+  if (!step.out.failure.empty()) return std::move(step.out);
   step.move_bodies();
   step.transport_surface();
   step.measure_geometry();
-  if (step.transport_velocity()) step.solve_for_a_step_to_come();
+  if (s.has_prescribed_flow())
+    step.prescribe_velocity();
+  else if (step.transport_velocity())
+    step.solve_for_a_step_to_come();
   return std::move(step.out);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "coupling/contact_setup.h"
+#include "coupling/prescribed_flow.h"
 #include "coupling/surface_tension.h"
 #include "grid/loops.h"
 #include "solid/enclosed_volume.h"
@@ -51,6 +52,7 @@ namespace {
 // add.
 template <int Dim>
 double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  if (s.has_prescribed_flow()) return limit_of_prescribed(s, state, until - state.time);
   const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),
                reach = s.scene.time.cfl * s.layout.h();
   const double capillary = capillary_step(s);
@@ -141,7 +143,9 @@ double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
 template <int Dim>
 std::string fault_of_pinned_flow(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   const double h = s.layout.h(), cfl = s.scene.time.cfl, most = std::ceil(cfl);
-  const double crossed = fastest_component(s, state) * dt / h;
+  const double speed =
+      s.has_prescribed_flow() ? fastest_prescribed(s, state.phi, state.time + 0.5 * dt) : fastest_component(s, state);
+  const double crossed = speed * dt / h;
   if (crossed <= most * (1 + rounding)) return {};
   return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
                      pinned_step(s, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");

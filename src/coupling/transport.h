@@ -4,11 +4,13 @@
 
 namespace seiche {
 
-// phi at time + dt: transported by the present velocity, joined by inflow and sources, a distance again. `added` is the
-// volume that sources brought. Velocity and surface leapfrog: phi stands half a step ahead of u, which makes gravity
-// waves free of numerical damping (docs/method.md).
+// phi at time + dt: transported by u, joined by inflow and sources, a distance again. `added` is the volume that
+// sources brought. u is the present velocity: velocity and surface leapfrog, phi stands half a step ahead of u, which
+// makes gravity waves free of numerical damping (docs/method.md). A flow that is prescribed is that of the middle of
+// the step.
 template <int Dim>
-CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, double dt, double& added);
+CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double dt,
+                                 double& added);
 
 // u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
 // - q. Where gas flows, each fluid is brought by its own flow, continued beyond the surface, so that neither takes up

@@ -231,6 +231,8 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
+  if (context.clean("gas") && context.clean("liquid") && context.clean("solid"))
+    check_prescribed_flow(context, root, scene);
 }
 
 }  // namespace seiche

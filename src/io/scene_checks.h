@@ -13,4 +13,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene);
 // Part of the above: prescribed motions must be finite and must not leap further than the domain is long.
 void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene);
 
+// Part of the above: where the flow is prescribed there must be nothing that acts on a flow.
+void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Scene& scene);
+
 }  // namespace seiche

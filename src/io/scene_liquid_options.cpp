@@ -71,6 +71,18 @@ Section<LiquidSourceSpec> source_section() {
   return s;
 }
 
+Key<LiquidSpec> prescribed_velocity_key() {
+  return value_key<LiquidSpec>(
+      {.key = "prescribed_velocity",
+       .type = T::formula_vector,
+       .unit = "m/s",
+       .variables = "xyzt",
+       .unset = "the flow is solved for",
+       .doc = "the flow at all times, which should be free of divergence: nothing is solved, the surface "
+              "alone moves with it, through sides of the domain too; for scenes of liquid alone"},
+      &LiquidSpec::prescribed_velocity);
+}
+
 }  // namespace
 
 Option density_option() {
@@ -102,6 +114,7 @@ Section<LiquidSpec> liquid_section() {
       value_key<S>(contact_angle_option("where the surface meets sides and solids"), &S::contact_angle),
       rheology_key(),
       value_key<S>(initial_velocity_option(), &S::velocity),
+      prescribed_velocity_key(),
       list_key<S, LiquidRegionSpec>({.key = "region",
                                      .unset = "no liquid",
                                      .doc = "where liquid is at t = 0: the union of all",

@@ -16,7 +16,7 @@ struct MeasureSpec {
   VectorFormula velocity{"0", "0", "0"};       // exact, in x, y, z, t, m/s
   Formula region = "-1";                       // of faces that count, negative inside, in x, y, z, t
   Formula surface = "0";                       // exact distance to the surface, in x, y, z, t, m
-  std::string probe, column, solid;            // names
+  std::string probe, minus, column, solid;     // names; minus: of a second probe
   Formula level = "0", reference = "0";        // constants
   Formula time_unit = "1", length_unit = "1";  // constants, s and m: what makes times and lengths dimensionless
   Formula unit = "1";                          // that a figure is counted in

@@ -184,6 +184,15 @@ double energy_decay(const Points& y, double level) {
   return -2 * slope_during(extremes, extremes.front().first, extremes.back().first);
 }
 
+double growth_rate(const Points& points, double level, double from, double to) {
+  Points logarithms;
+  for (const auto& [x, y] : points_during(points, from, to)) {
+    if (y == level) fail(fmt::format("no growth: the value is the level, {:g}", level));
+    logarithms.emplace_back(x, std::log(std::abs(y - level)));
+  }
+  return slope_during(logarithms, from, to);
+}
+
 std::vector<double> csv_column(const std::string& text, const std::string& name) {
   const auto rows = rows_of(text);
   const std::size_t column = column_named(rows, name);

@@ -32,4 +32,9 @@ double extreme_along(const vdb::Frame& frame, const LineExtreme& line);
 // frame holds no surface.
 double surface_difference(const vdb::Frame& frame, const Formula& exact);
 
+// Area (3D: volume) that lies inside one of the frame's surface and that of the formula and outside the other, m^Dim,
+// by points a sixteenth (3D: sixth) of a cell apart. Farther than 2 cells from its zero the formula must be more than 2
+// cells from zero. Throws Error(cannot_continue) where the frame holds no surface.
+double surface_misplaced(const vdb::Frame& frame, const Formula& exact);
+
 }  // namespace seiche

@@ -75,6 +75,10 @@ Measurement surface_deviation(const MeasureSpec& spec, const RunPaths& run) {
   return itself(surface_difference(last_frame(run), spec.surface) / constant(spec.length_unit));
 }
 
+Measurement misplaced(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(surface_misplaced(last_frame(run), spec.surface) / constant(spec.unit));
+}
+
 Measurement period_of_probe(const MeasureSpec& spec, const RunPaths& run) {
   const Points points = probe_points(read_whole_file(run.probes()), spec.probe);
   return against(mean_period(points, constant(spec.level)), constant(spec.reference));
@@ -114,6 +118,15 @@ Measurement probe_peak_time(const MeasureSpec& spec, const RunPaths& run) {
   return against(peak->first, constant(spec.reference));
 }
 
+Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
+  return probe_points(read_whole_file(run.probes()), spec.probe);
+}
+
+// When the probe first has a value, in s.
+Measurement probe_arrival(const MeasureSpec& spec, const RunPaths& run) {
+  return against(scalar_series(spec, run).front().first, constant(spec.reference));
+}
+
 // Half the way between the extremes.
 Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
@@ -125,10 +138,6 @@ Points front_series(const MeasureSpec& spec, const RunPaths& run) {
   const double time_unit = constant(spec.time_unit), length_unit = constant(spec.length_unit);
   for (auto& [time, length] : points) time /= time_unit, length /= length_unit;
   return points;
-}
-
-Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
-  return probe_points(read_whole_file(run.probes()), spec.probe);
 }
 
 Points column_series(const MeasureSpec& spec, const RunPaths& run) {
@@ -190,6 +199,20 @@ Measurement probe_rms(const MeasureSpec& spec, const RunPaths& run) {
 
 Measurement probe_deviation(const MeasureSpec& spec, const RunPaths& run) {
   return itself(largest_difference(scaled_probe(spec, run), csv_points(read_whole_file(spec.data))));
+}
+
+Measurement probe_growth(const MeasureSpec& spec, const RunPaths& run) {
+  return against(growth_rate(scalar_series(spec, run), constant(spec.level), spec.from, spec.to),
+                 constant(spec.reference));
+}
+
+// Of two probes' settled means.
+Measurement probe_difference(const MeasureSpec& spec, const RunPaths& run) {
+  const std::string text = read_whole_file(run.probes());
+  const auto mean = [&](const std::string& probe) {
+    return settled_mean(probe_points(text, probe, spec.column), spec.from, spec.to);
+  };
+  return against(mean(spec.probe) - mean(spec.minus), constant(spec.reference));
 }
 
 Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
@@ -261,11 +284,13 @@ const std::vector<MeasureKind>& kinds() {
       {"line_extrema", {"data"}, line_extrema},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
       {"circularity", {"from", "to", "reference"}, least_circularity, circularities},
+      {"surface_misplaced", {"surface", "unit"}, misplaced},
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
       {"probe_period", {"probe", "column", "level", "reference"}, probe_period, component_of_probe},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
       {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
       {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},
+      {"probe_arrival", {"probe", "reference"}, probe_arrival, scalar_series},
       {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude, component_of_probe},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope, front_series},
       {"max_of_column", {"column"}, max_of_column, column_series},
@@ -275,6 +300,11 @@ const std::vector<MeasureKind>& kinds() {
       {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
       {"probe_deviation", {"probe", "level", "time_unit", "length_unit", "data"}, probe_deviation, scalar_series},
       {"probe_decay", {"probe", "level"}, probe_decay, scalar_series},
+      {"probe_growth", {"probe", "level", "from", "to", "reference"}, probe_growth, scalar_series},
+      {"probe_difference",
+       {"probe", "minus", "column", "from", "to", "reference"},
+       probe_difference,
+       component_of_probe},
       {"volume_drift", {}, volume_drift_of_run},
       {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean, solid_series},
       {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope, solid_series},
@@ -327,6 +357,7 @@ Section<MeasureSpec> measure_section() {
       parameter({.key = "region", .type = T::formula, .variables = "xyzt"}, &S::region),
       parameter({.key = "surface", .type = T::formula, .unit = "m", .variables = "xyzt"}, &S::surface),
       parameter({.key = "probe", .type = T::text}, &S::probe),
+      parameter({.key = "minus", .type = T::text}, &S::minus),
       parameter({.key = "column", .type = T::text}, &S::column),
       parameter({.key = "solid", .type = T::text}, &S::solid),
       parameter({.key = "level", .type = T::formula}, &S::level),

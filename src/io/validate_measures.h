@@ -69,6 +69,10 @@ double largest_difference(const Points& y, const Points& z);
 // for under three extremes.
 double energy_decay(const Points& y, double level);
 
+// Rate per unit of x at which |y(x) - level| grows: the least-squares slope of its logarithm over from <= x <= to.
+// Throws Error(cannot_continue) where y is at the level or the points do not reach that far.
+double growth_rate(const Points& points, double level, double from, double to);
+
 // The farthest that any solid goes from where it is in its first row with time >= from, m.
 double farthest_stray(const std::string& text, double from);
 

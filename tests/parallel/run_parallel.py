@@ -110,6 +110,18 @@ def airy(text):
     return text + '[gas]\nbubbles = "volume_conserving"\n'
 
 
+# A disc drawn out by a flow that is given.
+SWIRL = TWENTY_STEPS[:TWENTY_STEPS.index("[liquid]")].replace("fixed_step = 0.005", "") + """\
+[liquid]
+prescribed_velocity = ["sin(pi*x)^2*sin(2*pi*y)*cos(3*t)", "-sin(pi*y)^2*sin(2*pi*x)*cos(3*t)"]
+[[liquid.region]]
+shape = "sphere"
+center = [0.52, 0.3]
+radius = 0.15
+[output]
+checkpoint_every = 1
+"""
+
 # Pressure and viscosity in one solve, bodies dragged along; mud that stands up to a stress.
 THICK = viscous(SOFT, 20.0)
 MUD = TWENTY_STEPS.replace("viscosity = 0.0",
@@ -234,6 +246,11 @@ def air_ranks_agree_2d(bench):
     expect(largest(stats(bench.path("one")), "bubbles") > 0, "no air is enclosed")
 
 
+def prescribed_ranks_agree(bench):
+    """A disc in a prescribed vortex on 1, 2, 3 and 4 ranks."""
+    ranks_agree(bench, SWIRL)
+
+
 def same_bits_twice(bench, text):
     for out in ("one", "two"):
         bench.simulate(text=text, out=out, ranks=3).needs(0)
@@ -326,7 +343,7 @@ def air_killed_at_random(bench):
 
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
-                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, prescribed_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
                       gas_killed_at_random, air_killed_at_random]}

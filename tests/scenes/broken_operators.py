@@ -20,6 +20,7 @@ BROKEN = [
     ("viscosity", "0.9", "couette_torque"),
     ("velocity_advection", "0.95", "taylor_green_carried"),
     ("surface_advection", "0.9", "dam_break_martin_moyce"),
+    ("surface_advection", "0.99", "zalesak_disk"),
     ("friction", "0.9", "friction_incline"),
     ("friction", "0.9", "friction_stop"),
     ("elastic_forces", "0.9", "cantilever"),

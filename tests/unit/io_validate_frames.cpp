@@ -143,6 +143,21 @@ TEST_CASE("the least circularity of the frames in a time is measured") {
   CHECK(measure(spec, run).error < 1e-3);
 }
 
+// Discs of radius 0.25 and 0.3, and one a tenth off to the side; 2 r^2 asin(d/2r) + d sqrt(r^2 - d^2/4) lie between two
+// discs d apart. Linear between cells, the frame's disc lacks the segments between chords and arc, h^2/12 R of its
+// area: a five-hundredth.
+TEST_CASE("the area between two surfaces is found to a few thousandths of a disc") {
+  const auto frame = square_frame(
+      32, [](int, const Vec3&) { return 0.0; }, [](const Vec3& x) { return (x - Vec3(0.5, 0.5, 0)).norm() - 0.25; });
+  const double disc = 3.14159265358979 * 0.25 * 0.25, d = 0.1, r = 0.25;
+  CHECK(surface_misplaced(frame, "sqrt((x-0.5)^2+(y-0.5)^2)-0.25") < 3e-3 * disc);
+  CHECK(surface_misplaced(frame, "sqrt((x-0.5)^2+(y-0.5)^2)-0.25-0.1*t") ==
+        Approx(3.14159265358979 * (0.09 - 0.0625)).margin(3e-3 * disc));
+  const double lunes = 2 * (2 * r * r * std::asin(d / (2 * r)) + d * std::sqrt(r * r - d * d / 4));
+  CHECK(surface_misplaced(frame, "sqrt((x-0.6)^2+(y-0.5)^2)-0.25") == Approx(lunes).margin(3e-3 * disc));
+  CHECK(surface_misplaced(frame, "1") == Approx(disc).margin(3e-3 * disc));
+}
+
 TEST_CASE("the worst of several extremes is the error of a run") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};

@@ -134,6 +134,29 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
 }
 
+TEST_CASE("growth is the slope of a logarithm, and two probes are measured against each other") {
+  Points wave;
+  for (double t = 0; t < 2; t += 0.01) wave.emplace_back(t, 1 - 0.02 * std::exp(0.7 * t));
+  CHECK(growth_rate(wave, 1, 0.5, 1.5) == Approx(0.7));
+  CHECK_THROWS_AS(growth_rate(wave, 1, 0.5, 3), Error);
+  CHECK_THROWS_AS(growth_rate({{0, 1}, {1, 1}, {2, 1}}, 1, 0, 2), Error);
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::string text = "time,name,value,x,y,z\n";
+  for (double t = 0; t < 2; t += 0.01) text += fmt::format("{0},top,,0,-0.5,0\n{0},foot,,0,-0.1,0\n", t);
+  put(run.probes(), text);
+  MeasureSpec spec;
+  spec.kind = "probe_difference";
+  spec.probe = "top";
+  spec.minus = "foot";
+  spec.column = "y";
+  spec.from = 0.5;
+  spec.to = 1.5;
+  spec.reference = "-0.5";
+  CHECK(measure(spec, run).value == Approx(-0.4));
+  CHECK(measure(spec, run).error == Approx(0.2));
+}
+
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};

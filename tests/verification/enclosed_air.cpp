@@ -49,6 +49,13 @@ Scene glass_scene(int dim, int cells) {
   return s;
 }
 
+void add_pressure_probe(Scene& s, const Vec3& position) {
+  ProbeSpec probe;
+  probe.name = fmt::format("p{}", s.probes.size());
+  probe.position = position;
+  s.probes.push_back(probe);
+}
+
 double value_at(const Simulation& sim, const Scene& s, const std::string& field, const Vec3& x) {
   const FrameField f = sim.frame_field(field);
   std::size_t n = 0, stride = 1;
@@ -78,6 +85,8 @@ TEST_CASE("air in a glass under water rests at the pressure of its depth") {
     Scene s = glass_scene(dim, dim == 2 ? 48 : 32);
     s.solver.tolerance = 1e-13;  // the bar is a speed, as in rest.cpp
     s.time.max_step = 0.01;
+    add_pressure_probe(s, {0.5, 0.48, dim == 3 ? 0.5 : 0});
+    add_pressure_probe(s, {0.05, 0.97, 0.5});
     const auto sim = make_simulation(s, Communicator());
     const double before = sim->stats().gas_volume;
     double fastest = 0;
@@ -86,6 +95,9 @@ TEST_CASE("air in a glass under water rests at the pressure of its depth") {
     WARN(dim << "D: " << fastest << " m/s, pressure " << p << " Pa, of the depth " << rho * g * 0.51);
     CHECK(fastest <= 1e-10);
     CHECK(p == Approx(rho * g * 0.51).epsilon(0.01));
+    CHECK(sim->probe(0).defined);
+    CHECK(sim->probe(0).value == Approx(p).epsilon(1e-6));  // frames are in single precision
+    CHECK(!sim->probe(1).defined);                          // open air
     CHECK(sim->stats().bubbles == 1);
     CHECK(sim->stats().gas_volume == Approx(before).epsilon(1e-10));
   }

@@ -1,0 +1,120 @@
+// Surfaces carried by flows that the scene gives.
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "base/expression.h"
+#include "scenes.h"
+
+using namespace seiche;
+
+namespace {
+
+Scene carried(int dim, int cells, const std::string& phi, const VectorFormula& flow) {
+  Scene s = test::box_scene(dim, cells);
+  test::add_liquid(s, phi);
+  s.liquid.prescribed_velocity = flow;
+  s.gravity = {0, -9.81, 0};  // which a prescribed flow does not feel
+  return s;
+}
+
+// A ball of radius 0.2 about the place x0 + dx(t) along x in the middle.
+std::string ball(int dim, const std::string& x) {
+  const std::string flat = "(x-" + x + ")^2+(y-0.5)^2";
+  return "sqrt(" + flat + (dim == 3 ? "+(z-0.5)^2" : "") + ")-0.2";
+}
+
+// Largest |phi - exact| within a cell of the surface, in cells.
+double worst(const Simulation& sim, const Scene& s, const std::string& exact) {
+  const Expression formula(exact);
+  const FrameField f = sim.frame_field("surface");
+  const double h = s.domain.cell_size;
+  double most = 0;
+  std::size_t n = 0;
+  for (int k = f.lower[2]; k < f.upper[2]; ++k)
+    for (int j = f.lower[1]; j < f.upper[1]; ++j)
+      for (int i = f.lower[0]; i < f.upper[0]; ++i, ++n) {
+        const Vec3 x = h * Vec3(i + 0.5, j + 0.5, s.dimension == 3 ? k + 0.5 : 0);
+        if (std::abs(f.values[n]) < h) most = std::max(most, std::abs(f.values[n] - formula(x, sim.time())) / h);
+      }
+  REQUIRE(n > 0);
+  return most;
+}
+
+std::unique_ptr<Simulation> run_to(const Scene& s, double end) {
+  auto sim = make_simulation(s, Communicator());
+  while (sim->time() < end * (1 - 1e-12)) (void)sim->step(end);
+  return sim;
+}
+
+}  // namespace
+
+// It starts from rest, so that the first step must look ahead, and comes back: 0.1 (1 - cos 2 pi t) along x.
+TEST_CASE("a ball swings to and fro with a prescribed flow, as a ball and of one size") {
+  for (int dim : {2, 3}) {
+    const Scene s = carried(dim, 32, ball(dim, "0.4"), {"0.2*pi*sin(2*pi*t)", "0", "0"});
+    for (double end : {0.5, 1.0}) {
+      const auto sim = run_to(s, end);
+      const double away = worst(*sim, s, ball(dim, "(0.4+0.1*(1-cos(2*pi*t)))"));
+      WARN(dim << "D, t = " << end << ": " << away << " cells, " << sim->step_count() << " steps, "
+               << sim->stats().volume_corrected / sim->stats().liquid_volume << " of the volume restored");
+      CHECK(away < 0.1);
+      CHECK(sim->step_count() > 12 * end);  // 6.4 cells each way
+      CHECK(sim->stats().liquid_volume == Approx(sim->expected_volume()).epsilon(1e-6));
+      CHECK(sim->stats().max_divergence < 1e-12);
+      CHECK(sim->stats().solver_iterations == 0);
+    }
+  }
+}
+
+TEST_CASE("a prescribed flow carries liquid over periodic sides and out of the domain") {
+  Scene s = carried(2, 32, ball(2, "0.5"), {"1", "0", "0"});
+  for (SideSpec& side : s.domain.sides[0]) side.type = SideType::periodic;
+  CHECK(worst(*run_to(s, 1), s, ball(2, "0.5")) < 0.1);
+  s.domain.sides[0][1].type = SideType::outflow;
+  s.domain.sides[0][0].type = SideType::free_slip;
+  CHECK(run_to(s, 1)->stats().liquid_volume < 1e-3);
+}
+
+TEST_CASE("a step holds to cfl where a prescribed flow speeds up, and stops where it cannot") {
+  Scene s = carried(2, 32, ball(2, "0.3"), {"4*t", "0", "0"});
+  const auto sim = make_simulation(s, Communicator());
+  while (sim->time() < 0.3) {
+    const StepStats stats = sim->step(0.3);
+    CHECK(4 * stats.time * stats.dt <= s.domain.cell_size * (1 + 1e-6));
+  }
+  s.time.fixed_step = 0.05;
+  try {
+    (void)run_to(s, 0.5);
+    FAIL("the step was taken");
+  } catch (const Error& e) {
+    CHECK(e.code() == ExitCode::cannot_continue);
+    CHECK(std::string(e.what()).find("carries the flow") != std::string::npos);
+  }
+}
+
+TEST_CASE("a prescribed flow that is no number is said by key, at the start and later") {
+  for (const auto& [formula, code] :
+       {std::pair("1/(0*x)", ExitCode::bad_input), std::pair("0*sqrt(0.1-t)", ExitCode::cannot_continue)}) {
+    try {
+      (void)run_to(carried(2, 16, ball(2, "0.5"), {"0", formula, "0"}), 0.2);
+      FAIL("it was carried on with");
+    } catch (const Error& e) {
+      CHECK(e.code() == code);
+      CHECK(std::string(e.what()).find("liquid.prescribed_velocity[1] = \"" + std::string(formula)) == 0);
+    }
+  }
+}
+
+// All of the state is in the checkpoint: what follows is the same to the last bit.
+TEST_CASE("a prescribed flow goes on from a checkpoint with the same bits") {
+  const Scene s = carried(2, 24, ball(2, "0.4"), {"sin(3*y)*cos(t)", "sin(3*x)", "0"});
+  const auto whole = run_to(s, 0.1), other = make_simulation(s, Communicator());
+  other->load(whole->save());
+  for (int n = 0; n < 5; ++n) {
+    const StepStats a = whole->step(0.5), b = other->step(0.5);
+    CHECK(a.dt == b.dt);
+    CHECK(a.kinetic_energy == b.kinetic_energy);
+  }
+  CHECK(whole->frame_field("surface").values == other->frame_field("surface").values);
+  CHECK(whole->frame_field("vel").values == other->frame_field("vel").values);
+}
