@@ -14,6 +14,7 @@
 #include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "coupling/two_fluids.h"
+#include "coupling/viscous_transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "solid/enclosed_volume.h"
@@ -109,6 +110,8 @@ struct StepInProgress {
   Phases& phases;
   Attempt<Dim> out;
   FaceField<Dim> u_star;
+  double implicit = 1;  // share of the viscous stress that is that of the end of the step
+  ViscosityField<Dim> shared;
   std::optional<SurfaceTension<Dim>> tension;
   CoupledSolution<Dim> solution;
 
@@ -174,7 +177,8 @@ struct StepInProgress {
 
   bool transport_velocity() {
     const auto timed = phases.timers.measure("velocity");
-    u_star = seiche::transport_velocity(s, before, out.state.phi, dt);
+    implicit = implicit_share(s, before, out.state.phi, dt);
+    u_star = seiche::transport_velocity(s, before, out.state.phi, dt, implicit, out.geometry);
     set_film_velocity(s, out.geometry.faces, before.film, s.gravity.of_step(out.state.time, dt), dt, u_star);
     fill_velocity_ghosts(s.layout, s.halo, s.sides, u_star);
     out.failure = verify(s, out.state.phi, u_star);
@@ -228,15 +232,26 @@ struct StepInProgress {
     out.failure = find_non_finite(s, "u", level->u);
     out.state.now = level;
     out.state.viscous_loads = solution.viscous_loads;
-    out.dissipation = solution.dissipation;
+    out.dissipation = solution.dissipation / implicit;
   }
 
   // What viscosity added to u*.
   void set_viscous_acceleration(Level<Dim>& level) const {
     for (int a = 0; a < Dim && s.is_viscous(); ++a)
       for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-        if (level.valid.at(a, f) == face_solved) level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / dt;
+        if (level.valid.at(a, f) == face_solved)
+          level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / (implicit * dt);
       });
+  }
+
+  // The viscosity that the step's implicit share leaves.
+  const ViscosityField<Dim>* implicit_part(const ViscosityField<Dim>& viscosity) {
+    if (implicit == 1) return &viscosity;
+    shared = viscosity;
+    for_each_site(s.layout, s.layout.padded(), [&](Site c) { shared.value[c] *= implicit; });
+    for (int p = 0; shared.edge && p < EdgeField<Dim>::count; ++p)
+      for (double& mu : (*shared.edge)[p]) mu *= implicit;
+    return &shared;
   }
 
   // Where viscosity depends on the flow, until both agree.
@@ -253,7 +268,7 @@ struct StepInProgress {
       out.state = moved;
       out.state.pressure = std::move(guess);
       out.geometry = measured;
-      if (!solve(&rheology.viscosity())) return;
+      if (!solve(implicit_part(rheology.viscosity()))) return;
       restore();
       if (!out.failure.empty()) return;
     } while (rheology.is_unsettled_by(*out.state.now));
