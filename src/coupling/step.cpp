@@ -110,7 +110,7 @@ struct StepInProgress {
   Phases& phases;
   Attempt<Dim> out;
   FaceField<Dim> u_star;
-  double implicit = 1;  // share of the viscous stress that is that of the end of the step
+  ViscousPlan plan;
   ViscosityField<Dim> shared;
   std::optional<SurfaceTension<Dim>> tension;
   CoupledSolution<Dim> solution;
@@ -177,8 +177,8 @@ struct StepInProgress {
 
   bool transport_velocity() {
     const auto timed = phases.timers.measure("velocity");
-    implicit = implicit_share(s, before, out.state.phi, dt);
-    u_star = seiche::transport_velocity(s, before, out.state.phi, dt, implicit, out.geometry);
+    plan = plan_viscosity(s, before, out.state.phi, dt);
+    u_star = seiche::transport_velocity(s, before, out.state.phi, dt, plan, out.geometry);
     set_film_velocity(s, out.geometry.faces, before.film, s.gravity.of_step(out.state.time, dt), dt, u_star);
     fill_velocity_ghosts(s.layout, s.halo, s.sides, u_star);
     out.failure = verify(s, out.state.phi, u_star);
@@ -232,7 +232,7 @@ struct StepInProgress {
     out.failure = find_non_finite(s, "u", level->u);
     out.state.now = level;
     out.state.viscous_loads = solution.viscous_loads;
-    out.dissipation = solution.dissipation / implicit;
+    out.dissipation = solution.dissipation / plan.implicit;
   }
 
   // What viscosity added to u*.
@@ -240,17 +240,17 @@ struct StepInProgress {
     for (int a = 0; a < Dim && s.is_viscous(); ++a)
       for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
         if (level.valid.at(a, f) == face_solved)
-          level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / (implicit * dt);
+          level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / (plan.implicit * dt);
       });
   }
 
   // The viscosity that the step's implicit share leaves.
   const ViscosityField<Dim>* implicit_part(const ViscosityField<Dim>& viscosity) {
-    if (implicit == 1) return &viscosity;
+    if (plan.implicit == 1) return &viscosity;
     shared = viscosity;
-    for_each_site(s.layout, s.layout.padded(), [&](Site c) { shared.value[c] *= implicit; });
+    for_each_site(s.layout, s.layout.padded(), [&](Site c) { shared.value[c] *= plan.implicit; });
     for (int p = 0; shared.edge && p < EdgeField<Dim>::count; ++p)
-      for (double& mu : (*shared.edge)[p]) mu *= implicit;
+      for (double& mu : (*shared.edge)[p]) mu *= plan.implicit;
     return &shared;
   }
 

@@ -40,9 +40,9 @@ FaceField<Dim, char> interior_faces(const Setup<Dim>& s, const FaceField<Dim, ch
 // w = u(t + dt/2), extrapolated from up to three levels within the liquid; elsewhere the present u.
 template <int Dim>
 FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                             const FaceField<Dim, char>& interior, double dt) {
+                             const FaceField<Dim, char>& interior, const ViscousPlan& plan, double dt) {
   FaceField<Dim> w = flow.now->u;
-  if (s.is_viscous()) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, w);
+  if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, w);
   if (!flow.before || s.scene.time.scheme == TimeScheme::first_order) return w;
   if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
   const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
@@ -54,7 +54,7 @@ FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const
         w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, w);
-  if (s.is_viscous()) continue_beyond_walls(s.layout, s.sides, state.time + dt / 2, FaceValues::means, w);
+  if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time + dt / 2, FaceValues::means, w);
   return w;
 }
 
@@ -134,14 +134,14 @@ double trust_in_viscous_trend(const Setup<Dim>& s, const State<Dim>& state, cons
 // not known, and in first order.
 template <int Dim>
 FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                              const FaceField<Dim, char>& interior, double dt, double implicit) {
+                              const FaceField<Dim, char>& interior, double dt, const ViscousPlan& plan) {
   FaceField<Dim> memory(s.layout);
   if (!s.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return memory;
   if (dt > 2 * state.dt_now) return memory;
   const double trust = trust_in_viscous_trend(s, state, interior, dt);
   if (trust == 0) return memory;
-  const double earlier = (implicit == 1 ? trust : 2 * implicit - 1) * dt / (2 * state.dt_now),
-               present = 1 - implicit - earlier;
+  const double earlier = (plan.implicit == 1 ? trust : 2 * plan.implicit - 1) * dt / (2 * state.dt_now),
+               present = 1 - plan.implicit - earlier;
   const Level<Dim>& now = *flow.now;
   FaceField<Dim> last = flow.before->n, carried(s.layout);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, last);
@@ -219,41 +219,41 @@ struct Surroundings {
   bool solids;  // that velocity goes on into
   FaceField<Dim, char> interior, whole;
 
-  Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid)
-      : solids(sticks_to_known_solids(s)),
+  Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
+               const ViscousPlan& plan)
+      : solids(plan.full && sticks_to_known_solids(s)),
         interior(interior_faces(s, solids ? faces_known_to_transport(s, g, valid) : valid)) {
-    if (s.is_viscous()) whole = whole_faces(s.layout, s.sides, valid);
+    if (plan.full) whole = whole_faces(s.layout, s.sides, valid);
   }
 };
 
 // What one fluid's flow brings to the faces near where it is now.
 template <int Dim>
 FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                              const FaceField<Dim, char>& near, double dt, double implicit,
+                              const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
                               const StepGeometry<Dim>& geometry) {
-  const Surroundings<Dim> known(s, geometry, flow.now->valid);
+  const Surroundings<Dim> known(s, geometry, flow.now->valid, plan);
   const FaceField<Dim, char>& interior = known.interior;
-  const FaceField<Dim> path = path_velocity(s, state, flow, interior, dt);
-  FaceField<Dim> acc = acceleration(s, state, flow, dt),
-                 memory = viscous_memory(s, state, flow, interior, dt, implicit);
+  const FaceField<Dim> path = path_velocity(s, state, flow, interior, plan, dt);
+  FaceField<Dim> acc = acceleration(s, state, flow, dt), memory = viscous_memory(s, state, flow, interior, dt, plan);
   if (known.solids) {
     continue_into_solids(s, flow.now->valid, acc);
     continue_into_solids(s, flow.now->valid, memory);
   }
   Carried<Dim> carried{flow.now->u, flow.now->u};
-  if (s.is_viscous()) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, carried.outer);
+  if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, carried.outer);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.padded(), [&](Site f) {
       carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
     });
   // Faces beside those near liquid follow the viscous stress.
   FaceField<Dim> u = s.is_viscous() ? flow.now->u : FaceField<Dim>(s.layout);
-  if (s.is_viscous())
+  if (plan.full)
     advect_means(s, state, carried, path, near, interior, known.whole, dt, u);
   else
     advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, carried.inner, carried.outer, u);
   limit_at_surfaces(s, *flow.now, near, interior, u);
-  if (s.is_viscous()) add_missing_viscosity(s, state, known.whole, carried.outer, dt, u);
+  if (plan.full) add_missing_viscosity(s, state, known.whole, carried.outer, dt, u);
   const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -321,10 +321,10 @@ FaceField<Dim, char> faces_near_gas(const Setup<Dim>& s, const CellField<Dim>& p
 
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
-                                  double implicit, const StepGeometry<Dim>& geometry) {
+                                  const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
   const FaceField<Dim, char> wet = faces_near_liquid(s, phi);
-  FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt, implicit, geometry);
-  if (s.has_gas()) join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt, implicit, geometry), u);
+  FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt, plan, geometry);
+  if (s.has_gas()) join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt, plan, geometry), u);
   set_source_velocity(s, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
   return u;
@@ -350,13 +350,13 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   return liquid_volume(s, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                       \
-  template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);                     \
-  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                            \
-  template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                               \
-  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double, double, \
-                                              const StepGeometry<D>&);                                               \
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);               \
+  template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, double, double&);             \
+  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                    \
+  template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                       \
+  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double, \
+                                              const ViscousPlan&, const StepGeometry<D>&);                   \
   template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -10,7 +10,7 @@ namespace {
 template <int Dim>
 bool has_uniform_viscosity(const Setup<Dim>& s) {
   const LiquidSpec& liquid = s.scene.liquid;
-  return s.is_viscous() && !s.has_gas() && liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
+  return liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
 }
 
 bool is_known_and_sticks(const SolidSpec& solid) {
@@ -28,11 +28,14 @@ bool has_surface(const Setup<Dim>& s, const CellField<Dim>& phi) {
 }
 
 template <int Dim>
-double implicit_share(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
+ViscousPlan plan_viscosity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
   constexpr double stiff = 0.5;
-  const bool known = s.is_viscous() && s.scene.time.scheme != TimeScheme::first_order && s.bodies.empty() &&
-                     state.before && dt <= 2 * state.dt_now && dt * state.viscous_rate <= stiff;
-  return !known || has_surface(s, phi) ? 1 : 9.0 / 16;
+  ViscousPlan plan;
+  if (!s.is_viscous() || s.has_gas() || s.scene.time.scheme == TimeScheme::first_order) return plan;
+  plan.full = !has_surface(s, phi);
+  const bool known = state.before && dt <= 2 * state.dt_now && dt * state.viscous_rate <= stiff;
+  if (plan.full && known && s.bodies.empty()) plan.implicit = 9.0 / 16;
+  return plan;
 }
 
 template <int Dim>
@@ -79,7 +82,7 @@ FaceField<Dim> points_of_means(const Setup<Dim>& s, const FaceField<Dim, char>& 
 template <int Dim>
 void add_missing_viscosity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim, char>& whole,
                            const FaceField<Dim>& now, double dt, FaceField<Dim>& u) {
-  if (!has_uniform_viscosity(s) || s.scene.time.scheme == TimeScheme::first_order) return;
+  if (!has_uniform_viscosity(s)) return;
   const double reach = state.viscous_rate * dt;  // mu dt/(rho h^2)
   for (int a = 0; a < Dim; ++a)
     for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
@@ -89,7 +92,7 @@ void add_missing_viscosity(const Setup<Dim>& s, const State<Dim>& state, const F
 
 #define SEICHE_INSTANTIATE(D)                                                                                        \
   template bool has_surface<D>(const Setup<D>&, const CellField<D>&);                                                \
-  template double implicit_share<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double);                  \
+  template ViscousPlan plan_viscosity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double);             \
   template bool sticks_to_known_solids<D>(const Setup<D>&);                                                          \
   template FaceField<D, char> faces_known_to_transport<D>(const Setup<D>&, const StepGeometry<D>&,                   \
                                                           const FaceField<D, char>&);                                \

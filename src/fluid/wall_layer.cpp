@@ -34,6 +34,8 @@ void continue_across(const Layout<Dim>& layout, int axis, int side, FaceField<Di
 
 // Along it: that of the k-th layer beyond is 2 u_wall - that of the k-th inside + 2 b y^2, the mean of y^2 over the
 // layer h^2 (k^2 - k + 1/3), in its middle h^2 (k - 1/2)^2.
+// Farther out than the first layer b counts for no more than the odd part: where few cells resolve the flow at the wall
+// it would grow with k^2.
 template <int Dim>
 void continue_along(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, int component,
                     FaceValues values, FaceField<Dim>& u) {
@@ -47,7 +49,8 @@ void continue_along(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis
     x[axis] = layout.geometry().lower[axis] + (side == 0 ? 0 : n * layout.h());
     const double wall = sides.velocity(axis, side, component, x, t);
     const double b = curvature(values, wall, v[k * inward], v[(k + 1) * inward]);
-    *v = 2 * wall - v[(k + std::min(k, n) - 1) * inward] + 2 * b * (k * k - k + middle);
+    const double odd = wall - v[(k + std::min(k, n) - 1) * inward], even = 2 * b * (k * k - k + middle);
+    *v = wall + odd + (k == 1 ? even : std::clamp(even, -std::abs(odd), std::abs(odd)));
   });
 }
 
