@@ -15,6 +15,7 @@
 #include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "coupling/two_fluids.h"
+#include "coupling/viscous_transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "solid/enclosed_volume.h"
@@ -110,6 +111,8 @@ struct StepInProgress {
   Phases& phases;
   Attempt<Dim> out;
   FaceField<Dim> u_star;
+  ViscousPlan plan;
+  ViscosityField<Dim> shared;
   std::optional<SurfaceTension<Dim>> tension;
   CoupledSolution<Dim> solution;
 
@@ -186,7 +189,8 @@ struct StepInProgress {
 
   bool transport_velocity() {
     const auto timed = phases.timers.measure("velocity");
-    u_star = seiche::transport_velocity(s, before, out.state.phi, dt);
+    plan = plan_viscosity(s, before, out.state.phi, dt);
+    u_star = seiche::transport_velocity(s, before, out.state.phi, dt, plan, out.geometry);
     set_film_velocity(s, out.geometry.faces, before.film, s.gravity.of_step(out.state.time, dt), dt, u_star);
     fill_velocity_ghosts(s.layout, s.halo, s.sides, u_star);
     out.failure = verify(s, out.state.phi, u_star);
@@ -239,15 +243,26 @@ struct StepInProgress {
     out.failure = find_non_finite(s, "u", level->u);
     out.state.now = level;
     out.state.viscous_loads = solution.viscous_loads;
-    out.dissipation = solution.dissipation;
+    out.dissipation = solution.dissipation / plan.implicit;
   }
 
   // What viscosity added to u*.
   void set_viscous_acceleration(Level<Dim>& level) const {
     for (int a = 0; a < Dim && s.is_viscous(); ++a)
       for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-        if (level.valid.at(a, f) == face_solved) level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / dt;
+        if (level.valid.at(a, f) == face_solved)
+          level.n.at(a, f) = (solution.u_star.at(a, f) - u_star.at(a, f)) / (plan.implicit * dt);
       });
+  }
+
+  // The viscosity that the step's implicit share leaves.
+  const ViscosityField<Dim>* implicit_part(const ViscosityField<Dim>& viscosity) {
+    if (plan.implicit == 1) return &viscosity;
+    shared = viscosity;
+    for_each_site(s.layout, s.layout.padded(), [&](Site c) { shared.value[c] *= plan.implicit; });
+    for (int p = 0; shared.edge && p < EdgeField<Dim>::count; ++p)
+      for (double& mu : (*shared.edge)[p]) mu *= plan.implicit;
+    return &shared;
   }
 
   // Where viscosity depends on the flow, until both agree.
@@ -261,7 +276,7 @@ struct StepInProgress {
     RheologyIteration<Dim> rheology(s, out.state.phi, *before.now, out.state.time);
     do {
       start_again(moved, measured);
-      if (!solve(&rheology.viscosity())) return;
+      if (!solve(implicit_part(rheology.viscosity()))) return;
       restore();
       if (!out.failure.empty()) return;
     } while (rheology.is_unsettled_by(*out.state.now));

@@ -5,6 +5,7 @@
 #include "coupling/contact_setup.h"
 #include "coupling/prescribed_flow.h"
 #include "coupling/surface_tension.h"
+#include "coupling/viscous_transport.h"
 #include "grid/loops.h"
 #include "solid/enclosed_volume.h"
 
@@ -58,6 +59,7 @@ double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until)
   const double capillary = capillary_step(s);
   if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
+  if (!s.has_gas() && !has_surface(s, state.phi)) return std::min(flow, capillary);  // nothing to wave
   const double waves = 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g));
   return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
 }

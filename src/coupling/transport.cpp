@@ -4,6 +4,7 @@
 #include "coupling/restore.h"
 #include "coupling/shear_jump.h"
 #include "coupling/sources.h"
+#include "coupling/viscous_transport.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -20,24 +21,11 @@ std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
           tau * (tau + dt1) / ((dt1 + dt2) * dt2)};
 }
 
-// Smallest mask value within `reach` sites along an axis. The domain ends without harm: beyond its sides there is a
-// wall's mirror image or what flows in.
+// 1 where every face that transport may read from is known: higher order needs whole stencils.
 template <int Dim>
-char least_along(const Layout<Dim>& layout, const std::vector<char>& mask, int component, int axis, int reach, Site f,
-                 const IVec<Dim>& i) {
-  const bool ends = !layout.geometry().periodic[axis];
-  const int last = layout.geometry().cells[axis] - (axis == component ? 0 : 1);
-  const int from = ends ? std::max(-reach, -i[axis]) : -reach, to = ends ? std::min(reach, last - i[axis]) : reach;
-  char least = 1;
-  for (int k = from; k <= to; ++k) least = std::min<char>(least, mask[f + k * layout.stride(axis)] != 0);
-  return least;
-}
-
-// 1 where every face that transport may read from is valid: higher order needs whole stencils.
-template <int Dim>
-FaceField<Dim, char> interior_faces(const Setup<Dim>& s, const FaceField<Dim, char>& valid) {
+FaceField<Dim, char> interior_faces(const Setup<Dim>& s, const FaceField<Dim, char>& known) {
   const int reach = s.layout.halo() - 1;  // a step's path and half a stencil
-  FaceField<Dim, char> interior = valid;
+  FaceField<Dim, char> interior = known;
   for (int a = 0; a < Dim; ++a)
     for (int axis = 0; axis < Dim; ++axis) {
       const std::vector<char> old = interior[a];
@@ -53,8 +41,9 @@ FaceField<Dim, char> interior_faces(const Setup<Dim>& s, const FaceField<Dim, ch
 // w = u(t + dt/2), extrapolated from up to three levels within the liquid; elsewhere the present u.
 template <int Dim>
 FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                             const FaceField<Dim, char>& interior, double dt) {
+                             const FaceField<Dim, char>& interior, const ViscousPlan& plan, double dt) {
   FaceField<Dim> w = flow.now->u;
+  if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, w);
   if (!flow.before || s.scene.time.scheme == TimeScheme::first_order) return w;
   if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
   const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
@@ -66,6 +55,7 @@ FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const
         w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, w);
+  if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time + dt / 2, FaceValues::means, w);
   return w;
 }
 
@@ -139,16 +129,20 @@ double trust_in_viscous_trend(const Setup<Dim>& s, const State<Dim>& state, cons
   return s.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
 }
 
-// N(t) - N(t - dt_now) along the path, N the acceleration by viscosity, scaled to a step of dt. Zero where either is
+// What viscosity did before that the step takes up again, N the acceleration by it, as one of u: c1 N(t + dt) + c2 N(t)
+// + c3 N(t - dt_now) along the path with the implicit share c1 is N(t + dt/2) to second order. With c1 = 1 all that
+// comes from before is a trend, -dt/(2 dt_now) (N(t) - N(t - dt_now)) as far as it can be trusted. Zero where either is
 // not known, and in first order.
 template <int Dim>
-FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                             const FaceField<Dim, char>& interior, double dt) {
-  FaceField<Dim> trend(s.layout);
-  if (!s.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return trend;
-  if (dt > 2 * state.dt_now) return trend;
+FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                              const FaceField<Dim, char>& interior, double dt, const ViscousPlan& plan) {
+  FaceField<Dim> memory(s.layout);
+  if (!s.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return memory;
+  if (dt > 2 * state.dt_now) return memory;
   const double trust = trust_in_viscous_trend(s, state, interior, dt);
-  if (trust == 0) return trend;
+  if (trust == 0) return memory;
+  const double earlier = (plan.implicit == 1 ? trust : 2 * plan.implicit - 1) * dt / (2 * state.dt_now),
+               present = 1 - plan.implicit - earlier;
   const Level<Dim>& now = *flow.now;
   FaceField<Dim> last = flow.before->n, carried(s.layout);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, last);
@@ -157,10 +151,10 @@ FaceField<Dim> viscous_trend(const Setup<Dim>& s, const State<Dim>& state, const
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (interior.at(a, f) && now.valid.at(a, f) == face_solved && flow.before->valid.at(a, f) == face_solved)
-        trend.at(a, f) = std::clamp(trust * dt / state.dt_now * (now.n.at(a, f) - carried.at(a, f)), -limit, limit);
+        memory.at(a, f) = dt * std::clamp(present * now.n.at(a, f) + earlier * carried.at(a, f), -limit, limit);
     });
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, trend);
-  return trend;
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, memory);
+  return memory;
 }
 
 // Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
@@ -191,21 +185,76 @@ void limit_at_surfaces(const Setup<Dim>& s, const Level<Dim>& level, const FaceF
     });
 }
 
+// What is carried along the path: `inner` where all it needs is known, `outer` elsewhere.
+template <int Dim>
+struct Carried {
+  FaceField<Dim> inner, outer;
+};
+
+// u(x) <- u(x) + d + the excess of the mean of d over the face, d = I[v](x_d) - v(x), v the velocities at points: what
+// flows are means, what paths begin and end at are points.
+template <int Dim>
+void advect_means(const Setup<Dim>& s, const State<Dim>& state, const Carried<Dim>& carried, FaceField<Dim> path,
+                  const FaceField<Dim, char>& near, const FaceField<Dim, char>& interior,
+                  const FaceField<Dim, char>& whole, double dt, FaceField<Dim>& u) {
+  path = points_of_means(s, whole, path, state.time + dt / 2);
+  const FaceField<Dim> v = points_of_means(s, whole, carried.inner, state.time);
+  FaceField<Dim> d(s.layout);
+  advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, v, carried.outer, u,
+               Interpolation::six_points);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (near.at(a, f)) d.at(a, f) = u.at(a, f) - (interior.at(a, f) ? v : carried.outer).at(a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, d);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (!near.at(a, f) || !interior.at(a, f) || !whole.at(a, f)) return;
+      u.at(a, f) = carried.inner.at(a, f) + d.at(a, f) + excess_of_mean(s.layout, d, a, f);
+    });
+}
+
+// Which faces of a flow transport may read, and what it knows there; geometry is that of the end of the step.
+template <int Dim>
+struct Surroundings {
+  bool solids;  // that velocity goes on into
+  FaceField<Dim, char> interior, whole;
+
+  Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
+               const ViscousPlan& plan)
+      : solids(plan.full && sticks_to_known_solids(s)),
+        interior(interior_faces(s, solids ? faces_known_to_transport(s, g, valid) : valid)) {
+    if (plan.full) whole = whole_faces(s.layout, s.sides, valid);
+  }
+};
+
 // What one fluid's flow brings to the faces near where it is now.
 template <int Dim>
 FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                              const FaceField<Dim, char>& near, double dt) {
-  const FaceField<Dim, char> interior = interior_faces(s, flow.now->valid);
-  const FaceField<Dim> path = path_velocity(s, state, flow, interior, dt), acc = acceleration(s, state, flow, dt);
-  const FaceField<Dim> trend = viscous_trend(s, state, flow, interior, dt);
-  FaceField<Dim> carried = flow.now->u;
+                              const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
+                              const StepGeometry<Dim>& geometry) {
+  const Surroundings<Dim> known(s, geometry, flow.now->valid, plan);
+  const FaceField<Dim, char>& interior = known.interior;
+  const FaceField<Dim> path = path_velocity(s, state, flow, interior, plan, dt);
+  FaceField<Dim> acc = acceleration(s, state, flow, dt), memory = viscous_memory(s, state, flow, interior, dt, plan);
+  if (known.solids) {
+    continue_into_solids(s, flow.now->valid, acc);
+    continue_into_solids(s, flow.now->valid, memory);
+  }
+  Carried<Dim> carried{flow.now->u, flow.now->u};
+  if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, carried.outer);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.padded(),
-                  [&](Site f) { carried.at(a, f) += 0.5 * dt * (acc.at(a, f) - trend.at(a, f)); });
+    for_each_site(s.layout, s.layout.padded(), [&](Site f) {
+      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
+    });
   // Faces beside those near liquid follow the viscous stress.
   FaceField<Dim> u = s.is_viscous() ? flow.now->u : FaceField<Dim>(s.layout);
-  advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, carried, flow.now->u, u);
+  if (plan.full)
+    advect_means(s, state, carried, path, near, interior, known.whole, dt, u);
+  else
+    advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, carried.inner, carried.outer, u);
   limit_at_surfaces(s, *flow.now, near, interior, u);
+  if (plan.full) add_missing_viscosity(s, state, known.whole, carried.outer, dt, u);
   const Vec3 g = s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -274,11 +323,12 @@ FaceField<Dim, char> faces_near_gas(const Setup<Dim>& s, const CellField<Dim>& p
 }
 
 template <int Dim>
-FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
+FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
+                                  const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
   const FaceField<Dim, char> wet = faces_near_liquid(s, phi);
-  FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt);
+  FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt, plan, geometry);
   if (s.has_gas()) {
-    join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt), u);
+    join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt, plan, geometry), u);
     add_shear_jump(s, state, phi, dt, u);
   }
   set_source_velocity(s, state.time, state.time + dt, u);
@@ -311,7 +361,8 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double&); \
   template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                             \
   template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                                \
-  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double);         \
+  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,          \
+                                              const ViscousPlan&, const StepGeometry<D>&);                            \
   template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,6 +1,6 @@
 #pragma once
 // Transport: the surface along the flow, the velocity along its path with the acceleration it felt.
-#include "coupling/state.h"
+#include "coupling/viscous_transport.h"
 
 namespace seiche {
 
@@ -14,10 +14,11 @@ CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& stat
 
 // u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
 // - q. Where gas flows, each fluid is brought by its own flow, continued beyond the surface, so that neither takes up
-// the other's velocity by interpolation; where the surface crosses, their momenta add up.
+// the other's velocity by interpolation; where the surface crosses, their momenta add up. `geometry` is that of the
+// end of the step.
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
-                                  double dt);
+                                  double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
 
 // 1 on the owned faces with liquid (phi < 0) on at least one side.
 template <int Dim>

@@ -58,25 +58,29 @@ void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double
 template <int Dim>
 void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double dt, const FaceField<Dim, char>& near,
                   const FaceField<Dim, char>& interior, const FaceField<Dim>& inner, const FaceField<Dim>& outer,
-                  FaceField<Dim>& result) {
+                  FaceField<Dim>& result, Interpolation interpolation) {
+  const bool six = interpolation == Interpolation::six_points;
   for (int a = 0; a < Dim; ++a)
     for_each_index(layout, layout.faces(a), [&](Site s, const IVec<Dim>& i) {
       if (!near.at(a, s)) return;
       const Vec<Dim> from = trace_midpoint<Dim>(layout, path, mean_at_face(layout, path, a, s),
                                                 layout.position(i, face_offset<Dim>(a)), dt);
-      const FaceField<Dim>& carried = interior.at(a, s) ? inner : outer;
+      const bool inside = interior.at(a, s);
+      const double* carried = inside ? inner[a].data() : outer[a].data();
+      const Vec<Dim> g = index_coordinates<Dim>(layout, from, face_offset<Dim>(a));
       result.at(a, s) =
-          interpolate_cubic<Dim>(layout, carried[a].data(), index_coordinates<Dim>(layout, from, face_offset<Dim>(a)));
+          six && inside ? interpolate_quintic<Dim>(layout, carried, g) : interpolate_cubic<Dim>(layout, carried, g);
     });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                       \
-  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double); \
-  template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,   \
-                                    CellField<D>&);                                                               \
-  template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,         \
-                                const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                         \
+  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);   \
+  template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,     \
+                                    CellField<D>&);                                                                 \
+  template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,           \
+                                const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&, \
+                                Interpolation);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

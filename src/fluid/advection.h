@@ -19,11 +19,14 @@ template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
                       const CellField<Dim>& phi, CellField<Dim>& moved);
 
-// At the owned faces where near[f] is set: result(f) <- inner(departure point) where interior[f] is set, too, else
-// outer(departure point). The others keep their value.
+// Lagrange points along each axis that values at departure points come from: six reach one cell farther.
+enum class Interpolation { four_points, six_points };
+
+// At the owned faces where near[f] is set: result(f) <- inner(departure point), interpolated as asked, where
+// interior[f] is set, too, else outer(departure point) by four points. The others keep their value.
 template <int Dim>
 void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double dt, const FaceField<Dim, char>& near,
                   const FaceField<Dim, char>& interior, const FaceField<Dim>& inner, const FaceField<Dim>& outer,
-                  FaceField<Dim>& result);
+                  FaceField<Dim>& result, Interpolation interpolation = Interpolation::four_points);
 
 }  // namespace seiche

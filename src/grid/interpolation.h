@@ -70,6 +70,42 @@ double interpolate_cubic(const Layout<Dim>& layout, const double* f, const Vec<D
   }
 }
 
+// Six-point Lagrange weights at fraction t in [0, 1) between the third and the fourth point.
+inline std::array<double, 6> lagrange_weights_six(double t) {
+  const double a = t + 2, b = t + 1, d = t - 1, e = t - 2, f = t - 3;
+  return {-b * t * d * e * f / 120, a * t * d * e * f / 24,  -a * b * d * e * f / 12,
+          a * b * t * e * f / 12,   -a * b * t * d * f / 24, a * b * t * d * e / 120};
+}
+
+namespace detail {
+
+// Sum over the points of the remaining axes, the last one outermost.
+template <int Dim, int Axis>
+double weigh_six(const Layout<Dim>& layout, const double* p, const std::array<std::array<double, 6>, Dim>& w) {
+  const Site d = layout.stride(Axis);
+  double sum = 0;
+  for (int k = 0; k < 6; ++k) {
+    const double* at = p + (k - 2) * d;
+    if constexpr (Axis == 0)
+      sum += w[Axis][std::size_t(k)] * *at;
+    else
+      sum += w[Axis][std::size_t(k)] * weigh_six<Dim, Axis - 1>(layout, at, w);
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+// Tensor product of six-point Lagrange polynomials: sixth order.
+template <int Dim>
+double interpolate_quintic(const Layout<Dim>& layout, const double* f, const Vec<Dim>& g) {
+  Vec<Dim> t;
+  const Site s = detail::base_site<Dim>(layout, g, 2, 3, t);
+  std::array<std::array<double, 6>, Dim> w;
+  for (int a = 0; a < Dim; ++a) w[a] = lagrange_weights_six(t[a]);
+  return detail::weigh_six<Dim, Dim - 1>(layout, f + s, w);
+}
+
 // Index coordinates of a position for fields of the given offset.
 template <int Dim>
 Vec<Dim> index_coordinates(const Layout<Dim>& layout, const Vec<Dim>& x, const Vec<Dim>& offset) {
