@@ -58,24 +58,6 @@ double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>&
   return s.ranks.global_sum(holds(s.layout, x) ? interpolate_linear<Dim>(s.layout, p.data(), g) : 0.0);
 }
 
-// phi on the line x + t step, t from 0 to 1, by four-point interpolation: fourth order, also between columns of cells.
-template <int Dim>
-double level_set_on(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x, const Vec<Dim>& step, double t) {
-  const Vec<Dim> g = index_coordinates<Dim>(s.layout, x + t * step, cell_offset<Dim>());
-  return interpolate_cubic<Dim>(s.layout, state.phi.data(), g);
-}
-
-// The t at which it ends, by halves, where it is negative at 0 and not at 1.
-template <int Dim>
-double way_to_surface(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x, const Vec<Dim>& step) {
-  double low = 0, high = 1;
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (level_set_on(s, state, x, step, middle) < 0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 // Farthest liquid along `axis` on the line through x: the last zero of phi on it, or the side where liquid reaches it.
 template <int Dim>
 std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& state, Vec<Dim> x, int axis,
@@ -86,12 +68,13 @@ std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& sta
   for (int i = own.empty() ? 0 : own.lower[axis]; i < (own.empty() ? 0 : own.upper[axis]); ++i) {
     x[axis] = grid.lower[axis] + grid.h * (i + 0.5);
     if (!holds(s.layout, x)) continue;
-    const Vec<Dim> step = direction * grid.h * Vec<Dim>::Unit(axis);
-    const double here = level_set_on<Dim>(s, state, x, step, 0);
+    const double here = level_set_at(s, state, x);
+    Vec<Dim> ahead = x;
+    ahead[axis] += direction * grid.h;
     const bool last = direction > 0 ? i == grid.cells[axis] - 1 : i == 0;
-    const double next = last ? here : level_set_on<Dim>(s, state, x, step, 1);
+    const double next = last ? here : level_set_at(s, state, ahead);
     if (here >= 0) continue;
-    const double reach = last ? 0.5 : next >= 0 ? way_to_surface<Dim>(s, state, x, step) : 1;
+    const double reach = last ? 0.5 : next >= 0 ? here / (here - next) : 1;
     best = std::max(best, direction * (x[axis] + direction * reach * grid.h));
   }
   best = s.ranks.global_max(best);

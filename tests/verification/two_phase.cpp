@@ -83,7 +83,8 @@ TEST_CASE("light gas leaves the liquid as a free surface does") {
 }
 
 // Prosperetti (1981), as in validation/capillary_wave, at 16 cells a wavelength. Where the surface's tension drives the
-// fluids along it, the second derivative of their velocity jumps; differences that take it for smooth are 0.0243 off.
+// fluids along it, the second derivative of their velocity jumps; differences that take it for smooth are 0.024 off
+// over all of the time.
 TEST_CASE("viscosity between two fluids slows a capillary wave as it should") {
   const double omega = 11.1366559937;
   const std::vector<std::pair<double, double>> exact{{2, -0.1620},  {4, -0.6275},  {6, 0.3430},  {8, 0.2684},
@@ -97,11 +98,11 @@ TEST_CASE("viscosity between two fluids slows a capillary wave as it should") {
   s.liquid.surface_tension = 1;
   s.gas.viscosity = 0.0182571749236;
   s.liquid.viscosity = "0.0182571749236";
-  test::add_liquid(s, "y-1+0.01*cos(2*pi*x)");
+  test::add_liquid(s, "y-1+0.01*cos(2*pi*(x-1/32))");
   ProbeSpec crest;
   crest.name = "crest";
   crest.kind = ProbeKind::surface_height;
-  crest.position = {0.5, 1, 0};
+  crest.position = {0.53125, 1, 0};
   s.probes.push_back(crest);
   const auto sim = make_simulation(s, Communicator());
   double squares = 0;
