@@ -217,14 +217,15 @@ void advect_means(const Setup<Dim>& s, const State<Dim>& state, const Carried<Di
 // Which faces of a flow transport may read, and what it knows there; geometry is that of the end of the step.
 template <int Dim>
 struct Surroundings {
-  bool solids;  // that velocity goes on into
-  FaceField<Dim, char> interior, whole;
+  bool solids;                                   // that velocity goes on into
+  FaceField<Dim, char> interior, liquid, whole;  // liquid: interior without such solids
 
   Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                const ViscousPlan& plan)
       : solids(plan.full && sticks_to_known_solids(s)),
         interior(interior_faces(s, solids ? faces_known_to_transport(s, g, valid) : valid)) {
-    if (plan.full) whole = whole_faces(s.layout, s.sides, valid);
+    liquid = solids ? interior_faces(s, valid) : interior;
+    if (plan.full) whole = whole_faces(s.layout, s.sides, uncut_faces(s, g, valid));
   }
 };
 
@@ -236,11 +237,9 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   const Surroundings<Dim> known(s, geometry, flow.now->valid, plan);
   const FaceField<Dim, char>& interior = known.interior;
   const FaceField<Dim> path = path_velocity(s, state, flow, interior, plan, dt);
-  FaceField<Dim> acc = acceleration(s, state, flow, dt), memory = viscous_memory(s, state, flow, interior, dt, plan);
-  if (known.solids) {
-    continue_into_solids(s, flow.now->valid, acc);
-    continue_into_solids(s, flow.now->valid, memory);
-  }
+  FaceField<Dim> acc = acceleration(s, state, flow, dt),
+                 memory = viscous_memory(s, state, flow, known.liquid, dt, plan);
+  if (known.solids) continue_into_solids(s, flow.now->valid, acc);
   Carried<Dim> carried{flow.now->u, flow.now->u};
   if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, carried.outer);
   for (int a = 0; a < Dim; ++a)

@@ -58,6 +58,17 @@ FaceField<Dim, char> faces_known_to_transport(const Setup<Dim>& s, const StepGeo
 }
 
 template <int Dim>
+FaceField<Dim, char> uncut_faces(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid) {
+  FaceField<Dim, char> uncut = valid;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) != FaceKind::prescribed && g.faces.open.at(a, f) < 1) uncut.at(a, f) = 0;
+    });
+  s.halo.fill_ghosts(uncut);
+  return uncut;
+}
+
+template <int Dim>
 void continue_into_solids(const Setup<Dim>& s, const FaceField<Dim, char>& valid, FaceField<Dim>& f) {
   for (int a = 0; a < Dim; ++a) {
     std::vector<char> known = valid[a];
@@ -96,6 +107,7 @@ void add_missing_viscosity(const Setup<Dim>& s, const State<Dim>& state, const F
   template bool sticks_to_known_solids<D>(const Setup<D>&);                                                          \
   template FaceField<D, char> faces_known_to_transport<D>(const Setup<D>&, const StepGeometry<D>&,                   \
                                                           const FaceField<D, char>&);                                \
+  template FaceField<D, char> uncut_faces<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&);    \
   template void continue_into_solids<D>(const Setup<D>&, const FaceField<D, char>&, FaceField<D>&);                  \
   template FaceField<D> points_of_means<D>(const Setup<D>&, const FaceField<D, char>&, const FaceField<D>&, double); \
   template void add_missing_viscosity<D>(const Setup<D>&, const State<D>&, const FaceField<D, char>&,                \

@@ -36,6 +36,11 @@ template <int Dim>
 FaceField<Dim, char> faces_known_to_transport(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
                                               const FaceField<Dim, char>& valid);
 
+// The valid faces that no solid cuts. Halo filled.
+template <int Dim>
+FaceField<Dim, char> uncut_faces(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                                 const FaceField<Dim, char>& valid);
+
 // Continues f from the valid faces into the others, straight for two layers. Ghosts are filled.
 template <int Dim>
 void continue_into_solids(const Setup<Dim>& setup, const FaceField<Dim, char>& valid, FaceField<Dim>& f);

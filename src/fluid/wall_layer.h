@@ -1,6 +1,6 @@
 #pragma once
 // Velocities of faces as means over them, to fourth order: beyond walls, at points, and in the viscous stress. What
-// fluxes are free of divergence for are means; docs/decisions/0014-fourth-order.md says what that is worth.
+// fluxes are free of divergence for are means; docs/decisions/0015-fourth-order.md says what that is worth.
 #include "fluid/sides.h"
 
 namespace seiche {

@@ -1,0 +1,53 @@
+#include <catch2/catch.hpp>
+
+#include "rigid_scenes.h"
+
+using namespace seiche;
+using namespace seiche::test;
+
+namespace {
+
+// Waves without order in a closed box, on cells that resolve none of them; nothing drives them.
+Scene unforced(double viscosity, double cfl) {
+  Scene s = box_scene(2, 32);
+  for (int a = 0; a < 2; ++a)
+    for (SideSpec& side : s.domain.sides[a]) side.type = SideType::no_slip;
+  s.liquid.density = 1;
+  s.liquid.viscosity = Formula(fmt::format("{}", viscosity));
+  s.liquid.velocity = {"sin(1234.5*x+777.1*y+1.3)+sin(91.7*x*y+50*x+3)", "sin(913.7*x-1311.3*y+0.4)+cos(77.7*x*y-61*y)",
+                       "0"};
+  s.time.cfl = cfl;
+  s.time.end = 1;
+  return s;
+}
+
+// Largest rise of kinetic energy in a step, relative.
+double largest_rise(const Scene& scene) {
+  auto run = make_simulation(scene, Communicator());
+  double largest = 0, before = run->stats().kinetic_energy;
+  while (run->time() < scene.time.end) {
+    const double now = run->step(scene.time.end).kinetic_energy;
+    largest = std::max(largest, now / before - 1);
+    before = now;
+  }
+  return largest;
+}
+
+}  // namespace
+
+// Gradients of pressure do no work on flow without divergence, walls that rest none, and viscosity takes energy away.
+TEST_CASE("kinetic energy of unforced viscous liquid falls in every step", "[viscous]") {
+  for (const double viscosity : {1e-5, 1e-3, 1.0})
+    for (const double cfl : {0.3, 1.0, 2.0, 4.0}) {
+      CAPTURE(viscosity, cfl);
+      Scene full = unforced(viscosity, cfl);
+      add_liquid(full, "-1");
+      CHECK(largest_rise(full) <= 0);
+      full.solids = {rigid_ball("free", 0.13, {0.45, 0.55, 0}, 2)};
+      full.solids[0].slip = Slip::no_slip;
+      if (cfl < 4) CHECK(largest_rise(full) <= 0);
+      Scene surface = unforced(viscosity, cfl);
+      add_liquid(surface, "y-0.6-0.1*sin(9*x)");
+      if (cfl < 4) CHECK(largest_rise(surface) <= 0);
+    }
+}
