@@ -58,10 +58,10 @@ TEMPLATE_TEST_CASE_SIG("parabolas go on beyond walls, as points and as means", "
   const Box1<Dim> box;
   const double h = box.layout.h();
   for (const FaceValues values : {FaceValues::points, FaceValues::means}) {
-    // Component 0 along the lower wall of axis 1: y - 3 y^2, its mean over a layer h^2/12 of y^2 more.
-    const double more = values == FaceValues::means ? -3 * h * h / 12 : 0;
+    // Component 0 along the lower wall of axis 1: y - y^2, its mean over a layer h^2/12 of y^2 more.
+    const double more = values == FaceValues::means ? -h * h / 12 : 0;
     const auto f = [&](int a, const Vec<Dim>& x) {
-      return a == 0 ? x[1] - 3 * x[1] * x[1] + more : a == 1 ? x[1] * x[1] : 0.0;
+      return a == 0 ? x[1] - x[1] * x[1] + more : a == 1 ? x[1] * x[1] : 0.0;
     };
     const FaceField<Dim> exact = box.faces(f);
     FaceField<Dim> u = exact;
@@ -74,6 +74,18 @@ TEMPLATE_TEST_CASE_SIG("parabolas go on beyond walls, as points and as means", "
       CHECK(u.at(1, s) == Approx(exact.at(1, s)).margin(1e-13));  // even
     }
   }
+}
+
+// y - 3 y^2 with y = (k - 1/2)/12: beyond the first layer the even part is as large as the odd part at most.
+TEST_CASE("farther out than the first layer a parabola is no steeper than its odd part twice") {
+  const Box1<2> box;
+  const auto f = [](int a, const Vec<2>& x) { return a == 0 ? x[1] - 3 * x[1] * x[1] : 0.0; };
+  FaceField<2> u = box.faces(f);
+  continue_beyond_walls(box.layout, box.sides, 0, FaceValues::points, u);
+  const auto at = [&](int j) { return u.at(0, box.layout.site({n / 2, j})); };
+  CHECK(at(-1) == Approx(-at(0) - 6.0 / (24 * 24)));
+  CHECK(at(-2) == Approx(-2 * at(1)));
+  CHECK(at(-3) == Approx(-2 * at(2)));
 }
 
 TEMPLATE_TEST_CASE_SIG("the Laplacian is whole to fourth order, next to walls for parabolas", "", ((int Dim), Dim), 2,
