@@ -1,18 +1,11 @@
 #include "coupling/joints.h"
 
 #include "grid/loops.h"
+#include "levelset/mesh_facets.h"
 #include "solid/elastic_motion.h"
 
 namespace seiche {
 namespace {
-
-template <int Dim>
-const std::vector<std::array<int, Dim>>& facets_of(const SurfaceMesh& mesh) {
-  if constexpr (Dim == 2)
-    return mesh.segments;
-  else
-    return mesh.triangles;
-}
 
 template <int Dim>
 bool moves_alike(const Body<Dim>& other, const MotionSpec& pins) {

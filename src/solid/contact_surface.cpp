@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "levelset/mesh_facets.h"
 
 namespace seiche {
 namespace contact {
@@ -13,17 +14,9 @@ namespace {
 constexpr int leaf_size = 2;
 
 template <int Dim>
-const auto& elements_of(const SurfaceMesh& mesh) {
-  if constexpr (Dim == 2)
-    return mesh.segments;
-  else
-    return mesh.triangles;
-}
-
-template <int Dim>
 void copy_used_points(const SurfaceMesh& mesh, const std::string& name, Surface<Dim>& s) {
   std::vector<int> place(mesh.points.size(), -1);
-  for (Element<Dim> element : elements_of<Dim>(mesh)) {
+  for (Element<Dim> element : facets_of<Dim>(mesh)) {
     for (int& p : element) {
       if (p < 0 || p >= static_cast<int>(mesh.points.size()))
         throw Error(ExitCode::bad_input, name + ": its surface uses point " + std::to_string(p) + ", which it lacks");

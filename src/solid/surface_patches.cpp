@@ -4,16 +4,10 @@
 #include <map>
 #include <numeric>
 
+#include "levelset/mesh_facets.h"
+
 namespace seiche {
 namespace {
-
-template <int Dim>
-const std::vector<std::array<int, Dim>>& facets_of(const SurfaceMesh& mesh) {
-  if constexpr (Dim == 2)
-    return mesh.segments;
-  else
-    return mesh.triangles;
-}
 
 // Of each point of the surface the first pins with the motion of those that hold it, -1: it is free.
 std::vector<int> pins_of_points(const ElasticSurface& surface, const std::vector<PinnedNodes>& pins) {

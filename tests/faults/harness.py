@@ -1,4 +1,5 @@
 """What the tests of the built program share: scenes, running it with or without mpirun, and reading what it leaves."""
+import contextlib
 import csv
 import json
 import os
@@ -144,10 +145,11 @@ def root_process(bench, out="out"):
 
 
 def rank_processes(mpirun):
-    children = pathlib.Path(f"/proc/{mpirun.pid}/task/{mpirun.pid}/children").read_text().split()
-    threads = pathlib.Path(f"/proc/{mpirun.pid}/task")
-    for thread in threads.iterdir():
-        children += (thread / "children").read_text().split()
+    """Process ids of the ranks; those of threads that end meanwhile are left out."""
+    children = []
+    for thread in pathlib.Path(f"/proc/{mpirun.pid}/task").glob("*/children"):
+        with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+            children += thread.read_text().split()
     return sorted({int(child) for child in children})
 
 

@@ -2,6 +2,7 @@
 """The same scene on different numbers of ranks, and runs that are killed at random moments and resumed.
 
 Usage: run_parallel.py PROGRAM GROUP [CASE ...]"""
+import contextlib
 import os
 import pathlib
 import random
@@ -288,7 +289,8 @@ def killed_at_random(bench, ranks, kills, solids="", kind=lambda text: text):
         if process.poll() is None:
             victims = rank_processes(process)
             if victims:
-                os.kill(rng.choice(victims), signal.SIGKILL)
+                with contextlib.suppress(ProcessLookupError):  # it may have ended on its own since it was listed
+                    os.kill(rng.choice(victims), signal.SIGKILL)
         bench.finish(process, limit=10 + duration)
         if bench.path("out").exists():
             frames_are_good(bench.path("out"))

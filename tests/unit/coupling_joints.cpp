@@ -2,25 +2,12 @@
 #include <catch2/catch.hpp>
 
 #include "coupling/step_geometry.h"
+#include "solid_wall_specs.h"
 
 using namespace seiche;
+using test::box;
 
 namespace {
-
-SolidSpec box(SolidKind kind, const Vec3& lower, const Vec3& upper) {
-  SolidSpec s;
-  s.name = kind == SolidKind::elastic ? "wall" : "plate";
-  s.kind = kind;
-  s.shape.kind = "box";
-  s.shape.where = "test";
-  s.shape.lower = lower;
-  s.shape.upper = upper;
-  s.rigid.density = 1000;
-  s.elastic.youngs_modulus = 1e5;
-  s.elastic.poisson_ratio = 0.4;
-  s.elastic.element_size = 0.1;
-  return s;
-}
 
 // A wall whose upper end is pinned `gap` below a plate that moves by `motion`.
 std::vector<Body<2>> wall_and_plate(double gap, const Formula& motion) {

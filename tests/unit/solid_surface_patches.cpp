@@ -3,27 +3,14 @@
 
 #include "solid/enclosed_volume.h"
 #include "solid/surface_patches.h"
+#include "solid_wall_specs.h"
 
 using namespace seiche;
+using test::box;
 
 namespace {
 
 const Vec3 low_corner(0, 0, 0), high_corner(1, 1, 1);
-
-SolidSpec box(const Vec3& lower, const Vec3& upper) {
-  SolidSpec s;
-  s.name = "wall";
-  s.kind = SolidKind::elastic;
-  s.shape.kind = "box";
-  s.shape.where = "test";
-  s.shape.lower = lower;
-  s.shape.upper = upper;
-  s.rigid.density = 1000;
-  s.elastic.youngs_modulus = 1e5;
-  s.elastic.poisson_ratio = 0.4;
-  s.elastic.element_size = 0.1;
-  return s;
-}
 
 // Holds nodes below a plane x_axis = at, or (side 1) above it.
 void pin(SolidSpec& s, int axis, int side, double at, const Formula& lift = "0") {
@@ -44,7 +31,7 @@ ElasticSolid<Dim> make(const SolidSpec& s) {
 
 // An upright wall between floor and something that moves.
 ElasticSolid<2> upright(double x, const Formula& lift) {
-  SolidSpec s = box({x, 0, 0}, {x + 0.1, 0.5, 0});
+  SolidSpec s = box(SolidKind::elastic, {x, 0, 0}, {x + 0.1, 0.5, 0});
   pin(s, 1, 0, 0);
   pin(s, 1, 1, 0.5, lift);
   return make<2>(s);
@@ -75,7 +62,7 @@ TEST_CASE("pins at both ends divide a strip's outline into two sides", "[elastic
     CHECK(patch.closings.size() == 2);
     for (const auto& closing : patch.closings) CHECK(closing.pin >= 0);
   }
-  SolidSpec one = box({0.2, 0, 0}, {0.3, 0.5, 0});
+  SolidSpec one = box(SolidKind::elastic, {0.2, 0, 0}, {0.3, 0.5, 0});
   pin(one, 1, 0, 0);
   const ElasticSolid<2> flap = make<2>(one);
   REQUIRE(flap.patches.size() == 1);
@@ -84,11 +71,11 @@ TEST_CASE("pins at both ends divide a strip's outline into two sides", "[elastic
 }
 
 TEST_CASE("in 3D what is pinned all round has two sides", "[elastic][sealed]") {
-  SolidSpec column = box({0.2, 0, 0.2}, {0.4, 0.6, 0.4});
+  SolidSpec column = box(SolidKind::elastic, {0.2, 0, 0.2}, {0.4, 0.6, 0.4});
   pin(column, 1, 0, 0);
   pin(column, 1, 1, 0.6);
   CHECK(make<3>(column).patches.size() == 1);
-  SolidSpec plate = box({0, 0.4, 0}, {0.6, 0.5, 0.6});
+  SolidSpec plate = box(SolidKind::elastic, {0, 0.4, 0}, {0.6, 0.5, 0.6});
   for (const int axis : {0, 2})
     for (const int side : {0, 1}) pin(plate, axis, side, side == 0 ? 0 : 0.6);
   const ElasticSolid<3> across = make<3>(plate);
