@@ -88,7 +88,11 @@ std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseColumn>& co
 
 }  // namespace
 
+// Bodies that deform have a preconditioner of their own: what serves A alone then never meets H.
 Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
+  const auto& blocks = S.columns().blocks;
+  const bool deforms = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.deforms(); });
+  if (deforms && !S.is_coupled()) return;
   make_columns();
   add_component_columns();
   multiply_out();

@@ -76,6 +76,9 @@ struct SpdSolver::Built {
   Eigen::VectorXd diagonal;  // of H, which it knows of
   PreconditionerOrFailure made;
   std::unique_ptr<Deflation> deflation;
+  int solves = 0, first_iterations = 0, last_iterations = 0;
+
+  bool has_become_slow() const { return last_iterations > 2 * first_iterations; }
 };
 
 SpdSolver::SpdSolver(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J,
@@ -142,10 +145,11 @@ SpdSolver::Built& SpdSolver::build(const std::string& name) {
   return *built;
 }
 
-// Stiffness or contact has come or gone.
+// Stiffness or contact has come or gone, and it shows. Contact at a few nodes does not: there a new one costs far more
+// than it saves (docs/decisions/0016-hierarchies-in-contact.md).
 bool SpdSolver::is_outdated(const Built& built) const {
-  constexpr double much = 4;  // less costs fewer iterations than a new one takes
-  if (built.diagonal.size() == 0) return false;
+  constexpr double much = 4;
+  if (built.diagonal.size() == 0 || !built.has_become_slow()) return false;
   const Eigen::ArrayXd change = system_.bodies().diagonal().array() / built.diagonal.array();
   return change.maxCoeff() > much || change.minCoeff() < 1 / much;
 }
@@ -178,6 +182,8 @@ SpdSolver::Climb SpdSolver::iterate(const Rung& rung, const Problem& problem, Ve
     total = {total.iterations + part.iterations, part.failure};
     if (!part.failure.empty() || true_residual(problem, x) <= problem.tolerance) break;
   }
+  if (built.solves++ == 0) built.first_iterations = total.iterations;
+  built.last_iterations = total.iterations;
   return total;
 }
 
