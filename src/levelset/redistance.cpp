@@ -44,17 +44,16 @@ double smooth_norm(const Layout<Dim>& layout, const double* f) {
   return std::sqrt(sum);
 }
 
-// Takes cells near the zero to their distance from it as far as they are off, and marks them. The interpolant's zero is
-// the surface to fourth order: what moves it in a call is the share it is taken by of some 1e-5 cells where it is
-// smooth. Cells without a foot stay where |grad phi| is within 0.1 of 1. phi in cells, ghosts filled.
+// phi <- phi + w (d - phi), d the distance of the nearest point of the zero, w from 0 to 1 as phi or its slope there is
+// off; marks what relaxation is to leave alone. phi in cells, ghosts filled.
 template <int Dim>
-CellField<Dim, char> settle_near_zero(const Layout<Dim>& layout, double kept, CellField<Dim>& phi) {
+CellField<Dim, char> settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi) {
   constexpr double none = 0.02, all = 0.1;
   CellField<Dim, char> fixed(layout, 0);
   const CellField<Dim> start = phi;
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
-    if (std::abs(start[s]) >= kept) return;
-    const auto foot = foot_on_zero(layout, start, i, kept);
+    if (std::abs(start[s]) >= reach) return;
+    const auto foot = foot_on_zero(layout, start, i, reach);
     if (!foot) {
       fixed[s] = std::abs(smooth_norm(layout, start.data() + s) - 1) < all;
       return;
@@ -213,7 +212,7 @@ void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const Redistan
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  const CellField<Dim, char> fixed = settle_near_zero(layout, options.kept, phi);
+  const CellField<Dim, char> fixed = settle_near_zero(layout, options.settled, phi);
   fill_ghosts(layout, halo, 1.0, phi);
   Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
