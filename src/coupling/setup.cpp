@@ -174,7 +174,7 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
   fill_level_set_ghosts(s.layout, s.halo, phi);
   const auto& regions = s.scene.liquid.regions;
   if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); }))
-    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo()}, phi);
+    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi);
   return phi;
 }
 

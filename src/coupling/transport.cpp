@@ -274,14 +274,12 @@ void join(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& 
     });
 }
 
-// Cells from the surface that redistancing leaves alone. Curvature reads them: a cell along the surface, and the
-// stencil of the cubic interpolant there. In prescribed flows Zalesak's disc loses a third less of its corners so.
-template <int Dim>
-double kept_of_surface(const Setup<Dim>& s) {
-  return s.scene.liquid.surface_tension > 0 || s.has_prescribed_flow() ? 3 : 0;
-}
-
 }  // namespace
+
+template <int Dim>
+double settled_of_surface(const Setup<Dim>& s) {
+  return s.scene.liquid.surface_tension > 0 || s.has_gas() || s.has_prescribed_flow() ? 3 : 0;
+}
 
 template <int Dim>
 double liquid_volume(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
@@ -299,7 +297,7 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, c
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
-  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved, kept_of_surface(s)}, phi);
+  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s)}, phi);
   return phi;
 }
 
@@ -356,6 +354,7 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
+  template double settled_of_surface<D>(const Setup<D>&);                                                             \
   template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                        \
   template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double&); \
   template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                             \

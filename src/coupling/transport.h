@@ -12,6 +12,11 @@ template <int Dim>
 CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double dt,
                                  double& added);
 
+// Cells from the surface that are taken to their distance from it by its nearest points (levelset/redistance.h).
+// Curvature reads them, and where two fluids flow nothing tells their volumes apart but the surface.
+template <int Dim>
+double settled_of_surface(const Setup<Dim>& setup);
+
 // u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
 // - q. Where gas flows, each fluid is brought by its own flow, continued beyond the surface, so that neither takes up
 // the other's velocity by interpolation; where the surface crosses, their momenta add up. `geometry` is that of the

@@ -2,6 +2,7 @@
 
 #include "grid/ghosts.h"
 #include "grid/loops.h"
+#include "levelset/closest_point.h"
 
 namespace seiche {
 namespace {
@@ -43,13 +44,24 @@ double smooth_norm(const Layout<Dim>& layout, const double* f) {
   return std::sqrt(sum);
 }
 
-// Marks what is kept: |grad phi| within 0.1 of 1. phi in cells, ghosts filled.
+// phi <- phi + w (d - phi), d the distance of the nearest point of the zero, w from 0 to 1 as phi or its slope there is
+// off; marks what relaxation is to leave alone. phi in cells, ghosts filled.
 template <int Dim>
-CellField<Dim, char> keep_near_zero(const Layout<Dim>& layout, double kept, const CellField<Dim>& phi) {
-  constexpr double off = 0.1;
+CellField<Dim, char> settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi) {
+  constexpr double none = 0.02, all = 0.1;
   CellField<Dim, char> fixed(layout, 0);
-  for_each_site(layout, layout.cells(), [&](Site s) {
-    fixed[s] = std::abs(phi[s]) < kept && std::abs(smooth_norm(layout, phi.data() + s) - 1) < off;
+  const CellField<Dim> start = phi;
+  for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
+    if (std::abs(start[s]) >= reach) return;
+    const auto foot = foot_on_zero(layout, start, i, reach);
+    if (!foot) {
+      fixed[s] = std::abs(smooth_norm(layout, start.data() + s) - 1) < all;
+      return;
+    }
+    fixed[s] = 1;
+    const double d = foot->distance;
+    const double off = std::max(std::abs(foot->slope - 1), std::abs(start[s] - d) / std::max(1.0, std::abs(d)));
+    phi[s] += std::clamp((off - none) / (all - none), 0.0, 1.0) * (d - start[s]);
   });
   return fixed;
 }
@@ -200,7 +212,8 @@ void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const Redistan
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  const CellField<Dim, char> fixed = keep_near_zero(layout, options.kept, phi);
+  const CellField<Dim, char> fixed = settle_near_zero(layout, options.settled, phi);
+  fill_ghosts(layout, halo, 1.0, phi);
   Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }

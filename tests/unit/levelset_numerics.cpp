@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "grid/loops.h"
+#include "levelset/closest_point.h"
 #include "levelset/extrapolate.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
@@ -119,4 +120,54 @@ TEST_CASE("extrapolation continues straight lines, then constants, and nothing f
   CHECK(u[f.layout.site({7, 8})] == 21);
   CHECK(u[f.layout.site({9, 8})] == 21);    // constant from the third layer on
   CHECK(u[f.layout.site({10, 8})] == -99);  // out of reach
+}
+
+TEMPLATE_TEST_CASE_SIG("feet on the zero of a stretched level set: fourth order, none beyond reach or at a corner", "",
+                       ((int Dim), Dim), 2, 3) {
+  std::array<double, 2> error{};
+  for (int k = 0; k < 2; ++k) {
+    const Fixture<Dim> f(20 << k);
+    const double h = f.layout.h();
+    const auto distance = [](const Vec<Dim>& x) { return (x - Vec<Dim>::Constant(0.5)).norm() - 0.31; };
+    const auto stretched = [&](const Vec<Dim>& x) { return distance(x) * (1 + 0.3 * x[0]) / h; };
+    const CellField<Dim> phi = f.cells(stretched);
+    int found = 0, missed = 0;
+    for_each_index_in_order(f.layout, f.layout.cells(), [&](Site, const IVec<Dim>& i) {
+      const double exact = distance(Vec<Dim>(f.layout.position(i, cell_offset<Dim>()))) / h;
+      if (std::abs(exact) > 2.5) return;
+      const auto foot = foot_on_zero(f.layout, phi, i, 3);
+      ++(foot ? found : missed);
+      if (foot) error[k] = std::max(error[k], std::abs(foot->distance - exact));
+      if (foot) CHECK(std::abs(foot->slope - 1.15) < 0.15);  // 1 + 0.3 x
+    });
+    CHECK(found > 100);
+    CHECK(missed == 0);
+  }
+  CHECK(error[1] < 1e-4);                       // cells; 12.4 to the radius
+  CHECK(std::log2(error[0] / error[1]) > 2.6);  // distances in cells: one order less
+  const Fixture<Dim> f(20);
+  const auto far = [&](const Vec<Dim>& x) { return (x[0] - 0.2) / f.layout.h(); };
+  CHECK(!foot_on_zero<Dim>(f.layout, f.cells(far), IVec<Dim>::Constant(10), 3));
+}
+
+TEMPLATE_TEST_CASE_SIG("settling a stretched ball again and again leaves its zero where it is", "", ((int Dim), Dim), 2,
+                       3) {
+  const Fixture<Dim> f(32);
+  const auto ball = [](const Vec<Dim>& x) { return (x - Vec<Dim>::Constant(0.5)).norm() - 0.31; };
+  const NodeField<Dim> everywhere(f.layout, 1.0);
+  const double exact = local_liquid_volume(f.layout, f.cells(ball), everywhere);
+  const auto lost = [&](double settled) {
+    CellField<Dim> phi = f.cells(ball);
+    for (int n = 0; n < 40; ++n) {
+      for_each_index(f.layout, f.layout.padded(), [&](Site s, const IVec<Dim>& i) {
+        phi[s] *= 1 + 0.03 * f.layout.position(i, cell_offset<Dim>())[0];
+      });
+      redistance(f.layout, f.halo, {5, 4, 2, settled}, phi);
+    }
+    return std::abs(local_liquid_volume(f.layout, phi, everywhere) / exact - 1);
+  };
+  const double settled = lost(3), relaxed = lost(0);
+  INFO(settled << " " << relaxed);
+  CHECK(settled < 2e-4);  // a slope of 2 % over the ball moves the zero of straight lines by h^2/8 of it
+  CHECK(settled < 0.1 * relaxed);
 }

@@ -1,0 +1,74 @@
+#include "levelset/closest_point.h"
+
+#include "grid/interpolation.h"
+
+namespace seiche {
+namespace {
+
+// Derivatives of lagrange_weights.
+std::array<double, 4> lagrange_slopes(double t) {
+  return {-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2, -(3 * t * t - 2 * t - 2) / 2, (3 * t * t - 1) / 6};
+}
+
+template <int Dim>
+struct ValueAndGradient {
+  double value = 0;
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+};
+
+// Of the cubic interpolant at index coordinates x.
+template <int Dim>
+ValueAndGradient<Dim> interpolate(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
+  Vec<Dim> t;
+  const Site base = detail::base_site<Dim>(layout, x, 1, 2, t);
+  std::array<std::array<double, 4>, Dim> w, dw;
+  for (int a = 0; a < Dim; ++a) w[a] = lagrange_weights(t[a]), dw[a] = lagrange_slopes(t[a]);
+  ValueAndGradient<Dim> r;
+  for (unsigned n = 0; n < 1u << (2 * Dim); ++n) {
+    Site at = base;
+    for (int a = 0; a < Dim; ++a) at += (int(n >> (2 * a) & 3u) - 1) * layout.stride(a);
+    double all = f[at];
+    Vec<Dim> slopes = Vec<Dim>::Constant(f[at]);
+    for (int a = 0; a < Dim; ++a) {
+      const std::size_t k = n >> (2 * a) & 3u;
+      all *= w[a][k];
+      for (int b = 0; b < Dim; ++b) slopes[b] *= a == b ? dw[a][k] : w[a][k];
+    }
+    r.value += all;
+    r.gradient += slopes;
+  }
+  return r;
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<Foot> foot_on_zero(const Layout<Dim>& layout, const CellField<Dim>& phi, const IVec<Dim>& cell,
+                                 double reach) {
+  constexpr int most_steps = 30;
+  constexpr double least_slope = 0.5, largest_slope = 2;    // what may pass for a distance
+  constexpr double on_zero = 1e-12, straight_below = 1e-6;  // cells; the second one counts by its square
+  const Vec<Dim> x = cell.template cast<double>();
+  Vec<Dim> y = x;
+  for (int n = 0; n < most_steps; ++n) {
+    const auto [value, g] = interpolate<Dim>(layout, phi.data(), y);
+    const double slope = g.norm();
+    if (!(slope > least_slope && slope < largest_slope)) return {};
+    const Vec<Dim> normal = g / slope, away = x - y;
+    const double off = value / slope, height = away.dot(normal);
+    const Vec<Dim> across = away - height * normal;
+    if (std::abs(off) < on_zero && across.norm() < straight_below) {
+      const double sign = phi[layout.site(cell)] < 0 ? -1 : 1;
+      if (height * sign < 0) return {};
+      return Foot{height, slope};
+    }
+    y += across - off * normal;
+    if (!((y - x).cwiseAbs().maxCoeff() < reach)) return {};
+  }
+  return {};
+}
+
+template std::optional<Foot> foot_on_zero<2>(const Layout<2>&, const CellField<2>&, const IVec<2>&, double);
+template std::optional<Foot> foot_on_zero<3>(const Layout<3>&, const CellField<3>&, const IVec<3>&, double);
+
+}  // namespace seiche
