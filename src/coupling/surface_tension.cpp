@@ -78,7 +78,7 @@ double grid_ohnesorge(const Setup<Dim>& s) {
 template <int Dim>
 CellField<Dim> look_ahead(const Setup<Dim>& s, const CellField<Dim>& before, const CellField<Dim>& phi) {
   CellField<Dim> r = phi;
-  const double ahead = 0.3 * std::clamp(2 - grid_ohnesorge(s) / 0.01, 0.0, 1.0);
+  const double ahead = 0.1 * std::clamp(2 - grid_ohnesorge(s) / 0.01, 0.0, 1.0);
   if (ahead == 0) return r;
   for_each_site(s.layout, s.layout.cells(), [&](Site c) { r[c] += ahead * (phi[c] - before[c]); });
   return r;

@@ -40,6 +40,25 @@ ValueAndGradient<Dim> interpolate(const Layout<Dim>& layout, const double* f, co
   return r;
 }
 
+// Whether the interpolant at x reads phi across no kink: the second differences inside its points, which add up to 2
+// n_a^2 across the middle between two surfaces and are (1 - n_a^2)/R on a sphere of R cells.
+template <int Dim>
+bool is_smooth_around(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
+  constexpr double most = 0.3;
+  Vec<Dim> t;
+  const Site base = detail::base_site<Dim>(layout, x, 1, 2, t);
+  for (unsigned n = 0; n < 1u << (2 * Dim); ++n) {
+    Site at = base;
+    for (int a = 0; a < Dim; ++a) at += (int(n >> (2 * a) & 3u) - 1) * layout.stride(a);
+    for (int a = 0; a < Dim; ++a) {
+      const unsigned k = n >> (2 * a) & 3u;
+      const Site d = layout.stride(a);
+      if ((k == 1 || k == 2) && !(std::abs(f[at + d] - 2 * f[at] + f[at - d]) < most)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -59,7 +78,7 @@ std::optional<Foot> foot_on_zero(const Layout<Dim>& layout, const CellField<Dim>
     const Vec<Dim> across = away - height * normal;
     if (std::abs(off) < on_zero && across.norm() < straight_below) {
       const double sign = phi[layout.site(cell)] < 0 ? -1 : 1;
-      if (height * sign < 0) return {};
+      if (height * sign < 0 || !is_smooth_around<Dim>(layout, phi.data(), y)) return {};
       return Foot{height, slope};
     }
     y += across - off * normal;
