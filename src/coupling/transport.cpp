@@ -293,7 +293,8 @@ CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, c
   CellField<Dim> joined = state.phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
   CellField<Dim> phi(s.layout);
-  advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi);
+  const Trace trace = s.has_prescribed_flow() ? Trace::third_order : Trace::midpoint;  // nothing else errs there
+  advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi, trace);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   added = add_sources(s, state, state.time + dt, phi);
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;

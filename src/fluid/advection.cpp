@@ -44,13 +44,22 @@ Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, cons
 }
 
 template <int Dim>
+Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
+                           double dt) {
+  const Vec<Dim> third = sample_velocity<Dim>(layout, u, x - dt / 3 * at_x);
+  const Vec<Dim> two_thirds = sample_velocity<Dim>(layout, u, x - 2 * dt / 3 * third);
+  return x - 0.25 * dt * (at_x + 3 * two_thirds);
+}
+
+template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
-                      const CellField<Dim>& phi, CellField<Dim>& moved) {
+                      const CellField<Dim>& phi, CellField<Dim>& moved, Trace trace) {
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
     moved[s] = phi[s];
     if (std::abs(phi[s]) >= band) return;
-    const Vec<Dim> from =
-        trace_midpoint<Dim>(layout, u, mean_at_cell(layout, u, s), layout.position(i, cell_offset<Dim>()), dt);
+    const Vec<Dim> x = layout.position(i, cell_offset<Dim>()), at_x = mean_at_cell(layout, u, s);
+    const Vec<Dim> from = trace == Trace::midpoint ? trace_midpoint<Dim>(layout, u, at_x, x, dt)
+                                                   : trace_third_order<Dim>(layout, u, at_x, x, dt);
     moved[s] = interpolate_cubic<Dim>(layout, phi.data(), index_coordinates<Dim>(layout, from, cell_offset<Dim>()));
   });
 }
@@ -73,13 +82,14 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
     });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                         \
-  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);   \
-  template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,     \
-                                    CellField<D>&);                                                                 \
-  template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,           \
-                                const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                          \
+  template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);    \
+  template Vec<D> trace_third_order<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double); \
+  template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,      \
+                                    CellField<D>&, Trace);                                                           \
+  template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,            \
+                                const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&,  \
                                 Interpolation);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -13,11 +13,19 @@ template <int Dim>
 Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
                         double dt);
 
+// The same by Heun's rule of third order, x - dt/4 (u + 3 u(x - 2/3 dt u(x - 1/3 dt u))): in a flow that turns by the
+// angle a a step the midpoint rule leaves a^3/6 of it.
+template <int Dim>
+Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
+                           double dt);
+
+enum class Trace { midpoint, third_order };
+
 // phi(x) <- phi(departure point) at the owned cells with |phi| < band; the others keep their value. Ghosts of phi and u
 // must be filled.
 template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
-                      const CellField<Dim>& phi, CellField<Dim>& moved);
+                      const CellField<Dim>& phi, CellField<Dim>& moved, Trace trace = Trace::midpoint);
 
 // Lagrange points along each axis that values at departure points come from: six reach one cell farther.
 enum class Interpolation { four_points, six_points };

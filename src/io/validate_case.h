@@ -10,7 +10,7 @@
 
 namespace seiche {
 
-// What is measured on a finished run, by a name of the table in validate_measures.cpp. Each kind uses some of these.
+// What is measured on a finished run, by a name of the tables in validate_kinds_*.cpp. Each kind uses some of these.
 struct MeasureSpec {
   std::string kind;
   VectorFormula velocity{"0", "0", "0"};       // exact, in x, y, z, t, m/s

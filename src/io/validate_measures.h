@@ -1,6 +1,5 @@
 #pragma once
-// What can be measured on the run of a validation case. A further measure is a row of the table in
-// validate_measures.cpp.
+// What can be measured on the run of a validation case. A further measure is a row of a table in validate_kinds_*.cpp.
 #include <optional>
 #include <string>
 #include <utility>

@@ -134,6 +134,59 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
 }
 
+TEST_CASE("liquid arrives with the first sample that has a value") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  put(run.probes(),
+      "time,name,value,x,y,z\n0,gauge,,,,\n0,other,7,,,\n0.1,gauge,,,,\n0.25,gauge,-3,,,\n0.3,gauge,5,,,\n");
+  MeasureSpec spec;
+  spec.kind = "probe_arrival", spec.probe = "gauge", spec.reference = "0.2";
+  CHECK(measure(spec, run).value == 0.25);
+  CHECK(measure(spec, run).error == Approx(0.25));
+  put(run.probes(), "time,name,value,x,y,z\n0,gauge,,,,\n0.1,gauge,,,,\n");
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // it never arrived: no time of 0
+}
+
+TEST_CASE("a column of stats.csv is compared over time, and by how fast it falls") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::string text = "step,time,energy\n";  // 6 - 2 tanh(t - 3): falls by 2 sech^2, most at t = 3
+  for (int n = 0; n <= 600; ++n) text += fmt::format("{},{},{:.17g}\n", n, 0.01 * n, 6 - 2 * std::tanh(0.01 * n - 3));
+  put(run.stats(), text);
+  MeasureSpec spec;
+  spec.column = "energy", spec.from = 1, spec.to = 5, spec.unit = "4";
+  spec.kind = "column_fall", spec.reference = "0.5";
+  CHECK(measure(spec, run).value == Approx(0.5).epsilon(1e-4));  // differences over 0.01: 0.01^2/12 of the second one
+  spec.kind = "column_fall_time", spec.reference = "3";
+  CHECK(measure(spec, run).error < 0.005 / 3 + 1e-9);  // the middle of the step next to it
+  spec.kind = "column_rms", spec.time_unit = "2", spec.unit = "2", spec.data = folder.path() / "data.csv";
+  put(spec.data, "t,y\n0.5,4.1640275800758169\n1.5,2.5\n");  // 3 - tanh(2 0.5 - 3) + 0.2, 3 - tanh(0) - 0.5
+  CHECK(measure(spec, run).error == Approx(std::sqrt((0.2 * 0.2 + 0.5 * 0.5) / 2)));
+  spec.kind = "column_fall", spec.to = 7;
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
+}
+
+TEST_CASE("a column of a solid is measured by its extremes and against data") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::string text = "time,name,x,fy\n";
+  for (int n = 0; n <= 1000; ++n)
+    text +=
+        fmt::format("{0},wall,0,0\n{0},flag,{1:.17g},{2:.17g}\n", 0.01 * n, 0.02 * n, 1 - 3 * std::cos(0.02 * pi * n));
+  put(run.solids(), text);
+  MeasureSpec spec;
+  spec.solid = "flag", spec.column = "fy", spec.from = 2, spec.to = 8;
+  spec.kind = "solid_amplitude", spec.reference = "2";
+  CHECK(measure(spec, run).value == Approx(3));
+  CHECK(measure(spec, run).error == Approx(0.5));
+  spec.kind = "solid_middle";
+  CHECK(measure(spec, run).value == Approx(1));
+  spec.kind = "solid_rms", spec.column = "x", spec.level = "1", spec.length_unit = "4", spec.time_unit = "5";
+  spec.data = folder.path() / "data.csv";
+  put(spec.data, "t,y\n0,-0.25\n1,2.35\n");  // (2 * 5 - 1)/4 = 2.25
+  CHECK(measure(spec, run).error == Approx(0.1 / std::sqrt(2)));
+}
+
 TEST_CASE("growth is the slope of a logarithm, and two probes are measured against each other") {
   Points wave;
   for (double t = 0; t < 2; t += 0.01) wave.emplace_back(t, 1 - 0.02 * std::exp(0.7 * t));
@@ -160,9 +213,11 @@ TEST_CASE("growth is the slope of a logarithm, and two probes are measured again
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  for (const char* kind : {"vector_l2", "period_of_probe", "front_slope", "max_of_column", "column_drift",
-                           "volume_drift", "solid_mean", "solid_slope", "solids_stray", "probe_period", "probe_mean",
-                           "probe_peak", "probe_peak_time", "probe_amplitude"}) {
+  for (const char* kind :
+       {"vector_l2",       "period_of_probe", "front_slope",   "max_of_column", "column_drift", "volume_drift",
+        "solid_mean",      "solid_slope",     "solids_stray",  "probe_period",  "probe_mean",   "probe_peak",
+        "probe_peak_time", "probe_amplitude", "probe_arrival", "column_rms",    "column_fall",  "column_fall_time",
+        "solid_amplitude", "solid_middle",    "solid_rms"}) {
     MeasureSpec spec;
     spec.kind = kind;
     try {

@@ -1,0 +1,30 @@
+#pragma once
+// The rows of the table of measures, by what they read.
+#include <cmath>
+#include <vector>
+
+#include "io/validate_measures.h"
+
+namespace seiche {
+
+struct MeasureKind {
+  const char* name;
+  std::vector<const char*> keys;  // of [measure], all required
+  Measurement (*measure)(const MeasureSpec&, const RunPaths&);
+  Points (*series)(const MeasureSpec&, const RunPaths&) = nullptr;
+};
+
+std::vector<MeasureKind> measures_of_frames();
+std::vector<MeasureKind> measures_of_probes();   // probes.csv
+std::vector<MeasureKind> measures_of_columns();  // stats.csv, summary.json
+std::vector<MeasureKind> measures_of_solids();   // solids.csv
+
+inline Measurement against(double value, double reference) {
+  return {value, reference, std::abs(value / reference - 1)};
+}
+
+inline Measurement itself(double error) {
+  return {error, {}, error};
+}
+
+}  // namespace seiche

@@ -1,0 +1,79 @@
+// Measures of frames.
+#include <algorithm>
+
+#include "io/checked_file.h"
+#include "io/validate_contour.h"
+#include "io/validate_frames.h"
+#include "io/validate_kinds.h"
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+
+vdb::Frame last_frame(const RunPaths& run) {
+  fs::path last;
+  for (const auto& entry : fs::directory_iterator(run.frames())) {
+    if (entry.path().extension() == ".vdb") last = std::max(last, entry.path());
+  }
+  return vdb::decode(last);
+}
+
+// Of the frames, by their times.
+Points circularities(const MeasureSpec&, const RunPaths& run) {
+  Points points;
+  for (const auto& entry : fs::directory_iterator(run.frames())) {
+    if (entry.path().extension() != ".vdb") continue;
+    const vdb::Frame frame = vdb::decode(entry.path());
+    points.emplace_back(frame.time, circularity(frame));
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+Measurement least_circularity(const MeasureSpec& spec, const RunPaths& run) {
+  double least = 1;
+  for (const auto& [time, value] : points_during(circularities(spec, run), spec.from, spec.to))
+    least = std::min(least, value);
+  const double reference = constant(spec.reference);
+  return {least, reference, std::abs(least - reference)};
+}
+
+Measurement vector_l2(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(velocity_difference(last_frame(run), spec.velocity, "-1"));
+}
+
+Measurement region_l2(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(velocity_difference(last_frame(run), spec.velocity, spec.region));
+}
+
+Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
+  const vdb::Frame frame = last_frame(run);
+  double worst = 0;
+  for (const LineExtreme& line : csv_lines(read_whole_file(spec.data)))
+    worst = std::max(worst, std::abs(extreme_along(frame, line) / line.value - 1));
+  return itself(worst);
+}
+
+Measurement surface_deviation(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(surface_difference(last_frame(run), spec.surface) / constant(spec.length_unit));
+}
+
+Measurement misplaced(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(surface_misplaced(last_frame(run), spec.surface) / constant(spec.unit));
+}
+
+}  // namespace
+
+std::vector<MeasureKind> measures_of_frames() {
+  return {
+      {"vector_l2", {"velocity"}, vector_l2},
+      {"region_l2", {"velocity", "region"}, region_l2},
+      {"line_extrema", {"data"}, line_extrema},
+      {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
+      {"circularity", {"from", "to", "reference"}, least_circularity, circularities},
+      {"surface_misplaced", {"surface", "unit"}, misplaced},
+  };
+}
+
+}  // namespace seiche

@@ -1,0 +1,91 @@
+// Measures of solids.
+#include <algorithm>
+
+#include "io/checked_file.h"
+#include "io/validate_kinds.h"
+
+namespace seiche {
+namespace {
+
+Points solid_series(const MeasureSpec& spec, const RunPaths& run) {
+  return solid_points(read_whole_file(run.solids()), spec.solid, spec.column);
+}
+
+// Mean over from <= t <= to, weighted so that oscillations leave next to nothing.
+Measurement solid_mean(const MeasureSpec& spec, const RunPaths& run) {
+  const double mean =
+      settled_mean(solid_points(read_whole_file(run.solids()), spec.solid, spec.column), spec.from, spec.to);
+  const double reference = constant(spec.reference);
+  return {mean, reference, std::abs(mean - reference) / constant(spec.length_unit)};
+}
+
+// Least-squares slope over from <= t <= to.
+Measurement solid_slope(const MeasureSpec& spec, const RunPaths& run) {
+  const Points all = solid_points(read_whole_file(run.solids()), spec.solid, spec.column);
+  return against(slope_during(all, spec.from, spec.to), constant(spec.reference));
+}
+
+Points solid_during(const MeasureSpec& spec, const RunPaths& run) {
+  return points_during(solid_points(read_whole_file(run.solids()), spec.solid, spec.column), spec.from, spec.to);
+}
+
+Measurement solid_peak(const MeasureSpec& spec, const RunPaths& run) {
+  double peak = 0;
+  for (const auto& [time, value] : solid_during(spec, run))
+    if (std::abs(value) > std::abs(peak)) peak = value;
+  return against(peak, constant(spec.reference));
+}
+
+Measurement solid_period(const MeasureSpec& spec, const RunPaths& run) {
+  return against(mean_period(solid_during(spec, run), constant(spec.level)), constant(spec.reference));
+}
+
+// Largest and smallest value from `from` to `to`.
+std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = solid_during(spec, run);
+  std::pair<double, double> found{points.at(0).second, points[0].second};
+  for (const auto& [time, value] : points) found = {std::min(found.first, value), std::max(found.second, value)};
+  return found;
+}
+
+// Half the way between the extremes.
+Measurement solid_amplitude(const MeasureSpec& spec, const RunPaths& run) {
+  const auto [low, high] = extremes(spec, run);
+  return against(0.5 * (high - low), constant(spec.reference));
+}
+
+// The middle between them.
+Measurement solid_middle(const MeasureSpec& spec, const RunPaths& run) {
+  const auto [low, high] = extremes(spec, run);
+  return against(0.5 * (high + low), constant(spec.reference));
+}
+
+// (value - level)/length_unit over time/time_unit, against the data.
+Measurement solid_rms(const MeasureSpec& spec, const RunPaths& run) {
+  Points points = solid_series(spec, run);
+  const double time_unit = constant(spec.time_unit), unit = constant(spec.length_unit), level = constant(spec.level);
+  for (auto& [time, value] : points) time /= time_unit, value = (value - level) / unit;
+  return itself(rms_difference(points, csv_points(read_whole_file(spec.data))));
+}
+
+Measurement solids_stray(const MeasureSpec& spec, const RunPaths& run) {
+  const double way = farthest_stray(read_whole_file(run.solids()), spec.from) / constant(spec.length_unit);
+  return {way, {}, way};
+}
+
+}  // namespace
+
+std::vector<MeasureKind> measures_of_solids() {
+  return {
+      {"solid_mean", {"solid", "column", "from", "to", "reference", "length_unit"}, solid_mean, solid_series},
+      {"solid_slope", {"solid", "column", "from", "to", "reference"}, solid_slope, solid_series},
+      {"solid_peak", {"solid", "column", "from", "to", "reference"}, solid_peak, solid_series},
+      {"solid_period", {"solid", "column", "level", "from", "to", "reference"}, solid_period, solid_series},
+      {"solid_amplitude", {"solid", "column", "from", "to", "reference"}, solid_amplitude, solid_series},
+      {"solid_middle", {"solid", "column", "from", "to", "reference"}, solid_middle, solid_series},
+      {"solid_rms", {"solid", "column", "level", "time_unit", "length_unit", "data"}, solid_rms, solid_series},
+      {"solids_stray", {"from", "length_unit"}, solids_stray},
+  };
+}
+
+}  // namespace seiche
