@@ -12,7 +12,7 @@ namespace {
 // Below this share of the diagonal, off-diagonal sums leave the diagonal of F within 20 % of F.
 constexpr double small_share = 0.2;
 // Of the polynomial that stands for multigrid: what it leaves of an error, and the steps that are still cheaper than a
-// hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0016-viscous-speed.md).
+// hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0017-viscous-speed.md).
 constexpr double share_left = 0.1;
 constexpr int most_steps = 16;
 
