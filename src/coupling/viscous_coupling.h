@@ -23,8 +23,8 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& setup, const CellField<D
 // split: viscosity acts first, pressure then; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };
 
-// As the scene asks; "auto": coupled from mu dt/(rho h^2) = 0.5 on, and beside elastic no-slip solids. Below, a step of
-// viscosity reaches less than a cell and pressure undoes little of it.
+// As the scene asks; "auto": coupled from mu dt/(rho h^2) = 0.5 on, and beside no-slip solids that it moves. Below, a
+// step of viscosity reaches less than a cell and pressure undoes little of it.
 template <int Dim>
 ViscousRoute choose_route(const Setup<Dim>& setup, const ViscosityField<Dim>& viscosity, double dt);
 

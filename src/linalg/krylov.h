@@ -45,11 +45,6 @@ KrylovResult conjugate_gradients(const Operator& A, Preconditioner& B, const Vec
   }
 }
 
-// Saad 1993: flexible, for preconditioners that are not quite linear or symmetric. Restarts every `restart` steps.
-template <class Operator, class Preconditioner>
-KrylovResult flexible_gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x,
-                            const KrylovLimits& limits, const Communicator& ranks, int restart = 40);
-
 // The small least-squares problem of GMRES, min |beta e1 - H y|, kept triangular by Givens rotations.
 class HessenbergLeastSquares {
  public:
@@ -63,10 +58,27 @@ class HessenbergLeastSquares {
   std::vector<double> cosines_, sines_, rhs_;
 };
 
+// Preconditioned directions of GMRES: all kept, or made once more from their sum where the preconditioner is linear.
+enum class Directions { kept, summed };
+
+// x += Z y, or B V y where Z was not kept.
+template <class Preconditioner>
+void add_combination(const std::vector<double>& y, const std::vector<Vector>& v, const std::vector<Vector>& z,
+                     Preconditioner& B, Vector& x) {
+  for (std::size_t k = 0; k < z.size(); ++k) add_scaled(x, y[k], z[k]);
+  if (!z.empty() || y.empty()) return;
+  Vector sum(x.size(), 0.0), Bs(x.size());
+  for (std::size_t k = 0; k < y.size(); ++k) add_scaled(sum, y[k], v[k]);
+  B.apply(sum, Bs);
+  add_scaled(x, 1, Bs);
+}
+
+// Saad and Schultz 1986, preconditioned from the right; with directions kept flexible (Saad 1993), for preconditioners
+// that are not quite linear. None need be symmetric. Restarts every `restart` steps.
 template <class Operator, class Preconditioner>
-KrylovResult flexible_gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x,
-                            const KrylovLimits& limits, const Communicator& ranks, int restart) {
-  Vector r(b.size());
+KrylovResult gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x, const KrylovLimits& limits,
+                   const Communicator& ranks, Directions directions, int restart = 40) {
+  Vector r(b.size()), Br(b.size());
   int done = 0;
   while (true) {
     A.residual(b, x, r);
@@ -80,9 +92,9 @@ KrylovResult flexible_gmres(const Operator& A, Preconditioner& B, const Vector& 
     for (int k = 0; k < restart && done < limits.iterations && residual > limits.target && length > 0; ++k, ++done) {
       for (double& entry : r) entry /= length;
       v.push_back(r);
-      z.emplace_back(r.size());
-      B.apply(v[k], z[k]);
-      A.multiply(z[k], r);
+      B.apply(v[k], Br);
+      A.multiply(Br, r);
+      if (directions == Directions::kept) z.push_back(Br);
       std::vector<double> h;
       for (const Vector& u : v) {  // modified Gram-Schmidt
         h.push_back(dot(u, r, ranks));
@@ -92,9 +104,14 @@ KrylovResult flexible_gmres(const Operator& A, Preconditioner& B, const Vector& 
       h.push_back(length);
       residual = small.append(std::move(h));
     }
-    const std::vector<double> y = small.solve();
-    for (std::size_t k = 0; k < z.size(); ++k) add_scaled(x, y[k], z[k]);
+    add_combination(small.solve(), v, z, B, x);
   }
+}
+
+template <class Operator, class Preconditioner>
+KrylovResult flexible_gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x,
+                            const KrylovLimits& limits, const Communicator& ranks, int restart = 40) {
+  return gmres(A, B, b, x, limits, ranks, Directions::kept, restart);
 }
 
 }  // namespace seiche

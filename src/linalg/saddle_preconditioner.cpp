@@ -22,8 +22,8 @@ void SaddlePreconditioner::make_pressure() {
       std::make_unique<SchurPreconditioner>(K_.liquid(), K_.system().J, 1 / scale, std::move(mass), name_, settings_);
   std::vector<Vector> Jd;
   for (const Direction& d : velocity_->directions()) {
-    Vector w = d.W;
-    for (double& entry : w) entry = -entry;
+    Vector w(std::size_t(K_.velocities()), 0.0);
+    add_scaled(w, -1, d.W);
     K_.divergence(w, d.m, Jd.emplace_back());
   }
   pressure_->set_directions(std::move(Jd));

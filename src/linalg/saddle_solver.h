@@ -40,8 +40,8 @@ class SaddleSolver {
   ~SaddleSolver();
 
   // From the initial u, v, p. q is made compatible first, p keeps out of the null space. `flux_scale` 0 stands for the
-  // fluxes that would flow without the constraint. Preconditioned MINRES, then the rungs of the ladder; never returns a
-  // result whose recomputed residual was not checked. Collective.
+  // fluxes that would flow without the constraint. Preconditioned GMRES or MINRES, then the rungs of the ladder; never
+  // returns a result whose recomputed residual was not checked. Collective.
   [[nodiscard]] SaddleReport solve(const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g, const Vector& q,
                                    Vector& u, Eigen::VectorXd& v, Vector& p, double flux_scale = 0);
   // Without the constraint: [F G; G' H] (u, v) = (f, g) by preconditioned conjugate gradients. Collective.
@@ -70,7 +70,7 @@ class SaddleSolver {
   std::vector<Rung> make_ladder() const;
   Climb climb(const Rung& rung, const Problem& problem, Vector& x);
   Climb minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x);
-  Climb iterate_flexibly(SaddlePreconditioner& B, const Problem& problem, Vector& x);
+  Climb reduce_residual(SaddlePreconditioner& B, const Problem& problem, Vector& x);
   Climb iterate_viscous(SaddlePreconditioner& B, const Vector& w, const Vector& b, Vector& x, SaddleReport& report);
   void climb_ladder(const Problem& problem, Vector& x, SaddleReport& report);
 

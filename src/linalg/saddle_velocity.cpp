@@ -11,6 +11,10 @@ namespace {
 
 // Below this share of the diagonal, off-diagonal sums leave the diagonal of F within 20 % of F.
 constexpr double small_share = 0.2;
+// Of the polynomial that stands for multigrid: what it leaves of an error, and the steps that are still cheaper than a
+// hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0017-viscous-speed.md).
+constexpr double share_left = 0.1;
+constexpr int most_steps = 16;
 
 bool is_mass_dominated(const LinearSystem& F) {
   double worst = 0;
@@ -53,10 +57,17 @@ Eigen::MatrixXd modes_of(const ColumnBlock& b, int first, const BodyMatrix& H) {
 
 VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const AmgSettings& settings)
     : K_(K), mass_prevails_(is_mass_dominated(K.faces())), T_(K.ranks()) {
+  const SpectralInterval interval = estimate_interval(K.faces());
+  const int steps = chebyshev_steps(interval, share_left);
   if (mass_prevails_) {
     B_ = make_preconditioner("none", K.faces()).preconditioner;
+  } else if (steps <= most_steps) {
+    interval_ = interval;
+    B_ = std::make_unique<Chebyshev>(K.faces(), interval, steps);
+    mend_loose_faces();
   } else {
     make_multigrid(settings);
+    mend_loose_faces();
   }
   if (K.unknowns() > 0) find_directions();
 }
@@ -65,6 +76,9 @@ void VelocityPreconditioner::make_multigrid(AmgSettings settings) {
   settings.component = K_.system().axis;
   settings.components = count_axes(settings.component, K_.ranks());
   B_ = make_boomeramg(K_.faces(), settings).preconditioner;
+}
+
+void VelocityPreconditioner::mend_loose_faces() {
   std::vector<char> loose(std::size_t(K_.velocities()));
   const std::vector<int>& start = K_.system().Dt.row_start;
   for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = start[i] == start[i + 1];
@@ -92,36 +106,39 @@ void VelocityPreconditioner::find_directions() {
     }
   }
   std::vector<Vector> GM;
-  for (Direction& d : directions_) {
-    GM.push_back(multiply(G, d.m, K_.velocities()));
-    extend(d, GM.back());
-  }
+  for (const Direction& d : directions_) GM.push_back(multiply(G, d.m, K_.velocities()));
+  std::vector<SparseVector> W = extend(GM);
+  for (std::size_t k = 0; k < W.size(); ++k) directions_[k].W = std::move(W[k]);
   multiply_out(GM);
 }
 
 // F W ~ G m. The better W, the fewer iterations of the whole where light bodies are held by viscosity alone.
-void VelocityPreconditioner::extend(Direction& d, const Vector& Gm) {
-  constexpr double enough = 1e-3;
+std::vector<SparseVector> VelocityPreconditioner::extend(const std::vector<Vector>& GM) const {
+  constexpr double enough = 1e-3, roughly = 1e-2;
   constexpr int at_most = 12;
-  d.W.assign(Gm.size(), 0.0);
-  const double target = enough * norm(Gm, K_.ranks());
-  if (target > 0) (void)conjugate_gradients(K_.faces(), *B_, Gm, d.W, {target, at_most}, K_.ranks());
+  if (interval_) return solve_locally(K_.faces(), *interval_, chebyshev_steps(*interval_, roughly), GM);
+  std::vector<SparseVector> all;
+  for (const Vector& Gm : GM) {
+    Vector W(Gm.size(), 0.0);
+    const double target = enough * norm(Gm, K_.ranks());
+    if (target > 0) (void)conjugate_gradients(K_.faces(), *B_, Gm, W, {target, at_most}, K_.ranks());
+    all.push_back(nonzeros(W));
+  }
+  return all;
 }
 
 void VelocityPreconditioner::multiply_out(const std::vector<Vector>& GM) {
   const auto n = Eigen::Index(directions_.size());
   dragged_.setZero(n, n);
-  Vector FW(std::size_t(K_.velocities()));
+  Vector W, FW(std::size_t(K_.velocities()));
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Vector& W = directions_[std::size_t(k)].W;
+    const SparseVector& own = directions_[std::size_t(k)].W;
+    W.assign(FW.size(), 0.0);
+    add_scaled(W, 1, own);
     K_.faces().multiply(W, FW);
-    for (Eigen::Index l = 0; l < n; ++l) {
-      const Vector& other = directions_[std::size_t(l)].W;
-      double sum = 0;
-      for (std::size_t i = 0; i < W.size(); ++i)
-        sum += other[i] * (FW[i] - GM[std::size_t(k)][i]) - GM[std::size_t(l)][i] * W[i];
-      dragged_(l, k) = sum;
-    }
+    add_scaled(FW, -1, GM[std::size_t(k)]);
+    for (Eigen::Index l = 0; l < n; ++l)
+      dragged_(l, k) = local_dot(directions_[std::size_t(l)].W, FW) - local_dot(own, GM[std::size_t(l)]);
   }
   K_.ranks().global_sum(std::span<double>(dragged_.data(), std::size_t(dragged_.size())));
   dragged_ = (0.5 * (dragged_ + dragged_.transpose())).eval();
@@ -162,10 +179,7 @@ void VelocityPreconditioner::apply(const Vector& ru, const Eigen::VectorXd& rv, 
   if (n == 0) return;
   Eigen::VectorXd felt(n);  // [-W; m]' (ru, rv), the part of m in the rigid ones by T
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Vector& W = directions_[std::size_t(k)].W;
-    double sum = 0;
-    for (std::size_t i = 0; i < W.size(); ++i) sum -= W[i] * ru[i];
-    felt[k] = sum;
+    felt[k] = -local_dot(directions_[std::size_t(k)].W, ru);
   }
   K_.ranks().global_sum(std::span<double>(felt.data(), std::size_t(n)));
   Eigen::VectorXd b = rv, amount(n);

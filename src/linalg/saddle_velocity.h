@@ -2,6 +2,7 @@
 // The velocity block of a saddle-point preconditioner: an approximate inverse of [F G; G' H], symmetric and positive.
 #include <Eigen/Cholesky>
 
+#include "linalg/chebyshev.h"
 #include "linalg/hypre_adapter.h"
 #include "linalg/saddle_system.h"
 
@@ -11,10 +12,11 @@ namespace seiche {
 struct Direction {
   int unknown;        // m is 1 here and 0 elsewhere; or -1:
   Eigen::VectorXd m;  // of a body that deforms
-  Vector W;
+  SparseVector W;
 };
 
-// Rigid bodies by the factors of the block matrix, with B ~ F^-1 (AMG, or the diagonal where mass prevails):
+// Rigid bodies by the factors of the block matrix, with B ~ F^-1 (AMG, a polynomial where mass still
+// counts, or the diagonal where it prevails):
 //   [1 -W; 0 1] [B 0; 0 T^-1] [1 0; -W' 1],   T = [-W; 1]'[F G; G' H][-W; 1].
 // T is positive whatever W is. Bodies that deform keep H^-1, and move as a whole with the liquid by
 //   + Z E^-1 Z',   Z = [-W; m],   E = Z'[F G; G' H]Z.
@@ -30,17 +32,18 @@ class VelocityPreconditioner {
   const std::vector<Direction>& directions() const { return directions_; }
   // T of the rigid directions, E of the others, as one matrix.
   const Eigen::MatrixXd& direction_energies() const { return energies_; }
-  bool mass_prevails() const { return mass_prevails_; }
 
  private:
   void make_multigrid(AmgSettings settings);
+  void mend_loose_faces();
   void find_directions();
-  void extend(Direction& d, const Vector& Gm);
+  std::vector<SparseVector> extend(const std::vector<Vector>& GM) const;
   void multiply_out(const std::vector<Vector>& GM);
   SparseMatrix body_part() const;
 
   const SaddleOperator& K_;
   bool mass_prevails_, good_ = true;
+  std::optional<SpectralInterval> interval_;  // where a polynomial stands for multigrid
   std::unique_ptr<Preconditioner> B_;
   std::vector<Direction> directions_;  // rigid ones first
   std::size_t rigid_ = 0;
