@@ -148,7 +148,7 @@ struct StepInProgress {
       out.state.phi =
           seiche::transport_surface(s, before, prescribed_flow(s, before.phi, before.time + 0.5 * dt), dt, added);
     else
-      out.state.phi = seiche::transport_surface(s, before, before.now->u, dt, added);
+      out.state.phi = seiche::transport_surface(s, before, flow_at_surface(s, before), dt, added);
     out.state.expected_volume += added;
     inject(s, fault, out.state.phi.data());
   }

@@ -13,6 +13,20 @@ bool is_gas_face(const State<Dim>& state, const Layout<Dim>& layout, int axis, S
   return state.gas.now->valid.at(axis, f) || state.phi[f] + state.phi[f - layout.stride(axis)] >= 0;
 }
 
+// (U + sqrt(sigma/(rho h))) h/nu: how far the flow, and the shortest capillary wave, go in the time in which viscosity
+// evens out a cell; nu the smaller one. Infinite where viscosity is no constant. Collective.
+template <int Dim>
+double reynolds_number_of_cell(const Setup<Dim>& s, const State<Dim>& state) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  const Expression mu(liquid.viscosity);
+  const double none = std::numeric_limits<double>::infinity(), h = s.layout.h();
+  if (!liquid.rheology.model.empty() || !mu.is_constant()) return none;
+  const double nu = std::min(mu(Vec3::Zero(), 0) / s.density(), s.scene.gas.viscosity / s.gas_density());
+  if (nu == 0) return none;
+  return (fastest_component(s, state) + std::sqrt(liquid.surface_tension / ((s.density() + s.gas_density()) * h))) * h /
+         nu;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -26,6 +40,19 @@ FaceField<Dim> of_both(const Setup<Dim>& s, const State<Dim>& state, FaceField<D
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, r);
   return r;
+}
+
+template <int Dim>
+FaceField<Dim> flow_at_surface(const Setup<Dim>& s, const State<Dim>& state) {
+  FaceField<Dim> u = state.now->u;
+  if (!s.has_gas()) return u;
+  constexpr double resolved = 10;
+  const double share = std::clamp(2 - reynolds_number_of_cell(s, state) / resolved, 0.0, 1.0);
+  if (share == 0) return u;
+  const FaceField<Dim> both = of_both(s, state, &Level<Dim>::u);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.padded(), [&](Site f) { u.at(a, f) += share * (both.at(a, f) - u.at(a, f)); });
+  return u;
 }
 
 template <int Dim>
@@ -55,6 +82,7 @@ void mix_gas_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, CellField
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                   \
+  template FaceField<D> flow_at_surface<D>(const Setup<D>&, const State<D>&);                   \
   template FaceField<D> of_both<D>(const Setup<D>&, const State<D>&, FaceField<D> Level<D>::*); \
   template void keep_faces<D>(const Layout<D>&, const FaceField<D, char>&, Level<D>&);          \
   template void mix_gas_viscosity<D>(const Setup<D>&, const CellField<D>&, CellField<D>&, EdgeField<D>&);
