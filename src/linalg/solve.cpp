@@ -146,7 +146,7 @@ SpdSolver::Built& SpdSolver::build(const std::string& name) {
 }
 
 // Stiffness or contact has come or gone, and it shows. Contact at a few nodes does not: there a new one costs far more
-// than it saves (docs/decisions/0016-hierarchies-in-contact.md).
+// than it saves (docs/decisions/0018-hierarchies-in-contact.md).
 bool SpdSolver::is_outdated(const Built& built) const {
   constexpr double much = 4;
   if (built.diagonal.size() == 0 || !built.has_become_slow()) return false;
