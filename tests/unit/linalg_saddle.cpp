@@ -230,7 +230,7 @@ TEST_CASE("saddle: iterations stay where they are on finer grids") {
       add_surface(s);
       return s;
     };
-    check_flat(make, {32, 64}, 60);
+    check_flat(make, {32, 64}, 45);
   }
   SECTION("an inclusion 1e5 times as viscous") {
     const auto make = [&](int n) {
@@ -238,7 +238,7 @@ TEST_CASE("saddle: iterations stay where they are on finer grids") {
       add_inclusion(s, viscosity, 1e5);
       return s;
     };
-    check_flat(make, {32, 64}, 100);
+    check_flat(make, {32, 64}, 45);
   }
 }
 
@@ -250,7 +250,7 @@ TEST_CASE("saddle: iterations in 3D") {
     return s;
   };
   CAPTURE(viscosity);
-  check_flat(make, {12, 20}, 48);
+  check_flat(make, {12, 20}, 45);
 }
 
 TEST_CASE("saddle: the same on one rank as on several") {
