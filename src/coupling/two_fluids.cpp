@@ -49,9 +49,10 @@ FaceField<Dim> flow_at_surface(const Setup<Dim>& s, const State<Dim>& state) {
   constexpr double resolved = 10;
   const double share = std::clamp(2 - reynolds_number_of_cell(s, state) / resolved, 0.0, 1.0);
   if (share == 0) return u;
-  const FaceField<Dim> both = of_both(s, state, &Level<Dim>::u);
+  const FaceField<Dim>& gas = state.gas.now->u;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.padded(), [&](Site f) { u.at(a, f) += share * (both.at(a, f) - u.at(a, f)); });
+    for_each_site(s.layout, s.layout.padded(),
+                  [&](Site f) { u.at(a, f) += 0.5 * share * (gas.at(a, f) - u.at(a, f)); });
   return u;
 }
 

@@ -8,10 +8,10 @@ namespace seiche {
 template <int Dim>
 FaceField<Dim> of_both(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
 
-// What the surface goes with. Where a cell is thin for viscosity both fluids' velocity is one field, free of divergence
-// across the surface: u of both, each on its own faces. Where they slip along each other, as far as the grid can tell,
-// the liquid's flow, continued: u of both mixes what is along the surface into what is across it. In between, from a
-// cell's Reynolds number of 10 to 20, a share of each. Collective.
+// What the surface goes with. Where a cell is thin for viscosity, the mean of both flows, each continued beyond the
+// surface: they agree there but for what either continues wrongly. Where the fluids slip along each other, as far as
+// the grid can tell, the liquid's alone: the gas's may have another velocity across the surface a cell away. In
+// between, from a cell's Reynolds number of 10 to 20, from one to the other. Collective.
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Setup<Dim>& setup, const State<Dim>& state);
 
