@@ -69,7 +69,7 @@ InertiaResponse ViscousProblem<Dim>::respond(const Eigen::VectorXd& v) {
   add_multiplied(system.G, moving, f);
   add_multiplied(viscous_.J(), moving, q);
   Eigen::VectorXd none;
-  if (std::string failure = solve(solvers_.alone, none_, f, none, q, none); !failure.empty())
+  if (std::string failure = solve(solvers_.alone(), none_, f, none, q, none); !failure.empty())
     return failed_response(failure);
   return response_at(v);
 }

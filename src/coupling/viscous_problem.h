@@ -1,14 +1,17 @@
 #pragma once
 // Viscous liquid behind the bodies: their inertia, the liquid's velocity and its pressure in one saddle-point problem.
+#include <functional>
+
 #include "coupling/coupled_problem.h"
 #include "coupling/viscous_coupling.h"
 #include "linalg/saddle_solver.h"
 
 namespace seiche {
 
-// The liquid with the bodies, and with the bodies' motion given.
+// The liquid with the bodies, and with the bodies' motion given: made where it is first asked for, which is collective.
 struct ViscousSolvers {
-  SaddleSolver &coupled, &alone;
+  SaddleSolver& coupled;
+  std::function<SaddleSolver&()> alone;
 };
 
 // e(v) = 1/2 (v - v*)'M(v - v*) + the least that the liquid's kinetic energy and dissipation add where it makes room:

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "coupling/viscous_problem.h"
 #include "grid/loops.h"
 
@@ -103,11 +105,15 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const BlockColumns none;
   SaddleSolver solver = make_solver(in, liquid, viscous.system(), viscous.system().G, viscous.J());
-  SaddleSolver alone = make_solver(in, liquid, viscous.system(), none, none);
+  std::unique_ptr<SaddleSolver> alone;
+  const auto make_alone = [&]() -> SaddleSolver& {
+    if (!alone) alone.reset(new SaddleSolver(make_solver(in, liquid, viscous.system(), none, none)));
+    return *alone;
+  };
   refuse_impossible_motion(in, liquid, solver.sensed_components(), r);
   Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
   for (double& x : p) x *= -dt;
-  ViscousProblem<Dim> problem(coupling, viscous, {solver, alone}, s.layout.geometry().face_area(), u, p, s.ranks);
+  ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.layout.geometry().face_area(), u, p, s.ranks);
   r.solids = find_minimum(in, coupling, problem, {}, r);
   refuse_unbalanced_chambers(in, liquid, solver.sensed_components(), r);
   for (double& x : p) x /= -dt;
