@@ -27,17 +27,17 @@ void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, cons
 }
 
 template <int Dim>
-void add_entries(int row, double value, int axis, const SurfacePoint<Dim>& point, std::vector<FluxEntry>& entries) {
-  for (int k = 0; k < Dim; ++k) entries.push_back({row, Dim * point.corners[k] + axis, value * point.weights[k]});
+void add_entries(int row, double value, int axis, const SurfaceWeights& hung, std::vector<FluxEntry>& entries) {
+  for (const auto& [node, weight] : hung) entries.push_back({row, Dim * node + axis, value * weight});
 }
 
-// Shares spread to the nodes of the surface points that they hang on.
+// Shares spread to the nodes that they hang on.
 template <int Dim>
-std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
+std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments& attached,
                                      const PressureRows<Dim>& rows) {
   std::vector<FluxEntry> entries;
   for_each_cell_of_shares(s, shares, rows, [&](Site cell, double sign, std::size_t n) {
-    add_entries(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
+    add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
   });
   return entries;
 }
@@ -67,8 +67,7 @@ struct CellShares {
 // facets between the sides stays.
 template <int Dim>
 void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const FaceShares& shares,
-                      const Attachments<Dim>& attached, const PressureRows<Dim>& rows,
-                      std::vector<FluxEntry>& entries) {
+                      const Attachments& attached, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
   if (solid.patches.size() == 1) return;
   const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
@@ -76,12 +75,10 @@ void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
   const auto patch = [&](std::size_t n) {
     int of = -1;
-    for (const int node : attached[n].corners) of = std::max(of, patch_of_node[std::size_t(node)]);
+    for (const auto& [node, weight] : attached[n]) of = std::max(of, patch_of_node[std::size_t(node)]);
     return of;
   };
-  const auto hangs = [&](std::size_t n) {
-    return attached[n].weights != decltype(attached[n].weights){} && patch(n) >= 0;
-  };
+  const auto hangs = [&](std::size_t n) { return !attached[n].empty() && patch(n) >= 0; };
   const auto center = [&](std::size_t n) {
     return s.layout.position(s.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
   };
@@ -99,8 +96,8 @@ void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const
         if (!hangs(m) || patch(m) != own) continue;
         if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
       }
-      add_entries(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
-      add_entries(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
+      add_entries<Dim>(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
+      add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
     }
   }
 }

@@ -27,10 +27,10 @@ Eigen::VectorXd mass_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, con
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
-    const SurfacePoint<Dim>& point = (*g.attached[std::size_t(k)])[n];
     const double area = shares[n].closed * s.layout.geometry().face_area();
     const double of_face = area * s.density() * wet_gaps(s.layout, rows, f);
-    for (int i = 0; i < Dim; ++i) mass[std::size_t(Dim * point.corners[i] + f.axis)] += of_face * point.weights[i];
+    for (const auto& [node, weight] : (*g.attached[std::size_t(k)])[n])
+      mass[std::size_t(Dim * node + f.axis)] += of_face * weight;
   }
   s.ranks.global_sum(mass);
   return Eigen::Map<const Eigen::VectorXd>(mass.data(), Eigen::Index(mass.size()));
