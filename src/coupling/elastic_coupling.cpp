@@ -167,16 +167,17 @@ void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, d
   parts.coupling.push.segment(first, push.size()) = dt * push;
 }
 
-// 1/2 (w - w_0 - dt g)'m (w - w_0 - dt g), w_0 the velocities of the last solve.
+// 1/2 w'm w - w'(momentum + dt m g)
 template <int Dim>
-void add_liquid_beside(const Eigen::VectorXd& m, const Eigen::VectorXd& gravity, const Eigen::VectorXd& before,
-                       double dt, int first, CouplingParts<Dim>& parts) {
+void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravity, double dt, int first,
+                       CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
+  const Eigen::VectorXd &m = beside.mass, weight = beside.heavy.cwiseProduct(gravity);
   for (int i = 0; i < int(m.size()); ++i)
     if (m[i] > 0) parts.mass.emplace_back(first + i, first + i, m[i]);
   c.mass_beside.segment(first, m.size()) = m;
-  c.push.segment(first, m.size()) += m.cwiseProduct(before + dt * gravity);
-  c.buoyancy_correction.segment(first, m.size()) = m.cwiseProduct(gravity);
+  c.push.segment(first, m.size()) += beside.momentum + dt * weight;
+  c.buoyancy_correction.segment(first, m.size()) = weight;
 }
 
 // M times what is linear in the deformed positions, from -1 to 1 over the body: forces, moments, what bends and
@@ -232,7 +233,7 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
     if (s.bodies[k].is_thin())
-      add_liquid_beside(mass_beside(s, g, rows, k), g_nodes, state.elastic[k].velocity, dt, first, parts);
+      add_liquid_beside(liquid_beside(s, g, rows, state.phi, state.now->u, state.elastic[k].velocity, dt, k), g_nodes, dt, first, parts);
     entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
     bring_home_air(s, rows, 0, entries.back().entries);
     shown.push_back(entries.back().entries.size());

@@ -9,9 +9,12 @@ namespace seiche {
 //   sum_f s A rho (d_low + d_high),   d the gaps of the cells with a row,
 // spread to the nodes. So a wet body feels rho g times its volume along each axis, a column of liquid rests on it with
 // all its weight, and light sheets do not move without inertia. Collective.
+struct LiquidBeside {
+  Eigen::VectorXd heavy, mass, momentum;
+};
 template <int Dim>
-Eigen::VectorXd mass_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                            int k);
+LiquidBeside liquid_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
+                           const CellField<Dim>& phi, const FaceField<Dim>& u, const Eigen::VectorXd& w, double dt, int k);
 
 // Liquid beside thin elastic solids ends in whole cells, the solids between: what that counts too much, m^Dim,
 //   sum_f n_a^2 A (h/2 - d) over the sides of a sealed face with liquid,
