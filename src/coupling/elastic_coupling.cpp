@@ -172,10 +172,11 @@ template <int Dim>
 void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravity, double dt, int first,
                        CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
-  const Eigen::VectorXd &m = beside.mass, weight = beside.heavy.cwiseProduct(gravity);
+  const Eigen::VectorXd &m = beside.mass, weight = m.cwiseProduct(gravity);
   for (int i = 0; i < int(m.size()); ++i)
     if (m[i] > 0) parts.mass.emplace_back(first + i, first + i, m[i]);
   c.mass_beside.segment(first, m.size()) = m;
+  c.momentum_beside.segment(first, m.size()) = beside.momentum;
   c.push.segment(first, m.size()) += beside.momentum + dt * weight;
   c.buoyancy_correction.segment(first, m.size()) = weight;
 }
@@ -232,8 +233,7 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-    if (s.bodies[k].is_thin())
-      add_liquid_beside(liquid_beside(s, g, rows, state.phi, state.now->u, state.elastic[k].velocity, dt, k), g_nodes, dt, first, parts);
+    if (s.bodies[k].is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
     entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
     bring_home_air(s, rows, 0, entries.back().entries);
     shown.push_back(entries.back().entries.size());

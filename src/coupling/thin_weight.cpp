@@ -6,11 +6,8 @@
 
 namespace seiche {
 namespace {
-const double FLOOR = std::getenv("FLOOR") ? std::atof(std::getenv("FLOOR")) : 0.25;
-const double DRAG = std::getenv("DRAG") ? std::atof(std::getenv("DRAG")) : 1;
-const int SHUT = std::getenv("SHUT") ? std::atoi(std::getenv("SHUT")) : 1;
-const int MODE = std::getenv("MODE") ? std::atoi(std::getenv("MODE")) : 1;
 
+// A wet cell without a row, among sealed faces alone.
 template <int Dim>
 bool is_shut_in(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, Site cell) {
   bool shut = phi[cell] < 0;
@@ -18,54 +15,57 @@ bool is_shut_in(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField
   return shut;
 }
 
-// Summed gaps of the cells beside a sealed face that are this rank's and have a row, each at least `least`, m.
+// Summed gaps of the cells beside a sealed face that are this rank's and have a row, m; of a cell that is shut in all
+// that lies on the face's side of its centre.
 template <int Dim>
-double wet_gaps(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows, const CellField<Dim>& phi, const SealedFace& f, double least) {
-  const Layout<Dim>& l = s.layout;
-  const std::array<Site, 2> cells = {f.face - l.stride(f.axis), f.face};
+double wet_gaps(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                const CellField<Dim>& phi, const SealedFace& f) {
+  const std::array<Site, 2> cells = {f.face - s.layout.stride(f.axis), f.face};
   double sum = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     const Site c = cells[side];
-    if (!l.cells().contains(l.index(c))) continue;
+    if (!s.layout.cells().contains(s.layout.index(c))) continue;
     if (rows.row[c] >= 0)
-      sum += std::max(f.gaps[side], least);
-    else if (SHUT && is_shut_in(s, g, phi, c))
-      sum += 0.5 * l.h();
+      sum += f.gaps[side];
+    else if (is_shut_in(s, g, phi, c))
+      sum += 0.5 * s.layout.h();
   }
   return sum;
+}
+
+// da/dt = -|a| a/h
+double slowed(double a, double dt, double h) {
+  return a / (1 + dt * std::abs(a) / h);
 }
 
 }  // namespace
 
 template <int Dim>
 LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                           const CellField<Dim>& phi, const FaceField<Dim>& u, const Eigen::VectorXd& w, double dt, int k) {
+                           const State<Dim>& state, double dt, int k) {
   const FaceShares& shares = *g.shares[std::size_t(k)];
-  const auto size = std::size_t(s.bodies[std::size_t(k)].elastic().body.size());
-  std::vector<double> sums(3 * size);  // mass that weighs, mass, momentum
-  std::size_t n = 0;  // shares and sealed faces are in the same order
+  const Eigen::VectorXd& w = state.elastic[std::size_t(k)].velocity;
+  const auto size = std::size_t(w.size());
+  std::vector<double> sums(2 * size);  // mass, momentum
+  std::size_t n = 0;                   // shares and sealed faces are in the same order
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
-    const double area = shares[n].closed * s.layout.geometry().face_area();
-    const double heavy = area * s.density() * wet_gaps(s, g, rows, phi, f, 0);
-    const double mass = area * s.density() * wet_gaps(s, g, rows, phi, f, FLOOR * s.layout.h());
     const SurfaceWeights& hung = (*g.attached[std::size_t(k)])[n];
-    const double mean = velocity_at<Dim>(hung, f.axis, w), flow = u.at(f.axis, f.face);
+    const double area = shares[n].closed * s.layout.geometry().face_area();
+    const double mass = area * s.density() * wet_gaps(s, g, rows, state.phi, f);
+    const double mean = velocity_at<Dim>(hung, f.axis, w), flow = state.now->u.at(f.axis, f.face);
     for (const auto& [node, weight] : hung) {
       const auto i = std::size_t(Dim * node + f.axis);
-      const double apart = w[Eigen::Index(i)] - mean;
-      const double kept = MODE == 0 ? w[Eigen::Index(i)] : MODE == 1 ? flow : flow + apart * std::max(0., 1 - DRAG * dt * std::abs(apart) / s.layout.h());
-      sums[i] += heavy * weight;
-      sums[size + i] += mass * weight;
-      sums[2 * size + i] += mass * weight * kept;
+      sums[i] += mass * weight;
+      sums[size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, s.layout.h()));
     }
   }
   s.ranks.global_sum(sums);
-  const auto part = [&](std::size_t n) {
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + n * size, Eigen::Index(size)));
+  const auto part = [&](std::size_t first) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + first, Eigen::Index(size)));
   };
-  return {part(0), part(1), part(2)};
+  return {part(0), part(size)};
 }
 
 template <int Dim>
@@ -105,10 +105,11 @@ Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd
   return load;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                    \
-  template LiquidBeside liquid_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, const CellField<D>&, const FaceField<D>&, const Eigen::VectorXd&, double, int); \
-  template bool has_thin_elastic<D>(const Setup<D>&);                                                            \
-  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);                \
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template LiquidBeside liquid_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
+                                         const State<D>&, double, int);                                   \
+  template bool has_thin_elastic<D>(const Setup<D>&);                                                     \
+  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);         \
   template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

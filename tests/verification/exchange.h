@@ -176,9 +176,9 @@ struct Balance {
     const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
     const Eigen::VectorXd dv = p.state.elastic[k].velocity - p.elastic_before[k].state.v, momentum = body.mass * dv;
     for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
-    const Eigen::VectorXd more = p.state.elastic[k].velocity - p.elastic_before[k].velocity;
-    for (int n = 0; n < int(more.size()); ++n) {
-      change.linear[n % Dim] += p.coupling.mass_beside[first + n] * more[n];
+    const Eigen::VectorXd& w = p.state.elastic[k].velocity;
+    for (int n = 0; n < int(w.size()); ++n) {
+      change.linear[n % Dim] += p.coupling.mass_beside[first + n] * w[n] - p.coupling.momentum_beside[first + n];
       correction.linear[n % Dim] += dt * p.coupling.buoyancy_correction[first + n];
     }
     gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.gravity.at(0);
