@@ -33,9 +33,9 @@ double wet_gaps(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureR
   return sum;
 }
 
-// da/dt = -|a| a/h
+// da/dt = -|a| a/h by Euler's step, down to nothing: what would cross a cell in the step is gone.
 double slowed(double a, double dt, double h) {
-  return a / (1 + dt * std::abs(a) / h);
+  return a * std::max(0., 1 - dt * std::abs(a) / h);
 }
 
 }  // namespace

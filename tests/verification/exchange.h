@@ -59,6 +59,9 @@ struct Projection {
     geometry = setup.solids.measure(place_bodies(setup, state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
+    auto level = std::make_shared<Level<Dim>>(empty_level(setup));
+    level->u = u_star;
+    state.now = level;
     rows = number_rows(input());
     coupling = couple_solids(setup, geometry, rows, find_closed_components(input(), rows), state, dt, dt);
   }
