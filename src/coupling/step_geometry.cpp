@@ -16,7 +16,7 @@ constexpr double far_away = 1e30;
 constexpr double snap = 1e-3;
 // The same at joints: contact asks for 2.5e-3 cells between edges at the start.
 constexpr double joint_gap = 1e-2;
-constexpr double spread = 1.5;  // cells; what is this far from a sealed face still has some part in its velocity
+constexpr double spread = 1.5;  // cells from a sealed face within which a thin body's surface has part in its velocity
 constexpr int margin = 4;       // cells around a rigid body within which its distance is known
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
@@ -90,16 +90,6 @@ void measure_gaps(const Layout<Dim>& layout, const PlacedSolid<Dim>& solid, Seal
   face.gaps = {gap(low, high), gap(high, low)};
   const double along = solid.normal_near(0.5 * (low + high))[face.axis];
   face.weight = along * along;
-}
-
-// Of the point that is nearest.
-template <int Dim>
-SurfaceWeights nearest_weights(const SurfaceDistance<Dim>& surface, const Vec<Dim>& x) {
-  SurfacePoint<Dim> point;
-  SurfaceWeights weights;
-  if (surface.nearest(x, point))
-    for (int i = 0; i < Dim; ++i) weights.emplace_back(point.corners[i], point.weights[i]);
-  return weights;
 }
 
 template <int Dim>
@@ -229,7 +219,7 @@ FaceShares SolidGeometry<Dim>::measure_elastic(int k, const Placement& placed, N
   for (const FaceShare& share : shares) {
     const Vec<Dim> x = layout_.position(layout_.index(share.face), face_offset<Dim>(share.axis));
     attached.push_back(bodies_[k].is_thin() ? surface.mean_around(x, spread * layout_.h())
-                                            : nearest_weights(surface, x));
+                                            : surface.nearest_weights(x));
     for (auto& [node, weight] : attached.back()) node = solid.surface.nodes[std::size_t(node)];
   }
   g.attached[k] = std::make_shared<const Attachments>(std::move(attached));

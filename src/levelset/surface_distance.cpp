@@ -178,7 +178,7 @@ typename SurfaceDistance<Dim>::Nearest SurfaceDistance<Dim>::search(const Vec<Di
   if (bin == bins_.end()) return best;
   for (const int f : bin->second) {
     const auto p = corner_points(f);
-    const auto w = nearest_weights(p, x);
+    const auto w = seiche::nearest_weights(p, x);
     Vec<Dim> q = Vec<Dim>::Zero();
     for (int i = 0; i < Dim; ++i) q += w[i] * p[i];
     const double d2 = (x - q).squaredNorm();
@@ -249,6 +249,15 @@ bool SurfaceDistance<Dim>::nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) 
   if (n.facet < 0 || n.distance2 > reach * reach * layout_.h() * layout_.h()) return false;
   point = {corners(n.facet), n.weights};
   return true;
+}
+
+template <int Dim>
+SurfaceWeights SurfaceDistance<Dim>::nearest_weights(const Vec<Dim>& x) const {
+  SurfacePoint<Dim> point;
+  SurfaceWeights weights;
+  if (nearest(x, point))
+    for (int i = 0; i < Dim; ++i) weights.emplace_back(point.corners[i], point.weights[i]);
+  return weights;
 }
 
 // Facets are cut into parts no longer than a quarter of R, their centres count.

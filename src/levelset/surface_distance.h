@@ -31,6 +31,8 @@ class SurfaceDistance {
   void fill(NodeField<Dim>& distance) const;
   // The nearest point of the surface, if it is within two cells.
   bool nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) const;
+  // The weights of its corners; empty if it is not.
+  SurfaceWeights nearest_weights(const Vec<Dim>& x) const;
   // The mean over the surface around x, by the area of its facets times (1 - r^2/R^2)^2 within the distance R (m, at
   // most two cells); empty where there is none.
   SurfaceWeights mean_around(const Vec<Dim>& x, double R) const;
