@@ -27,17 +27,17 @@ void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, cons
 }
 
 template <int Dim>
-void add_entries(int row, double value, int axis, const SurfacePoint<Dim>& point, std::vector<FluxEntry>& entries) {
-  for (int k = 0; k < Dim; ++k) entries.push_back({row, Dim * point.corners[k] + axis, value * point.weights[k]});
+void add_entries(int row, double value, int axis, const SurfaceWeights& hung, std::vector<FluxEntry>& entries) {
+  for (const auto& [node, weight] : hung) entries.push_back({row, Dim * node + axis, value * weight});
 }
 
-// Shares spread to the nodes of the surface points that they hang on.
+// Shares spread to the nodes that they hang on.
 template <int Dim>
-std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments<Dim>& attached,
+std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments& attached,
                                      const PressureRows<Dim>& rows) {
   std::vector<FluxEntry> entries;
   for_each_cell_of_shares(s, shares, rows, [&](Site cell, double sign, std::size_t n) {
-    add_entries(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
+    add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
   });
   return entries;
 }
@@ -67,8 +67,7 @@ struct CellShares {
 // facets between the sides stays.
 template <int Dim>
 void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const FaceShares& shares,
-                      const Attachments<Dim>& attached, const PressureRows<Dim>& rows,
-                      std::vector<FluxEntry>& entries) {
+                      const Attachments& attached, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
   if (solid.patches.size() == 1) return;
   const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
@@ -76,12 +75,10 @@ void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
   const auto patch = [&](std::size_t n) {
     int of = -1;
-    for (const int node : attached[n].corners) of = std::max(of, patch_of_node[std::size_t(node)]);
+    for (const auto& [node, weight] : attached[n]) of = std::max(of, patch_of_node[std::size_t(node)]);
     return of;
   };
-  const auto hangs = [&](std::size_t n) {
-    return attached[n].weights != decltype(attached[n].weights){} && patch(n) >= 0;
-  };
+  const auto hangs = [&](std::size_t n) { return !attached[n].empty() && patch(n) >= 0; };
   const auto center = [&](std::size_t n) {
     return s.layout.position(s.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
   };
@@ -99,8 +96,8 @@ void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const
         if (!hangs(m) || patch(m) != own) continue;
         if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
       }
-      add_entries(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
-      add_entries(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
+      add_entries<Dim>(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
+      add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
     }
   }
 }
@@ -170,16 +167,18 @@ void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, d
   parts.coupling.push.segment(first, push.size()) = dt * push;
 }
 
-// 1/2 (w - w_0 - dt g)'m (w - w_0 - dt g), w_0 the velocities of the last solve.
+// 1/2 w'm w - w'(momentum + dt m g)
 template <int Dim>
-void add_liquid_beside(const Eigen::VectorXd& m, const Eigen::VectorXd& gravity, const Eigen::VectorXd& before,
-                       double dt, int first, CouplingParts<Dim>& parts) {
+void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravity, double dt, int first,
+                       CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
+  const Eigen::VectorXd &m = beside.mass, weight = m.cwiseProduct(gravity);
   for (int i = 0; i < int(m.size()); ++i)
     if (m[i] > 0) parts.mass.emplace_back(first + i, first + i, m[i]);
   c.mass_beside.segment(first, m.size()) = m;
-  c.push.segment(first, m.size()) += m.cwiseProduct(before + dt * gravity);
-  c.buoyancy_correction.segment(first, m.size()) = m.cwiseProduct(gravity);
+  c.momentum_beside.segment(first, m.size()) = beside.momentum;
+  c.push.segment(first, m.size()) += beside.momentum + dt * weight;
+  c.buoyancy_correction.segment(first, m.size()) = weight;
 }
 
 // M times what is linear in the deformed positions, from -1 to 1 over the body: forces, moments, what bends and
@@ -234,8 +233,7 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-    if (s.bodies[k].is_thin())
-      add_liquid_beside(mass_beside(s, g, rows, k), g_nodes, state.elastic[k].velocity, dt, first, parts);
+    if (s.bodies[k].is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
     entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
     bring_home_air(s, rows, 0, entries.back().entries);
     shown.push_back(entries.back().entries.size());

@@ -63,10 +63,10 @@ class ElasticVelocities {
     const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
     const auto found = faces.find(face);
     if (found == faces.end()) return {};
-    const SurfacePoint<Dim>& point = (*g_.attached[std::size_t(body)])[found->second];
-    if (point.weights[0] + point.weights[1] + point.weights[Dim - 1] == 0) return {};
+    const SurfaceWeights& hung = (*g_.attached[std::size_t(body)])[found->second];
+    if (hung.empty()) return {};
     Vec<Dim> v;
-    for (int b = 0; b < Dim; ++b) v[b] = velocity_at(point, b, g_.placed[std::size_t(body)].velocity);
+    for (int b = 0; b < Dim; ++b) v[b] = velocity_at<Dim>(hung, b, g_.placed[std::size_t(body)].velocity);
     return v;
   }
 

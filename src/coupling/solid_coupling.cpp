@@ -25,7 +25,8 @@ SolidCoupling<Dim> number_unknowns(const Setup<Dim>& s) {
   c.J.blocks.resize(c.bodies.size());
   c.cell_fluxes.resize(c.bodies.size());
   c.freedom.assign(std::size_t(c.size()), Freedom::free);
-  for (Eigen::VectorXd* v : {&c.push, &c.free, &c.target, &c.buoyancy_correction, &c.mass_beside, &c.held})
+  for (Eigen::VectorXd* v :
+       {&c.push, &c.free, &c.target, &c.buoyancy_correction, &c.mass_beside, &c.momentum_beside, &c.held})
     v->setZero(c.size());
   return c;
 }

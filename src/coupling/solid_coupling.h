@@ -24,7 +24,9 @@ struct SolidCoupling {
   // feel exactly rho g times their volume: of rigid bodies force and torque (N, N m), of thin elastic ones forces on
   // their nodes; zero for others.
   Eigen::VectorXd buoyancy_correction;
-  Eigen::VectorXd mass_beside;  // of liquid that moves with thin elastic bodies, part of `mass` (thin_weight.h), kg
+  // Of liquid that moves with thin elastic bodies, part of `mass` and `push` (thin_weight.h): kg, and kg m/s before the
+  // step.
+  Eigen::VectorXd mass_beside, momentum_beside;
   std::vector<Freedom> freedom;
   Eigen::VectorXd held;                                // velocities of what is held
   std::shared_ptr<const VelocityPotential> potential;  // of the elastic forces; null: none

@@ -16,7 +16,8 @@ constexpr double far_away = 1e30;
 constexpr double snap = 1e-3;
 // The same at joints: contact asks for 2.5e-3 cells between edges at the start.
 constexpr double joint_gap = 1e-2;
-constexpr int margin = 4;  // cells around a rigid body within which its distance is known
+constexpr double spread = 1.5;  // cells from a sealed face within which a thin body's surface has part in its velocity
+constexpr int margin = 4;       // cells around a rigid body within which its distance is known
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
 template <int Dim>
@@ -214,13 +215,14 @@ FaceShares SolidGeometry<Dim>::measure_elastic(int k, const Placement& placed, N
   const SurfaceDistance<Dim> surface(layout_, solid.surface.facets, points);
   surface.fill(scratch);
   const FaceShares shares = take_in(k, surface.box(), scratch, g);
-  Attachments<Dim> attached(shares.size());
-  for (std::size_t n = 0; n < shares.size(); ++n) {
-    const Vec<Dim> x = layout_.position(layout_.index(shares[n].face), face_offset<Dim>(shares[n].axis));
-    if (!surface.nearest(x, attached[n])) continue;
-    for (int& corner : attached[n].corners) corner = solid.surface.nodes[std::size_t(corner)];
+  Attachments attached;
+  for (const FaceShare& share : shares) {
+    const Vec<Dim> x = layout_.position(layout_.index(share.face), face_offset<Dim>(share.axis));
+    attached.push_back(bodies_[k].is_thin() ? surface.mean_around(x, spread * layout_.h())
+                                            : surface.nearest_weights(x));
+    for (auto& [node, weight] : attached.back()) node = solid.surface.nodes[std::size_t(node)];
   }
-  g.attached[k] = std::make_shared<const Attachments<Dim>>(std::move(attached));
+  g.attached[k] = std::make_shared<const Attachments>(std::move(attached));
   return shares;
 }
 
@@ -328,9 +330,9 @@ void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeom
 }
 
 template <int Dim>
-double velocity_at(const SurfacePoint<Dim>& point, int axis, const Eigen::VectorXd& node_velocity) {
+double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity) {
   double v = 0;
-  for (int i = 0; i < Dim; ++i) v += point.weights[i] * node_velocity[Dim * point.corners[i] + axis];
+  for (const auto& [node, weight] : hung) v += weight * node_velocity[Dim * node + axis];
   return v;
 }
 
@@ -340,9 +342,9 @@ void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velo
   const FaceShares& shares = *g.shares[body];
   for (std::size_t n = 0; n < shares.size(); ++n) {
     const int axis = shares[n].axis;
-    const SurfacePoint<Dim>& point = (*g.attached[body])[n];
+    const SurfaceWeights& hung = (*g.attached[body])[n];
     g.faces.closed_flux.at(axis, shares[n].face) +=
-        shares[n].closed * (velocity_at(point, axis, velocity) - velocity_at(point, axis, present));
+        shares[n].closed * (velocity_at<Dim>(hung, axis, velocity) - velocity_at<Dim>(hung, axis, present));
   }
   if (g.cell_fluxes[body])
     for (const CellFlux& c : *g.cell_fluxes[body])
@@ -383,8 +385,8 @@ double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& pl
   return largest;
 }
 
-template double velocity_at<2>(const SurfacePoint<2>&, int, const Eigen::VectorXd&);
-template double velocity_at<3>(const SurfacePoint<3>&, int, const Eigen::VectorXd&);
+template double velocity_at<2>(const SurfaceWeights&, int, const Eigen::VectorXd&);
+template double velocity_at<3>(const SurfaceWeights&, int, const Eigen::VectorXd&);
 template void set_node_velocity<2>(const Layout<2>&, int, const Eigen::VectorXd&, StepGeometry<2>&);
 template void set_node_velocity<3>(const Layout<3>&, int, const Eigen::VectorXd&, StepGeometry<3>&);
 template void set_twist<2>(const Layout<2>&, int, const Twist&, StepGeometry<2>&);

@@ -19,9 +19,9 @@ struct FaceShare {
 };
 using FaceShares = std::vector<FaceShare>;
 
-// Where a face share of an elastic body hangs: the nearest point of its surface; weights zero where there is none near.
-template <int Dim>
-using Attachments = std::vector<SurfacePoint<Dim>>;  // corners are nodes of the body's mesh; one a share
+// What each face share of an elastic body hangs on: nodes of its mesh with their weights. Of a thick body the nearest
+// point of the surface, of a thin one the mean of the surface within some cells; none where there is none near.
+using Attachments = std::vector<SurfaceWeights>;
 
 // What the velocity of a body's unknown takes out of a cell besides what the body's faces show, per face area.
 struct CellFlux {
@@ -49,11 +49,11 @@ struct StepGeometry {
   NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
   NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
   FaceGeometry<Dim> faces;
-  std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
-  std::vector<std::shared_ptr<const Attachments<Dim>>> attached;  // of each elastic body
-  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;     // likewise, once they are coupled; else null
-  std::vector<SealedFace> sealed;                                 // likewise
-  std::vector<Placement> placed;                                  // of each body, at the end of the step
+  std::vector<std::shared_ptr<const FaceShares>> shares;       // of each body, on the owned faces and two layers around
+  std::vector<std::shared_ptr<const Attachments>> attached;    // of each elastic body
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // likewise, once they are coupled; else null
+  std::vector<SealedFace> sealed;                              // likewise
+  std::vector<Placement> placed;                               // of each body, at the end of the step
 };
 
 // Lets a body move with a twist: its share of each face pushes volume through it.
@@ -66,7 +66,7 @@ void set_node_velocity(const Layout<Dim>& layout, int body, const Eigen::VectorX
 
 // The velocity along an axis of what a share hangs on.
 template <int Dim>
-double velocity_at(const SurfacePoint<Dim>& point, int axis, const Eigen::VectorXd& node_velocity);
+double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity);
 
 template <int Dim>
 class SolidGeometry {

@@ -7,33 +7,65 @@
 namespace seiche {
 namespace {
 
-// Summed gaps of the cells beside a sealed face that are this rank's and have a row, m.
+// A wet cell without a row, among sealed faces alone.
 template <int Dim>
-double wet_gaps(const Layout<Dim>& l, const PressureRows<Dim>& rows, const SealedFace& f) {
-  const Site low = f.face - l.stride(f.axis);
+bool is_shut_in(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, Site cell) {
+  bool shut = phi[cell] < 0;
+  for_each_face_of(s.layout, cell, [&](int a, Site f, int, Site) { shut = shut && !g.faces.is_unknown(a, f); });
+  return shut;
+}
+
+// Summed gaps of the cells beside a sealed face that are this rank's and have a row, m; of a cell that is shut in all
+// that lies on the face's side of its centre.
+template <int Dim>
+double wet_gaps(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                const CellField<Dim>& phi, const SealedFace& f) {
+  const std::array<Site, 2> cells = {f.face - s.layout.stride(f.axis), f.face};
   double sum = 0;
-  if (l.cells().contains(l.index(low)) && rows.row[low] >= 0) sum += f.gaps[0];
-  if (l.cells().contains(l.index(f.face)) && rows.row[f.face] >= 0) sum += f.gaps[1];
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Site c = cells[side];
+    if (!s.layout.cells().contains(s.layout.index(c))) continue;
+    if (rows.row[c] >= 0)
+      sum += f.gaps[side];
+    else if (is_shut_in(s, g, phi, c))
+      sum += 0.5 * s.layout.h();
+  }
   return sum;
+}
+
+// da/dt = -|a| a/h by Euler's step, down to nothing: what would cross a cell in the step is gone.
+double slowed(double a, double dt, double h) {
+  return a * std::max(0., 1 - dt * std::abs(a) / h);
 }
 
 }  // namespace
 
 template <int Dim>
-Eigen::VectorXd mass_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows, int k) {
+LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                           const State<Dim>& state, double dt, int k) {
   const FaceShares& shares = *g.shares[std::size_t(k)];
-  std::vector<double> mass(std::size_t(s.bodies[std::size_t(k)].elastic().body.size()));
-  std::size_t n = 0;  // shares and sealed faces are in the same order
+  const Eigen::VectorXd& w = state.elastic[std::size_t(k)].velocity;
+  const auto size = std::size_t(w.size());
+  std::vector<double> sums(2 * size);  // mass, momentum
+  std::size_t n = 0;                   // shares and sealed faces are in the same order
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
-    const SurfacePoint<Dim>& point = (*g.attached[std::size_t(k)])[n];
+    const SurfaceWeights& hung = (*g.attached[std::size_t(k)])[n];
     const double area = shares[n].closed * s.layout.geometry().face_area();
-    const double of_face = area * s.density() * wet_gaps(s.layout, rows, f);
-    for (int i = 0; i < Dim; ++i) mass[std::size_t(Dim * point.corners[i] + f.axis)] += of_face * point.weights[i];
+    const double mass = area * s.density() * wet_gaps(s, g, rows, state.phi, f);
+    const double mean = velocity_at<Dim>(hung, f.axis, w), flow = state.now->u.at(f.axis, f.face);
+    for (const auto& [node, weight] : hung) {
+      const auto i = std::size_t(Dim * node + f.axis);
+      sums[i] += mass * weight;
+      sums[size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, s.layout.h()));
+    }
   }
-  s.ranks.global_sum(mass);
-  return Eigen::Map<const Eigen::VectorXd>(mass.data(), Eigen::Index(mass.size()));
+  s.ranks.global_sum(sums);
+  const auto part = [&](std::size_t first) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + first, Eigen::Index(size)));
+  };
+  return {part(0), part(size)};
 }
 
 template <int Dim>
@@ -73,10 +105,11 @@ Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd
   return load;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                    \
-  template Eigen::VectorXd mass_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, int); \
-  template bool has_thin_elastic<D>(const Setup<D>&);                                                            \
-  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);                \
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template LiquidBeside liquid_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
+                                         const State<D>&, double, int);                                   \
+  template bool has_thin_elastic<D>(const Setup<D>&);                                                     \
+  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);         \
   template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -25,9 +25,8 @@ auto surface_weights(const StepGeometry<Dim>& g, int body) {
     weights.clear();
     const auto found = (*place)[std::size_t(axis)].find(face);
     if (found == (*place)[std::size_t(axis)].end()) return;
-    const SurfacePoint<Dim>& point = (*attached)[found->second];
-    for (int i = 0; i < Dim; ++i)
-      if (point.weights[i] != 0) weights.emplace_back(Dim * point.corners[i] + axis, point.weights[i]);
+    for (const auto& [node, weight] : (*attached)[found->second])
+      if (weight != 0) weights.emplace_back(Dim * node + axis, weight);
   };
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <deque>
+#include <map>
 
 #include "grid/loops.h"
 #include "levelset/segment_crossing.h"
@@ -47,6 +48,28 @@ Vec<2> facet_normal(const std::array<Vec<2>, 2>& p) {
 }
 Vec<3> facet_normal(const std::array<Vec<3>, 3>& p) {
   return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]);
+}
+
+template <int Dim>
+double longest_side(const std::array<Vec<Dim>, Dim>& p) {
+  double longest = 0;
+  for (int i = 0; i < Dim; ++i) longest = std::max(longest, (p[(i + 1) % Dim] - p[i]).norm());
+  return longest;
+}
+
+// visit(w) of the weights of the centres of equal parts of a facet, its sides cut into n.
+template <class Visit>
+void visit_parts(std::array<double, 2>, int n, const Visit& visit) {
+  for (int i = 0; i < n; ++i) visit(std::array<double, 2>{1 - (i + 0.5) / n, (i + 0.5) / n});
+}
+template <class Visit>
+void visit_parts(std::array<double, 3>, int n, const Visit& visit) {
+  const auto part = [&](double i, double j) { visit(std::array<double, 3>{1 - (i + j) / n, i / n, j / n}); };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; i + j < n; ++j) {
+      part(i + 1. / 3, j + 1. / 3);
+      if (i + j + 1 < n) part(i + 2. / 3, j + 2. / 3);
+    }
 }
 
 double corner_angle(const std::array<Vec<2>, 2>&, int) {
@@ -155,7 +178,7 @@ typename SurfaceDistance<Dim>::Nearest SurfaceDistance<Dim>::search(const Vec<Di
   if (bin == bins_.end()) return best;
   for (const int f : bin->second) {
     const auto p = corner_points(f);
-    const auto w = nearest_weights(p, x);
+    const auto w = seiche::nearest_weights(p, x);
     Vec<Dim> q = Vec<Dim>::Zero();
     for (int i = 0; i < Dim; ++i) q += w[i] * p[i];
     const double d2 = (x - q).squaredNorm();
@@ -226,6 +249,41 @@ bool SurfaceDistance<Dim>::nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) 
   if (n.facet < 0 || n.distance2 > reach * reach * layout_.h() * layout_.h()) return false;
   point = {corners(n.facet), n.weights};
   return true;
+}
+
+template <int Dim>
+SurfaceWeights SurfaceDistance<Dim>::nearest_weights(const Vec<Dim>& x) const {
+  SurfacePoint<Dim> point;
+  SurfaceWeights weights;
+  if (nearest(x, point))
+    for (int i = 0; i < Dim; ++i) weights.emplace_back(point.corners[i], point.weights[i]);
+  return weights;
+}
+
+// Facets are cut into parts no longer than a quarter of R, their centres count.
+template <int Dim>
+SurfaceWeights SurfaceDistance<Dim>::mean_around(const Vec<Dim>& x, double R) const {
+  std::map<int, double> sums;
+  double total = 0;
+  const auto bin = bins_.find(cell_of(x));
+  if (bin == bins_.end()) return {};
+  for (const int f : bin->second) {
+    const auto p = corner_points(f);
+    const auto c = corners(f);
+    const int cuts = std::max(1, int(std::ceil(longest_side<Dim>(p) / (R / 4))));
+    const double area = facet_normal(p).norm() / std::pow(cuts, Dim - 1);
+    visit_parts(std::array<double, Dim>{}, cuts, [&](const std::array<double, Dim>& w) {
+      Vec<Dim> q = Vec<Dim>::Zero();
+      for (int i = 0; i < Dim; ++i) q += w[i] * p[i];
+      const double near = 1 - (q - x).squaredNorm() / (R * R);
+      if (near <= 0) return;
+      for (int i = 0; i < Dim; ++i) sums[c[i]] += area * near * near * w[i];
+      total += area * near * near;
+    });
+  }
+  SurfaceWeights weights(sums.begin(), sums.end());
+  for (auto& [point, weight] : weights) weight /= total;
+  return total > 0 ? weights : SurfaceWeights();
 }
 
 template <int Dim>

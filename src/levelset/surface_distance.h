@@ -15,6 +15,9 @@ struct SurfacePoint {
   std::array<double, Dim> weights{};
 };
 
+// Some points of a surface and their weights, which add up to one.
+using SurfaceWeights = std::vector<std::pair<int, double>>;
+
 template <int Dim>
 class SurfaceDistance {
  public:
@@ -28,6 +31,11 @@ class SurfaceDistance {
   void fill(NodeField<Dim>& distance) const;
   // The nearest point of the surface, if it is within two cells.
   bool nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) const;
+  // The weights of its corners; empty if it is not.
+  SurfaceWeights nearest_weights(const Vec<Dim>& x) const;
+  // The mean over the surface around x, by the area of its facets times (1 - r^2/R^2)^2 within the distance R (m, at
+  // most two cells); empty where there is none.
+  SurfaceWeights mean_around(const Vec<Dim>& x, double R) const;
   // The unit normal of the nearest facet, outward; zero if that is more than two cells away.
   Vec<Dim> normal_near(const Vec<Dim>& x) const;
   // Signed distance of a point, m; two cells where it is farther away.

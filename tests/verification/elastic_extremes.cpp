@@ -77,21 +77,23 @@ Outcome run(Scene s, const SolidSpec& solid, double end) {
   return o;
 }
 
-void check(const std::string& name, const SolidSpec& solid) {
-  const Outcome o = run(full_channel(), solid, 0.3);
-  WARN(name << ", E " << solid.elastic.youngs_modulus << ", nu " << solid.elastic.poisson_ratio << ": " << o.steps
-            << " steps, " << o.rejected << " rejected; liquid at most " << o.fastest << ", body " << o.fastest_body
-            << " m/s, energy " << o.energy << " of the start's");
+void check(const std::string& name, const Scene& scene, const SolidSpec& solid, double end) {
+  const Outcome o = run(scene, solid, end);
+  WARN(name << ", E " << solid.elastic.youngs_modulus << ", nu " << solid.elastic.poisson_ratio << ", "
+            << scene.time.frame_rate << " frames a second, " << end << " s: " << o.steps << " steps, " << o.rejected
+            << " rejected; liquid at most " << o.fastest << ", body " << o.fastest_body << " m/s, energy " << o.energy
+            << " of the start's");
   // The flow starts with 1 m/s, and round the tip of a stiff sheet it is some sqrt(length/cell) = 4.4 times as fast.
   // Nothing but its weight gives it energy: what it gains otherwise, up to 0.09 where solids are soft, is the scheme's.
   CHECK(o.fastest <= 5);
   CHECK(o.energy <= 1.1);
 }
 
+// Both ends and, nearly incompressible, a stiffness between, 0.3 s with 24 frames a second. The flap at E = 1e4, nu
+// 0.499, 1e6 and 1e10, nu 0.4: 1.01 at most (docs/elastic.md).
 void check(const std::string& name, SolidSpec (*make)(const Stiffness&)) {
-  for (const Stiffness& stiffness :
-       {Stiffness{1e2, 0.4}, {1e4, 0.499}, {1e6, 0.4}, {1e8, 0.499}, {1e10, 0.4}, {1e12, 0.499}})
-    check(name, make(stiffness));
+  for (const Stiffness& stiffness : {Stiffness{1e2, 0.4}, {1e8, 0.499}, {1e12, 0.499}})
+    check(name, full_channel(), make(stiffness), 0.3);
 }
 
 }  // namespace
@@ -102,4 +104,12 @@ TEST_CASE("a flap of density ratio 0.01 in a full channel moves at bounded speed
 
 TEST_CASE("a sheet of density ratio 1e-3 in a full channel moves at bounded speeds at any stiffness", "[elastic]") {
   check("sheet", sheet);
+}
+
+// It is rolled up by then. `seiche run` of this scene to 1 s with 2, 10, 24 and 100 frames a second and E = 1e2, 1e4,
+// 1e8, 1e12 Pa: the energy never above the start's, the liquid at most at 3.7 m/s.
+TEST_CASE("a sheet of density ratio 1e-3 as soft as to roll up moves at bounded speeds", "[elastic]") {
+  Scene s = full_channel();
+  s.time.frame_rate = 10;
+  check("sheet", s, sheet({1e2, 0.4}), 0.7);
 }

@@ -59,6 +59,9 @@ struct Projection {
     geometry = setup.solids.measure(place_bodies(setup, state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
+    auto level = std::make_shared<Level<Dim>>(empty_level(setup));
+    level->u = u_star;
+    state.now = level;
     rows = number_rows(input());
     coupling = couple_solids(setup, geometry, rows, find_closed_components(input(), rows), state, dt, dt);
   }
@@ -176,9 +179,9 @@ struct Balance {
     const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
     const Eigen::VectorXd dv = p.state.elastic[k].velocity - p.elastic_before[k].state.v, momentum = body.mass * dv;
     for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
-    const Eigen::VectorXd more = p.state.elastic[k].velocity - p.elastic_before[k].velocity;
-    for (int n = 0; n < int(more.size()); ++n) {
-      change.linear[n % Dim] += p.coupling.mass_beside[first + n] * more[n];
+    const Eigen::VectorXd& w = p.state.elastic[k].velocity;
+    for (int n = 0; n < int(w.size()); ++n) {
+      change.linear[n % Dim] += p.coupling.mass_beside[first + n] * w[n] - p.coupling.momentum_beside[first + n];
       correction.linear[n % Dim] += dt * p.coupling.buoyancy_correction[first + n];
     }
     gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.gravity.at(0);

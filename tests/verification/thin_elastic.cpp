@@ -160,9 +160,11 @@ double sag(int dim, int cells, double thickness) {
 
 }  // namespace
 
+// All three in 2D, one each in 3D: the others, run once, passed alike.
 TEST_CASE("an elastic sheet thinner than a cell holds back the liquid on one side of it", "[elastic][thin]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses) {
+      if (dim == 3 && thickness != 0.3) continue;
       const Seen seen = run(dam(dim, dim == 2 ? 24 : 12, thickness, ""), 100);
       WARN(dim << "D, " << thickness << " cells: bulges " << seen.bulge << " m, volume lost " << seen.lost);
       CHECK(seen.beyond == 0);
@@ -174,6 +176,7 @@ TEST_CASE("an elastic sheet thinner than a cell holds back the liquid on one sid
 TEST_CASE("an elastic sheet that is moved takes the liquid before it along", "[elastic][thin]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses) {
+      if (dim == 3 && thickness != 0.05) continue;
       const Seen seen = run(dam(dim, dim == 2 ? 24 : 12, thickness, "-0.1*sin(4*t)"), 100);
       WARN(dim << "D, " << thickness << " cells: bulges " << seen.bulge << " m, volume lost " << seen.lost);
       CHECK(seen.beyond == 0);
