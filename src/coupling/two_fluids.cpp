@@ -14,7 +14,8 @@ bool is_gas_face(const State<Dim>& state, const Layout<Dim>& layout, int axis, S
 }
 
 // (U + sqrt(sigma/(rho h))) h/nu: how far the flow, and the shortest capillary wave, go in the time in which viscosity
-// evens out a cell; nu the smaller one. Infinite where viscosity is no constant. Collective.
+// evens out a cell; nu the smaller one. Infinite where viscosity is no constant, and without tension, which shapes a
+// surface that viscosity alone would leave to roll up. Collective.
 template <int Dim>
 double reynolds_number_of_cell(const Setup<Dim>& s, const State<Dim>& state) {
   const LiquidSpec& liquid = s.scene.liquid;
@@ -22,7 +23,7 @@ double reynolds_number_of_cell(const Setup<Dim>& s, const State<Dim>& state) {
   const double none = std::numeric_limits<double>::infinity(), h = s.layout.h();
   if (!liquid.rheology.model.empty() || !mu.is_constant()) return none;
   const double nu = std::min(mu(Vec3::Zero(), 0) / s.density(), s.scene.gas.viscosity / s.gas_density());
-  if (nu == 0) return none;
+  if (nu == 0 || liquid.surface_tension == 0) return none;
   return (fastest_component(s, state) + std::sqrt(liquid.surface_tension / ((s.density() + s.gas_density()) * h))) * h /
          nu;
 }
