@@ -172,7 +172,7 @@ template <int Dim>
 void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravity, double dt, int first,
                        CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;
-  const Eigen::VectorXd &m = beside.mass, weight = m.cwiseProduct(gravity);
+  const Eigen::VectorXd &m = beside.mass, weight = beside.heavy.cwiseProduct(gravity);
   for (int i = 0; i < int(m.size()); ++i)
     if (m[i] > 0) parts.mass.emplace_back(first + i, first + i, m[i]);
   c.mass_beside.segment(first, m.size()) = m;

@@ -15,20 +15,27 @@ bool is_shut_in(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField
   return shut;
 }
 
-// Summed gaps of the cells beside a sealed face that are this rank's and have a row, m; of a cell that is shut in all
-// that lies on the face's side of its centre.
+// Depths of what lies between a sealed face's body and the centres of the cells beside it, m: of all that is held to
+// move with it, and of what weighs on it. What is shut in has all on the face's side of its centre; it weighs nothing
+// where the body fills it.
+struct Depths {
+  double inert = 0, heavy = 0;
+};
+
+// Of the cells that are this rank's.
 template <int Dim>
-double wet_gaps(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                const CellField<Dim>& phi, const SealedFace& f) {
+Depths wet_depths(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                  const CellField<Dim>& phi, const SealedFace& f) {
   const std::array<Site, 2> cells = {f.face - s.layout.stride(f.axis), f.face};
-  double sum = 0;
+  Depths sum;
   for (std::size_t side = 0; side < 2; ++side) {
     const Site c = cells[side];
     if (!s.layout.cells().contains(s.layout.index(c))) continue;
-    if (rows.row[c] >= 0)
-      sum += f.gaps[side];
-    else if (is_shut_in(s, g, phi, c))
-      sum += 0.5 * s.layout.h();
+    const bool shut = rows.row[c] < 0;
+    if (shut && !is_shut_in(s, g, phi, c)) continue;
+    const double depth = shut ? 0.5 * s.layout.h() : f.gaps[side];
+    sum.inert += depth;
+    if (!shut || f.gaps[side] > 0) sum.heavy += depth;
   }
   return sum;
 }
@@ -46,26 +53,28 @@ LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
   const FaceShares& shares = *g.shares[std::size_t(k)];
   const Eigen::VectorXd& w = state.elastic[std::size_t(k)].velocity;
   const auto size = std::size_t(w.size());
-  std::vector<double> sums(2 * size);  // mass, momentum
+  std::vector<double> sums(3 * size);  // mass, what of it weighs, momentum
   std::size_t n = 0;                   // shares and sealed faces are in the same order
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
     const SurfaceWeights& hung = (*g.attached[std::size_t(k)])[n];
     const double area = shares[n].closed * s.layout.geometry().face_area();
-    const double mass = area * s.density() * wet_gaps(s, g, rows, state.phi, f);
+    const Depths depths = wet_depths(s, g, rows, state.phi, f);
+    const double mass = area * s.density() * depths.inert, heavy = area * s.density() * depths.heavy;
     const double mean = velocity_at<Dim>(hung, f.axis, w), flow = state.now->u.at(f.axis, f.face);
     for (const auto& [node, weight] : hung) {
       const auto i = std::size_t(Dim * node + f.axis);
       sums[i] += mass * weight;
-      sums[size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, s.layout.h()));
+      sums[size + i] += heavy * weight;
+      sums[2 * size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, s.layout.h()));
     }
   }
   s.ranks.global_sum(sums);
   const auto part = [&](std::size_t first) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + first, Eigen::Index(size)));
   };
-  return {part(0), part(size)};
+  return {part(0), part(size), part(2 * size)};
 }
 
 template <int Dim>

@@ -13,7 +13,7 @@ namespace seiche {
 // raced, seen by no face, brings none with it. What nodes of one face differ by from their mean wears off as motion
 // through liquid over a cell does, |a| a/h. Collective.
 struct LiquidBeside {
-  Eigen::VectorXd mass, momentum;
+  Eigen::VectorXd mass, heavy, momentum;  // heavy: what of the mass weighs, not that of cells which the body fills
 };
 template <int Dim>
 LiquidBeside liquid_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
