@@ -10,8 +10,8 @@ FaceField<Dim> of_both(const Setup<Dim>& setup, const State<Dim>& state, FaceFie
 
 // What the surface goes with. Where a cell is thin for viscosity, the mean of both flows, each continued beyond the
 // surface: they agree there but for what either continues wrongly. Where the fluids slip along each other, as far as
-// the grid can tell, the liquid's alone: the gas's may have another velocity across the surface a cell away. In
-// between, from a cell's Reynolds number of 10 to 20, from one to the other. Collective.
+// the grid can tell, or no tension shapes the surface, the liquid's alone: the gas's may have another velocity across
+// the surface a cell away. In between, from a cell's Reynolds number of 10 to 20, from one to the other. Collective.
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Setup<Dim>& setup, const State<Dim>& state);
 
