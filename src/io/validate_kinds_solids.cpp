@@ -13,20 +13,18 @@ Points solid_series(const MeasureSpec& spec, const RunPaths& run) {
 
 // Mean over from <= t <= to, weighted so that oscillations leave next to nothing.
 Measurement solid_mean(const MeasureSpec& spec, const RunPaths& run) {
-  const double mean =
-      settled_mean(solid_points(read_whole_file(run.solids()), spec.solid, spec.column), spec.from, spec.to);
+  const double mean = settled_mean(solid_series(spec, run), spec.from, spec.to);
   const double reference = constant(spec.reference);
   return {mean, reference, std::abs(mean - reference) / constant(spec.length_unit)};
 }
 
 // Least-squares slope over from <= t <= to.
 Measurement solid_slope(const MeasureSpec& spec, const RunPaths& run) {
-  const Points all = solid_points(read_whole_file(run.solids()), spec.solid, spec.column);
-  return against(slope_during(all, spec.from, spec.to), constant(spec.reference));
+  return against(slope_during(solid_series(spec, run), spec.from, spec.to), constant(spec.reference));
 }
 
 Points solid_during(const MeasureSpec& spec, const RunPaths& run) {
-  return points_during(solid_points(read_whole_file(run.solids()), spec.solid, spec.column), spec.from, spec.to);
+  return points_during(solid_series(spec, run), spec.from, spec.to);
 }
 
 Measurement solid_peak(const MeasureSpec& spec, const RunPaths& run) {

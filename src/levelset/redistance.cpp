@@ -212,8 +212,11 @@ void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const Redistan
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  const CellField<Dim, char> fixed = settle_near_zero(layout, options.settled, phi);
-  fill_ghosts(layout, halo, 1.0, phi);
+  CellField<Dim, char> fixed(layout, 0);
+  if (options.settled > 0) {
+    fixed = settle_near_zero(layout, options.settled, phi);
+    fill_ghosts(layout, halo, 1.0, phi);
+  }
   Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }

@@ -8,8 +8,8 @@ struct RedistanceOptions {
   double band = 5;     // cells on each side within which phi is kept; beyond it is +-band
   int iterations = 8;  // each carries distance 0.45 cells outwards
   int entering = 2;    // layers beyond the band that may enter it: what the interface moved since the last call
-  double settled =
-      0;  // cells from the zero within which phi follows from the nearest points of its zero; at most halo - 1
+  // Cells from the zero within which phi follows from the nearest points of its zero; at most halo - 1.
+  double settled = 0;
 };
 
 // Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka

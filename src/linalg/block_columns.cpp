@@ -1,5 +1,7 @@
 #include "linalg/block_columns.h"
 
+#include <algorithm>
+
 #include <cstring>
 
 namespace seiche {
@@ -15,6 +17,10 @@ std::vector<int> BlockColumns::first_columns() const {
   std::vector<int> first{0};
   for (const ColumnBlock& b : blocks) first.push_back(first.back() + b.width);
   return first;
+}
+
+bool BlockColumns::any_deforms() const {
+  return std::any_of(blocks.begin(), blocks.end(), [](const ColumnBlock& b) { return b.deforms(); });
 }
 
 int BlockColumns::columns() const {

@@ -35,6 +35,7 @@ struct ColumnBlock {
 struct BlockColumns {
   std::vector<ColumnBlock> blocks;
   int columns() const;
+  bool any_deforms() const;
   // First column of each block, and the number of columns.
   std::vector<int> first_columns() const;
   // Visits f(row, column, value), the column counted over all blocks.

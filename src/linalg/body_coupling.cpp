@@ -106,4 +106,10 @@ DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J
   return M;
 }
 
+bool has_changed_much(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& before) {
+  constexpr double much = 4;
+  const Eigen::ArrayXd change = diagonal.array() / before.array();
+  return change.maxCoeff() > much || change.minCoeff() < 1 / much;
+}
+
 }  // namespace seiche

@@ -10,4 +10,7 @@ namespace seiche {
 // Of the blocks that deform; the others are left out. Collective.
 DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c);
 
+// Whether stiffness or contact has come or gone at some entry of the diagonal of H: by a factor of 4.
+bool has_changed_much(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& before);
+
 }  // namespace seiche

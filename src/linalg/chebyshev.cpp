@@ -81,10 +81,6 @@ class Reach {
   std::vector<std::size_t> ends_;  // of those within 0, 1, ... neighbours
 };
 
-}  // namespace
-
-namespace {
-
 // max_i sum_j |F_ij| / F_ii
 double gershgorin_bound(const LinearSystem& F) {
   const DistributedMatrix& P = F.pattern();
@@ -144,23 +140,6 @@ void Chebyshev::apply(const Vector& r, Vector& z) {
       z[i] += d_[i];
     }
   }
-}
-
-SparseVector nonzeros(const Vector& x) {
-  SparseVector s;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (x[i] != 0) s.row.push_back(int(i)), s.value.push_back(x[i]);
-  return s;
-}
-
-double local_dot(const SparseVector& x, const Vector& y) {
-  double sum = 0;
-  for (std::size_t n = 0; n < x.row.size(); ++n) sum += x.value[n] * y[std::size_t(x.row[n])];
-  return sum;
-}
-
-void add_scaled(Vector& y, double a, const SparseVector& x) {
-  for (std::size_t n = 0; n < x.row.size(); ++n) y[std::size_t(x.row[n])] += a * x.value[n];
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // Polynomial preconditioners: for matrices that mass keeps well conditioned they do what a multigrid cycle does,
 // without a hierarchy to build, and the same on any number of ranks.
 #include "linalg/preconditioners.h"
+#include "linalg/sparse_vector.h"
 
 namespace seiche {
 
@@ -31,17 +32,6 @@ class Chebyshev : public Preconditioner {
   int steps_;
   Vector inverse_, rest_, d_, Fd_;
 };
-
-// A vector of which few entries differ from zero; `row` ascends.
-struct SparseVector {
-  std::vector<int> row;
-  std::vector<double> value;
-};
-
-SparseVector nonzeros(const Vector& x);
-// Of this rank's entries.
-double local_dot(const SparseVector& x, const Vector& y);
-void add_scaled(Vector& y, double a, const SparseVector& x);
 
 // As Chebyshev::apply to each of `columns`, which differ from zero in few rows: a step reaches one neighbour further,
 // and only rows that are reached are visited. Collective.

@@ -17,8 +17,8 @@ constexpr int cut_reach = 4;
 constexpr Eigen::Index least_dense = 100;
 
 // Values of v on the rows that lie in a range.
-SparseColumn cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range) {
-  SparseColumn c;
+SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range) {
+  SparseVector c;
   for (std::size_t i = 0; i < v.size(); ++i)
     if (v[i] != 0 && range.contains(cells[i])) c.row.push_back(int(i)), c.value.push_back(v[i]);
   return c;
@@ -26,7 +26,7 @@ SparseColumn cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, 
 
 // Lets the values fade out over the outer cells of a range: cut off sharply, what is left of A z at the edge costs
 // twice the iterations.
-void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& range, SparseColumn& c) {
+void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& range, SparseVector& c) {
   for (std::size_t n = 0; n < c.row.size(); ++n) {
     const auto& cell = cells[c.row[n]];
     double weight = 1;
@@ -78,7 +78,7 @@ struct ColumnValue {
 };
 
 // Columns by row.
-std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseColumn>& columns, int rows) {
+std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseVector>& columns, int rows) {
   std::vector<std::vector<ColumnValue>> list(rows);
   for (std::size_t c = 0; c < columns.size(); ++c)
     for (std::size_t n = 0; n < columns[c].row.size(); ++n)
@@ -90,9 +90,7 @@ std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseColumn>& co
 
 // Bodies that deform have a preconditioner of their own: what serves A alone then never meets H.
 Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
-  const auto& blocks = S.columns().blocks;
-  const bool deforms = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.deforms(); });
-  if (deforms && !S.is_coupled()) return;
+  if (S.columns().any_deforms() && !S.is_coupled()) return;
   make_columns();
   add_component_columns();
   multiply_out();
@@ -190,7 +188,7 @@ void Deflation::add_component_columns() {
   body_columns_ = int(Z_.size());
   const auto& component = S_.liquid().null_space().component;
   for (const int c : S_.sensed_components()) {
-    SparseColumn chi;
+    SparseVector chi;
     for (std::size_t i = 0; i < component.size(); ++i)
       if (component[i] == c) chi.row.push_back(int(i)), chi.value.push_back(1);
     Z_.push_back(std::move(chi));
@@ -231,9 +229,7 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
 // E = Z'AZ + c (J'Z)' H^-1 (J'Z). Without H there is nothing to deflate.
 bool Deflation::refresh() {
   if (Z_.empty() || !S_.is_coupled()) return true;
-  const auto& blocks = S_.columns().blocks;
-  const bool combined = std::any_of(blocks.begin(), blocks.end(), [](const auto& b) { return b.deforms(); });
-  return combined ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
+  return S_.columns().any_deforms() ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
 }
 
 // Where H is large: column by column.
@@ -309,17 +305,14 @@ Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
   return extended_.solve(all).head(f.size());
 }
 
-Eigen::VectorXd Deflation::transposed(const std::vector<SparseColumn>& columns, const Vector& x) const {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(Eigen::Index(columns.size()));
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    for (std::size_t n = 0; n < columns[c].row.size(); ++n)
-      y[Eigen::Index(c)] += columns[c].value[n] * x[columns[c].row[n]];
+Eigen::VectorXd Deflation::transposed(const std::vector<SparseVector>& columns, const Vector& x) const {
+  Eigen::VectorXd y(Eigen::Index(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) y[Eigen::Index(c)] = local_dot(columns[c], x);
   return y;
 }
 
 void Deflation::subtract(const Eigen::VectorXd& q, Vector& z) const {
-  for (std::size_t c = 0; c < Z_.size(); ++c)
-    for (std::size_t n = 0; n < Z_[c].row.size(); ++n) z[Z_[c].row[n]] -= Z_[c].value[n] * q[Eigen::Index(c)];
+  for (std::size_t c = 0; c < Z_.size(); ++c) add_scaled(z, -q[Eigen::Index(c)], Z_[c]);
 }
 
 void Deflation::apply(const Vector& r, Vector& z) {

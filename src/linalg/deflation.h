@@ -10,14 +10,9 @@
 #include "linalg/body_regions.h"
 #include "linalg/coupled_system.h"
 #include "linalg/preconditioners.h"
+#include "linalg/sparse_vector.h"
 
 namespace seiche {
-
-// Some columns over this rank's rows; rows ascend.
-struct SparseColumn {
-  std::vector<int> row;
-  std::vector<double> value;
-};
 
 // Up to this many bodies columns are kept whole.
 inline constexpr std::size_t few_bodies = 2;
@@ -55,7 +50,7 @@ class Deflation {
   void add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode);
   void add_component_columns();
   void multiply_out();
-  Eigen::VectorXd transposed(const std::vector<SparseColumn>& columns, const Vector& x) const;
+  Eigen::VectorXd transposed(const std::vector<SparseVector>& columns, const Vector& x) const;
   bool multiply_small();
   bool factor_extended();
   void factor_own();
@@ -66,7 +61,7 @@ class Deflation {
   const CoupledSystem& S_;
   Preconditioner& B_;
   std::vector<Eigen::MatrixXd> modes_;  // of each block that deforms
-  std::vector<SparseColumn> Z_, AZ_;
+  std::vector<SparseVector> Z_, AZ_;
   std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
   int body_columns_ = 0;                          // the first of Z; closed components follow
   double regularization_ = 0;

@@ -7,16 +7,12 @@
 namespace seiche {
 namespace {
 
-bool any_deforms(const BlockColumns& J) {
-  return std::any_of(J.blocks.begin(), J.blocks.end(), [](const ColumnBlock& b) { return b.deforms(); });
-}
-
 // The diagonal alone is no preconditioner of a Schur complement, however small. PFMG may fail on closed boxes of odd
 // sizes, and would go unnoticed here.
 std::string choose(const std::string& name, const LinearSystem& A, const BlockColumns& J) {
   const std::string chosen = choose_preconditioner(name, A);
   const bool poor = chosen == "none" || A.null_space().count > 0 || !J.blocks.empty();
-  return any_deforms(J) || (name == "auto" && poor) ? "boomeramg" : chosen;
+  return J.any_deforms() || (name == "auto" && poor) ? "boomeramg" : chosen;
 }
 
 double local_dot(const Vector& x, const Vector& y) {
@@ -35,7 +31,7 @@ SchurPreconditioner::SchurPreconditioner(const LinearSystem& A, const BlockColum
       mass_(std::move(mass)),
       used_(choose(name, A, J)),
       settings_(settings),
-      deforms_(any_deforms(J)) {}
+      deforms_(J.any_deforms()) {}
 
 void SchurPreconditioner::set_directions(std::vector<Vector> Jd) {
   Jd_ = std::move(Jd);
@@ -55,12 +51,9 @@ void SchurPreconditioner::make_hierarchy(const SparseMatrix& H) {
   B_ = used_ == "boomeramg" ? make_boomeramg(*system, settings_) : make_preconditioner(used_, *system);
 }
 
-// Stiffness or contact has come or gone; less costs fewer iterations than a new hierarchy takes.
+// Less costs fewer iterations than a new hierarchy takes.
 bool SchurPreconditioner::is_outdated(const SparseMatrix& H) const {
-  constexpr double much = 4;
-  if (!deforms_) return false;
-  const Eigen::ArrayXd change = H.diagonal().array() / diagonal_.array();
-  return change.maxCoeff() > much || change.minCoeff() < 1 / much;
+  return deforms_ && has_changed_much(H.diagonal(), diagonal_);
 }
 
 // S is chi'J H^-1 J'chi there. Where only rigid bodies feel them, directions bring that in: S0 is to be next to

@@ -116,7 +116,7 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
 // Preconditioners that need not keep to the grid's stencil know of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
   const LinearSystem* system = &liquid_;
-  const bool filled = deforms() && system_.is_coupled() && name != "multigrid";
+  const bool filled = J_.any_deforms() && system_.is_coupled() && name != "multigrid";
   if (filled) {
     built.matrix =
         std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
@@ -137,7 +137,7 @@ void SpdSolver::make(const std::string& name, Built& built) const {
 }
 
 SpdSolver::Built& SpdSolver::build(const std::string& name) {
-  std::unique_ptr<Built>& built = built_[deforms() && system_.is_coupled() ? name + ", coupled" : name];
+  std::unique_ptr<Built>& built = built_[J_.any_deforms() && system_.is_coupled() ? name + ", coupled" : name];
   if (!built || is_outdated(*built)) make(name, *(built = std::make_unique<Built>()));
   if (!built->made.preconditioner) return *built;
   if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
@@ -148,14 +148,8 @@ SpdSolver::Built& SpdSolver::build(const std::string& name) {
 // Stiffness or contact has come or gone, and it shows. Contact at a few nodes does not: there a new one costs far more
 // than it saves (docs/decisions/0018-hierarchies-in-contact.md).
 bool SpdSolver::is_outdated(const Built& built) const {
-  constexpr double much = 4;
-  if (built.diagonal.size() == 0 || !built.has_become_slow()) return false;
-  const Eigen::ArrayXd change = system_.bodies().diagonal().array() / built.diagonal.array();
-  return change.maxCoeff() > much || change.minCoeff() < 1 / much;
-}
-
-bool SpdSolver::deforms() const {
-  return std::any_of(J_.blocks.begin(), J_.blocks.end(), [](const ColumnBlock& b) { return b.deforms(); });
+  return built.diagonal.size() > 0 && built.has_become_slow() &&
+         has_changed_much(system_.bodies().diagonal(), built.diagonal);
 }
 
 double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
@@ -197,7 +191,7 @@ SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vect
 // any the columns of J seen through a hierarchy are a model of their added mass, seen through a diagonal they are not.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || deforms()));
+  const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || J_.any_deforms()));
   return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
 }
 

@@ -64,7 +64,6 @@ class SpdSolver {
   void make(const std::string& name, Built& built) const;
   Built& build(const std::string& name);
   bool is_outdated(const Built& built) const;
-  bool deforms() const;
   double true_residual(const Problem& problem, const Vector& x) const;
   double make_compatible(Vector& b) const;
   std::string choose() const;
