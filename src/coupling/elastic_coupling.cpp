@@ -128,13 +128,6 @@ ColumnBlock make_block(std::vector<FluxEntry> entries, const std::vector<Freedom
   return block;
 }
 
-// Gravity on each node, and the scene's own forces.
-template <int Dim>
-Eigen::VectorXd forces(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& gravity, double t) {
-  const Eigen::VectorXd weight = solid.body.mass * gravity, own = applied_force_at(solid, t);
-  return own.size() > 0 ? Eigen::VectorXd(weight + own) : weight;
-}
-
 template <int Dim>
 void hold_pins(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, double end, double horizon, int first,
                SolidCoupling<Dim>& c) {
@@ -214,6 +207,18 @@ void set_columns(const PressureRows<Dim>& rows, const std::vector<std::size_t>& 
 
 }  // namespace
 
+// Gravity on each node, and the scene's own forces.
+template <int Dim>
+StepLoad step_load(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon, int k) {
+  const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+  const double start = state.time, end = state.time + horizon;
+  const Vec3 gravity = s.gravity.of_step(start, dt);
+  const Eigen::VectorXd before = applied_force_at(solid, start), own = applied_force_at(solid, end);
+  Eigen::VectorXd force = solid.body.mass * truncate<Dim>(gravity).replicate(solid.body.size() / Dim, 1);
+  if (own.size() > 0) force += own;
+  return {force, s.gravity.at(start) == gravity && s.gravity.at(end) == gravity && before == own};
+}
+
 template <int Dim>
 void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                            const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
@@ -230,7 +235,7 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     const ElasticState& e = state.elastic[k].state;
     const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
     hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
-    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, forces(solid, g_nodes, state.time + horizon));
+    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, step_load(s, state, dt, horizon, k));
     add_inertia(p, e.u, dt, horizon, first, parts);
     c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
     if (s.bodies[k].is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
@@ -248,9 +253,10 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), s.tampering.elastic_forces * dt, horizon);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
-                                         const NullSpace&, const State<D>&, double, double, CouplingParts<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,       \
+                                         const NullSpace&, const State<D>&, double, double, CouplingParts<D>&); \
+  template StepLoad step_load<D>(const Setup<D>&, const State<D>&, double, double, int);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -10,4 +10,9 @@ void couple_elastic_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geo
                            const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
                            CouplingParts<Dim>& parts);
 
+// What acts on elastic solid k beside liquid and contact in the solve for the horizon that follows `state`, dt the step
+// that led there.
+template <int Dim>
+StepLoad step_load(const Setup<Dim>& setup, const State<Dim>& state, double dt, double horizon, int k);
+
 }  // namespace seiche

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "coupling/air_volume.h"
 #include "coupling/coupled_solve.h"
+#include "coupling/elastic_coupling.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/prescribed_flow.h"
@@ -135,8 +136,10 @@ struct StepInProgress {
     std::vector<Eigen::VectorXd> w = elastic_velocities_over(s.bodies, before.elastic, before.time, dt, before.horizon);
     for (std::size_t k = 0; k < s.bodies.size(); ++k) {
       if (!s.bodies[k].is_elastic()) continue;
+      const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
       out.state.elastic[k].velocity = std::move(w[k]);
-      advance(s.elastic_scheme(), dt, out.state.elastic[k]);
+      advance(solid.body, s.elastic_scheme(), dt, step_load(s, before, before.dt_now, before.horizon, int(k)),
+              pins_at(solid, before.time + dt), out.state.elastic[k]);
     }
   }
 

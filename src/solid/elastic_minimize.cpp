@@ -206,7 +206,7 @@ MinimizeReport solve_static(const ElasticBody<Dim>& body, const Eigen::VectorXd&
   while (done < 1) {
     const double next = done + step > 1 - 1e-9 ? 1 : done + step;
     Eigen::VectorXd trial = u;
-    const IncrementalPotential<Dim> potential{&body, 0, {}, {}, next * force, {}};
+    const IncrementalPotential<Dim> potential{&body, 0, {}, {}, next * force, true, {}};
     const MinimizeReport report = minimize(potential, between(pins, start, next), options, workspace, trial);
     const int iterations = total.iterations + report.iterations, projected = total.projected + report.projected;
     total = report;

@@ -16,6 +16,7 @@ struct IncrementalPotential {
   Eigen::VectorXd base;    // u0, m
   Eigen::VectorXd target;  // v*, m/s
   Eigen::VectorXd force;   // f, N
+  bool constant = false;   // f is the same at both ends of the step
   SparseMatrix damping;    // C, kg/s; empty: none
 };
 

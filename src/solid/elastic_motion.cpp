@@ -24,9 +24,12 @@ ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   return m;
 }
 
-void advance(ElasticScheme scheme, double dt, ElasticMotion& motion) {
+template <int Dim>
+void advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt, const StepLoad& load, const Pins& pins,
+             ElasticMotion& motion) {
+  const auto potential = begin_step(body, motion.state, scheme, dt, load);
   const Eigen::VectorXd u = motion.state.u + dt * motion.velocity;
-  end_step(scheme, dt, u, motion.state);
+  end_step(potential, dt, pins, u, motion.state);
 }
 
 template <int Dim>
@@ -85,9 +88,11 @@ BodyAverage average(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, cons
   return r;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                     \
-  template ElasticMotion initial_elastic_motion<D>(const Body<D>&);                               \
-  template std::vector<Vec<D>> surface_points<D>(const ElasticSolid<D>&, const Eigen::VectorXd&); \
+#define SEICHE_INSTANTIATE(D)                                                                          \
+  template ElasticMotion initial_elastic_motion<D>(const Body<D>&);                                    \
+  template void advance<D>(const ElasticBody<D>&, ElasticScheme, double, const StepLoad&, const Pins&, \
+                           ElasticMotion&);                                                            \
+  template std::vector<Vec<D>> surface_points<D>(const ElasticSolid<D>&, const Eigen::VectorXd&);      \
   template BodyAverage average<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

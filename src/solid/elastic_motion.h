@@ -19,8 +19,11 @@ struct ElasticMotion {
 template <int Dim>
 ElasticMotion initial_elastic_motion(const Body<Dim>& body);
 
-// u + dt w, and the velocity that the scheme has there.
-void advance(ElasticScheme scheme, double dt, ElasticMotion& motion);
+// u + dt w, and the velocity that the scheme has there. `load` was that of the solve that w is from, `pins` are those
+// at the end of the step.
+template <int Dim>
+void advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt, const StepLoad& load, const Pins& pins,
+             ElasticMotion& motion);
 
 // Positions of the surface's points (ElasticSurface::facets) after displacements u of the nodes.
 template <int Dim>

@@ -1,5 +1,7 @@
 #include "solid/elastic_step.h"
 
+#include "solid/elastic_excess.h"
+
 namespace seiche {
 namespace {
 
@@ -38,42 +40,32 @@ ElasticState at_rest(const ElasticBody<Dim>& body) {
 
 template <int Dim>
 IncrementalPotential<Dim> begin_step(const ElasticBody<Dim>& body, const ElasticState& state, ElasticScheme scheme,
-                                     double dt, const Eigen::VectorXd& force) {
+                                     double dt, const StepLoad& load) {
   const auto [now, old, gamma] = weights(scheme, dt, state.dt_old);
-  return {&body,
-          gamma,
-          now * state.u + old * state.u_old,
-          now * state.v + old * state.v_old,
-          force,
-          rayleigh_damping(body, state.u)};
+  return {&body,      gamma,         now * state.u + old * state.u_old, now * state.v + old * state.v_old,
+          load.force, load.constant, rayleigh_damping(body, state.u)};
 }
 
-static void take(double gamma, const Eigen::VectorXd& base, double dt, const Eigen::VectorXd& u, ElasticState& state) {
+template <int Dim>
+void end_step(const IncrementalPotential<Dim>& potential, double dt, const Pins& pins, const Eigen::VectorXd& u,
+              ElasticState& state) {
+  Eigen::VectorXd v = (u - potential.base) / potential.gamma;
+  remove_excess_energy(potential, pins, {state.u, state.v, u}, v);
   state.u_old = state.u;
   state.v_old = state.v;
   state.u = u;
-  state.v = (u - base) / gamma;
+  state.v = v;
   state.dt_old = dt;
 }
 
 template <int Dim>
-void end_step(const IncrementalPotential<Dim>& potential, double dt, const Eigen::VectorXd& u, ElasticState& state) {
-  take(potential.gamma, potential.base, dt, u, state);
-}
-
-void end_step(ElasticScheme scheme, double dt, const Eigen::VectorXd& u, ElasticState& state) {
-  const auto [now, old, gamma] = weights(scheme, dt, state.dt_old);
-  take(gamma, now * state.u + old * state.u_old, dt, u, state);
-}
-
-template <int Dim>
-MinimizeReport advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt, const Eigen::VectorXd& force,
+MinimizeReport advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt, const StepLoad& load,
                        const Pins& pins, const MinimizeOptions& options, ElasticWorkspace& workspace,
                        ElasticState& state) {
-  const auto potential = begin_step(body, state, scheme, dt, force);
+  const auto potential = begin_step(body, state, scheme, dt, load);
   Eigen::VectorXd u = state.u;
   const MinimizeReport report = minimize(potential, pins, options, workspace, u);
-  if (report.converged) end_step(potential, dt, u, state);
+  if (report.converged) end_step(potential, dt, pins, u, state);
   return report;
 }
 
@@ -82,13 +74,14 @@ double kinetic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& v) {
   return v.dot(body.mass * v) / 2;
 }
 
-#define SEICHE_INSTANTIATE(Dim)                                                                                   \
-  template ElasticState at_rest<Dim>(const ElasticBody<Dim>&);                                                    \
-  template IncrementalPotential<Dim> begin_step<Dim>(const ElasticBody<Dim>&, const ElasticState&, ElasticScheme, \
-                                                     double, const Eigen::VectorXd&);                             \
-  template void end_step<Dim>(const IncrementalPotential<Dim>&, double, const Eigen::VectorXd&, ElasticState&);   \
-  template MinimizeReport advance<Dim>(const ElasticBody<Dim>&, ElasticScheme, double, const Eigen::VectorXd&,    \
-                                       const Pins&, const MinimizeOptions&, ElasticWorkspace&, ElasticState&);    \
+#define SEICHE_INSTANTIATE(Dim)                                                                                      \
+  template ElasticState at_rest<Dim>(const ElasticBody<Dim>&);                                                       \
+  template IncrementalPotential<Dim> begin_step<Dim>(const ElasticBody<Dim>&, const ElasticState&, ElasticScheme,    \
+                                                     double, const StepLoad&);                                       \
+  template void end_step<Dim>(const IncrementalPotential<Dim>&, double, const Pins&, const Eigen::VectorXd&,         \
+                              ElasticState&);                                                                        \
+  template MinimizeReport advance<Dim>(const ElasticBody<Dim>&, ElasticScheme, double, const StepLoad&, const Pins&, \
+                                       const MinimizeOptions&, ElasticWorkspace&, ElasticState&);                    \
   template double kinetic_energy<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -15,22 +15,26 @@ struct ElasticState {
 template <int Dim>
 ElasticState at_rest(const ElasticBody<Dim>& body);
 
-// What the step from `state` over dt minimises, under the force f at its end (N, gravity included).
+// f of a step, gravity included.
+struct StepLoad {
+  Eigen::VectorXd force;  // at the end of the step, N
+  bool constant = false;  // the same at its start
+};
+
+// What the step from `state` over dt minimises.
 template <int Dim>
 IncrementalPotential<Dim> begin_step(const ElasticBody<Dim>& body, const ElasticState& state, ElasticScheme scheme,
-                                     double dt, const Eigen::VectorXd& force);
+                                     double dt, const StepLoad& load);
 
-// Takes the minimum u as the new state; v = (u - u0) / gamma.
+// Takes the minimum u as the new state; v = (u - u0) / gamma without energy that the scheme added (elastic_excess.h).
 template <int Dim>
-void end_step(const IncrementalPotential<Dim>& potential, double dt, const Eigen::VectorXd& u, ElasticState& state);
-
-// The same where only the scheme is at hand.
-void end_step(ElasticScheme scheme, double dt, const Eigen::VectorXd& u, ElasticState& state);
+void end_step(const IncrementalPotential<Dim>& potential, double dt, const Pins& pins, const Eigen::VectorXd& u,
+              ElasticState& state);
 
 // begin, minimize from the displacements before the step, end. On failure the state is left as it was.
 template <int Dim>
 [[nodiscard]] MinimizeReport advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt,
-                                     const Eigen::VectorXd& force, const Pins& pins, const MinimizeOptions& options,
+                                     const StepLoad& load, const Pins& pins, const MinimizeOptions& options,
                                      ElasticWorkspace& workspace, ElasticState& state);
 
 // J

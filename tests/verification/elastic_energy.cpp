@@ -1,6 +1,10 @@
 // Energy of elastic bodies without liquid, gravity and friction.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
+#include <functional>
+
 #include "elastic_scenes.h"
 #include "rigid_scenes.h"
 
@@ -10,21 +14,21 @@ using namespace seiche::test;
 namespace {
 
 // A bar in empty space that turns and is stretched by that.
-Scene flying_bar(int dim) {
+Scene flying_bar(int dim, TimeScheme scheme) {
   Scene s = box_scene(dim, 16);
   const double z = dim == 3 ? 1 : 0;
   SolidSpec bar =
       elastic_box("bar", {0.35, 0.45, 0.45 * z}, {0.65, 0.55, 0.55 * z}, 1000, {1e5, 0.4}, dim == 2 ? 0.05 : 0.1);
   bar.rigid.angular_velocity = {0, 0, 25};
   s.solids.push_back(bar);
-  s.time.scheme = TimeScheme::first_order;
+  s.time.scheme = scheme;
   s.time.fixed_step = 2e-3;
   return s;
 }
 
 // A turning bar that flies at a soft block, this at a ball, all of them then about between the walls, without friction.
-Scene collisions(int dim) {
-  Scene s = flying_bar(dim);
+Scene collisions(int dim, TimeScheme scheme) {
+  Scene s = flying_bar(dim, scheme);
   const double z = dim == 3 ? 1 : 0;
   SolidSpec& bar = s.solids[0];
   bar.shape.lower[0] = 0.1, bar.shape.upper[0] = 0.4;
@@ -34,6 +38,21 @@ Scene collisions(int dim) {
   s.solids.push_back(block);
   s.solids.push_back(rigid_ball("ball", 0.1, {0.8, 0.5, 0.5 * z}, 800));
   for (SolidSpec& solid : s.solids) solid.friction = 0;
+  return s;
+}
+
+// A full channel in which liquid goes round at up to 1 m/s, and a flap of a hundredth of its density on the floor.
+Scene vortices_about_flap(int dim, TimeScheme scheme, double stiffness) {
+  Scene s = box_scene(dim, dim == 2 ? 48 : 20);
+  for (int a = 1; a < dim; ++a) s.domain.cells[a] /= 2, s.domain.upper[a] = 0.5;
+  add_liquid(s, "-1");
+  s.liquid.velocity = {"sin(6.2831853*x)*cos(6.2831853*y)", "-cos(6.2831853*x)*sin(6.2831853*y)", "0"};
+  s.time.cfl = 2;
+  s.time.scheme = scheme;
+  const double thick = dim == 2 ? 0.05 : 0.12;
+  SolidSpec flap = elastic_box("flap", {0.48, 0, 0.13}, {0.48 + thick, 0.3, 0.37}, 10, {stiffness, 0.4}, thick / 2);
+  pin(flap, {0.4, -0.1, -1}, {0.7, 0, 1});
+  s.solids.push_back(flap);
   return s;
 }
 
@@ -68,40 +87,62 @@ Energies energies(const Scene& scene, int steps) {
 
 constexpr double round_off = 1e-10;  // of the energy, where it is not to grow
 
+// Of a scene in 2D and 3D under both schemes.
+void for_each_scheme(const std::function<void(int dim, TimeScheme scheme, const std::string& name)>& look) {
+  for (const int dim : {2, 3})
+    for (const auto scheme : {TimeScheme::first_order, TimeScheme::second_order})
+      look(dim, scheme, fmt::format("{}D, {} order", dim, scheme == TimeScheme::first_order ? "first" : "second"));
+}
+
+void report(const std::string& name, const Energies& e) {
+  WARN(name << ": " << e.touching << " steps in contact; most " << e.most << " of the first energy, bar 1 + "
+            << round_off << "; largest growth of a step apart " << e.growth << ", in contact " << e.growth_touching
+            << "; left " << e.last);
+}
+
 }  // namespace
 
-TEST_CASE("a free elastic body gains no energy in any step of first order", "[elastic]") {
-  for (int dim : {2, 3}) {
-    const Energies e = energies(flying_bar(dim), dim == 2 ? 200 : 60);
-    WARN(dim << "D: largest growth of a step " << e.growth << " of the first energy, bar " << round_off << "; left "
-             << e.last);
+TEST_CASE("a free elastic body gains no energy in any step", "[elastic]") {
+  for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
+    const Energies e = energies(flying_bar(dim, scheme), dim == 2 ? 200 : 60);
+    report(name, e);
     CHECK(e.growth <= round_off);
     CHECK(e.last > 0.1);  // it still turns
-  }
+  });
 }
 
 // What the barrier of contact holds is counted nowhere: a step may get back what one before it lost.
 TEST_CASE("an elastic body thrown at a wall never has more energy than it came with", "[elastic]") {
-  for (int dim : {2, 3}) {
-    Scene s = flying_bar(dim);
+  for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
+    Scene s = flying_bar(dim, scheme);
     s.solids[0].rigid.velocity = {3, 0.5, 0};
     const Energies e = energies(s, dim == 2 ? 200 : 80);
-    WARN(dim << "D: " << e.touching << " steps in contact; most " << e.most << " of the first energy, bar 1 + "
-             << round_off << "; largest growth of a step apart " << e.growth << ", in contact " << e.growth_touching
-             << "; left " << e.last);
+    report(name, e);
     CHECK(e.touching > 0);
+    CHECK(e.growth <= round_off);
     CHECK(e.most <= 1 + round_off);
-  }
+  });
 }
 
 TEST_CASE("elastic and rigid bodies that collide without friction never have more energy than they came with",
           "[elastic]") {
-  for (int dim : {2, 3}) {
-    const Energies e = energies(collisions(dim), dim == 2 ? 300 : 60);
-    WARN(dim << "D: " << e.touching << " steps in contact; most " << e.most << " of the first energy, bar 1 + "
-             << round_off << "; largest growth of a step apart " << e.growth << ", in contact " << e.growth_touching
-             << "; left " << e.last);
+  for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
+    const Energies e = energies(collisions(dim, scheme), dim == 2 ? 300 : 60);
+    report(name, e);
     CHECK(e.touching > 10);
     CHECK(e.most <= 1 + round_off);
-  }
+  });
+}
+
+// What the liquid loses to the flap's edges and to numerical viscosity outweighs what its transport, which conserves no
+// energy, may gain.
+TEST_CASE("liquid that goes round a light flap and this never gain energy in a step", "[elastic]") {
+  for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
+    for (const double stiffness : {1e4, 1e8}) {
+      const Energies e = energies(vortices_about_flap(dim, scheme, stiffness), dim == 2 ? 25 : 8);
+      report(fmt::format("{}, E {:g} Pa", name, stiffness), e);
+      CHECK(std::max(e.growth, e.growth_touching) <= round_off);
+      CHECK(e.last > 0.5);  // it still flows
+    }
+  });
 }
