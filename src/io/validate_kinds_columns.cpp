@@ -50,6 +50,27 @@ Measurement column_drift(const MeasureSpec& spec, const RunPaths& run) {
   return {largest, {}, largest};
 }
 
+// Kinetic and elastic energy, J.
+Points energy_series(const MeasureSpec& spec, const RunPaths& run) {
+  const std::string text = read_whole_file(run.stats());
+  const std::vector<double> elastic = csv_column(text, "elastic_energy");
+  MeasureSpec kinetic = spec;
+  kinetic.column = "kinetic_energy";
+  Points points = column_series(kinetic, run);
+  for (std::size_t n = 0; n < points.size(); ++n) points[n].second += elastic[n];
+  return points.empty() ? points : points_during(points, spec.from, points.back().first);
+}
+
+// The largest rise in a step, over what there was first; 0 where it never rises.
+Measurement energy_growth(const MeasureSpec& spec, const RunPaths& run) {
+  const Points energy = energy_series(spec, run);
+  if (energy.size() < 2) throw Error(ExitCode::cannot_continue, "stats.csv has too few rows");
+  double largest = 0;
+  for (std::size_t n = 1; n < energy.size(); ++n)
+    largest = std::max(largest, (energy[n].second - energy[n - 1].second) / energy[0].second);
+  return itself(largest);
+}
+
 // value/unit over time/time_unit, against the data.
 Measurement column_rms(const MeasureSpec& spec, const RunPaths& run) {
   Points points = column_series(spec, run);
@@ -104,6 +125,7 @@ std::vector<MeasureKind> measures_of_columns() {
       {"column_rms", {"column", "time_unit", "unit", "data"}, column_rms, column_series},
       {"column_fall", {"column", "from", "to", "unit", "reference"}, column_fall, falls},
       {"column_fall_time", {"column", "from", "to", "reference"}, column_fall_time, falls},
+      {"energy_growth", {"from"}, energy_growth, energy_series},
       {"volume_drift", {}, volume_drift_of_run},
   };
 }

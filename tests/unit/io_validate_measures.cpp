@@ -217,7 +217,7 @@ TEST_CASE("a run that does not hold what is measured is said not to be measurabl
        {"vector_l2",       "period_of_probe", "front_slope",   "max_of_column", "column_drift", "volume_drift",
         "solid_mean",      "solid_slope",     "solids_stray",  "probe_period",  "probe_mean",   "probe_peak",
         "probe_peak_time", "probe_amplitude", "probe_arrival", "column_rms",    "column_fall",  "column_fall_time",
-        "solid_amplitude", "solid_middle",    "solid_rms"}) {
+        "solid_amplitude", "solid_middle",    "solid_rms",     "energy_growth"}) {
     MeasureSpec spec;
     spec.kind = kind;
     try {
@@ -237,6 +237,12 @@ TEST_CASE("a run that does not hold what is measured is said not to be measurabl
   spec.kind = "column_drift";
   put(run.stats(), "step,max_speed\n0,2\n1,1\n2,2.5\n");
   CHECK(measure(spec, run).error == 0.5);
+  spec.kind = "energy_growth";
+  spec.from = 0.5;  // the rise before does not count
+  put(run.stats(), "time,kinetic_energy,elastic_energy\n0,1,0\n1,3,1\n2,2,1.5\n3,1.5,2.5\n4,0,1\n");
+  CHECK(measure(spec, run).error == 0.125);
+  spec.from = 2.5;
+  CHECK(measure(spec, run).error == 0);
   put(run.summary(), "{\n  \"volume_drift\": -0.25\n}\n");
   spec.kind = "volume_drift";
   CHECK(measure(spec, run).error == 0.25);
