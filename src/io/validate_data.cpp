@@ -221,10 +221,30 @@ Points points_during(const Points& points, double from, double to) {
   return points_where(points, [&](double x, double) { return x >= from - slack && x <= to + slack; });
 }
 
-Points solid_points(const std::string& text, const std::string& solid, const std::string& column) {
-  const Points points = named_points(rows_of(text), solid, column);
+namespace {
+
+Points points_of_solid(const std::vector<std::vector<std::string>>& rows, const std::string& solid,
+                       const std::string& column) {
+  const Points points = named_points(rows, solid, column);
   if (points.empty()) fail(fmt::format("solids.csv has no rows of '{}'", solid));
   return points;
+}
+
+}  // namespace
+
+Points solid_points(const std::string& text, const std::string& solids, const std::string& column) {
+  const auto rows = rows_of(text);
+  constexpr std::string_view plus = " + ";
+  std::size_t end = solids.find(plus);
+  Points sum = points_of_solid(rows, solids.substr(0, end), column);
+  while (end != std::string::npos) {
+    const std::size_t begin = end + plus.size();
+    end = solids.find(plus, begin);
+    const Points more = points_of_solid(rows, solids.substr(begin, end - begin), column);
+    if (more.size() != sum.size()) fail(fmt::format("solids.csv has not as many rows of each of '{}'", solids));
+    for (std::size_t n = 0; n < sum.size(); ++n) sum[n].second += more[n].second;
+  }
+  return sum;
 }
 
 double farthest_stray(const std::string& text, double from) {

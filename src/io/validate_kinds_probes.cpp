@@ -17,7 +17,8 @@ Points component_of_probe(const MeasureSpec& spec, const RunPaths& run) {
 }
 
 Measurement probe_period(const MeasureSpec& spec, const RunPaths& run) {
-  return against(mean_period(component_of_probe(spec, run), constant(spec.level)), constant(spec.reference));
+  const Points points = points_during(component_of_probe(spec, run), spec.from, spec.to);
+  return against(mean_period(points, constant(spec.level)), constant(spec.reference));
 }
 
 Measurement probe_mean(const MeasureSpec& spec, const RunPaths& run) {
@@ -113,7 +114,7 @@ Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
 std::vector<MeasureKind> measures_of_probes() {
   return {
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
-      {"probe_period", {"probe", "column", "level", "reference"}, probe_period, component_of_probe},
+      {"probe_period", {"probe", "column", "level", "from", "to", "reference"}, probe_period, component_of_probe},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
       {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
       {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},

@@ -54,8 +54,8 @@ double slope_during(const Points& points, double from, double to);
 // oscillations that go round more than twice. Throws Error(cannot_continue) where the points do not reach that far.
 double settled_mean(const Points& points, double from, double to);
 
-// time and a column of one solid, from the text of solids.csv.
-Points solid_points(const std::string& text, const std::string& solid, const std::string& column);
+// time and a column of a solid, or its sum over "several + solids", from the text of solids.csv.
+Points solid_points(const std::string& text, const std::string& solids, const std::string& column);
 
 // Root of the mean square of y(x) - z(x) over the points of z, y by straight lines. Throws Error(cannot_continue) where
 // y does not reach as far as z.

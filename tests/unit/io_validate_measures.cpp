@@ -101,7 +101,10 @@ TEST_CASE("a settled mean leaves next to nothing of an oscillation, whatever the
 TEST_CASE("rows of one solid are picked from solids.csv, and the farthest way of all") {
   const std::string text = "time,name,x,y,z\n0,a,0,0,0\n0,b,5,5,5\n1,a,1,2,0\n1,b,5,5,5\n2,a,1,2,0\n2,b,5,8,1\n";
   CHECK(solid_points(text, "a", "y") == Points{{0, 0}, {1, 2}, {2, 2}});
+  CHECK(solid_points(text, "a + b", "y") == Points{{0, 5}, {1, 7}, {2, 10}});
   CHECK_THROWS_AS(solid_points(text, "c", "y"), Error);
+  CHECK_THROWS_AS(solid_points(text, "a + c", "y"), Error);
+  CHECK_THROWS_WITH(solid_points(text + "3,a,1,2,0\n", "a + b", "y"), Catch::Contains("as many rows"));
   CHECK(farthest_stray(text, 1) == 5);
   CHECK(farthest_stray(text, 2) == 0);
   CHECK_THROWS_AS(farthest_stray(text, 3), Error);
