@@ -9,7 +9,6 @@
 #include "io/info.h"
 #include "io/run_directory.h"
 #include "io/scene_writer.h"
-#include "io/validate_case.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
@@ -26,11 +25,6 @@ std::string sum_of(const fs::path& file) {
   } catch (const Error& error) {
     throw Error(ExitCode::bad_input, error.what());
   }
-}
-
-const std::string& sum_of_program() {
-  static const std::string sum = sum_of(program_file());
-  return sum;
 }
 
 std::vector<fs::path> files_of(const Scene& scene) {
@@ -70,7 +64,7 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 }  // namespace
 
 std::string run_identity(const Scene& scene, int ranks, const std::string& tampering) {
-  std::string text = fmt::format("seiche {}, program {}\nranks {}\n", version(), sum_of_program(), ranks);
+  std::string text = fmt::format("seiche {}, build {}\nranks {}\n", version(), build_digest(), ranks);
   if (!tampering.empty()) text += fmt::format("broken {}\n", tampering);
   for (const fs::path& file : files_of(scene)) text += fmt::format("file {}\n", sum_of(file));
   return text;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs that need not be made again: those of the same scene by the same program on as many ranks.
+// Runs that need not be made again: those of the same scene on as many ranks by a build that gives the same.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// What makes a run the same but for its scene: version and bytes of the program, ranks, what is broken for a test, the
-// bytes of the files that the scene names. Throws Error(bad_input) where such a file cannot be read.
+// What makes a run the same but for its scene: version and digest of the build (base/version.h), ranks, what is broken
+// for a test, the bytes of the files that the scene names. Throws Error(bad_input) where such a file cannot be read.
 std::string run_identity(const Scene& scene, int ranks, const std::string& tampering);
 
 enum class Earlier { use, ignore };

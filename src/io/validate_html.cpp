@@ -105,8 +105,8 @@ std::string contents_of(const Report& report) {
 
 std::string format_html(const Report& report) {
   std::string text = head;
-  text += fmt::format("<h1>Validation</h1>\n<p>Seiche {}, level {}, {} rank{}: {}.</p>\n", version(), report.level,
-                      report.ranks, report.ranks == 1 ? "" : "s", table_summary(report));
+  text += fmt::format("<h1>Validation</h1>\n<p>Seiche {}, build {}, level {}, {} rank{}: {}.</p>\n", version(),
+                      build_digest(), report.level, report.ranks, report.ranks == 1 ? "" : "s", table_summary(report));
   text += contents_of(report);
   for (const auto& rows : by_case(report)) text += section_of(report, rows);
   return text + "</body></html>\n";

@@ -73,11 +73,12 @@ std::string words_on_misses(const std::vector<ReportedResult>& rows) {
 
 std::string format_markdown(const Report& report) {
   std::string text = fmt::format(
-      "# What was validated\n\nWritten by `seiche validate --level {} --write-docs`, version {}, {} rank{}: {}. "
+      "# What was validated\n\nWritten by `seiche validate --level {} --write-docs`, version {}, build {}, {} rank{}: "
+      "{}. "
       "[Validating](validating.md) tells how cases are run and judged; a case's own page is "
       "`validation/<case>/README.md`. \"order\" is that from the run above, \"fit\" the least-squares order over all "
       "runs of a case, \"least\" the fit that passes.\n\n",
-      report.level, version(), report.ranks, report.ranks == 1 ? "" : "s", table_summary(report));
+      report.level, version(), build_digest(), report.ranks, report.ranks == 1 ? "" : "s", table_summary(report));
   text += list_of_misses(report);
   for (const auto& rows : by_case(report)) text += section_of(report, rows);
   while (text.ends_with("\n\n")) text.pop_back();

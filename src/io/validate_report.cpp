@@ -157,6 +157,7 @@ std::string format_report(const Report& report) {
   const bool complete = report.results.size() == report.planned;
   const bool passed = count(report, Verdict::passed) == std::ptrdiff_t(report.planned);
   return object({{"version", json_string(version())},
+                 {"build", json_string(build_digest())},
                  {"level", json_string(report.level)},
                  {"ranks", std::to_string(report.ranks)},
                  {"complete", complete ? "true" : "false"},

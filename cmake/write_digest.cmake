@@ -1,0 +1,11 @@
+# Writes OUTPUT, a source with the digest of SETTINGS and of the files that SOURCES lists, by their names below ROOT.
+file(STRINGS "${SOURCES}" files)
+set(all "${SETTINGS}")
+foreach(name IN LISTS files)
+  file(SHA256 "${name}" sum)
+  file(RELATIVE_PATH below "${ROOT}" "${name}")
+  string(APPEND all "\n${below} ${sum}")
+endforeach()
+string(SHA256 digest "${all}")
+string(SUBSTRING "${digest}" 0 16 digest)
+file(WRITE "${OUTPUT}" "#include \"base/version.h\"\n\nnamespace seiche {\n\nstd::string build_digest() {\n  return \"${digest}\";\n}\n\n}  // namespace seiche\n")
