@@ -36,26 +36,13 @@ Scene random_scene(int dim, Filling filling, int seed) {
   return s;
 }
 
-template <class Check>
-void for_random_projections(const Check& check) {
-  for (const Filling filling : {Filling::closed, Filling::surface, Filling::outflow})
-    for (int seed = 0; seed < 4; ++seed) {
-      Dice dice{std::mt19937(unsigned(seed + 2000))};
-      // Displacements of up to a hundredth of an element.
-      const auto deform = [&](ElasticState& e) {
-        for (double& u : e.u) u = dice(-5e-4, 5e-4);
-        for (double& v : e.v) v += dice(-0.1, 0.1);
-      };
-      check(Projection<2>(random_scene(2, filling, seed), filling, seed, deform));
-      check(Projection<3>(random_scene(3, filling, seed), filling, seed, deform));
-    }
-}
+constexpr double of_an_element = 5e-4;  // m, a hundredth
 
 }  // namespace
 
 TEST_CASE("the flux elastic bodies push and the force the pressure exerts on them are transposes", "[elastic]") {
   double worst = 0;
-  for_random_projections([&](auto p) { worst = std::max(worst, adjointness_error(p)); });
+  for_random_projections(random_scene, of_an_element, [&](auto p) { worst = std::max(worst, adjointness_error(p)); });
   WARN("<p, J v> against <J'p, v>: " << worst << ", bar 1e-12");
   CHECK(worst <= 1e-12);
 }
@@ -63,7 +50,7 @@ TEST_CASE("the flux elastic bodies push and the force the pressure exerts on the
 TEST_CASE("linear momentum of liquid and elastic bodies changes by gravity and by what walls and solids give",
           "[elastic]") {
   double worst = 0;
-  for_random_projections([&](auto p) {
+  for_random_projections(random_scene, of_an_element, [&](auto p) {
     p.solve();
     worst = std::max(worst, Balance(p).error(&Momentum::linear));
   });

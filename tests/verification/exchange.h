@@ -241,4 +241,20 @@ double adjointness_error(Projection<Dim>& p) {
   return std::abs(fluxes - forces) / size;
 }
 
+// Projections of scenes made for a dimension, a filling and a seed, elastic nodes displaced by up to `far` (m), in 2D
+// and 3D.
+template <class Check>
+void for_random_projections(Scene (*make)(int, Filling, int), double far, const Check& check) {
+  for (const Filling filling : {Filling::closed, Filling::surface, Filling::outflow})
+    for (int seed = 0; seed < 4; ++seed) {
+      Dice dice{std::mt19937(unsigned(seed + 2000))};
+      const auto deform = [&](ElasticState& e) {
+        for (double& u : e.u) u = dice(-far, far);
+        for (double& v : e.v) v += dice(-0.1, 0.1);
+      };
+      check(Projection<2>(make(2, filling, seed), filling, seed, deform));
+      check(Projection<3>(make(3, filling, seed), filling, seed, deform));
+    }
+}
+
 }  // namespace seiche::test
