@@ -4,6 +4,7 @@
 #include "coupling/restore.h"
 #include "coupling/shear_jump.h"
 #include "coupling/sources.h"
+#include "coupling/two_fluids.h"
 #include "coupling/viscous_transport.h"
 #include "fluid/advection.h"
 #include "grid/loops.h"
@@ -323,12 +324,13 @@ FaceField<Dim, char> faces_near_gas(const Setup<Dim>& s, const CellField<Dim>& p
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                                   const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
-  const FaceField<Dim, char> wet = faces_near_liquid(s, phi);
-  FaceField<Dim> u = transport_flow(s, state, liquid_flow(state), wet, dt, plan, geometry);
-  if (s.has_gas()) {
+  const bool as_one = flow_as_one(s);
+  const FaceField<Dim, char> near = as_one ? FaceField<Dim, char>(s.layout, 1) : faces_near_liquid(s, phi);
+  FaceField<Dim> u =
+      transport_flow(s, state, as_one ? flow_of_both(s, state) : liquid_flow(state), near, dt, plan, geometry);
+  if (s.has_gas() && !as_one)
     join(s, phi, transport_flow(s, state, state.gas, faces_near_gas(s, phi), dt, plan, geometry), u);
-    add_shear_jump(s, state, phi, dt, u);
-  }
+  if (s.has_gas()) add_shear_jump(s, state, phi, dt, u);
   set_source_velocity(s, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
   return u;

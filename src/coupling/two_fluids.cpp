@@ -8,9 +8,40 @@ namespace {
 
 // Whether a face belongs to the gas: by where it was solved for, else by the surface.
 template <int Dim>
-bool is_gas_face(const State<Dim>& state, const Layout<Dim>& layout, int axis, Site f) {
-  if (state.now->valid.at(axis, f)) return false;
-  return state.gas.now->valid.at(axis, f) || state.phi[f] + state.phi[f - layout.stride(axis)] >= 0;
+bool is_gas_face(const Level<Dim>& liquid, const Level<Dim>& gas, const CellField<Dim>& phi, Site stride, int axis,
+                 Site f) {
+  if (liquid.valid.at(axis, f)) return false;
+  return gas.valid.at(axis, f) || phi[f] + phi[f - stride] >= 0;
+}
+
+// On each face `field` of the fluid that is there.
+template <int Dim>
+FaceField<Dim> of_levels(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& liquid,
+                         const Level<Dim>& gas, FaceField<Dim> Level<Dim>::*field) {
+  FaceField<Dim> r = liquid.*field;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (is_gas_face(liquid, gas, phi, s.layout.stride(a), a, f)) r.at(a, f) = (gas.*field).at(a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, r);
+  return r;
+}
+
+// Valid where either is; null without both.
+template <int Dim>
+std::shared_ptr<const Level<Dim>> level_of_both(const Setup<Dim>& s, const CellField<Dim>& phi,
+                                                const std::shared_ptr<const Level<Dim>>& liquid,
+                                                const std::shared_ptr<const Level<Dim>>& gas) {
+  if (!liquid || !gas) return {};
+  auto r = std::make_shared<Level<Dim>>(*liquid);
+  r->u = of_levels(s, phi, *liquid, *gas, &Level<Dim>::u);
+  r->q = of_levels(s, phi, *liquid, *gas, &Level<Dim>::q);
+  if (s.is_viscous()) r->n = of_levels(s, phi, *liquid, *gas, &Level<Dim>::n);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.padded(), [&](Site f) {
+      if (!r->valid.at(a, f)) r->valid.at(a, f) = gas->valid.at(a, f);
+    });
+  return r;
 }
 
 // (U + sqrt(sigma/(rho h))) h/nu: how far the flow, and the shortest capillary wave, go in the time in which viscosity
@@ -32,19 +63,25 @@ double reynolds_number_of_cell(const Setup<Dim>& s, const State<Dim>& state) {
 
 template <int Dim>
 FaceField<Dim> of_both(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field) {
-  FaceField<Dim> r = (*state.now).*field;
-  if (!state.gas.now) return r;
-  const FaceField<Dim>& gas = (*state.gas.now).*field;
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (is_gas_face(state, s.layout, a, f)) r.at(a, f) = gas.at(a, f);
-    });
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, r);
-  return r;
+  return state.gas.now ? of_levels(s, state.phi, *state.now, *state.gas.now, field) : (*state.now).*field;
+}
+
+template <int Dim>
+bool flow_as_one(const Setup<Dim>& s) {
+  constexpr double alike = 4;
+  if (!s.has_gas() || s.scene.liquid.surface_tension > 0) return false;
+  return std::max(s.density(), s.gas_density()) <= alike * std::min(s.density(), s.gas_density());
+}
+
+template <int Dim>
+Flow<Dim> flow_of_both(const Setup<Dim>& s, const State<Dim>& state) {
+  const auto join = [&](const auto& liquid, const auto& gas) { return level_of_both(s, state.phi, liquid, gas); };
+  return {join(state.now, state.gas.now), join(state.before, state.gas.before), join(state.earlier, state.gas.earlier)};
 }
 
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Setup<Dim>& s, const State<Dim>& state) {
+  if (flow_as_one(s)) return of_both(s, state, &Level<Dim>::u);
   FaceField<Dim> u = state.now->u;
   if (!s.has_gas()) return u;
   constexpr double resolved = 10;
@@ -85,6 +122,8 @@ void mix_gas_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, CellField
 
 #define SEICHE_INSTANTIATE(D)                                                                   \
   template FaceField<D> flow_at_surface<D>(const Setup<D>&, const State<D>&);                   \
+  template bool flow_as_one<D>(const Setup<D>&);                                                \
+  template Flow<D> flow_of_both<D>(const Setup<D>&, const State<D>&);                           \
   template FaceField<D> of_both<D>(const Setup<D>&, const State<D>&, FaceField<D> Level<D>::*); \
   template void keep_faces<D>(const Layout<D>&, const FaceField<D, char>&, Level<D>&);          \
   template void mix_gas_viscosity<D>(const Setup<D>&, const CellField<D>&, CellField<D>&, EdgeField<D>&);

@@ -8,10 +8,22 @@ namespace seiche {
 template <int Dim>
 FaceField<Dim> of_both(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
 
-// What the surface goes with. Where a cell is thin for viscosity, the mean of both flows, each continued beyond the
-// surface: they agree there but for what either continues wrongly. Where the fluids slip along each other, as far as
-// the grid can tell, or no tension shapes the surface, the liquid's alone: the gas's may have another velocity across
-// the surface a cell away. In between, from a cell's Reynolds number of 10 to 20, from one to the other. Collective.
+// Whether both fluids, and the surface with them, are carried by one velocity that is read across the surface. Where
+// their densities are alike (within 4) and no tension holds the surface: what light fluid and heavy exchange by
+// interpolation is small then, while each by itself, continued beyond the surface, moves shear at it wrongly, which
+// makes a dent at the top of a Rayleigh-Taylor bubble.
+template <int Dim>
+bool flow_as_one(const Setup<Dim>& setup);
+
+// The time levels of that velocity.
+template <int Dim>
+Flow<Dim> flow_of_both(const Setup<Dim>& setup, const State<Dim>& state);
+
+// What the surface goes with: the velocity of both where they flow as one. Else, where a cell is thin for viscosity,
+// the mean of both flows, each continued beyond the surface: they agree there but for what either continues wrongly.
+// Where the fluids slip along each other, as far as the grid can tell, or no tension shapes the surface, the liquid's
+// alone: the gas's may have another velocity across the surface a cell away. In between, from a cell's Reynolds number
+// of 10 to 20, from one to the other. Collective.
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Setup<Dim>& setup, const State<Dim>& state);
 
