@@ -15,6 +15,9 @@ constexpr double small_share = 0.2;
 // hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0017-viscous-speed.md).
 constexpr double share_left = 0.1;
 constexpr int most_steps = 16;
+// On the coarsest level, by hypre's number: F is not singular, and one relaxation leaves what a stiff inclusion does as a
+// whole.
+constexpr int elimination = 9;
 
 bool is_mass_dominated(const LinearSystem& F) {
   double worst = 0;
@@ -75,6 +78,7 @@ VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const Am
 void VelocityPreconditioner::make_multigrid(AmgSettings settings) {
   settings.component = K_.system().axis;
   settings.components = count_axes(settings.component, K_.ranks());
+  settings.relax_coarsest = elimination;
   B_ = make_boomeramg(K_.faces(), settings).preconditioner;
 }
 
