@@ -8,8 +8,9 @@
 namespace seiche {
 namespace {
 
-// The diagonal of a row of liquid varies by less between its faces; levels are as far apart.
-constexpr double level_ratio = 30;
+// Diagonals and links of liquid of one viscosity vary by less; levels are further apart, or what differs between them
+// would often be a fringe of faces alone.
+constexpr double alike = 30, level_ratio = 1000;
 
 // Sets of this rank's rows that are joined, each with the lowest row that it is known to reach.
 class JoinedRows {
@@ -44,7 +45,7 @@ class JoinedRows {
     for (int i = 0; i < F_.rows(); ++i) {
       if (flags_[std::size_t(i)] == 0) continue;
       for (int k = P.row_start[i]; k < P.row_start[i + 1]; ++k) {
-        if (std::abs(F_.values()[std::size_t(k)]) * level_ratio < level) continue;
+        if (std::abs(F_.values()[std::size_t(k)]) * alike < level) continue;
         const int j = F_.halo().local_index(P.column[k]);
         if (flags_[std::size_t(j)] != 0) visit(i, j);
       }
@@ -109,27 +110,40 @@ void keep_largest(std::vector<StiffRegion>& regions, std::size_t most) {
   if (regions.size() > most) regions.resize(most);
 }
 
+// Takes out sets that are next to what an earlier level found. Collective.
+void drop_known(const LinearSystem& F, const Vector& label, const std::vector<StiffRegion>& known,
+                std::vector<StiffRegion>& sets) {
+  constexpr double as_large = 1.05;
+  for (const StiffRegion& region : known) {
+    const double own = region.row.empty() ? -1 : label[std::size_t(region.row.front())];
+    const Row around = Row(F.ranks().global_max(own));
+    std::erase_if(sets, [&](const StiffRegion& s) {
+      return s.first == around && double(s.size) <= as_large * double(region.size);
+    });
+  }
+}
+
+void take_rows(const LinearSystem& F, const Vector& label, std::vector<StiffRegion>& sets) {
+  std::map<Row, StiffRegion*> by_label;
+  for (StiffRegion& s : sets) by_label[s.first] = &s;
+  for (int i = 0; i < F.rows(); ++i)
+    if (const auto s = by_label.find(Row(label[std::size_t(i)])); s != by_label.end()) s->second->row.push_back(i);
+}
+
 }  // namespace
 
-// A set that a lower level leaves as it was is the same region.
 std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, std::size_t most) {
   double low = INFINITY, high = 0;
   for (int i = 0; i < F.rows(); ++i) low = std::min(low, F.diagonal(i)), high = std::max(high, F.diagonal(i));
   low = F.ranks().global_min(low), high = F.ranks().global_max(high);
   JoinedRows joined(F);
   std::vector<StiffRegion> regions;
-  for (double level = high / level_ratio; level > 0; level /= level_ratio) {
+  for (double level = high / alike; level > 0; level /= level_ratio) {
     const Vector& label = joined.label(level);
     std::vector<StiffRegion> sets = count_sets(F, label, fewest);
-    std::erase_if(sets, [&](const StiffRegion& s) {
-      return std::any_of(regions.begin(), regions.end(),
-                         [&](const StiffRegion& r) { return r.first == s.first && r.size == s.size; });
-    });
+    drop_known(F, label, regions, sets);
     keep_largest(sets, most);
-    std::map<Row, StiffRegion*> by_label;
-    for (StiffRegion& s : sets) by_label[s.first] = &s;
-    for (int i = 0; i < F.rows(); ++i)
-      if (const auto s = by_label.find(Row(label[std::size_t(i)])); s != by_label.end()) s->second->row.push_back(i);
+    take_rows(F, label, sets);
     std::move(sets.begin(), sets.end(), std::back_inserter(regions));
     keep_largest(regions, most);
     if (level <= low) break;
