@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// z = Q r + (1 - Q F) B (1 - F Q) r, Q = Z (Z'F Z)^-1 Z' (balancing; Mandel 1993), Z = find_stiff_motions(): symmetric,
-// and positive where B is.
+// z = Q r + (1 - Q F) B (1 - F Q) r, Q = Z (Z'F Z)^-1 Z' (balancing; Mandel 1993), Z = find_stiff_motions() with
+// the flow around them: symmetric, and positive where B is.
 class RigidMotions : public Preconditioner {
  public:
   // Keeps the reference to F; `dimension` is 2 or 3. Collective.
@@ -20,6 +20,7 @@ class RigidMotions : public Preconditioner {
   int count() const { return int(Z_.size()); }
 
  private:
+  void extend();
   Eigen::MatrixXd energies() const;
   void invert_energies(Eigen::MatrixXd E);
   Eigen::VectorXd summed(Eigen::VectorXd y) const;

@@ -109,7 +109,8 @@ std::vector<StiffMotion> find_stiff_motions(const LinearSystem& F, const FacePla
     for (int slab = 0; slab <= hats.slabs; ++slab)
       for (SparseVector& z : weighted_motions(region, places, dimension, hats, slab)) {
         const double q = stiffness(F, z, multiply);
-        if (q > 0 && q <= (hats.slabs > 0 ? soft_slab : soft)) motions.push_back({std::move(z), number, slab});
+        if (q > 0 && q <= (hats.slabs > 0 ? soft_slab : soft))
+          motions.push_back({std::move(z), number, slab, hats.slabs == 0});
       }
     ++number;
   }

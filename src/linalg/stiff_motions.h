@@ -16,6 +16,7 @@ struct FacePlaces {
 struct StiffMotion {
   SparseVector z;
   int region, slab;  // motions of one region whose slabs are more than two apart do not meet
+  bool whole;        // not of a slab
 };
 
 // The translations and rotations of find_stiff_regions(); of a slender one those of overlapping slabs along its longest
