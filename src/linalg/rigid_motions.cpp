@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "linalg/krylov.h"
+
 namespace seiche {
 namespace {
 
@@ -9,6 +11,31 @@ namespace {
 bool meet(const StiffMotion& a, const StiffMotion& b) {
   return a.region != b.region || std::abs(a.slab - b.slab) <= 2;
 }
+
+// F on the rows where a motion is zero.
+class RowsAround {
+ public:
+  RowsAround(const LinearSystem& F, const SparseVector& motion) : F_(F), within_(motion.row) {}
+  void multiply(const Vector& x, Vector& y) const {
+    F_.multiply(x, y);
+    for (const int i : within_) y[std::size_t(i)] = 0;
+  }
+  void residual(const Vector& b, const Vector& x, Vector& r) const {
+    multiply(x, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = b[i] - r[i];
+  }
+
+ private:
+  const LinearSystem& F_;
+  const std::vector<int>& within_;
+};
+
+struct Relaxation {
+  const LinearSystem& F;
+  void apply(const Vector& r, Vector& z) const {
+    for (std::size_t i = 0; i < r.size(); ++i) z[i] = r[i] / F.diagonal(int(i));
+  }
+};
 
 }  // namespace
 
@@ -21,21 +48,23 @@ RigidMotions::RigidMotions(const LinearSystem& F, const FacePlaces& places, int 
   invert_energies(energies());
 }
 
-// z - B F z: with the liquid around it at rest a part of n cells would cost n times what it does. Of so many motions,
-// for they are no longer sparse; what is next to nothing of them is left out.
+// With the liquid around it at rest a part of n cells would cost n times what it does. Of so many motions, for they are
+// no longer sparse; what is next to nothing of them is left out.
 void RigidMotions::extend() {
-  constexpr int most = 24;
-  constexpr double next_to_nothing = 0.01;
-  const auto n = std::size_t(F_.rows());
-  Vector z(n), Fz(n), Bz(n);
+  constexpr int most = 24, steps = 12;
+  constexpr double enough = 0.05, next_to_nothing = 0.01;
+  Vector z(std::size_t(F_.rows())), x(z.size()), b(z.size());
   int extended = 0;
   for (StiffMotion& m : Z_) {
     if (!m.whole || ++extended > most) continue;
+    const RowsAround around(F_, m.z);
     std::fill(z.begin(), z.end(), 0.0);
-    add_scaled(z, 1, m.z);
-    F_.multiply(z, Fz);
-    B_->apply(Fz, Bz);
-    for (std::size_t i = 0; i < n; ++i) z[i] = std::abs(z[i] - Bz[i]) > next_to_nothing ? z[i] - Bz[i] : 0;
+    std::fill(x.begin(), x.end(), 0.0);
+    add_scaled(z, -1, m.z);
+    around.multiply(z, b);
+    Relaxation D{F_};
+    (void)conjugate_gradients(around, D, b, x, {enough * norm(b, F_.ranks()), steps}, F_.ranks());
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::abs(x[i] - z[i]) > next_to_nothing ? x[i] - z[i] : 0;
     m.z = nonzeros(z);
   }
 }

@@ -16,8 +16,7 @@ class RigidMotions : public Preconditioner {
   // Keeps the reference to F; `dimension` is 2 or 3. Collective.
   RigidMotions(const LinearSystem& F, const FacePlaces& places, int dimension, std::unique_ptr<Preconditioner> B);
   void apply(const Vector& r, Vector& z) override;
-  // Of Z.
-  int count() const { return int(Z_.size()); }
+  const std::vector<StiffMotion>& motions() const { return Z_; }
 
  private:
   void extend();
