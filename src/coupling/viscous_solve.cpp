@@ -14,9 +14,15 @@ namespace {
 template <int Dim>
 SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, const ViscousSystem<Dim>& v,
                          const BlockColumns& G, const BlockColumns& J) {
+  const Layout<Dim>& layout = in.liquid.layout;
   std::vector<int> axes;  // of the rows of F
-  for (const auto& [axis, face] : v.rows.faces) axes.push_back(axis);
-  const double schur_scale = std::pow(in.liquid.layout.h(), Dim - 2) / in.liquid.density;
+  std::vector<std::array<double, 3>> positions;
+  for (const auto& [axis, face] : v.rows.faces) {
+    const Vec<Dim> x = layout.position(layout.index(face), face_offset<Dim>(axis)) / layout.h();
+    axes.push_back(axis);
+    std::copy_n(x.data(), Dim, positions.emplace_back().begin());
+  }
+  const double schur_scale = std::pow(layout.h(), Dim - 2) / in.liquid.density;
   return SaddleSolver({.F = v.F,
                        .G = G,
                        .D = v.D,
@@ -27,7 +33,8 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                        .closed = liquid.closed,
                        .schur_scale = schur_scale,
                        .schur_mass = v.schur_mass,
-                       .axis = axes},
+                       .axis = std::move(axes),
+                       .position = std::move(positions)},
                       {.tolerance = in.setup.scene.solver.tolerance}, in.setup.ranks);
 }
 

@@ -4,6 +4,7 @@
 //   G'u + H v + J'p = g
 //   D u + J v       = q
 // u on faces, v of bodies (the same on all ranks), p the multiplier, a pressure impulse.
+#include <array>
 #include <optional>
 
 #include "linalg/block_columns.h"
@@ -30,6 +31,8 @@ struct SaddleSystem {
   // Axis of the velocity in each row of F. Needed where its energy couples axes (the full stress): without it multigrid
   // needs ever more iterations on finer grids.
   std::vector<int> axis = {};
+  // Of the face of each row of F, in cells. Needed where viscosity jumps: without it stiff parts turn slowly.
+  std::vector<std::array<double, 3>> position = {};
 };
 
 // Vectors of the whole are u, p and, on rank 0 alone, v, one after the other: sums over the ranks count v once.

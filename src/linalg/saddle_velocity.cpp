@@ -5,6 +5,7 @@
 
 #include "linalg/krylov.h"
 #include "linalg/loose_faces.h"
+#include "linalg/rigid_motions.h"
 
 namespace seiche {
 namespace {
@@ -15,6 +16,9 @@ constexpr double small_share = 0.2;
 // hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0017-viscous-speed.md).
 constexpr double share_left = 0.1;
 constexpr int most_steps = 16;
+// On the coarsest level, by hypre's number: F is not singular, and one relaxation leaves what a stiff inclusion does as
+// a whole.
+constexpr int elimination = 9;
 
 bool is_mass_dominated(const LinearSystem& F) {
   double worst = 0;
@@ -68,6 +72,7 @@ VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const Am
   } else {
     make_multigrid(settings);
     mend_loose_faces();
+    mend_stiff_parts();
   }
   if (K.unknowns() > 0) find_directions();
 }
@@ -75,6 +80,7 @@ VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const Am
 void VelocityPreconditioner::make_multigrid(AmgSettings settings) {
   settings.component = K_.system().axis;
   settings.components = count_axes(settings.component, K_.ranks());
+  settings.relax_coarsest = elimination;
   B_ = make_boomeramg(K_.faces(), settings).preconditioner;
 }
 
@@ -86,6 +92,13 @@ void VelocityPreconditioner::mend_loose_faces() {
   auto mended = std::make_unique<LooseFaces>(K_.faces(), loose, std::move(B_));
   good_ = !K_.ranks().any(!mended->good());
   B_ = std::move(mended);
+}
+
+void VelocityPreconditioner::mend_stiff_parts() {
+  const SaddleSystem& s = K_.system();
+  if (K_.ranks().any(s.position.size() != s.axis.size())) return;
+  B_ = std::make_unique<RigidMotions>(K_.faces(), FacePlaces{s.axis, s.position}, count_axes(s.axis, K_.ranks()),
+                                      std::move(B_));
 }
 
 void VelocityPreconditioner::find_directions() {

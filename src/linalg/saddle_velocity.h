@@ -36,6 +36,7 @@ class VelocityPreconditioner {
  private:
   void make_multigrid(AmgSettings settings);
   void mend_loose_faces();
+  void mend_stiff_parts();
   void find_directions();
   std::vector<SparseVector> extend(const std::vector<Vector>& GM) const;
   void multiply_out(const std::vector<Vector>& GM);

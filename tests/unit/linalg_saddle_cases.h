@@ -26,8 +26,9 @@ struct StokesMatrices {
   SparseMatrix H;
   Vector schur_mass, mass;
   std::vector<int> axis;
+  std::vector<std::array<double, 3>> position;
   SaddleSystem system() const {
-    return {F, G, D, Dt, J, pressure.A, pressure.grid, pressure.null_space, 1.0, schur_mass, axis};
+    return {F, G, D, Dt, J, pressure.A, pressure.grid, pressure.null_space, 1.0, schur_mass, axis, position};
   }
 };
 
@@ -218,6 +219,8 @@ class StokesBuilder {
         const std::int64_t face = faces_[std::size_t(index_of(p_, c) * dim_ + a)];
         if (face < first_ || face >= last_) continue;
         made_.axis.push_back(a);
+        made_.position.push_back({c[0] + 0.5, c[1] + 0.5, c[2] + 0.5});
+        made_.position.back()[std::size_t(a)] -= 0.5;
         made_.mass.push_back(is_liquid(c) || is_liquid(moved(c, a, -1)) ? 1 : 1e-3);
         rows_[std::size_t(face - first_)][face] += made_.mass.back();
       }
