@@ -299,6 +299,8 @@ template <int Dim>
 StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& placed, double t) const {
   StepGeometry<Dim> g = still_;
   g.placed = placed;
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    g.pivots.push_back(placed[k].pose.apply(bodies_[k].reference_point()));
   g.attached.resize(bodies_.size());
   g.cell_fluxes.resize(bodies_.size());
   for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
