@@ -1,6 +1,7 @@
 #include "coupling/half_steps.h"
 
 #include "coupling/contact_setup.h"
+#include "coupling/sources.h"
 
 namespace seiche {
 namespace {
@@ -12,16 +13,25 @@ bool is_kinematic(const Body<Dim>& body) {
 
 template <int Dim>
 bool may_go_by_halves(const Setup<Dim>& s) {
-  if (s.scene.time.scheme == TimeScheme::first_order || s.has_prescribed_flow() || s.keeps_air()) return false;
+  if (s.scene.time.scheme == TimeScheme::first_order || s.has_prescribed_flow() || s.keeps_air() || s.has_gas())
+    return false;
   const auto& b = s.bodies;
   if (s.has_rigid() && std::any_of(b.begin(), b.end(), is_kinematic<Dim>)) return false;
   return std::none_of(b.begin(), b.end(), [](const Body<Dim>& x) { return x.is_elastic() || x.is_thin(); });
+}
+
+// What a source brings first has no velocity yet that the other half of the step could go on with.
+template <int Dim>
+bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
+  return open_in_step(source.spec, t0, t1) && (source.spec.from >= t0 || source.spec.until < t1);
 }
 
 }  // namespace
 
 template <int Dim>
 bool goes_by_halves(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  for (const Source<Dim>& source : s.sources)
+    if (opens_or_closes(source, state.time, state.time + dt)) return false;
   return may_go_by_halves(s) && (!s.has_rigid() || safe_share(s, state, 2 * dt) >= 1);
 }
 

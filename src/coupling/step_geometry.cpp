@@ -299,8 +299,6 @@ template <int Dim>
 StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& placed, double t) const {
   StepGeometry<Dim> g = still_;
   g.placed = placed;
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
-    g.pivots.push_back(placed[k].pose.apply(bodies_[k].reference_point()));
   g.attached.resize(bodies_.size());
   g.cell_fluxes.resize(bodies_.size());
   for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
@@ -312,6 +310,7 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (bodies_[k].moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    g.pivots.push_back(placed[k].pose.apply(bodies_[k].reference_point()));
     set_twist(layout_, int(k), placed[k].twist, g);
     if (bodies_[k].is_elastic()) set_node_velocity(layout_, int(k), placed[k].velocity, g);
   }
