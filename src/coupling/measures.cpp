@@ -174,7 +174,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     out.velocity = v.at(out.position);
     out.angular_velocity = v.angular;
     if (s.bodies[k].is_elastic()) describe_elastic(s.bodies[k], state.elastic[k], out);
-    add_pressure_loads(s, state, g, k, out.position, loads);
+    add_pressure_loads(s, state, g, k, s.bodies[k].is_elastic() ? out.position : g.pivots[k], loads);
   }
   if (!loads.empty()) s.ranks.global_sum(loads);
   for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)

@@ -38,8 +38,7 @@ std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, 
 }
 
 template <int Dim>
-double add_sources(const Setup<Dim>& s, const State<Dim>& state, double t1, CellField<Dim>& phi) {
-  const double t0 = state.time;
+double add_sources(const Setup<Dim>& s, const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
   const bool any = std::any_of(s.sources.begin(), s.sources.end(),
                                [&](const auto& x) { return open_in_step(x.spec, t0, t1).has_value(); });
   if (!any) return 0;
@@ -88,9 +87,9 @@ std::string fault_of_source(const Setup<Dim>& s, std::size_t index, double t) {
   return fault;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                              \
-  template double add_sources<D>(const Setup<D>&, const State<D>&, double, CellField<D>&); \
-  template void set_source_velocity<D>(const Setup<D>&, double, double, FaceField<D>&);    \
+#define SEICHE_INSTANTIATE(D)                                                                      \
+  template double add_sources<D>(const Setup<D>&, const State<D>&, double, double, CellField<D>&); \
+  template void set_source_velocity<D>(const Setup<D>&, double, double, FaceField<D>&);            \
   template std::string fault_of_source<D>(const Setup<D>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

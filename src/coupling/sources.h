@@ -13,9 +13,10 @@ struct OpenTime {
 };
 std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, double t1);
 
-// Joins phi at t1 with what the sources bring from the state's time to t1. Returns the volume added. Collective.
+// Joins phi at t1 with what the sources bring from t0 to t1. Returns the volume added, solids as in the state.
+// Collective.
 template <int Dim>
-double add_sources(const Setup<Dim>& setup, const State<Dim>& before, double t1, CellField<Dim>& phi);
+double add_sources(const Setup<Dim>& setup, const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
 // Gives the liquid that sources bring their velocity.
 template <int Dim>

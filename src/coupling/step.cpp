@@ -7,6 +7,7 @@
 #include "coupling/elastic_coupling.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
+#include "coupling/half_steps.h"
 #include "coupling/prescribed_flow.h"
 #include "coupling/restore.h"
 #include "coupling/rheology_iteration.h"
@@ -110,6 +111,8 @@ struct StepInProgress {
   const State<Dim>& before;
   double dt;
   Phases& phases;
+  bool by_halves;
+  double lead;  // s, from the start of the step to where the solve finds surface and solids
   Attempt<Dim> out;
   FaceField<Dim> u_star;
   ViscousPlan plan;
@@ -118,7 +121,12 @@ struct StepInProgress {
   CoupledSolution<Dim> solution;
 
   StepInProgress(const Setup<Dim>& setup, const State<Dim>& state, double step, Phases& p)
-      : s(setup), before(state), dt(step), phases(p) {
+      : s(setup),
+        before(state),
+        dt(step),
+        phases(p),
+        by_halves(goes_by_halves(setup, state, step)),
+        lead(by_halves ? step / 2 : step) {
     State<Dim>& next = out.state = state;
     next.time = state.time + dt;
     next.step = state.step + 1;
@@ -132,7 +140,7 @@ struct StepInProgress {
 
   void move_bodies() {
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
-      if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], dt);
+      if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], lead);
     std::vector<Eigen::VectorXd> w = elastic_velocities_over(s.bodies, before.elastic, before.time, dt, before.horizon);
     for (std::size_t k = 0; k < s.bodies.size(); ++k) {
       if (!s.bodies[k].is_elastic()) continue;
@@ -146,35 +154,34 @@ struct StepInProgress {
   void transport_surface() {
     const PhaseFault fault = phases.enter("transport");
     const auto timed = phases.timers.measure("surface");
-    double added = 0;
-    if (s.has_prescribed_flow())
-      out.state.phi =
-          seiche::transport_surface(s, before, prescribed_flow(s, before.phi, before.time + 0.5 * dt), dt, added);
-    else
-      out.state.phi = seiche::transport_surface(s, before, flow_at_surface(s, before), dt, added);
-    out.state.expected_volume += added;
+    const FaceField<Dim> u =
+        s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
+    CellField<Dim>& phi = out.state.phi;
+    out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
+    make_distance(s, phi);
     inject(s, fault, out.state.phi.data());
   }
 
   void measure_geometry() {
     const PhaseFault fault = phases.enter("geometry");
     const auto timed = phases.timers.measure("geometry");
-    out.geometry = s.solids.measure(place_bodies(s, out.state), out.state.time);
+    out.geometry =
+        s.solids.measure(by_halves ? place_halfway(s, out.state, dt) : place_bodies(s, out.state), out.state.time);
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
-    out.state.expected_volume += dt * net_inflow(s, out.geometry, before.phi, before.now->u);
+    out.state.expected_volume += lead * net_inflow(s, out.geometry, before.phi, before.now->u);
     keep_sealed_full(s, before, out.state, out.geometry, out.state.phi);
     if (has_thin_elastic(s)) keep_sides_apart(s, before, out.geometry, out.state.phi);
     const double uncounted = gap_volume(s, before.parting) + volume_beyond(s, out.geometry, out.state.phi);
-    const double expected = out.state.expected_volume + uncounted, limit = 0.05 * s.layout.h();
+    const double expected = out.state.expected_volume + uncounted, limit = volume_shift();
     if (s.keeps_air())
       control_liquid_and_air(expected, limit);
-    else
+    else if (!by_halves)  // these have it at their end
       out.state.corrected_volume += control_volume(s, out.geometry.psi, expected, limit, out.state.phi);
     keep_sides_apart(s, before, out.geometry, out.state.phi);
     if (s.keeps_air())
       out.state.air = follow_air(s, out.state.air, before.now->u, 0, out.geometry, out.state.phi, out.state.lost_air);
-    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, before.phi, out.state.phi, dt);
+    if (has_surface_tension(s)) tension = surface_tension(s, out.geometry, before.phi, out.state.phi, lead, dt);
   }
 
   void control_liquid_and_air(double expected, double limit) {
@@ -306,6 +313,26 @@ struct StepInProgress {
     }
   }
 
+  // The other half of the way, with the velocities of the end of the step; where these are too fast for it, with those
+  // of its start.
+  void go_the_other_half() {
+    const auto timed = phases.timers.measure("surface");
+    State<Dim>& next = out.state;
+    const bool on = can_go_on(s, next, dt);
+    const FaceField<Dim> u = flow_at_surface(s, on ? next : before);
+    next.expected_volume += lead * net_inflow(s, out.geometry, next.phi, next.now->u);
+    next.expected_volume += seiche::transport_surface(s, next, u, before.time + lead, lead, next.phi);
+    for (std::size_t k = 0; k < s.bodies.size(); ++k)
+      if (s.bodies[k].is_rigid())
+        next.rigid[k] = go_on(s.bodies[k], next.rigid[k], (on ? next : before).rigid[k], lead);
+    if (any_moves(s)) out.geometry = stand_at_end(s, next, std::move(out.geometry));
+    const double expected = next.expected_volume + gap_volume(s, next.parting);
+    next.corrected_volume += control_volume(s, out.geometry.psi, expected, volume_shift(), next.phi);
+  }
+
+  // The most that the volume control moves the surface by, m.
+  double volume_shift() const { return 0.05 * s.layout.h(); }
+
   // But for the pressure, the first guess of the next solve.
   void start_again(const State<Dim>& moved, const StepGeometry<Dim>& measured) {
     CellField<Dim> guess = std::move(out.state.pressure);
@@ -329,6 +356,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double d
     step.prescribe_velocity();
   else if (step.transport_velocity())
     step.solve_for_a_step_to_come();
+  if (step.by_halves && step.out.failure.empty()) step.go_the_other_half();
   return std::move(step.out);
 }
 

@@ -310,6 +310,7 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (bodies_[k].moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    g.pivots.push_back(placed[k].pose.apply(bodies_[k].reference_point()));
     set_twist(layout_, int(k), placed[k].twist, g);
     if (bodies_[k].is_elastic()) set_node_velocity(layout_, int(k), placed[k].velocity, g);
   }

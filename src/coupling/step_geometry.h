@@ -54,6 +54,7 @@ struct StepGeometry {
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // likewise, once they are coupled; else null
   std::vector<SealedFace> sealed;                              // likewise
   std::vector<Placement> placed;                               // of each body, at the end of the step
+  std::vector<Vec3> pivots;                                    // reference points as the solve finds them
 };
 
 // Lets a body move with a twist: its share of each face pushes volume through it.

@@ -39,14 +39,14 @@ double grid_ohnesorge(const Setup<Dim>& s) {
   return viscosity / std::sqrt(rho * liquid.surface_tension * s.layout.h());
 }
 
-// phi a little after the end of the step, as it has moved in it: curvature from there damps a wave of frequency omega
-// by ahead omega^2 dt/2. The leapfrog of surface and velocity by itself damps nothing, and what curvature makes of the
-// grid's irregular crossings would feed waves of a few cells; these have omega dt near 1, resolved ones less. Viscosity
-// of nu/sqrt(sigma h/rho) above 0.01 ... 0.02 damps them by itself.
+// phi a little later, 0.1 of a step, as it has moved before (`steps` times as far in a step): curvature from there
+// damps a wave of frequency omega by ahead omega^2 dt/2. The leapfrog of surface and velocity by itself damps nothing,
+// and what curvature makes of the grid's irregular crossings would feed waves of a few cells; these have omega dt near
+// 1, resolved ones less. Viscosity of nu/sqrt(sigma h/rho) above 0.01 ... 0.02 damps them by itself.
 template <int Dim>
-CellField<Dim> look_ahead(const Setup<Dim>& s, const CellField<Dim>& before, const CellField<Dim>& phi) {
+CellField<Dim> look_ahead(const Setup<Dim>& s, const CellField<Dim>& before, const CellField<Dim>& phi, double steps) {
   CellField<Dim> r = phi;
-  const double ahead = 0.1 * std::clamp(2 - grid_ohnesorge(s) / 0.01, 0.0, 1.0);
+  const double ahead = 0.1 * steps * std::clamp(2 - grid_ohnesorge(s) / 0.01, 0.0, 1.0);
   if (ahead == 0) return r;
   for_each_site(s.layout, s.layout.cells(), [&](Site c) { r[c] += ahead * (phi[c] - before[c]); });
   return r;
@@ -56,10 +56,10 @@ CellField<Dim> look_ahead(const Setup<Dim>& s, const CellField<Dim>& before, con
 
 template <int Dim>
 SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& before,
-                                    const CellField<Dim>& phi, double dt) {
+                                    const CellField<Dim>& phi, double lead, double dt) {
   SurfaceTension<Dim> r{FaceField<Dim>(s.layout)};
   FaceField<Dim, char> crossed(s.layout);
-  const CellField<Dim> continued = continue_at_contact_angle(s, g, look_ahead(s, before, phi));
+  const CellField<Dim> continued = continue_at_contact_angle(s, g, look_ahead(s, before, phi, dt / lead));
   double crossings = 0, by_differences = 0;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
@@ -93,7 +93,7 @@ double capillary_step(const Setup<Dim>& s) {
 
 #define SEICHE_INSTANTIATE(D)                                                                                 \
   template SurfaceTension<D> surface_tension<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&, \
-                                                const CellField<D>&, double);                                 \
+                                                const CellField<D>&, double, double);                         \
   template double capillary_step<D>(const Setup<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

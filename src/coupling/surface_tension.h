@@ -16,10 +16,10 @@ struct SurfaceTension {
   std::int64_t crossings = 0, by_differences = 0;  // over all ranks
 };
 
-// For phi (m) and solids at the end of a step of dt, and phi before it. Collective.
+// For phi (m) and solids as a step of dt is solved with, and phi `lead` seconds before (lead <= dt). Collective.
 template <int Dim>
 SurfaceTension<Dim> surface_tension(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
-                                    const CellField<Dim>& before, const CellField<Dim>& phi, double dt);
+                                    const CellField<Dim>& before, const CellField<Dim>& phi, double lead, double dt);
 
 // Longest step for capillary waves, s: sqrt((rho + rho_gas) h^3/(4 pi sigma)) (Brackbill, Kothe, Zemach 1992);
 // infinite without tension or where the scheme is semi-implicit. Surface and velocity leapfrog, stable for omega dt <

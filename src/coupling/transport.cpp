@@ -288,19 +288,21 @@ double liquid_volume(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeF
 }
 
 template <int Dim>
-CellField<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim>& u, double dt,
-                                 double& added) {
-  check_forces_of_step(s, state.time, state.time + dt);
-  CellField<Dim> joined = state.phi;
-  if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, state.time, joined);
-  CellField<Dim> phi(s.layout);
+double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim>& u, double t, double dt,
+                         CellField<Dim>& phi) {
+  check_forces_of_step(s, t, t + dt);
+  CellField<Dim> joined = phi;
+  if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, t, joined);
   const Trace trace = s.has_prescribed_flow() ? Trace::third_order : Trace::midpoint;  // nothing else errs there
   advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi, trace);
   fill_level_set_ghosts(s.layout, s.halo, phi);
-  added = add_sources(s, state, state.time + dt, phi);
+  return add_sources(s, state, t, t + dt, phi);
+}
+
+template <int Dim>
+void make_distance(const Setup<Dim>& s, CellField<Dim>& phi) {
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
   redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s)}, phi);
-  return phi;
 }
 
 template <int Dim>
@@ -356,14 +358,16 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   return liquid_volume(s, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template double settled_of_surface<D>(const Setup<D>&);                                                             \
-  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                        \
-  template CellField<D> transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double&); \
-  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                             \
-  template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                                \
-  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,          \
-                                              const ViscousPlan&, const StepGeometry<D>&);                            \
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template double settled_of_surface<D>(const Setup<D>&);                                                     \
+  template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                \
+  template double transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double, \
+                                       CellField<D>&);                                                        \
+  template void make_distance<D>(const Setup<D>&, CellField<D>&);                                             \
+  template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                     \
+  template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                        \
+  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,  \
+                                              const ViscousPlan&, const StepGeometry<D>&);                    \
   template double control_volume<D>(const Setup<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -4,13 +4,15 @@
 
 namespace seiche {
 
-// phi at time + dt: transported by u, joined by inflow and sources, a distance again. `added` is the volume that
-// sources brought. u is the present velocity: velocity and surface leapfrog, phi stands half a step ahead of u, which
-// makes gravity waves free of numerical damping (docs/method.md). A flow that is prescribed is that of the middle of
-// the step.
+// phi, the surface at time t, at t + dt: transported by u, joined by inflow and sources. The state tells where solids
+// are. Returns the volume that sources brought, m^Dim.
 template <int Dim>
-CellField<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double dt,
-                                 double& added);
+double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double t, double dt,
+                         CellField<Dim>& phi);
+
+// Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells.
+template <int Dim>
+void make_distance(const Setup<Dim>& setup, CellField<Dim>& phi);
 
 // Cells from the surface that are taken to their distance from it by its nearest points (levelset/redistance.h).
 // Curvature reads them, and where two fluids flow nothing tells their volumes apart but the surface.

@@ -59,6 +59,39 @@ TEST_CASE("a massless sphere rises on without blowing up") {
   CHECK(fastest <= std::sqrt(2 * 2 * 9.81 * 0.75));  // 2 g over the depth
 }
 
+// x = v t - g t^2/2 to rounding, by steps of any lengths.
+TEST_CASE("a body that falls free follows its parabola") {
+  Scene s = test::box_scene(2, 16);
+  s.gravity = {0, -9.81, 0};
+  s.solids.push_back(test::rigid_ball("ball", 0.1, {0.3, 0.4, 0}, 1000));
+  s.solids[0].rigid.velocity = {0.5, 1.5, 0};
+  const auto sim = make_simulation(s, Communicator());
+  for (double until : {0.011, 0.1, 0.17, 0.3}) {
+    while (sim->time() < until) (void)sim->step(until);
+    const double t = sim->time();
+    CHECK(sim->solids()[0].position[0] == Approx(0.3 + 0.5 * t).epsilon(1e-12));
+    CHECK(sim->solids()[0].position[1] == Approx(0.4 + 1.5 * t - 9.81 / 2 * t * t).epsilon(1e-12));
+  }
+}
+
+// In liquid that fills a box its acceleration is all but constant at first: x = a t^2/2 and v = a t, by few steps as by
+// many. Positions that went on with the velocity of the start of a step would be 1/n of the way late after n steps.
+TEST_CASE("a body let go in liquid is not late after long steps") {
+  Scene s = test::box_scene(2, 32);
+  s.gravity = {0, -9.81, 0};
+  test::add_liquid(s, "-1");
+  s.solids.push_back(test::rigid_ball("disc", 0.15, {0.5, 0.5, 0}, 2000));
+  for (int steps : {1, 2, 5}) {
+    s.time.fixed_step = 0.05 / steps;
+    const auto sim = make_simulation(s, Communicator());
+    for (int n = 0; n < steps; ++n) (void)sim->step(0.05);
+    const SolidState disc = sim->solids()[0];
+    const double way = 0.5 - disc.position[1], expected = -0.5 * 0.05 * disc.velocity[1];
+    WARN(steps << " steps: way " << way << " m, a t^2/2 = " << expected << " m");
+    CHECK(way == Approx(expected).epsilon(0.02));  // walls three radii away change the added mass a little
+  }
+}
+
 // A raft among sloshing water: 15 s of waves that its time-mean height must not depend on.
 TEST_CASE("a raft floats equally high at Courant numbers 0.5, 1, 2 and 5") {
   std::vector<double> heights;

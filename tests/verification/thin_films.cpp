@@ -66,7 +66,7 @@ TEST_CASE("no film is so thin, nor a step so short, that a light box would stick
 TEST_CASE("a light box that is thrown onto the floor comes up again") {
   for (int dim : {2, 3}) {
     Scene s = box_near_floor(dim, 500, 2);
-    s.solids[0].rigid.velocity[1] = -3;
+    s.solids[0].rigid.velocity[1] = -4;
     const auto sim = make_simulation(s, Communicator());
     double least = 2;
     while (sim->time() < 1) {
