@@ -29,6 +29,41 @@ void filter_for_step(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceF
   filter_curvature(s, phi, crossed, length, kappa);
 }
 
+// rho_f/rho of a link that the surface crosses.
+template <int Dim>
+double link_density(const Setup<Dim>& s, double phi_low, double phi_high) {
+  const double theta = liquid_part(phi_low, phi_high);
+  return theta + (1 - theta) * s.gas_density() / s.density();
+}
+
+// Links that the surface all but touches from their liquid cell's centre cross it in one place, and what their jumps
+// differ by by error would blow through the cell at rho/rho_f (for one step, 15 m/s in a drop that swings at 0.4): for
+// densities below a fiftieth, kappa goes over to the mean of the cell's links with such densities, weighted with
+// rho/rho_f. Links that cross it farther off differ by what kappa does along the surface, which is what accelerates
+// them along it. Halos of kappa and crossed filled.
+template <int Dim>
+void agree_in_slivers(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
+                      FaceField<Dim>& kappa) {
+  constexpr double small = 0.02;
+  const FaceField<Dim> old = kappa;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (!crossed.at(a, f)) return;
+      const Site low = f - s.layout.stride(a), cell = phi[f] < 0 ? f : low;
+      const double nearness = 1 - link_density(s, phi[low], phi[f]) / small;
+      if (nearness <= 0) return;
+      double sum = 0, weights = 0;
+      for_each_face_of(s.layout, cell, [&](int b, Site g, int, Site across) {
+        if (!crossed.at(b, g)) return;
+        const double density = link_density(s, phi[cell], phi[across]);
+        const double weight = std::max(0.0, 1 / density - 1 / small);
+        sum += weight * old.at(b, g);
+        weights += weight;
+      });
+      kappa.at(a, f) += nearness * (sum / weights - kappa.at(a, f));
+    });
+}
+
 // nu/sqrt(sigma h/rho) with the means of both fluids; 0 where the liquid's viscosity is no constant.
 template <int Dim>
 double grid_ohnesorge(const Setup<Dim>& s) {
@@ -74,6 +109,7 @@ SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>
   r.by_differences = std::int64_t(s.ranks.global_sum(by_differences));
   s.halo.fill_ghosts(crossed);
   s.halo.fill_ghosts(r.jump);
+  agree_in_slivers(s, phi, crossed, r.jump);
   filter_for_step(s, phi, crossed, dt, r.jump);
   balance_closed_pieces(s, g.faces, phi, crossed, r.jump);
   for (int a = 0; a < Dim; ++a)
