@@ -176,7 +176,7 @@ struct StepInProgress {
     const double expected = out.state.expected_volume + uncounted, limit = volume_shift();
     if (s.keeps_air())
       control_liquid_and_air(expected, limit);
-    else if (!by_halves)  // these have it at their end
+    else
       out.state.corrected_volume += control_volume(s, out.geometry.psi, expected, limit, out.state.phi);
     keep_sides_apart(s, before, out.geometry, out.state.phi);
     if (s.keeps_air())
