@@ -11,6 +11,14 @@ bool is_kinematic(const Body<Dim>& body) {
   return body.moves() && !body.is_rigid() && !body.is_elastic();
 }
 
+// What a source brings first has no velocity yet that the other half of the step could go on with.
+template <int Dim>
+bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
+  return open_in_step(source.spec, t0, t1) && (source.spec.from >= t0 || source.spec.until < t1);
+}
+
+}  // namespace
+
 template <int Dim>
 bool may_go_by_halves(const Setup<Dim>& s) {
   if (s.scene.time.scheme == TimeScheme::first_order || s.has_prescribed_flow() || s.keeps_air() || s.has_gas())
@@ -19,14 +27,6 @@ bool may_go_by_halves(const Setup<Dim>& s) {
   if (s.has_rigid() && std::any_of(b.begin(), b.end(), is_kinematic<Dim>)) return false;
   return std::none_of(b.begin(), b.end(), [](const Body<Dim>& x) { return x.is_elastic() || x.is_thin(); });
 }
-
-// What a source brings first has no velocity yet that the other half of the step could go on with.
-template <int Dim>
-bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
-  return open_in_step(source.spec, t0, t1) && (source.spec.from >= t0 || source.spec.until < t1);
-}
-
-}  // namespace
 
 template <int Dim>
 bool goes_by_halves(const Setup<Dim>& s, const State<Dim>& state, double dt) {
@@ -54,8 +54,12 @@ bool can_go_on(const Setup<Dim>& s, const State<Dim>& halfway, double dt) {
 template <int Dim>
 std::vector<Placement> place_halfway(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   std::vector<Placement> placed = place_bodies(s, state);
-  for (std::size_t k = 0; k < placed.size(); ++k)
-    if (is_kinematic(s.bodies[k])) placed[k].pose = s.bodies[k].pose(state.time - dt / 2);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    if (!is_kinematic(s.bodies[k])) continue;
+    Placement& p = placed[k];
+    p.pose = s.bodies[k].pose(state.time - dt / 2);
+    p.twist.about = p.pose.pivot + p.pose.displacement;
+  }
   return placed;
 }
 
@@ -72,6 +76,7 @@ RigidState go_on(const Body<Dim>& body, const RigidState& halfway, const RigidSt
   next.rotation = there.rotation;
   const auto spin = [&](const RigidState& x) { return free_twist(body, x, Vec3::Zero(), 0, x.horizon).angular; };
   next.angular_velocity += spin(next) - spin(halfway);
+  if (!turns_freely(body.spec().rigid)) next.angular_momentum = world_inertia(body, next) * next.angular_velocity;
   return next;
 }
 
@@ -80,13 +85,16 @@ StepGeometry<Dim> stand_at_end(const Setup<Dim>& s, const State<Dim>& end, StepG
   StepGeometry<Dim> g = s.solids.measure(place_bodies(s, end), end.time);
   solved.psi = std::move(g.psi);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    solved.placed[k].pose = g.placed[k].pose;
-    if (s.bodies[k].is_rigid()) solved.placed[k].twist.about = end.rigid[k].center;
+    Twist& twist = solved.placed[k].twist;
+    const Pose& pose = solved.placed[k].pose = g.placed[k].pose;
+    if (s.bodies[k].is_rigid()) twist.about = end.rigid[k].center;
+    if (is_kinematic(s.bodies[k])) twist.about = pose.pivot + pose.displacement;
   }
   return solved;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                 \
+  template bool may_go_by_halves<D>(const Setup<D>&);                                         \
   template bool goes_by_halves<D>(const Setup<D>&, const State<D>&, double);                  \
   template bool can_go_on<D>(const Setup<D>&, const State<D>&, double);                       \
   template std::vector<Placement> place_halfway<D>(const Setup<D>&, const State<D>&, double); \

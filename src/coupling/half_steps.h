@@ -15,6 +15,8 @@ namespace seiche {
 // where solids may meet within two steps, a step moves all at once, to where contact is then solved; so does one in
 // which a source opens or closes. Collective.
 template <int Dim>
+bool may_go_by_halves(const Setup<Dim>& setup);
+template <int Dim>
 bool goes_by_halves(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 
 // Whether the velocities after the solve, half-way, can be gone on with for the other half: they cross no more cells

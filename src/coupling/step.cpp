@@ -157,6 +157,8 @@ struct StepInProgress {
     const FaceField<Dim> u =
         s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
     CellField<Dim>& phi = out.state.phi;
+    // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
+    if (!by_halves && may_go_by_halves(s) && s.scene.time.cfl > 2) make_distance(s, phi);
     out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
     make_distance(s, phi);
     inject(s, fault, out.state.phi.data());
@@ -319,12 +321,12 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("surface");
     State<Dim>& next = out.state;
     const bool on = can_go_on(s, next, dt);
-    const FaceField<Dim> u = flow_at_surface(s, on ? next : before);
-    next.expected_volume += lead * net_inflow(s, out.geometry, next.phi, next.now->u);
+    const State<Dim>& leading = on ? next : before;
+    const FaceField<Dim> u = flow_at_surface(s, leading);
+    next.expected_volume += lead * net_inflow(s, out.geometry, next.phi, leading.now->u);
     next.expected_volume += seiche::transport_surface(s, next, u, before.time + lead, lead, next.phi);
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
-      if (s.bodies[k].is_rigid())
-        next.rigid[k] = go_on(s.bodies[k], next.rigid[k], (on ? next : before).rigid[k], lead);
+      if (s.bodies[k].is_rigid()) next.rigid[k] = go_on(s.bodies[k], next.rigid[k], leading.rigid[k], lead);
     if (any_moves(s)) out.geometry = stand_at_end(s, next, std::move(out.geometry));
     const double expected = next.expected_volume + gap_volume(s, next.parting);
     next.corrected_volume += control_volume(s, out.geometry.psi, expected, volume_shift(), next.phi);

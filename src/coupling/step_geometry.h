@@ -53,8 +53,10 @@ struct StepGeometry {
   std::vector<std::shared_ptr<const Attachments>> attached;    // of each elastic body
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // likewise, once they are coupled; else null
   std::vector<SealedFace> sealed;                              // likewise
-  std::vector<Placement> placed;                               // of each body, at the end of the step
-  std::vector<Vec3> pivots;                                    // reference points as the solve finds them
+  // Of each body as the solve finds it; after a step by halves poses and psi are those of its end, while shares, faces
+  // and the velocities of twists are those of its middle.
+  std::vector<Placement> placed;
+  std::vector<Vec3> pivots;  // reference points as the solve finds them
 };
 
 // Lets a body move with a twist: its share of each face pushes volume through it.

@@ -215,7 +215,7 @@ void advect_means(const Setup<Dim>& s, const State<Dim>& state, const Carried<Di
     });
 }
 
-// Which faces of a flow transport may read, and what it knows there; geometry is that of the end of the step.
+// Which faces of a flow transport may read, and what it knows there; geometry is as the solve finds it.
 template <int Dim>
 struct Surroundings {
   bool solids;                                   // that velocity goes on into

@@ -65,6 +65,7 @@ Points energy_series(const MeasureSpec& spec, const RunPaths& run) {
 Measurement energy_growth(const MeasureSpec& spec, const RunPaths& run) {
   const Points energy = energy_series(spec, run);
   if (energy.size() < 2) throw Error(ExitCode::cannot_continue, "stats.csv has too few rows");
+  if (!(energy[0].second > 0)) throw Error(ExitCode::cannot_continue, "there is no energy to begin with");
   double largest = 0;
   for (std::size_t n = 1; n < energy.size(); ++n)
     largest = std::max(largest, (energy[n].second - energy[n - 1].second) / energy[0].second);

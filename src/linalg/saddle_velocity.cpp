@@ -97,8 +97,9 @@ void VelocityPreconditioner::mend_loose_faces() {
 void VelocityPreconditioner::mend_stiff_parts() {
   const SaddleSystem& s = K_.system();
   if (K_.ranks().any(s.position.size() != s.axis.size())) return;
-  B_ = std::make_unique<RigidMotions>(K_.faces(), FacePlaces{s.axis, s.position}, count_axes(s.axis, K_.ranks()),
-                                      std::move(B_));
+  const int dimension = count_axes(s.axis, K_.ranks());
+  if (dimension < 2) return;  // a domain one cell thick
+  B_ = std::make_unique<RigidMotions>(K_.faces(), FacePlaces{s.axis, s.position}, dimension, std::move(B_));
 }
 
 void VelocityPreconditioner::find_directions() {

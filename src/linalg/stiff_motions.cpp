@@ -9,7 +9,7 @@ constexpr std::size_t most_regions = 16;
 constexpr int most_slabs = 12;
 
 struct Extent {
-  std::array<double, 3> low, high;
+  std::array<double, 3> low{}, high{};
   int longest = 0;
   double length(int axis) const { return high[std::size_t(axis)] - low[std::size_t(axis)]; }
 };
@@ -49,7 +49,7 @@ struct Hats {
   }
   // About which to turn, and what makes that as large as a translation.
   std::array<double, 3> centre(int slab) const {
-    std::array<double, 3> c;
+    std::array<double, 3> c{};
     for (std::size_t a = 0; a < 3; ++a) c[a] = 0.5 * (extent.low[a] + extent.high[a]);
     const auto a = std::size_t(extent.longest);
     if (slabs > 0) c[a] = extent.low[a] + slab * spacing();

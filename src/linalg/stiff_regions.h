@@ -8,7 +8,7 @@ namespace seiche {
 
 struct StiffRegion {
   Row first;             // the lowest of its rows, over all ranks
-  std::int64_t size;     // over all ranks
+  std::int64_t size;     // over the ranks that hold more than a few of them
   std::vector<int> row;  // of this rank, ascending
 };
 

@@ -8,19 +8,20 @@
 namespace seiche {
 namespace {
 
-// What else acts on the body may be this share of the largest elastic force or load on a node: above what steps are
-// solved to, far below any contact that matters.
+// What else acts on the body may be this share of the largest elastic force or load on a free node: above what steps
+// are solved to, far below any contact that matters.
 constexpr double still_alone = 1e-4;
 
 template <int Dim>
 bool is_alone(const IncrementalPotential<Dim>& step, const Pins& pins, const ElasticEnds& ends) {
   for (const int dof : pins.dofs)
     if (ends.u[dof] != ends.u0[dof]) return false;
-  Eigen::VectorXd rest = potential_gradient(step, ends.u);
-  for (const int dof : pins.dofs) rest[dof] = 0;
-  const double scale =
-      std::max(elastic_gradient(*step.body, ends.u).cwiseAbs().maxCoeff(), step.force.cwiseAbs().maxCoeff());
-  return rest.cwiseAbs().maxCoeff() <= still_alone * scale;
+  const auto largest = [&](Eigen::VectorXd force) {  // on a node that is free
+    for (const int dof : pins.dofs) force[dof] = 0;
+    return force.cwiseAbs().maxCoeff();
+  };
+  const double scale = std::max(largest(elastic_gradient(*step.body, ends.u)), largest(step.force));
+  return largest(potential_gradient(step, ends.u)) <= still_alone * scale;
 }
 
 // Columns: the mean motions along axes without pins.

@@ -116,7 +116,7 @@ TEST_CASE("viscosity between two fluids slows a capillary wave as it should") {
 }
 
 // Rayleigh-Taylor at 3 : 1 and Re = 1000 from a height of 0.1, t sqrt(At) = 0.5: Fourier coefficients of the surface's
-// height. Reference: a code with density spread over a few hundredths of a cell size of 1/128, one velocity. Each fluid
+// height. Reference: a code with density spread over 0.005 on cells of 1/128, one velocity. Each fluid
 // carried by itself at 64 cells has 8e-4 and 9e-4 too much of the second and fourth.
 TEST_CASE("light fluid rises into one three times as dense with a round top") {
   constexpr int columns = 32;
