@@ -111,9 +111,11 @@ TEST_CASE("liquid around a disc that moves as prescribed is the same if the disc
     for (int n = 0; n < 20; ++n) ends.push_back(sim->step(1));
     velocities.push_back(sim->solids()[0].velocity);
   }
+  double worst = 0;
   for (std::size_t n = 0; n < 20; ++n)
-    CHECK(ends[n + 20].kinetic_energy ==
-          Approx(ends[n].kinetic_energy).epsilon(5e-3));  // on the grid it is no disc: 0.2 %
+    worst = std::max(worst, (ends[n + 20].momentum - ends[n].momentum).norm() / ends[n].momentum.norm());
+  WARN("momentum off by " << worst);
+  CHECK(worst < 0.01);  // on the grid it is no disc: 0.004; turned about where it will stand 0.05
   CHECK((velocities[0] - Vec3(0.8, 0.2, 0)).norm() < 1e-12);
   CHECK((velocities[1] - velocities[0]).norm() < 1e-12);
 }
