@@ -306,3 +306,24 @@ TEST_CASE("liquid that a tube, floor and plate close off keeps its volume", "[el
   CHECK(worst <= 1e-8);
   CHECK(sim->stats().elastic_energy > 0);
 }
+
+// Both phases are sealed in below the lid: what keeps sealed liquid full must not take the bubble for liquid.
+TEST_CASE("a bubble that an elastic lid and walls seal in stays gas", "[elastic]") {
+  Scene s = box_scene(2, 16);
+  s.gravity = {0, -1, 0};
+  add_liquid(s, "0.2-sqrt((x-0.5)^2+(y-0.35)^2)");
+  s.liquid.density = 1000;
+  s.gas.present = true;
+  s.gas.density = 1;
+  s.solids.push_back(elastic_box("lid", {0, 0.7, 0}, {1, 0.85, 0}, 1000, {1e5, 0.4}, 0.15));
+  pin(s.solids[0], {-0.1, 0.6, 0}, {0.01, 0.9, 0});
+  pin(s.solids[0], {0.99, 0.6, 0}, {1.1, 0.9, 0});
+  s.time.fixed_step = 0.01;
+  const auto sim = make_simulation(s, Communicator());
+  const StepStats before = sim->stats();
+  StepStats after;
+  for (int n = 0; n < 5; ++n) after = sim->step(1);
+  CHECK(before.gas_volume > 0.1);
+  CHECK(after.gas_volume == Approx(before.gas_volume).epsilon(0.01));  // the control keeps volume to what the lid moves
+  CHECK(after.liquid_volume == Approx(before.liquid_volume).epsilon(0.01));
+}
