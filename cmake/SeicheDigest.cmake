@@ -1,5 +1,5 @@
-# src/base/version.h's build_digest(): a digest of the sources that make what a run gives, of the compiler and of its flags. What
-# judges, draws or describes runs does not count, so that runs made before still count for seiche validate.
+# src/base/version.h's build_digest(): a digest of the sources that make what a run gives, of the compiler and of its
+# flags. What judges, draws or describes runs does not count, so that runs made before still count for seiche validate.
 set(counted "${CMAKE_BINARY_DIR}/digest_sources.txt")
 file(GLOB_RECURSE run_sources CONFIGURE_DEPENDS src/*.cpp src/*.h)
 list(FILTER run_sources EXCLUDE REGEX "/src/io/(validate|render|png|suggest|scene_docs|info)[^/]*$")

@@ -8,7 +8,7 @@ namespace {
 
 template <int Dim>
 bool is_kinematic(const Body<Dim>& body) {
-  return body.moves() && !body.is_rigid() && !body.is_elastic();
+  return body.spec().kind == SolidKind::kinematic;
 }
 
 // What a source brings first has no velocity yet that the other half of the step could go on with.

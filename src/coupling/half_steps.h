@@ -11,11 +11,13 @@ namespace seiche {
 // is the leapfrog, free of damping and stable to omega dt = 2 as x(t + dt) = x + dt u, u(t + dt) = u + dt a(x(t + dt))
 // is, but of second order for steps of any lengths: there x lags by the sum of a dt^2/2, half a step of its motion, and
 // of liquid let go from rest in long steps more. Not for elastic and thin solids, two fluids, enclosed air that keeps
-// its volume, prescribed flows and first order; nor for rigid solids beside ones that move as prescribed. Near contact,
-// where solids may meet within two steps, a step moves all at once, to where contact is then solved; so does one in
-// which a source opens or closes. Collective.
+// its volume, prescribed flows and first order; nor for rigid solids beside ones that move as prescribed: whether a
+// scene has steps by halves at all.
 template <int Dim>
 bool may_go_by_halves(const Setup<Dim>& setup);
+
+// Whether this step goes so. Near contact, where solids may meet within two steps, a step moves all at once, to where
+// contact is then solved; so does one in which a source opens or closes. Collective.
 template <int Dim>
 bool goes_by_halves(const Setup<Dim>& setup, const State<Dim>& state, double dt);
 

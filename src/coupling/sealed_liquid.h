@@ -5,7 +5,7 @@
 namespace seiche {
 
 // Where a cavity was sealed before the step, phi counts its cells, and those that its wall cuts, as liquid: they have
-// nowhere to go. Fills ghosts. Collective.
+// nowhere to go. Does nothing where gas flows, which may be sealed in, too. Fills ghosts. Collective.
 template <int Dim>
 void keep_sealed_full(const Setup<Dim>& setup, const State<Dim>& before, const State<Dim>& after,
                       const StepGeometry<Dim>& geometry, CellField<Dim>& phi);

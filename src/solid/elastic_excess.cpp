@@ -58,17 +58,15 @@ Eigen::VectorXd without(const Eigen::MatrixXd& B, const SparseMatrix& mass, cons
   return v - B * (B.transpose() * MB).ldlt().solve(MB.transpose() * v);
 }
 
-// d
+// The motions that d is without.
 template <int Dim>
-Eigen::VectorXd deformation_rate(const IncrementalPotential<Dim>& step, const Pins& pins, const Eigen::VectorXd& u,
-                                 const Eigen::VectorXd& v) {
-  Eigen::MatrixXd B = translations<Dim>(pins, u.size() / Dim);
-  if (pins.dofs.empty()) {
-    const Eigen::MatrixXd R = turns(*step.body, u);
-    B.conservativeResize(Eigen::NoChange, B.cols() + R.cols());
-    B.rightCols(R.cols()) = R;
-  }
-  return without(B, step.body->mass, v);
+Eigen::MatrixXd kept_motions(const ElasticBody<Dim>& body, const Pins& pins, const Eigen::MatrixXd& translations,
+                             const Eigen::VectorXd& u) {
+  if (!pins.dofs.empty()) return translations;
+  const Eigen::MatrixXd R = turns(body, u);
+  Eigen::MatrixXd B(u.size(), translations.cols() + R.cols());
+  B << translations, R;
+  return B;
 }
 
 }  // namespace
@@ -84,7 +82,7 @@ void remove_excess_energy(const IncrementalPotential<Dim>& step, const Pins& pin
   const double excess = kinetic(relative(v)) - kinetic(relative(ends.v0)) + elastic_energy(body, ends.u) -
                         elastic_energy(body, ends.u0) - step.force.dot(relative(ends.u - ends.u0));
   if (!(excess > 0)) return;
-  const Eigen::VectorXd d = deformation_rate(step, pins, ends.u, v);
+  const Eigen::VectorXd d = without(kept_motions(body, pins, B, ends.u), body.mass, v);
   const double available = kinetic(d);
   v -= (1 - (available > excess ? std::sqrt(1 - excess / available) : 0)) * d;
 }
