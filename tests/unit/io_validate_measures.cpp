@@ -246,7 +246,7 @@ TEST_CASE("a run that does not hold what is measured is said not to be measurabl
   CHECK(measure(spec, run).error == 0.125);
   spec.from = 2.5;
   CHECK(measure(spec, run).error == 0);
-  put(run.stats(), "time,kinetic_energy,elastic_energy\n3,0,0\n4,1,0\n");
+  put(run.stats(), "time,kinetic_energy,elastic_energy\n2,2,0\n3,0,0\n4,1,0\n");
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no energy"));
   put(run.summary(), "{\n  \"volume_drift\": -0.25\n}\n");
   spec.kind = "volume_drift";
