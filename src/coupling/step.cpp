@@ -8,6 +8,7 @@
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
 #include "coupling/half_steps.h"
+#include "coupling/level_in_solids.h"
 #include "coupling/prescribed_flow.h"
 #include "coupling/restore.h"
 #include "coupling/rheology_iteration.h"
@@ -172,6 +173,7 @@ struct StepInProgress {
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += lead * net_inflow(s, out.geometry, before.phi, before.now->u);
+    keep_sides_of_walls(s, out.geometry, out.state.phi);
     keep_sealed_full(s, before, out.state, out.geometry, out.state.phi);
     if (has_thin_elastic(s)) keep_sides_apart(s, before, out.geometry, out.state.phi);
     const double uncounted = gap_volume(s, before.parting) + volume_beyond(s, out.geometry, out.state.phi);
