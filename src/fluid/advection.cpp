@@ -1,7 +1,5 @@
 #include "fluid/advection.h"
 
-#include <limits>
-
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 
@@ -36,37 +34,6 @@ Vec<Dim> mean_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int ax
   return v;
 }
 
-constexpr double least_kink = 0.5;  // h: second differences of a distance at a surface of two cells' radius
-
-// Between p1 and p2, at the share t of the way: with second differences d1, d2 at both,
-//   p1 + t (p2 - p1) + t (t - 1)/6 ((2 - t) d1 + (1 + t) d2),
-// the cubic through all four, where both are below `bend`. A greater one is that of a kink, the middle of a thread or
-// of a gap, which a distance has from the one of its sides or the other: from twice `bend` on both are the lesser (ENO,
-// Harten et al. 1987), with all between. The cubic across it is too low in threads by up to h/8, and widens them.
-double interpolate_with_kinks(double p0, double p1, double p2, double p3, double t, double bend) {
-  double d1 = p0 - 2 * p1 + p2, d2 = p1 - 2 * p2 + p3;
-  const double most = std::max(std::abs(d1), std::abs(d2));
-  if (most > bend) {
-    const double least = std::abs(d1) < std::abs(d2) ? d1 : d2, share = std::min(most / bend - 1, 1.0);
-    d1 += share * (least - d1);
-    d2 += share * (least - d2);
-  }
-  return p1 + t * (p2 - p1) + t * (t - 1) / 6 * ((2 - t) * d1 + (1 + t) * d2);
-}
-
-// Along the axes in turn, the last one outermost; p is the second point along each.
-template <int Dim, int Axis = Dim - 1>
-double interpolate_distance(const Layout<Dim>& layout, const double* p, const Vec<Dim>& t, double bend) {
-  const Site d = layout.stride(Axis);
-  const auto value = [&](Site k) {
-    if constexpr (Axis == 0)
-      return p[k];
-    else
-      return interpolate_distance<Dim, Axis - 1>(layout, p + k * d, t, bend);
-  };
-  return interpolate_with_kinks(value(-1), value(0), value(1), value(2), t[Axis], bend);
-}
-
 }  // namespace
 
 // x_d = x - dt u(x - dt/2 u(x)).
@@ -86,17 +53,14 @@ Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, c
 
 template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
-                      const CellField<Dim>& phi, CellField<Dim>& moved, const LevelSetTransport& how) {
-  const double bend = how.one_sided_at_kinks ? least_kink * layout.h() : std::numeric_limits<double>::infinity();
+                      const CellField<Dim>& phi, CellField<Dim>& moved, Trace trace) {
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
     moved[s] = phi[s];
     if (std::abs(phi[s]) >= band) return;
     const Vec<Dim> x = layout.position(i, cell_offset<Dim>()), at_x = mean_at_cell(layout, u, s);
-    const Vec<Dim> from = how.trace == Trace::midpoint ? trace_midpoint<Dim>(layout, u, at_x, x, dt)
-                                                       : trace_third_order<Dim>(layout, u, at_x, x, dt);
-    Vec<Dim> t;
-    const Site base = detail::base_site<Dim>(layout, index_coordinates<Dim>(layout, from, cell_offset<Dim>()), 1, 2, t);
-    moved[s] = interpolate_distance<Dim>(layout, phi.data() + base, t, bend);
+    const Vec<Dim> from = trace == Trace::midpoint ? trace_midpoint<Dim>(layout, u, at_x, x, dt)
+                                                   : trace_third_order<Dim>(layout, u, at_x, x, dt);
+    moved[s] = interpolate_cubic<Dim>(layout, phi.data(), index_coordinates<Dim>(layout, from, cell_offset<Dim>()));
   });
 }
 
@@ -123,7 +87,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);    \
   template Vec<D> trace_third_order<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double); \
   template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,      \
-                                    CellField<D>&, const LevelSetTransport&);                                        \
+                                    CellField<D>&, Trace);                                                           \
   template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,            \
                                 const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&,  \
                                 Interpolation);
