@@ -1,5 +1,6 @@
 #include "coupling/contact_angle.h"
 
+#include "coupling/cell_distance.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -101,21 +102,6 @@ struct Buried {
   Vec<Dim> from;
   double weight;
 };
-
-// psi at a cell's centre and its gradient (per cell), from the cell's nodes.
-template <int Dim>
-std::pair<double, Vec<Dim>> distance_at_cell(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell) {
-  constexpr int corners = 1 << Dim;
-  double mean = 0;
-  Vec<Dim> g = Vec<Dim>::Zero();
-  for (int k = 0; k < corners; ++k) {
-    Site node = cell;
-    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * layout.stride(a);
-    mean += psi[node] / corners;
-    for (int a = 0; a < Dim; ++a) g[a] += (((k >> a) & 1) ? 1 : -1) * psi[node] * 2 / corners;
-  }
-  return {mean, g};
-}
 
 template <int Dim>
 double shift_at(const Setup<Dim>& s, const StepGeometry<Dim>& g, Site cell) {

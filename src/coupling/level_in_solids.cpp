@@ -1,5 +1,6 @@
 #include "coupling/level_in_solids.h"
 
+#include "coupling/cell_distance.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 #include "levelset/redistance.h"
@@ -9,18 +10,6 @@ namespace {
 
 constexpr double depth = 1.5;  // cells; psi of elastic bodies is true to two
 constexpr int layers = 4;      // a wall moves by less than that in a step
-
-// psi at the centre of a cell, m.
-template <int Dim>
-double distance_at_center(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell) {
-  double sum = 0;
-  for (int k = 0; k < (1 << Dim); ++k) {
-    Site node = cell;
-    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * layout.stride(a);
-    sum += psi[node];
-  }
-  return sum / (1 << Dim);
-}
 
 template <int Dim>
 bool is_in_elastic(const Setup<Dim>& s, const StepGeometry<Dim>& g, Site cell) {
@@ -32,7 +21,7 @@ template <int Dim>
 std::vector<char> cells_near_outside(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
   std::vector<char> near(std::size_t(s.layout.size()), 0);
   for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    const bool deep = is_in_elastic(s, g, c) && distance_at_center(s.layout, g.psi, c) <= -depth * s.layout.h();
+    const bool deep = is_in_elastic(s, g, c) && distance_at_cell(s.layout, g.psi, c).first <= -depth * s.layout.h();
     near[std::size_t(c)] = deep ? 0 : 1;
   });
   return near;
