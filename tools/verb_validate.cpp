@@ -35,6 +35,9 @@ void add_validate(CLI::App& program, VerbContext& context) {
   verb->add_flag_callback(
       "--report-only", [&options] { options.making = Making::report; }, "Run nothing: report on the runs in --out");
   verb->add_option("--write-docs", options.docs, "Write the report as Markdown to this file as well");
+  verb->add_option("--record", options.record,
+                   "CSV file of figures of other builds and days: is brought up to date, and stands in for what is not "
+                   "run; the page of --write-docs then has all cases");
   verb->add_option("--break", options.tampering, "Test only: operator:factor")->group("");
   verb->footer(
       "Exit codes: 0 all cases passed; 1 a case missed its bar (a fault of ours: the table and validation.json say "

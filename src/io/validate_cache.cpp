@@ -18,30 +18,6 @@ fs::path identity_file(const fs::path& run) {
   return run / "validate.txt";
 }
 
-std::string sum_of(const fs::path& file) {
-  try {
-    const std::string bytes = read_whole_file(file);
-    return fmt::format("{:08x} of {} bytes", crc32c(bytes), bytes.size());
-  } catch (const Error& error) {
-    throw Error(ExitCode::bad_input, error.what());
-  }
-}
-
-std::vector<fs::path> files_of(const Scene& scene) {
-  std::vector<fs::path> files;
-  const auto add = [&](const ShapeSpec& shape) {
-    if (!shape.file.empty()) files.push_back(shape.file);
-  };
-  for (const auto& region : scene.liquid.regions) add(region.shape);
-  for (const auto& source : scene.liquid.sources) add(source.shape);
-  for (const auto& solid : scene.solids) {
-    add(solid.shape);
-    for (const auto& pin : solid.elastic.pinned) add(pin.shape);
-    for (const auto& traction : solid.elastic.tractions) add(traction.shape);
-  }
-  return files;
-}
-
 // Empty unless the folder holds a finished run that was kept.
 std::string key_of(const fs::path& run) {
   try {
@@ -63,11 +39,27 @@ std::vector<fs::path> folders_in(const fs::path& folder) {
 
 }  // namespace
 
+std::string checksum_of(const fs::path& file) {
+  try {
+    const std::string bytes = read_whole_file(file);
+    return fmt::format("{:08x} of {} bytes", crc32c(bytes), bytes.size());
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_input, error.what());
+  }
+}
+
+std::string checksums_of_files(const Scene& scene) {
+  std::string text;
+  for_each_shape(scene, [&](const ShapeSpec& shape) {
+    if (!shape.file.empty()) text += fmt::format("file {}\n", checksum_of(shape.file));
+  });
+  return text;
+}
+
 std::string run_identity(const Scene& scene, int ranks, const std::string& tampering) {
   std::string text = fmt::format("seiche {}, build {}\nranks {}\n", version(), build_digest(), ranks);
   if (!tampering.empty()) text += fmt::format("broken {}\n", tampering);
-  for (const fs::path& file : files_of(scene)) text += fmt::format("file {}\n", sum_of(file));
-  return text;
+  return text + checksums_of_files(scene);
 }
 
 RunCache::RunCache(const fs::path& out, Earlier earlier) {

@@ -4,10 +4,29 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/scene.h"
 
 namespace seiche {
+
+// Calls visit(ShapeSpec&) for all shapes of a scene, which may be const.
+template <class AnyScene, class Visit>
+void for_each_shape(AnyScene& scene, const Visit& visit) {
+  for (auto& region : scene.liquid.regions) visit(region.shape);
+  for (auto& source : scene.liquid.sources) visit(source.shape);
+  for (auto& solid : scene.solids) {
+    visit(solid.shape);
+    for (auto& pin : solid.elastic.pinned) visit(pin.shape);
+    for (auto& traction : solid.elastic.tractions) visit(traction.shape);
+  }
+}
+
+// "3d5a0c11 of 1024 bytes". Throws Error(bad_input) where the file cannot be read.
+std::string checksum_of(const std::filesystem::path& file);
+
+// A line of checksum for each file that the scene names, in their order. Throws Error(bad_input).
+std::string checksums_of_files(const Scene& scene);
 
 // What makes a run the same but for its scene: version and digest of the build (base/version.h), ranks, what is broken
 // for a test, the bytes of the files that the scene names. Throws Error(bad_input) where such a file cannot be read.

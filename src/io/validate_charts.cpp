@@ -93,6 +93,7 @@ Chart series_chart(const std::vector<ReportedResult>& all) {
     if (const Points points = reference_series(one); !points.empty())
       chart.curves.push_back({"reference", points, Curve::Style::marks});
     for (const ReportedResult& row : measured_of(all)) {
+      if (row.result.recorded) continue;
       const Points points = measured_series(measure_of(row), RunPaths{row.result.run});
       if (!points.empty() && chart.curves.size() < most_curves)
         chart.curves.push_back({row.resolution.name, in_units(points, one.plot), Curve::Style::line});

@@ -47,16 +47,17 @@ std::string table_of(const std::vector<ReportedResult>& rows) {
           measured ? figure(r.measured.error) : "-", figure(max_error_of(row.one, row.resolution)), order(r.order),
           order(r.fitted_order), order(row.one.min_order)})
       text += "<td>" + value + "</td>";
-    text += verdict_cell(r) + fmt::format("<td>{:.1f}{}</td>", r.wall_seconds, r.cached ? " (earlier)" : "");
+    text +=
+        verdict_cell(r) + fmt::format("<td>{:.1f}{}</td>", r.wall_seconds, r.cached || r.recorded ? " (earlier)" : "");
     text += fmt::format("<td>{}</td></tr>\n", escape_html(measured ? row.resolution.others : r.message));
   }
   return text + "</table>\n";
 }
 
-// The finest run that was measured.
+// The finest run that was measured and is there.
 const ReportedResult* finest(const std::vector<ReportedResult>& rows) {
   for (auto row = rows.rbegin(); row != rows.rend(); ++row)
-    if (is_measured(row->result)) return &*row;
+    if (is_measured(row->result) && !row->result.recorded) return &*row;
   return nullptr;
 }
 

@@ -59,6 +59,9 @@ std::string json_result(const ReportedResult& row, const std::string& indent) {
                  {"others", json_string(row.resolution.others)},
                  {"wall_seconds", json(r.wall_seconds)},
                  {"cached", r.cached ? "true" : "false"},
+                 {"recorded", r.recorded ? "true" : "false"},
+                 {"build", json_string(r.origin.build)},
+                 {"date", json_string(r.origin.date)},
                  {"run", json_string(r.run.string())},
                  {"message", json_string(r.message)}},
                 indent);
@@ -90,7 +93,7 @@ std::vector<std::string> json_cases(const Report& report) {
 // "12.3", of an earlier run "(12.3)".
 std::string seconds(const CaseResult& r) {
   if (r.verdict == Verdict::absent) return "-";
-  return r.cached ? fmt::format("({:.1f})", r.wall_seconds) : fmt::format("{:.1f}", r.wall_seconds);
+  return r.cached || r.recorded ? fmt::format("({:.1f})", r.wall_seconds) : fmt::format("{:.1f}", r.wall_seconds);
 }
 
 std::ptrdiff_t count(const Report& report, Verdict verdict) {

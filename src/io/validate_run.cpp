@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/version.h"
 #include "coupling/tampering.h"
 #include "io/checked_file.h"
 #include "io/info.h"
@@ -15,6 +16,7 @@
 #include "io/validate_html.h"
 #include "io/validate_judge.h"
 #include "io/validate_markdown.h"
+#include "io/validate_plan.h"
 #include "io/validate_report.h"
 
 namespace seiche {
@@ -24,48 +26,24 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::seconds(3);
 
-// One run that is going to be made.
-struct Planned {
-  const CaseSpec* one;
-  const ResolutionSpec* resolution;
-  Scene scene;
-  bool last_of_reference = false;  // no finer run of the case is to meet the same reference
-};
-
-// A validation under way. The cache is rank 0's.
+// A validation under way. The cache is rank 0's, the record is read by all ranks.
 struct Validation {
   const ValidateOptions& options;
   const Surroundings& around;
   RunCache cache;
+  std::optional<ValidationRecord> record;
+
+  void say(const std::string& text) const {
+    if (around.ranks.is_root()) around.console.line(text);
+  }
 };
 
-std::vector<CaseSpec> read_chosen(const ValidateOptions& options, const Communicator& ranks) {
-  std::vector<CaseSpec> cases;
-  agree(ranks, "reading the validation cases", [&] {
-    const fs::path folder = options.cases ? *options.cases : find_cases_folder(fs::current_path(), program_file());
-    cases = select_cases(read_cases(folder), options.words);
+Validation start(const ValidateOptions& options, const Surroundings& around) {
+  Validation v{options, around, RunCache(options.out, around.ranks.is_root() ? options.earlier : Earlier::ignore), {}};
+  agree(around.ranks, "reading the record", [&] {
+    if (options.record) v.record.emplace(*options.record);
   });
-  return cases;
-}
-
-// Reads every scene, so that a mistake in the last case ends the program before the first is run.
-std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const std::string& level, const Communicator& ranks) {
-  std::vector<Planned> runs;
-  agree(ranks, "reading the scenes", [&] {
-    for (const CaseSpec& one : cases) {
-      for (const ResolutionSpec& resolution : one.resolutions) {
-        if (!belongs_to(resolution, level)) continue;
-        runs.push_back({&one, &resolution, read_scene(scene_of(one, resolution), resolution.overrides)});
-      }
-    }
-  });
-  for (std::size_t n = 0; n < runs.size(); ++n) {
-    const Planned* next = n + 1 < runs.size() ? &runs[n + 1] : nullptr;
-    runs[n].last_of_reference =
-        !next || next->one != runs[n].one ||
-        reference_of(*next->one, *next->resolution) != reference_of(*runs[n].one, *runs[n].resolution);
-  }
-  return runs;
+  return v;
 }
 
 // Only warnings and the live line of a run reach the terminal, with the run's name before them.
@@ -141,20 +119,32 @@ Found obtain_run(const Planned& run, Validation& v) {
   return found;
 }
 
-// A measure of this resolution.
-MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution) {
-  MeasureSpec spec = one.measure;
-  spec.reference = reference_of(one, resolution);
-  return spec;
+std::string identity_of(const Planned& run) {
+  return measured_identity(run.scene, measure_of(*run.one, *run.resolution));
+}
+
+// Absent, where the record has no such figures either.
+void take_recorded(const Planned& run, const Validation& v, CaseResult& result) {
+  result.verdict = Verdict::absent;
+  if (!v.record) return;
+  const auto recorded = v.record->find(run.one->name, run.resolution->name, identity_of(run));
+  if (!recorded) return;
+  result.verdict = Verdict::missed;  // until judged
+  result.recorded = true;
+  result.run.clear();
+  result.measured = recorded->measured;
+  result.origin = recorded->origin;
+  result.wall_seconds = recorded->seconds;
 }
 
 ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) {
   const Found found = obtain_run(run, v);
   result.run = found.run;
   result.cached = found.cached;
-  if (!found.any) result.verdict = Verdict::absent;
+  if (!found.any) take_recorded(run, v, result);
   if (!found.any || found.code != ExitCode::done) return found.code;
   result.measured = measure_on_root(measure_of(*run.one, *run.resolution), result.run, v.around.ranks);
+  result.origin = {build_digest(), date_of(RunPaths{result.run}.summary()), v.around.ranks.size()};
   result.verdict = Verdict::missed;  // until judged
   return found.code;
 }
@@ -202,18 +192,37 @@ void judge_by_all(const Planned& run, const Report& report, CaseResult& result) 
   result.verdict = judge(*run.one, *run.resolution, result);
 }
 
+// Brings the record up to date with a run that was made or found.
+void put_on_record(const Planned& run, Validation& v, const CaseResult& result) {
+  if (!v.record || result.recorded || !is_measured(result)) return;
+  v.record->put(run.one->name, run.resolution->name, identity_of(run),
+                {result.origin, result.wall_seconds, result.measured});
+  agree_on_root(v.around.ranks, "writing the record", [&] { v.record->write(); });
+}
+
 ExitCode run_one(const Planned& run, Validation& v, Report& report) {
   CaseResult result;
   result.cell_size = run.scene.domain.cell_size;
   result.run = v.options.out / run.one->name / run.resolution->name;
   const auto began = Clock::now();
-  const ExitCode code = attempt(run, v, result);
-  if (code != ExitCode::done) return code;
-  result.wall_seconds =
-      result.cached ? seconds_of(result.run) : std::chrono::duration<double>(Clock::now() - began).count();
+  if (const ExitCode code = attempt(run, v, result); code != ExitCode::done) return code;
+  if (result.cached)
+    result.wall_seconds = seconds_of(result.run);
+  else if (!result.recorded)
+    result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
   if (result.verdict == Verdict::missed) judge_by_all(run, report, result);
+  put_on_record(run, v, result);
   report.results.push_back({*run.one, *run.resolution, result});
   return ExitCode::done;
+}
+
+// One that was not chosen: for the page of all cases.
+void take_one(const Planned& run, const Validation& v, Report& whole) {
+  CaseResult result;
+  result.cell_size = run.scene.domain.cell_size;
+  take_recorded(run, v, result);
+  if (result.verdict == Verdict::missed) judge_by_all(run, whole, result);
+  whole.results.push_back({*run.one, *run.resolution, result});
 }
 
 TableWidths widths_of(const std::vector<Planned>& runs) {
@@ -232,11 +241,11 @@ void write_report(const Report& report, const ValidateOptions& options, const Co
   });
 }
 
-// The pages for people.
-void write_pages(const Report& report, const ValidateOptions& options, const Communicator& ranks) {
+// The pages for people: of the chosen cases with pictures, of the whole level as Markdown.
+void write_pages(const Report& report, const Report& whole, const ValidateOptions& options, const Communicator& ranks) {
   agree_on_root(ranks, "writing the report", [&] {
     write_file(options.out / "report.html", format_html(report));
-    if (options.docs) write_file(*options.docs, format_markdown(report));
+    if (options.docs) write_file(*options.docs, format_markdown(whole));
   });
 }
 
@@ -260,7 +269,7 @@ std::string resolutions_of(const CaseSpec& one, const std::string& level) {
 }  // namespace
 
 ExitCode list_cases(const ValidateOptions& options, const Surroundings& around) {
-  const std::vector<CaseSpec> cases = read_chosen(options, around.ranks);
+  const std::vector<CaseSpec> cases = choose_cases(read_all_cases(options, around.ranks), options, around.ranks);
   if (!around.ranks.is_root()) return ExitCode::done;
   for (const CaseSpec& one : cases) {
     around.console.line(fmt::format("{}: {}", one.name, one.title));
@@ -271,34 +280,29 @@ ExitCode list_cases(const ValidateOptions& options, const Surroundings& around) 
 }
 
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around) {
-  const std::vector<CaseSpec> cases = read_chosen(options, around.ranks);
-  const std::vector<Planned> runs = plan(cases, options.level, around.ranks);
-  const TableWidths widths = widths_of(runs);
-  const auto say = [&](const std::string& text) {
-    if (around.ranks.is_root()) around.console.line(text);
-  };
-  if (runs.empty()) {
-    throw Error(ExitCode::bad_input,
-                fmt::format("the chosen cases have no resolution of level '{}'; give --level full", options.level));
-  }
+  const std::vector<CaseSpec> all = read_all_cases(options, around.ranks);
+  const std::vector<Planned> runs = plan(all, options, around.ranks);
   agree(around.ranks, "reading the options", [&] { parse_tampering(options.tampering); });
-  Validation validation{options, around,
-                        RunCache(options.out, around.ranks.is_root() ? options.earlier : Earlier::ignore)};
-  Report report{options.level, around.ranks.size(), runs.size(), {}};
+  Validation v = start(options, around);
+  Report report{options.level, around.ranks.size(), std::size_t(std::ranges::count(runs, true, &Planned::chosen)), {}};
+  Report whole{options.level, around.ranks.size(), runs.size(), {}};
+  const TableWidths widths = widths_of(runs);
   write_report(report, options, around.ranks);
-  say(table_header(widths));
+  v.say(table_header(widths));
   for (const Planned& run : runs) {
-    const ExitCode code = run_one(run, validation, report);
-    if (code != ExitCode::done) {
-      say(fmt::format("stopped in {} {}; validate again to run it anew", run.one->name, run.resolution->name));
+    if (!run.chosen) take_one(run, v, whole);
+    if (!run.chosen) continue;
+    if (const ExitCode code = run_one(run, v, report); code != ExitCode::done) {
+      v.say(fmt::format("stopped in {} {}; validate again to run it anew", run.one->name, run.resolution->name));
       return code;
     }
-    say(table_row(widths, report.results.back()));
+    whole.results.push_back(report.results.back());
+    v.say(table_row(widths, report.results.back()));
     write_report(report, options, around.ranks);
   }
-  write_pages(report, options, around.ranks);
-  say(fmt::format("{}; figures in {}, plots and pictures in {}", table_summary(report),
-                  (options.out / "validation.json").string(), (options.out / "report.html").string()));
+  write_pages(report, whole, options, around.ranks);
+  v.say(fmt::format("{}; figures in {}, plots and pictures in {}", table_summary(report),
+                    (options.out / "validation.json").string(), (options.out / "report.html").string()));
   return code_of(report);
 }
 

@@ -9,10 +9,11 @@
 #include "io/validate_cache.h"
 #include "io/validate_case.h"
 #include "io/validate_measures.h"
+#include "io/validate_record.h"
 
 namespace seiche {
 
-// failed: could not be run or measured; absent: only earlier runs were asked for, and there is none
+// failed: could not be run or measured; absent: it was not asked to be run, and there is no earlier run
 enum class Verdict { passed, missed, failed, absent };
 
 // One resolution of a case, run and judged.
@@ -24,6 +25,8 @@ struct CaseResult {
   double cell_size = 0;                // m
   double wall_seconds = 0;             // of the run, whenever it was made
   bool cached = false;                 // an earlier run was taken
+  bool recorded = false;               // only its figures are there
+  Origin origin;                       // of the run
   std::string message;                 // why it failed
   std::filesystem::path run;
 };
@@ -38,17 +41,19 @@ struct ValidateOptions {
   std::optional<int> threads;
   Earlier earlier = Earlier::use;
   Making making = Making::runs;
-  std::optional<std::filesystem::path> docs;  // where to write the report as Markdown
-  std::string tampering;                      // see coupling/tampering.h
+  std::optional<std::filesystem::path> docs;    // where to write the report as Markdown
+  std::optional<std::filesystem::path> record;  // figures of other builds and days, see validate_record.h
+  std::string tampering;                        // see coupling/tampering.h
 };
 
 // Writes one line a case to the console.
 ExitCode list_cases(const ValidateOptions& options, const Surroundings& around);
 
 // Runs the chosen cases in out/<case>/<resolution>/ as far as they have no run yet, prints a table row after each,
-// keeps out/validation.json and writes out/report.html. Cases that could not go on are rows of the table. Returns done
-// (all passed), bug (a bar was missed), cannot_continue (a case could not be run or measured, or is absent), stopped.
-// Throws Error(bad_input) before anything is run. Collective.
+// keeps out/validation.json and writes out/report.html. With a record it brings that up to date, takes from it what is
+// not run, and the Markdown page has all cases of the level. Cases that could not go on are rows of the table. Returns
+// done (all passed), bug (a bar was missed), cannot_continue (a case could not be run or measured, or is absent),
+// stopped. Throws Error(bad_input) before anything is run. Collective.
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around);
 
 }  // namespace seiche

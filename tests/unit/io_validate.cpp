@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
+#include "base/version.h"
 #include "io/info.h"
 #include "io/validate_charts.h"
 #include "io/validate_html.h"
@@ -247,6 +248,39 @@ TEST_CASE("a report alone runs nothing and says what is missing") {
   const std::string page = contents(folder / "page.md");
   CHECK(page.find("seiche validate one --level full") != std::string::npos);
   CHECK(page.find("**not run**") != std::string::npos);
+}
+
+TEST_CASE("a record keeps figures of other builds, and the page has all cases") {
+  const ScratchFolder folder;
+  put_case(folder, "first", case_text("max_speed", 1.5));
+  put_case(folder, "second", case_text("max_speed", 1.5));
+  ValidateOptions options;
+  options.record = folder / "record.csv", options.docs = folder / "page.md";
+  CHECK(validate(folder, {"first"}, "full", options).code == ExitCode::done);
+  CHECK(contents(folder / "page.md").find("2 pass, 2 not run") != std::string::npos);
+
+  // As another build would have left it: the runs are gone, the figures are not.
+  std::string kept = contents(folder / "record.csv");
+  for (std::size_t at; (at = kept.find(build_digest())) != std::string::npos;)
+    kept.replace(at, build_digest().size(), "abcdef0123456789");
+  put(folder / "record.csv", kept);
+  fs::remove_all(folder / "out");
+  CHECK(validate(folder, {"second"}, "full", options).code == ExitCode::done);
+  const std::string page = contents(folder / "page.md");
+  CHECK(page.find("4 pass; 2 of them made by earlier builds") != std::string::npos);
+  CHECK(page.find("| abcdef01, 20") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out" / "first"));
+
+  // Figures of a case that has changed since are none of it.
+  fs::remove_all(folder / "out");
+  put_case(folder, "first", case_text("dt", 1.5));
+  options.making = Making::report;
+  const Outcome changed = validate(folder, {}, "full", options);
+  CHECK(changed.code == ExitCode::cannot_continue);
+  CHECK(changed.table.find("2 pass, 2 not run") != std::string::npos);
+
+  put(folder / "record.csv", "case,resolution\nfirst,8,1,2\n");
+  CHECK_THROWS_WITH(validate(folder, {}, "full", options), Catch::Contains("record.csv, line 1"));
 }
 
 TEST_CASE("the pages show misses with their cause, plots and a picture") {

@@ -1,0 +1,31 @@
+#pragma once
+// What a validation is going to run.
+#include "io/validate_run.h"
+
+namespace seiche {
+
+// One resolution of a case. Points into the cases it was planned from.
+struct Planned {
+  const CaseSpec* one;
+  const ResolutionSpec* resolution;
+  Scene scene;
+  bool last_of_reference = false;  // no finer run of the case is to meet the same reference
+  bool chosen = true;              // by the user; others are for the record's page
+};
+
+// The cases of the folder that the options name, or of the one that is found. Throws Error(bad_input). Collective.
+std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Communicator& ranks);
+
+// Those the user named. Throws Error(bad_input). Collective.
+std::vector<CaseSpec> choose_cases(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
+                                   const Communicator& ranks);
+
+// The runs of the level: the chosen ones, with a record all. Reads every scene, so that a mistake in the last case ends
+// the program before the first is run. Throws Error(bad_input), where nothing is chosen too. Collective.
+std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
+                          const Communicator& ranks);
+
+// A measure of this resolution.
+MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution);
+
+}  // namespace seiche
