@@ -192,9 +192,11 @@ void judge_by_all(const Planned& run, const Report& report, CaseResult& result) 
   result.verdict = judge(*run.one, *run.resolution, result);
 }
 
-// Brings the record up to date with a run that was made or found.
+// Brings the record up to date with a run that was made or found. It is read again, as another validation may have
+// written to it since.
 void put_on_record(const Planned& run, Validation& v, const CaseResult& result) {
   if (!v.record || result.recorded || !is_measured(result)) return;
+  agree(v.around.ranks, "reading the record", [&] { v.record.emplace(*v.options.record); });
   v.record->put(run.one->name, run.resolution->name, identity_of(run),
                 {result.origin, result.wall_seconds, result.measured});
   agree_on_root(v.around.ranks, "writing the record", [&] { v.record->write(); });
