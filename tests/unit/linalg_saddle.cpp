@@ -161,6 +161,14 @@ Stokes thread(int length, double viscosity) {
   return s;
 }
 
+// The same lying down: ranks cut it lengthwise, and its loose faces in chains.
+Stokes thread_across(int length, double viscosity) {
+  Stokes s = liquid(3, length, viscosity);
+  s.box.size = {length, 10, 10};
+  s.box.kind = [](Cell c) { return std::hypot(c[1] - 4.5, c[2] - 4.5) < 3.2 && c[0] > 2 ? Kind::liquid : Kind::air; };
+  return s;
+}
+
 // The iterations at each size: at most so many, and not growing; on any number of ranks.
 void check_flat(const std::function<Stokes(int)>& make, const std::vector<int>& sizes, int most) {
   constexpr int scatter = 5;
@@ -286,10 +294,24 @@ TEST_CASE("saddle: iterations in 3D") {
     CAPTURE(density);
     check_flat(make, {12, 20}, 45);
   }
+  SECTION("an inclusion 1e-5 times as viscous below a surface") {
+    const auto make = [&](int n) {
+      Stokes s = liquid(3, n, viscosity);
+      add_surface(s);
+      add_inclusion(s, viscosity, 1e-5);
+      return s;
+    };
+    check_flat(make, {16, 24}, 25);
+  }
 }
 
 TEST_CASE("saddle: iterations of a thread do not grow with its length") {
-  check_flat([](int length) { return thread(length, 300); }, {16, 32, 64}, 40);
+  SECTION("cut across") {
+    check_flat([](int length) { return thread(length, 300); }, {16, 32, 64}, 40);
+  }
+  SECTION("cut lengthwise") {
+    check_flat([](int length) { return thread_across(length, 300); }, {16, 32, 64}, 40);
+  }
 }
 
 TEST_CASE("saddle: the same on one rank as on several") {
