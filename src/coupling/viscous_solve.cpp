@@ -33,6 +33,7 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                        .closed = liquid.closed,
                        .schur_scale = schur_scale,
                        .schur_mass = v.schur_mass,
+                       .mass = v.mass,
                        .axis = std::move(axes),
                        .position = std::move(positions)},
                       {.tolerance = in.setup.scene.solver.tolerance}, in.setup.ranks);

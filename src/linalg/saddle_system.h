@@ -28,6 +28,7 @@ struct SaddleSystem {
   // By row of A: (D F^-1 D')^-1 ~ (schur_scale A)^-1 + diag(schur_mass) (Cahouet, Chabard 1988). Of a liquid of
   // viscosity mu dt mu / h^Dim, times 1 + kappa where kappa mu (div u)^2 is part of its energy.
   const Vector& schur_mass;
+  const Vector& mass;  // M, by row of F
   // Axis of the velocity in each row of F. Needed where its energy couples axes (the full stress): without it multigrid
   // needs ever more iterations on finer grids.
   std::vector<int> axis = {};

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "linalg/krylov.h"
-#include "linalg/loose_faces.h"
 #include "linalg/rigid_motions.h"
 
 namespace seiche {
@@ -89,9 +88,9 @@ void VelocityPreconditioner::mend_loose_faces() {
   const std::vector<int>& start = K_.system().Dt.row_start;
   for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = start[i] == start[i + 1];
   if (!K_.ranks().any(std::find(loose.begin(), loose.end(), 1) != loose.end())) return;
-  auto mended = std::make_unique<LooseFaces>(K_.faces(), loose, std::move(B_));
-  good_ = !K_.ranks().any(!mended->good());
-  B_ = std::move(mended);
+  loose_ = std::make_unique<LooseRows>(K_.faces(), loose);
+  good_ = loose_->good();
+  B_ = std::make_unique<LooseFaces>(K_.faces(), *loose_, std::move(B_));
 }
 
 void VelocityPreconditioner::mend_stiff_parts() {

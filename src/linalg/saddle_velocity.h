@@ -4,6 +4,7 @@
 
 #include "linalg/chebyshev.h"
 #include "linalg/hypre_adapter.h"
+#include "linalg/loose_faces.h"
 #include "linalg/saddle_system.h"
 
 namespace seiche {
@@ -29,6 +30,10 @@ class VelocityPreconditioner {
   [[nodiscard]] bool refresh();
   void apply(const Vector& ru, const Eigen::VectorXd& rv, Vector& zu, Eigen::VectorXd& zv);
 
+  // Whether viscosity counts for so much that B is a multigrid cycle.
+  bool is_multigrid() const { return !mass_prevails_ && !interval_; }
+  // Faces without a pressure; null where there are none.
+  const LooseRows* loose_rows() const { return loose_.get(); }
   const std::vector<Direction>& directions() const { return directions_; }
   // T of the rigid directions, E of the others, as one matrix.
   const Eigen::MatrixXd& direction_energies() const { return energies_; }
@@ -45,6 +50,7 @@ class VelocityPreconditioner {
   const SaddleOperator& K_;
   bool mass_prevails_, good_ = true;
   std::optional<SpectralInterval> interval_;  // where a polynomial stands for multigrid
+  std::unique_ptr<LooseRows> loose_;
   std::unique_ptr<Preconditioner> B_;
   std::vector<Direction> directions_;  // rigid ones first
   std::size_t rigid_ = 0;

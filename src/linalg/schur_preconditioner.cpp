@@ -1,6 +1,7 @@
 #include "linalg/schur_preconditioner.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "linalg/body_coupling.h"
 
@@ -32,6 +33,12 @@ SchurPreconditioner::SchurPreconditioner(const LinearSystem& A, const BlockColum
       used_(choose(name, A, J)),
       settings_(settings),
       deforms_(J.any_deforms()) {}
+
+void SchurPreconditioner::set_liquid(std::unique_ptr<Preconditioner> inverse) {
+  assert(!deforms_);
+  B_.preconditioner = std::move(inverse);
+  mass_.clear();
+}
 
 void SchurPreconditioner::set_directions(std::vector<Vector> Jd) {
   Jd_ = std::move(Jd);

@@ -16,6 +16,8 @@ class SchurPreconditioner {
   SchurPreconditioner(const LinearSystem& A, const BlockColumns& J, double c, Vector mass, const std::string& name,
                       const AmgSettings& settings);
 
+  // In place of A^-1 and mass, where no body deforms.
+  void set_liquid(std::unique_ptr<Preconditioner> inverse);
   void set_directions(std::vector<Vector> Jd);
   // For the present H and N. Why it failed, else empty. Collective.
   [[nodiscard]] std::string refresh(const BodyMatrix& H, const Eigen::MatrixXd& N);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace seiche {
 namespace {
@@ -31,6 +32,14 @@ class JoinedRows {
     while (F_.ranks().any(take_from_others(level))) {
     }
     return label_;
+  }
+  // Of sets with rows of other ranks beside this one's, at that level.
+  std::set<Row> labels_across(double level) const {
+    std::set<Row> labels;
+    for_each_link(level, [&](int i, int j) {
+      if (j >= F_.rows()) labels.insert(Row(label_[std::size_t(i)]));
+    });
+    return labels;
   }
 
  private:
@@ -83,15 +92,16 @@ struct Count {
   std::int64_t rows;
 };
 
-// Over all ranks, of sets with at least `fewest` rows on one of them.
-std::vector<StiffRegion> count_sets(const LinearSystem& F, const Vector& label, int fewest) {
+// Over all ranks, of sets with at least `fewest` rows; of smaller ones only those `across` ranks are heard of.
+std::vector<StiffRegion> count_sets(const LinearSystem& F, const Vector& label, const std::set<Row>& across,
+                                    int fewest) {
   std::map<Row, std::int64_t> mine, all;
   for (int i = 0; i < F.rows(); ++i)
     if (label[std::size_t(i)] >= 0) ++mine[Row(label[std::size_t(i)])];
   std::string bytes;
   for (const auto& [first, rows] : mine) {
     const Count count{first, rows};
-    if (rows >= fewest) bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
+    if (rows >= fewest || across.count(first)) bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
   }
   for (const std::string& part : F.ranks().all_gather(bytes))
     for (std::size_t k = 0; k < part.size(); k += sizeof(Count)) {
@@ -100,7 +110,8 @@ std::vector<StiffRegion> count_sets(const LinearSystem& F, const Vector& label, 
       all[count.label] += count.rows;
     }
   std::vector<StiffRegion> sets;
-  for (const auto& [first, rows] : all) sets.push_back({first, rows, {}});
+  for (const auto& [first, rows] : all)
+    if (rows >= fewest) sets.push_back({first, rows, {}});
   return sets;
 }
 
@@ -140,7 +151,7 @@ std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, s
   std::vector<StiffRegion> regions;
   for (double level = high / alike; level > 0; level /= level_ratio) {
     const Vector& label = joined.label(level);
-    std::vector<StiffRegion> sets = count_sets(F, label, fewest);
+    std::vector<StiffRegion> sets = count_sets(F, label, joined.labels_across(level), fewest);
     drop_known(F, label, regions, sets);
     keep_largest(sets, most);
     take_rows(F, label, sets);

@@ -1,87 +1,11 @@
-#include <catch2/catch.hpp>
-
 #include <Eigen/QR>
 
-#include "linalg_saddle_cases.h"
+#include "linalg_saddle_problems.h"
 
 using namespace seiche;
-using cases::Cell;
-using cases::Kind;
-using cases::Stokes;
-using cases::StokesMatrices;
+using namespace seiche::cases;
 
 namespace {
-
-double distance_squared(const Stokes& s, const Cell& c, std::array<double, 3> centre) {
-  double sum = 0;
-  for (int a = 0; a < s.box.dimension; ++a) sum += std::pow(c[a] + 0.5 - centre[a] * s.box.size[a], 2);
-  return sum;
-}
-
-Stokes liquid(int dimension, int n, double viscosity) {
-  Stokes s;
-  s.box.dimension = dimension;
-  s.box.size = {n, n, dimension == 3 ? n : 1};
-  s.viscosity = [viscosity](Cell) { return viscosity; };
-  s.body_density = -1;
-  return s;
-}
-
-// A ball `jump` times as viscous as the rest.
-void add_inclusion(Stokes& s, double viscosity, double jump) {
-  const Stokes box = s;
-  s.viscosity = [=](Cell c) {
-    return viscosity * (distance_squared(box, c, {0.7, 0.3, 0.5}) < std::pow(0.2 * box.box.size[0], 2) ? jump : 1);
-  };
-}
-
-void add_ball(Stokes& s, double density, double radius = 0.15) {
-  const Stokes box = s;
-  s.body_density = density;
-  s.body = [=](Cell c) { return distance_squared(box, c, {0.45, 0.4, 0.5}) < std::pow(radius * box.box.size[0], 2); };
-  for (int a = 0; a < 3; ++a) s.centre[a] = std::array{0.45, 0.4, 0.5}[a] * s.box.size[a];
-  s.box.kind = [body = s.body, kind = s.box.kind](Cell c) { return body(c) ? Kind::wall : kind(c); };
-}
-
-// A wavy one, across the second axis.
-void add_surface(Stokes& s) {
-  s.box.kind = [n = s.box.size[0], kind = s.box.kind](Cell c) {
-    return c[1] + 0.5 > 0.7 * n + 0.1 * n * std::sin(6.0 * c[0] / n) ? Kind::air : kind(c);
-  };
-}
-
-struct Problem {
-  Vector f, q;
-  Eigen::VectorXd g;
-};
-
-// Forces that would give the faces velocities of the order of one, rough and smooth; and pushes on the body.
-Problem pose(const StokesMatrices& m) {
-  Problem p{Vector(m.mass), Vector(m.schur_mass.size(), 0.0), Eigen::VectorXd::Zero(m.H.rows())};
-  for (std::size_t i = 0; i < p.f.size(); ++i)
-    p.f[i] *= cases::noise(m.F.first_row + Row(i)) + std::sin(0.001 * double(m.F.first_row + Row(i)));
-  for (Eigen::Index k = 0; k < p.g.size(); ++k) p.g[k] = 1 + 0.5 * double(k);
-  return p;
-}
-
-struct Answer {
-  Vector u, p;
-  Eigen::VectorXd v;
-  SaddleReport report;
-};
-
-Answer start(const StokesMatrices& m) {
-  return {Vector(m.mass.size(), 0.0), Vector(m.schur_mass.size(), 0.0), Eigen::VectorXd::Zero(m.H.rows()), {}};
-}
-
-Answer solve(const StokesMatrices& m, const Problem& p, const Communicator& ranks, const SaddleOptions& options = {}) {
-  BodyMatrix H(ranks);
-  REQUIRE(H.set(m.H));
-  SaddleSolver solver(m.system(), options, ranks);
-  Answer a = start(m);
-  a.report = solver.solve(H, p.f, p.g, p.q, a.u, a.v, a.p);
-  return a;
-}
 
 // The same on every rank.
 Vector gathered(const Vector& own, Row first, Row total, const Communicator& ranks) {
@@ -141,36 +65,6 @@ void check_against_dense(const Stokes& s) {
   CHECK((K * x - b).norm() <= 1e-8 * b.norm());
 }
 
-int iterations(const Stokes& s) {
-  const Communicator ranks;
-  const StokesMatrices m = cases::StokesBuilder(s, ranks).make();
-  const Problem p = pose(m);
-  const Answer a = solve(m, p, ranks);
-  CAPTURE(s.box.size, a.report.used, a.report.ladder);
-  CHECK(a.report.converged);
-  CHECK(a.report.ladder.empty());
-  CHECK(a.report.residual <= 1e-8);
-  return a.report.iterations;
-}
-
-// A thread in air, six cells across and so long, that hangs from the box's side; ranks cut it across.
-Stokes thread(int length, double viscosity) {
-  Stokes s = liquid(3, length, viscosity);
-  s.box.size = {10, 10, length};
-  s.box.kind = [](Cell c) { return std::hypot(c[0] - 4.5, c[1] - 4.5) < 3.2 && c[2] > 2 ? Kind::liquid : Kind::air; };
-  return s;
-}
-
-// The iterations at each size: at most so many, and not growing; on any number of ranks.
-void check_flat(const std::function<Stokes(int)>& make, const std::vector<int>& sizes, int most) {
-  constexpr int scatter = 5;
-  std::vector<int> counts;
-  for (const int n : sizes) counts.push_back(iterations(make(n)));
-  CAPTURE(counts);
-  CHECK(*std::max_element(counts.begin(), counts.end()) <= most);
-  CHECK(counts.back() <= counts.front() + scatter);
-}
-
 }  // namespace
 
 TEST_CASE("saddle: equal to a dense factorisation") {
@@ -207,89 +101,6 @@ TEST_CASE("saddle: equal to a dense factorisation") {
     s.box.kind = [](Cell c) { return c[1] == 4 || c[1] == 5 ? Kind::wall : c[1] == 9 ? Kind::air : Kind::liquid; };
     check_against_dense(s);
   }
-}
-
-TEST_CASE("saddle: iterations stay where they are on finer grids") {
-  const double viscosity = GENERATE(1e-3, 0.1, 1.0, 10.0, 1e3, 1e5);
-  CAPTURE(viscosity);
-  SECTION("full stress") {
-    check_flat([&](int n) { return liquid(2, n, viscosity); }, {32, 64}, 40);
-  }
-  SECTION("component Laplacian") {
-    const auto make = [&](int n) {
-      Stokes s = liquid(2, n, viscosity);
-      s.kappa = 0;
-      return s;
-    };
-    check_flat(make, {32, 64}, 45);
-  }
-  SECTION("a body, massless to heavy") {
-    const double density = GENERATE(0.0, 1.0, 1000.0);
-    const auto make = [&](int n) {
-      Stokes s = liquid(2, n, viscosity);
-      add_ball(s, density);
-      return s;
-    };
-    check_flat(make, {32, 64}, 45);
-  }
-  SECTION("a free surface, whose faces in air have next to no mass") {
-    const auto make = [&](int n) {
-      Stokes s = liquid(2, n, viscosity);
-      add_surface(s);
-      return s;
-    };
-    check_flat(make, {32, 64}, 45);
-  }
-  SECTION("an inclusion 1e5 times as viscous, or 1e-5, in a box or below a surface") {
-    const double jump = GENERATE(1e5, 1e-5);
-    const bool surface = GENERATE(false, true);
-    const auto make = [&](int n) {
-      Stokes s = liquid(2, n, viscosity);
-      if (surface) add_surface(s);
-      add_inclusion(s, viscosity, jump);
-      return s;
-    };
-    CAPTURE(jump, surface);
-    check_flat(make, {32, 64}, 40);
-  }
-  SECTION("an inclusion, a surface and a body that touches the inclusion") {
-    const auto make = [&](int n) {
-      Stokes s = liquid(2, n, viscosity);
-      add_surface(s);
-      add_inclusion(s, viscosity, 1e5);
-      add_ball(s, 0.01);
-      return s;
-    };
-    check_flat(make, {32, 64}, 45);
-  }
-}
-
-TEST_CASE("saddle: iterations in 3D") {
-  const double viscosity = GENERATE(1e-3, 1.0, 1e5);
-  CAPTURE(viscosity);
-  SECTION("a light ball") {
-    const auto make = [&](int n) {
-      Stokes s = liquid(3, n, viscosity);
-      add_ball(s, 0.01);
-      return s;
-    };
-    check_flat(make, {12, 20}, 30);
-  }
-  SECTION("an inclusion 1e5 times as viscous, with and without a ball that touches it") {
-    const double density = GENERATE(-1.0, 1.0);
-    const auto make = [&](int n) {
-      Stokes s = liquid(3, n, viscosity);
-      add_inclusion(s, viscosity, 1e5);
-      if (density > 0) add_ball(s, density);
-      return s;
-    };
-    CAPTURE(density);
-    check_flat(make, {12, 20}, 45);
-  }
-}
-
-TEST_CASE("saddle: iterations of a thread do not grow with its length") {
-  check_flat([](int length) { return thread(length, 300); }, {16, 32, 64}, 40);
 }
 
 TEST_CASE("saddle: the same on one rank as on several") {

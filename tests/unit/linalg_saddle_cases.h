@@ -28,7 +28,7 @@ struct StokesMatrices {
   std::vector<int> axis;
   std::vector<std::array<double, 3>> position;
   SaddleSystem system() const {
-    return {F, G, D, Dt, J, pressure.A, pressure.grid, pressure.null_space, 1.0, schur_mass, axis, position};
+    return {F, G, D, Dt, J, pressure.A, pressure.grid, pressure.null_space, 1.0, schur_mass, mass, axis, position};
   }
 };
 
