@@ -12,9 +12,9 @@ namespace {
 // two cells' radius, or second differences at p1 and p2 by more than those of one of three cells' radius.
 constexpr double least_turn = 1, least_difference = 0.125;  // h
 // Cells from the zero within which kinks count, none of it from one cell farther: what moves the zero is nearer.
-constexpr double reach = 2;
+constexpr double reach = 1;
 // Cells from the zero within which a kink is a corner of the liquid, not at all from twice that on.
-constexpr double corner = 0.25;
+constexpr double corner = 0.15;
 
 // Second differences at p1 and p2, the share of a kink between p0 and p3 that they tell of.
 struct Bend {

@@ -41,20 +41,21 @@ void for_points(const F& f) {
 
 }  // namespace
 
-// Straight on both sides: wherever its middle lies, a thread or gap along an axis is what the samples came from. Its
-// middle is more than half a cell from the zero, so that it is no corner.
+// Straight on both sides: wherever its middle lies, a thread or gap along an axis is what the samples came from, near
+// its surface. Its middle is more than 0.3 cells from the zero, so that it is no corner.
 TEMPLATE_TEST_CASE_SIG("a thread or gap along an axis is interpolated without error", "", ((int Dim), Dim), 2, 3) {
   for (const double sign : {1.0, -1.0})
     for (const double middle : {8.0, 8.1, 8.25, 8.5, 8.9}) {
-      const auto thread = [&](const Vec<Dim>& g) { return sign * (std::abs(g[1] - middle) - 1.8); };
+      const auto thread = [&](const Vec<Dim>& g) { return sign * (std::abs(g[1] - middle) - 1.3); };
       const Sampled<Dim> f(thread);
       double most = 0, of_cubic = 0;
       for_points<Dim>([&](const Vec<Dim>& g) {
+        if (std::abs(thread(g)) > 0.75) return;
         most = std::max(most, std::abs(f.one_sided(g) - thread(g)));
         of_cubic = std::max(of_cubic, std::abs(f.cubic(g) - thread(g)));
       });
       INFO("middle " << middle << ", cubic " << of_cubic);
-      CHECK(of_cubic > 0.1);
+      CHECK(of_cubic > 0.05);
       // A kink within 1/8 of a point differs by less than 1/4 in second differences there: not all of it is told.
       CHECK(most < (std::abs(middle - std::round(middle)) < 0.125 ? 0.02 : 1e-12));
     }
