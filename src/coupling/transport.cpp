@@ -293,8 +293,10 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   check_forces_of_step(s, t, t + dt);
   CellField<Dim> joined = phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, t, joined);
-  const Trace trace = s.has_prescribed_flow() ? Trace::third_order : Trace::midpoint;  // nothing else errs there
-  advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi, trace);
+  LevelSetTransport how;
+  if (s.has_prescribed_flow()) how.trace = Trace::third_order;  // nothing else errs there
+  how.one_sided_at_kinks = !s.has_gas();                        // docs/decisions/0023-kinks.md
+  advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi, how);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   return add_sources(s, state, t, t + dt, phi);
 }

@@ -1,5 +1,6 @@
 #include "fluid/advection.h"
 
+#include "fluid/kinks.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 
@@ -53,14 +54,16 @@ Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, c
 
 template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
-                      const CellField<Dim>& phi, CellField<Dim>& moved, Trace trace) {
+                      const CellField<Dim>& phi, CellField<Dim>& moved, const LevelSetTransport& how) {
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
     moved[s] = phi[s];
     if (std::abs(phi[s]) >= band) return;
     const Vec<Dim> x = layout.position(i, cell_offset<Dim>()), at_x = mean_at_cell(layout, u, s);
-    const Vec<Dim> from = trace == Trace::midpoint ? trace_midpoint<Dim>(layout, u, at_x, x, dt)
-                                                   : trace_third_order<Dim>(layout, u, at_x, x, dt);
-    moved[s] = interpolate_cubic<Dim>(layout, phi.data(), index_coordinates<Dim>(layout, from, cell_offset<Dim>()));
+    const Vec<Dim> from = how.trace == Trace::midpoint ? trace_midpoint<Dim>(layout, u, at_x, x, dt)
+                                                       : trace_third_order<Dim>(layout, u, at_x, x, dt);
+    const Vec<Dim> g = index_coordinates<Dim>(layout, from, cell_offset<Dim>());
+    moved[s] = how.one_sided_at_kinks ? interpolate_across_kinks<Dim>(layout, phi.data(), g)
+                                      : interpolate_cubic<Dim>(layout, phi.data(), g);
   });
 }
 
@@ -87,7 +90,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);    \
   template Vec<D> trace_third_order<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double); \
   template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,      \
-                                    CellField<D>&, Trace);                                                           \
+                                    CellField<D>&, const LevelSetTransport&);                                        \
   template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,            \
                                 const FaceField<D, char>&, const FaceField<D>&, const FaceField<D>&, FaceField<D>&,  \
                                 Interpolation);

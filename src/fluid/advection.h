@@ -21,11 +21,16 @@ Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, c
 
 enum class Trace { midpoint, third_order };
 
-// phi(x) <- phi(departure point) at the owned cells with |phi| < band; the others keep their value. Ghosts of phi and u
-// must be filled.
+struct LevelSetTransport {
+  Trace trace = Trace::midpoint;
+  bool one_sided_at_kinks = true;  // where phi has a kink, in the middle of threads and gaps
+};
+
+// phi(x) <- phi(departure point), of fourth order, at the owned cells with |phi| < band; the others keep their value.
+// Ghosts of phi and u must be filled.
 template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
-                      const CellField<Dim>& phi, CellField<Dim>& moved, Trace trace = Trace::midpoint);
+                      const CellField<Dim>& phi, CellField<Dim>& moved, const LevelSetTransport& how = {});
 
 // Lagrange points along each axis that values at departure points come from: six reach one cell farther.
 enum class Interpolation { four_points, six_points };
