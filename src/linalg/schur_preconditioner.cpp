@@ -8,8 +8,9 @@
 namespace seiche {
 namespace {
 
-// By itself BoomerAMG: a diagonal is no preconditioner of a Schur complement, and PFMG fails here and there (closed boxes
-// of odd sizes; a channel that a flap on its floor half closes, where it is not positive), which nothing would notice.
+// By itself BoomerAMG: a diagonal is no preconditioner of a Schur complement, and PFMG fails here and there (closed
+// boxes of odd sizes; a channel that a flap on its floor half closes, where it is not positive), which nothing would
+// notice.
 std::string choose(const std::string& name, const BlockColumns& J) {
   return name == "auto" || J.any_deforms() ? "boomeramg" : name;
 }
