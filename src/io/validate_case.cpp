@@ -222,6 +222,12 @@ const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolutio
   return resolution.reference ? *resolution.reference : one.measure.reference;
 }
 
+MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution) {
+  MeasureSpec spec = one.measure;
+  spec.reference = reference_of(one, resolution);
+  return spec;
+}
+
 fs::path find_cases_folder(const fs::path& here, const fs::path& program) {
   const fs::path beside = program.parent_path();
   const fs::path places[] = {here / "validation", (beside / "../share/seiche/validation").lexically_normal(),

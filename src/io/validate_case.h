@@ -72,6 +72,8 @@ std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& re
 constexpr double order_scatter = 0.2;
 
 const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolution);
+// The case's measure with the reference of this resolution.
+MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution);
 
 // Where the cases are when the user does not say: `here`/validation, else share/seiche/validation beside the folder
 // of the program, else the source tree around build/<preset>/. Throws Error(bad_input) naming the places looked at.

@@ -40,12 +40,6 @@ Points in_units(Points points, const PlotSpec& plot) {
   return points;
 }
 
-MeasureSpec measure_of(const ReportedResult& row) {
-  MeasureSpec spec = row.one.measure;
-  spec.reference = reference_of(row.one, row.resolution);
-  return spec;
-}
-
 // The reference's own series: that of the plot, or of a front.
 Points reference_series(const CaseSpec& one) {
   if (!one.plot.data.empty()) return csv_points(read_whole_file(one.plot.data));
@@ -94,7 +88,7 @@ Chart series_chart(const std::vector<ReportedResult>& all) {
       chart.curves.push_back({"reference", points, Curve::Style::marks});
     for (const ReportedResult& row : measured_of(all)) {
       if (row.result.recorded) continue;
-      const Points points = measured_series(measure_of(row), RunPaths{row.result.run});
+      const Points points = measured_series(measure_of(row.one, row.resolution), RunPaths{row.result.run});
       if (!points.empty() && chart.curves.size() < most_curves)
         chart.curves.push_back({row.resolution.name, in_units(points, one.plot), Curve::Style::line});
     }

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::size_t short_digest = 8;  // of a build's digest: enough to tell builds apart
 
-// "; 12 of them by other builds"
+// "; 12 of them made by other builds"
 std::string words_on_builds(const Report& report) {
   const auto others = std::ranges::count_if(report.results, [](const ReportedResult& row) {
     return is_measured(row.result) && row.result.origin.build != build_digest();
   });
-  return others == 0 ? "" : fmt::format("; {} of them made by earlier builds", others);
+  return others == 0 ? "" : fmt::format("; {} of them made by other builds", others);
 }
 
 // A cell of a table.

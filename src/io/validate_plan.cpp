@@ -57,10 +57,4 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOpti
   return runs;
 }
 
-MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution) {
-  MeasureSpec spec = one.measure;
-  spec.reference = reference_of(one, resolution);
-  return spec;
-}
-
 }  // namespace seiche

@@ -25,7 +25,4 @@ std::vector<CaseSpec> choose_cases(const std::vector<CaseSpec>& cases, const Val
 std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                           const Communicator& ranks);
 
-// A measure of this resolution.
-MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution);
-
 }  // namespace seiche

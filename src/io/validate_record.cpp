@@ -45,7 +45,7 @@ double number(const std::string& field, bool& good) {
   return value;
 }
 
-// Fields from the fourth on.
+// Of the fields from the fourth on; nothing where they are no run's.
 std::optional<RecordedRun> run_of(const std::vector<std::string>& f) {
   if (f.size() != 10) return std::nullopt;
   bool good = true;

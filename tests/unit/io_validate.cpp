@@ -267,7 +267,7 @@ TEST_CASE("a record keeps figures of other builds, and the page has all cases") 
   fs::remove_all(folder / "out");
   CHECK(validate(folder, {"second"}, "full", options).code == ExitCode::done);
   const std::string page = contents(folder / "page.md");
-  CHECK(page.find("4 pass; 2 of them made by earlier builds") != std::string::npos);
+  CHECK(page.find("4 pass; 2 of them made by other builds") != std::string::npos);
   CHECK(page.find("| abcdef01, 20") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out" / "first"));
 
