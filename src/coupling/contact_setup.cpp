@@ -88,7 +88,7 @@ ContactOptions contact_options(const Setup<Dim>& s) {
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = g;
+  o.acceleration = s.tampering.contact * g;
   o.usual_speed = std::sqrt(g * h);
   o.creep_speed = 1e-4 * o.usual_speed;
   o.speed_tolerance = 0.01 * o.creep_speed;

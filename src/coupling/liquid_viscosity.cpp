@@ -39,11 +39,18 @@ bool is_viscous(const LiquidSpec& liquid) {
 }
 
 template <int Dim>
+RheologySpec rheology_of(const Setup<Dim>& s) {
+  RheologySpec spec = resolve_rheology(s.scene);
+  spec.yield_stress *= s.tampering.yield_stress;
+  return spec;
+}
+
+template <int Dim>
 std::string set_liquid_viscosity(const Setup<Dim>& s, const FaceField<Dim>& u, const FaceField<Dim, char>& valid,
                                  double t, CellField<Dim>& mu) {
   const LiquidSpec& liquid = s.scene.liquid;
   if (!liquid.rheology.model.empty()) {
-    set_viscosity(s.layout, s.halo, resolve_rheology(s.scene), u, valid, mu);
+    set_viscosity(s.layout, s.halo, rheology_of(s), u, valid, mu);
     return {};
   }
   const std::string fault = evaluate(s, liquid.viscosity, t, [&](Site c, double value) { mu[c] = value; });
@@ -60,6 +67,7 @@ std::string fault_of_viscosity(const Setup<Dim>& s, double t) {
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \
+  template RheologySpec rheology_of<D>(const Setup<D>&);                                                        \
   template std::string set_liquid_viscosity<D>(const Setup<D>&, const FaceField<D>&, const FaceField<D, char>&, \
                                                double, CellField<D>&);                                          \
   template std::string fault_of_viscosity<D>(const Setup<D>&, double);

@@ -7,6 +7,10 @@ namespace seiche {
 // Whether the scene's liquid has any.
 bool is_viscous(const LiquidSpec& liquid);
 
+// The scene's rheology, nothing left to defaults.
+template <int Dim>
+RheologySpec rheology_of(const Setup<Dim>& setup);
+
 // Fills mu (Pa s) at cell centres, ghosts too, at time t: from the scene's formula, or from the shear rate of u, whose
 // faces where `valid` is 0 do not count. Answers what is wrong with the formula and where (not finite, negative),
 // empty where nothing is; mu is then of no use. The formula is asked in every cell of the domain. Collective; the

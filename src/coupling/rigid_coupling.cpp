@@ -192,7 +192,8 @@ void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const 
     sums.push_back(add_up(s, *g.shares[c.bodies[b]], r.center));
     places.push_back(b);
     c.J.blocks[b] = make_block(s, state.phi, rows, mask, sums.back());
-    add_mass<Dim>(mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, c.first[b], parts.mass);
+    add_mass<Dim>(s.tampering.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, c.first[b],
+                  parts.mass);
   }
   sum_over_ranks(sums, s.ranks);
   for (std::size_t m = 0; m < places.size(); ++m) {

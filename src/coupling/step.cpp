@@ -216,7 +216,7 @@ struct StepInProgress {
     const AirRegions<Dim>* air = s.keeps_air() ? &out.state.air : nullptr;
     const FaceField<Dim>* jump = tension ? &tension->jump : nullptr;
     return {s.layout,        s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting,
-            s.gas_density(), jump,   air};
+            s.tampering.gas_density * s.gas_density(), jump, air};
   }
 
   bool solve(const ViscosityField<Dim>* viscosity) {

@@ -15,10 +15,16 @@ const std::map<std::string, double Tampering::*>& operators() {
   static const std::map<std::string, double Tampering::*> table{
       {"pressure_gradient", &Tampering::pressure_gradient},
       {"divergence", &Tampering::divergence},
+      {"gravity", &Tampering::gravity},
+      {"gas_density", &Tampering::gas_density},
+      {"surface_tension", &Tampering::surface_tension},
       {"solid_flux", &Tampering::solid_flux},
+      {"rigid_mass", &Tampering::rigid_mass},
       {"viscosity", &Tampering::viscosity},
+      {"yield_stress", &Tampering::yield_stress},
       {"velocity_advection", &Tampering::velocity_advection},
       {"surface_advection", &Tampering::surface_advection},
+      {"contact", &Tampering::contact},
       {"friction", &Tampering::friction},
       {"elastic_forces", &Tampering::elastic_forces},
   };

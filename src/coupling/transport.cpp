@@ -104,7 +104,7 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, const 
   if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
   const FaceField<Dim> trend = slope_trend(s, state, flow, dt);
   const Level<Dim>& level = *flow.now;
-  const Vec3 g = s.gravity.of_step(state.time + dt, dt);
+  const Vec3 g = s.tampering.gravity * s.gravity.of_step(state.time + dt, dt);
   const double limit = 0.25 * s.layout.h() / (dt * dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -255,7 +255,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
     advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, carried.inner, carried.outer, u);
   limit_at_surfaces(s, *flow.now, near, interior, u);
   if (plan.full) add_missing_viscosity(s, state, known.whole, carried.outer, dt, u);
-  const Vec3 g = s.gravity.of_step(state.time + dt, dt);
+  const Vec3 g = s.tampering.gravity * s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (near.at(a, f) || s.is_viscous()) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));

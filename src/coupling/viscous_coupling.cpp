@@ -116,7 +116,7 @@ ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>&
   mu.largest = s.ranks.global_max(largest);
   if (!liquid.rheology.model.empty()) {
     mu.edge.emplace(s.layout);
-    set_edge_viscosity(s.layout, resolve_rheology(s.scene), flow.u, flow.valid, *mu.edge);
+    set_edge_viscosity(s.layout, rheology_of(s), flow.u, flow.valid, *mu.edge);
   }
   if (s.has_gas()) take_in_gas(s, phi, mu);
   return mu;
