@@ -1,6 +1,9 @@
 // Measures of frames.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/error.h"
 #include "io/checked_file.h"
 #include "io/validate_contour.h"
 #include "io/validate_frames.h"
@@ -11,12 +14,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Comparisons would pass over values that are no numbers.
+vdb::Frame read_frame(const fs::path& file) {
+  vdb::Frame frame = vdb::decode(file);
+  for (const vdb::Grid& grid : frame.grids)
+    for (const vdb::Block& block : grid.blocks)
+      if (!std::ranges::all_of(block.values, [](float value) { return std::isfinite(value); }))
+        throw Error(ExitCode::cannot_continue,
+                    fmt::format("{}: '{}' holds a value that is not a finite number", file.string(), grid.name));
+  return frame;
+}
+
 vdb::Frame last_frame(const RunPaths& run) {
   fs::path last;
   for (const auto& entry : fs::directory_iterator(run.frames())) {
     if (entry.path().extension() == ".vdb") last = std::max(last, entry.path());
   }
-  return vdb::decode(last);
+  return read_frame(last);
 }
 
 // Of the frames, by their times.
@@ -24,7 +38,7 @@ Points circularities(const MeasureSpec&, const RunPaths& run) {
   Points points;
   for (const auto& entry : fs::directory_iterator(run.frames())) {
     if (entry.path().extension() != ".vdb") continue;
-    const vdb::Frame frame = vdb::decode(entry.path());
+    const vdb::Frame frame = read_frame(entry.path());
     points.emplace_back(frame.time, circularity(frame));
   }
   std::sort(points.begin(), points.end());
@@ -51,7 +65,7 @@ Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
   const vdb::Frame frame = last_frame(run);
   double worst = 0;
   for (const LineExtreme& line : csv_lines(read_whole_file(spec.data)))
-    worst = std::max(worst, std::abs(extreme_along(frame, line) / line.value - 1));
+    worst = larger(worst, std::abs(extreme_along(frame, line) / line.value - 1));
   return itself(worst);
 }
 
@@ -67,12 +81,33 @@ Measurement misplaced(const MeasureSpec& spec, const RunPaths& run) {
 
 std::vector<MeasureKind> measures_of_frames() {
   return {
-      {"vector_l2", {"velocity"}, vector_l2},
-      {"region_l2", {"velocity", "region"}, region_l2},
-      {"line_extrema", {"data"}, line_extrema},
-      {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
-      {"circularity", {"from", "to", "reference"}, least_circularity, circularities},
-      {"surface_misplaced", {"surface", "unit"}, misplaced},
+      {"vector_l2",
+       "L2 norm of the difference of the last frame's face velocities from the exact ones",
+       "m/s",
+       {"velocity"},
+       vector_l2},
+      {"region_l2", "the same norm over the faces of a region", "m/s", {"velocity", "region"}, region_l2},
+      {"line_extrema",
+       "worst relative error of extreme velocities along lines, in the last frame",
+       "",
+       {"data"},
+       line_extrema},
+      {"surface_deviation",
+       "largest distance of the last frame's surface from the exact one, over length_unit",
+       "",
+       {"surface", "length_unit"},
+       surface_deviation},
+      {"circularity",
+       "least circularity of the frames in a time",
+       "",
+       {"from", "to", "reference"},
+       least_circularity,
+       circularities},
+      {"surface_misplaced",
+       "area (3D: volume) on the wrong side of the exact surface in the last frame, over unit",
+       "",
+       {"surface", "unit"},
+       misplaced},
   };
 }
 

@@ -1,6 +1,9 @@
 // Measures of probes.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/error.h"
 #include "io/checked_file.h"
 #include "io/validate_kinds.h"
 
@@ -69,9 +72,18 @@ Points front_series(const MeasureSpec& spec, const RunPaths& run) {
   return points;
 }
 
+// Of the part between `from` and `to`, all of which must be there.
+double front_speed(const Points& front, double from, double to) {
+  const auto below = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto [least, most] = std::minmax_element(front.begin(), front.end(), below);
+  if (front.empty() || least->second > from || most->second < to)
+    throw Error(ExitCode::cannot_continue, fmt::format("the front does not go from {:g} to {:g}", from, to));
+  return slope_between(front, from, to);
+}
+
 Measurement front_slope(const MeasureSpec& spec, const RunPaths& run) {
-  return against(slope_between(front_series(spec, run), spec.from, spec.to),
-                 slope_between(csv_points(read_whole_file(spec.data)), spec.from, spec.to));
+  return against(front_speed(front_series(spec, run), spec.from, spec.to),
+                 front_speed(csv_points(read_whole_file(spec.data)), spec.from, spec.to));
 }
 
 // (value - level)/length_unit over time/time_unit.
@@ -113,19 +125,76 @@ Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
 
 std::vector<MeasureKind> measures_of_probes() {
   return {
-      {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
-      {"probe_period", {"probe", "column", "level", "from", "to", "reference"}, probe_period, component_of_probe},
-      {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
-      {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
-      {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},
-      {"probe_arrival", {"probe", "reference"}, probe_arrival, scalar_series},
-      {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude, component_of_probe},
-      {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope, front_series},
-      {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
-      {"probe_deviation", {"probe", "level", "time_unit", "length_unit", "data"}, probe_deviation, scalar_series},
-      {"probe_decay", {"probe", "level"}, probe_decay, scalar_series},
-      {"probe_growth", {"probe", "level", "from", "to", "reference"}, probe_growth, scalar_series},
+      {"period_of_probe",
+       "mean of a probe's whole periods about level",
+       "s",
+       {"probe", "level", "reference"},
+       period_of_probe,
+       scalar_series},
+      {"probe_period",
+       "mean of a probe's whole periods about level in a time",
+       "s",
+       {"probe", "column", "level", "from", "to", "reference"},
+       probe_period,
+       component_of_probe},
+      {"probe_mean",
+       "mean of a probe in a time, weighted with sin^2",
+       "column",
+       {"probe", "column", "from", "to", "reference"},
+       probe_mean,
+       component_of_probe},
+      {"probe_peak",
+       "a probe's value of the largest magnitude in a time",
+       "column",
+       {"probe", "column", "from", "to", "reference"},
+       probe_peak,
+       component_of_probe},
+      {"probe_peak_time",
+       "when a probe has its largest magnitude in a time",
+       "s",
+       {"probe", "column", "from", "to", "reference"},
+       probe_peak_time,
+       component_of_probe},
+      {"probe_arrival", "when a probe first has a value", "s", {"probe", "reference"}, probe_arrival, scalar_series},
+      {"probe_amplitude",
+       "half the difference of a probe's extremes in a time",
+       "column",
+       {"probe", "column", "from", "to", "reference"},
+       probe_amplitude,
+       component_of_probe},
+      {"front_slope",
+       "speed of a front, length/length_unit over time/time_unit, between two lengths",
+       "",
+       {"probe", "time_unit", "length_unit", "from", "to", "data"},
+       front_slope,
+       front_series},
+      {"probe_rms",
+       "root mean square of (value - level)/length_unit less the data",
+       "",
+       {"probe", "level", "time_unit", "length_unit", "data"},
+       probe_rms,
+       scalar_series},
+      {"probe_deviation",
+       "largest magnitude of (value - level)/length_unit less the data",
+       "",
+       {"probe", "level", "time_unit", "length_unit", "data"},
+       probe_deviation,
+       scalar_series},
+      {"probe_decay",
+       "rate at which the energy of a probe's swing about level dies away",
+       "1/s",
+       {"probe", "level"},
+       probe_decay,
+       scalar_series},
+      {"probe_growth",
+       "rate at which a probe's distance from level grows in a time",
+       "1/s",
+       {"probe", "level", "from", "to", "reference"},
+       probe_growth,
+       scalar_series},
       {"probe_difference",
+       "mean of a probe in a time, weighted with sin^2, less that of another",
+       "column",
        {"probe", "minus", "column", "from", "to", "reference"},
        probe_difference,
        component_of_probe},
