@@ -62,6 +62,9 @@ std::string json_result(const ReportedResult& row, const std::string& indent) {
                  {"recorded", r.recorded ? "true" : "false"},
                  {"build", json_string(r.origin.build)},
                  {"date", json_string(r.origin.date)},
+                 {"ranks", std::to_string(r.origin.ranks)},
+                 {"threads", r.origin.threads > 0 ? std::to_string(r.origin.threads) : "null"},
+                 {"machine", json_string(r.origin.machine)},
                  {"run", json_string(r.run.string())},
                  {"message", json_string(r.message)}},
                 indent);
@@ -163,6 +166,8 @@ std::string format_report(const Report& report) {
                  {"build", json_string(build_digest())},
                  {"level", json_string(report.level)},
                  {"ranks", std::to_string(report.ranks)},
+                 {"machine", json_string(report.machine)},
+                 {"broken_on_purpose", report.tampering.empty() ? "null" : json_string(report.tampering)},
                  {"complete", complete ? "true" : "false"},
                  {"passed", passed ? "true" : "false"},
                  {"cases", array(json_cases(report), "  ")}},
