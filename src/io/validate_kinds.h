@@ -12,8 +12,6 @@ enum class MeasureSource { frames, probes, stats, solids };
 
 struct MeasureKind {
   const char* name;
-  const char* what;               // in words
-  const char* unit;               // of the figure; "column": that of what is measured; "": a pure number
   std::vector<const char*> keys;  // of [measure], all required
   Measurement (*measure)(const MeasureSpec&, const RunPaths&);
   Points (*series)(const MeasureSpec&, const RunPaths&) = nullptr;

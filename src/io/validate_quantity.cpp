@@ -15,6 +15,58 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+struct KindWords {
+  const char* kind;
+  const char* unit;  // of the figure; "column": that of what is measured; "": a pure number
+  const char* what;
+};
+
+constexpr KindWords kind_words[] = {
+    {"vector_l2", "m/s", "L2 norm of the last frame's face velocities less the exact ones"},
+    {"region_l2", "m/s", "L2 norm of the last frame's face velocities in a region less the exact ones"},
+    {"line_extrema", "", "worst relative error of extreme velocities along lines, in the last frame"},
+    {"surface_deviation", "", "largest distance of the last frame's surface from the exact one, over length_unit"},
+    {"circularity", "", "least circularity of the frames in a time"},
+    {"surface_misplaced", "", "area (3D: volume) on the wrong side of the exact surface in the last frame, over unit"},
+    {"period_of_probe", "s", "mean of a probe's whole periods about level"},
+    {"probe_period", "s", "mean of a probe's whole periods about level in a time"},
+    {"probe_mean", "column", "mean of a probe in a time, weighted with sin^2"},
+    {"probe_peak", "column", "a probe's value of the largest magnitude in a time"},
+    {"probe_peak_time", "s", "when a probe has its largest magnitude in a time"},
+    {"probe_arrival", "s", "when a probe first has a value"},
+    {"probe_amplitude", "column", "half the difference of a probe's extremes in a time"},
+    {"front_slope", "", "speed of a front, length/length_unit over time/time_unit, between two lengths"},
+    {"probe_rms", "", "root mean square of (value - level)/length_unit less the data"},
+    {"probe_deviation", "", "largest magnitude of (value - level)/length_unit less the data"},
+    {"probe_decay", "1/s", "rate at which the energy of a probe's swing about level dies away"},
+    {"probe_growth", "1/s", "rate at which a probe's distance from level grows in a time"},
+    {"probe_difference", "column", "mean of a probe in a time, weighted with sin^2, less that of another"},
+    {"max_of_column", "column", "largest magnitude in a column of stats.csv"},
+    {"column_peak", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
+    {"column_extreme", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
+    {"column_drift", "", "largest change of a column of stats.csv from its first row, over that"},
+    {"column_rms", "", "root mean square of a column of stats.csv over unit less the data"},
+    {"column_fall", "column/s over unit", "fastest fall of a column of stats.csv between steps in a time, over unit"},
+    {"column_fall_time", "s", "when a column of stats.csv falls fastest in a time"},
+    {"energy_growth", "", "largest rise of kinetic and elastic energy in a step, over what they were at from"},
+    {"volume_drift", "", "drift of the liquid's volume over the run, relative"},
+    {"solid_mean", "column", "mean of a solid's column in a time, weighted with sin^2"},
+    {"solid_slope", "column/s", "least-squares slope of a solid's column in a time"},
+    {"solid_peak", "column", "a solid's value of the largest magnitude in a time"},
+    {"solid_period", "s", "mean of a solid's whole periods about level in a time"},
+    {"solid_amplitude", "column", "half the difference of a solid's extremes in a time"},
+    {"solid_middle", "column", "half the sum of a solid's extremes in a time"},
+    {"solid_rms", "", "root mean square of (value - level)/length_unit less the data"},
+    {"solids_stray", "", "farthest way of any solid from where it is at from, over length_unit"},
+};
+
+// Throws Error(bug) where a kind has no row.
+const KindWords& words_of(const MeasureSpec& m) {
+  const auto row = std::ranges::find_if(kind_words, [&](const KindWords& one) { return m.kind == one.kind; });
+  if (row == std::end(kind_words)) throw Error(ExitCode::bug, fmt::format("no words for the measure '{}'", m.kind));
+  return *row;
+}
+
 struct UnitRow {
   const char* column;
   std::array<const char*, 2> unit;  // in 2D and 3D
@@ -137,14 +189,26 @@ void check_names(const MeasureSpec& measure, const Scene& scene, const std::stri
     demand(where, "column of stats.csv", measure.column, names_in(stats_header()));
 }
 
+std::string what_is_measured(const MeasureSpec& measure) {
+  return words_of(measure).what;
+}
+
+std::string error_in_words(const MeasureSpec& measure) {
+  const MeasureKind& kind = kind_of(measure);
+  if (!uses(kind, "reference")) return measure.kind == "front_slope" ? "relative to that of the data" : "the figure";
+  if (measure.kind == "circularity") return "difference from the reference";
+  return measure.kind == "solid_mean" ? "difference from the reference over length_unit" : "relative to the reference";
+}
+
 std::string unit_of(const MeasureSpec& measure, const Scene& scene) {
   const MeasureKind& kind = kind_of(measure);
-  const std::string pattern = kind.unit, word = "column";
+  const std::string pattern = words_of(measure).unit, word = "column";
   if (!pattern.starts_with(word)) return pattern;
   std::string rest = pattern.substr(word.size());
   if (rest.ends_with(" over unit") && constant(measure.unit) == 1) rest.erase(rest.rfind(" over unit"));
   const std::string unit = unit_of_column(measure, scene, kind.source);
   if (unit.empty() && rest.starts_with("/")) return "1" + rest;
+  if (unit == "m/s" && rest == "/s") return "m/s^2";
   return unit.empty() ? "" : unit + rest;
 }
 

@@ -49,6 +49,7 @@ std::string json_result(const ReportedResult& row, const std::string& indent) {
   return object({{"resolution", json_string(row.resolution.name)},
                  {"result", json_string(verdict_name(r.verdict))},
                  {"cell_size", json(r.cell_size)},
+                 {"unit", json_string(row.unit)},
                  {"measured", if_measured(r.measured.value)},
                  {"reference", json(r.measured.reference)},
                  {"error", if_measured(r.measured.error)},

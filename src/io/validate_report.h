@@ -12,6 +12,7 @@ struct ReportedResult {
   CaseSpec one;
   ResolutionSpec resolution;
   CaseResult result;
+  std::string unit{};  // of the figure, see validate_quantity.h
 };
 
 struct Report {

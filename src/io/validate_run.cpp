@@ -14,6 +14,7 @@
 #include "io/validate_markdown.h"
 #include "io/validate_obtain.h"
 #include "io/validate_plan.h"
+#include "io/validate_quantity.h"
 #include "io/validate_report.h"
 
 namespace seiche {
@@ -31,7 +32,7 @@ ExitCode run_one(const Planned& run, Validation& v, Report& report, const Table&
   if (const ExitCode code = obtain(run, v, result); code != ExitCode::done) return code;
   if (is_measured(result)) judge_by_all(run, report, result);
   put_on_record(run, v, result);
-  report.results.push_back({*run.one, *run.resolution, result});
+  report.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, run.scene)});
   table.say(report.results.back());
   const ReportedResult* changed = run.last_of_reference ? judge_last_measured(report) : nullptr;
   if (changed) table.say(*changed);
@@ -55,7 +56,7 @@ Report whole_of(const std::vector<Planned>& runs, const Report& report, const st
     }
     CaseResult result = recorded_result(run, record);
     if (is_measured(result)) judge_by_all(run, whole, result);
-    whole.results.push_back({*run.one, *run.resolution, result});
+    whole.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, run.scene)});
     if (run.last_of_reference) judge_last_measured(whole);
   }
   return whole;
@@ -84,7 +85,7 @@ TableWidths widths_of(const std::vector<Planned>& runs) {
 void write_report(const Report& report, const ValidateOptions& options, const Communicator& ranks) {
   agree_on_root(ranks, "writing the report", [&] {
     make_folder(options.out);
-    write_file(options.out / "validation.json", format_report(report));
+    replace_file(options.out / "validation.json", format_report(report));
   });
 }
 
@@ -92,7 +93,7 @@ void write_report(const Report& report, const ValidateOptions& options, const Co
 void write_pages(const std::vector<Planned>& runs, const Report& report, const ValidateOptions& options,
                  const Communicator& ranks) {
   agree_on_root(ranks, "writing the report", [&] {
-    write_file(options.out / "report.html", format_html(report));
+    replace_file(options.out / "report.html", format_html(report));
     if (options.docs) write_docs(runs, report, options);
   });
 }

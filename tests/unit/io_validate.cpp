@@ -8,6 +8,7 @@
 #include "io/validate_html.h"
 #include "io/validate_judge.h"
 #include "io/validate_markdown.h"
+#include "io/validate_readme.h"
 #include "io/validate_report.h"
 #include "io/validate_run.h"
 #include "io_validate_cases.h"
@@ -214,7 +215,7 @@ TEST_CASE("a record keeps figures of other builds, and the page has all cases") 
   CHECK(validate(folder, {"second"}, "full", options).code == ExitCode::done);
   const std::string page = contents(folder / "page.md");
   CHECK(page.find("4 pass; 2 of them made by other builds") != std::string::npos);
-  CHECK(page.find("| abcdef01, 20") != std::string::npos);
+  CHECK(page.find("- Made by build abcdef01, 20") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out" / "first"));
 
   // Figures of a case that has changed since are none of it.
@@ -245,6 +246,44 @@ TEST_CASE("the pages show misses with their cause, plots and a picture") {
   CHECK(html.find("http") == std::string::npos);  // it needs no other file
   CHECK(page.find("**MISS**") != std::string::npos);
   CHECK(page.find("Misses its bar: the sun") != std::string::npos);
+  options.making = Making::report;
+  fs::remove_all(folder / "out");
+  validate(folder, {"one"}, "full", options);
+  CHECK(contents(folder / "page.md").find("Not run in full; known: the sun") != std::string::npos);
+}
+
+TEST_CASE("a section of the page has what it takes to make its figures again") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 2));
+  put(folder / "cases" / "one" / "README.md", "# Moving\n\nAs [two](../two/README.md).\n");
+  ValidateOptions options;
+  options.docs = folder / "page.md", options.record = folder / "record.csv";
+  CHECK(validate(folder, {}, "full", options).code == ExitCode::done);
+  const std::string page = contents(folder / "page.md");
+  for (const char* part :
+       {"## one: t\n", "### Moving\n", "[two](../cases/two/README.md)", "(`max_of_column`, column `max_speed`), in m/s",
+        "[case.toml](../cases/one/case.toml)", "[scene.toml](../cases/one/scene.toml)", "one --level full",
+        "| 16 | 0.0625 | 1 |", "  - 16: `domain.cell_size=0.0625`\n", "- Made by this build, 20",
+        ", 1 thread, machine 1.", "- machine 1, of 2 runs: "}) {
+    INFO(part);
+    CHECK(page.find(part) != std::string::npos);
+  }
+  CHECK(page.find(folder.path().string()) == std::string::npos);
+  // The machine is that of the run, also where the run is found later.
+  const std::string record = contents(folder / "record.csv");
+  fs::remove(folder / "record.csv");
+  CHECK(validate(folder, {}, "full", options).code == ExitCode::done);
+  const auto line = [](const std::string& text) { return text.substr(text.find("one,8")); };
+  CHECK(line(contents(folder / "record.csv")).find("; g++ ") != std::string::npos);
+  CHECK(line(record).find("; g++ ") != std::string::npos);
+}
+
+TEST_CASE("a case's page stands in another with its headings deeper and its links right") {
+  CHECK(embed_readme("# A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n## B\n", "v/one") ==
+        "### A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n#### B\n");
+  CHECK(embed_readme("[a](b.csv), [c](../d/e.md#f), [g](#h), [i](https://j.k)\n\n", "v/one") ==
+        "[a](../v/one/b.csv), [c](../v/d/e.md#f), [g](#h), [i](https://j.k)\n");
+  CHECK(link_from_page("v/one", "../../scenes/s.toml") == "../scenes/s.toml");
 }
 
 TEST_CASE("the parts of plots") {

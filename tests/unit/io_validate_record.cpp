@@ -182,7 +182,7 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   CHECK_NOTHROW(check_names(m, scene, "w"));
   CHECK(unit_of(m, scene) == "N/m");
   m.kind = "solid_slope", m.column = "vx";
-  CHECK(unit_of(m, scene) == "m/s/s");
+  CHECK(unit_of(m, scene) == "m/s^2");
   m.kind = "column_peak", m.column = "kinetic_energy", m.unit = "2";
   CHECK(unit_of(m, scene) == "J/m over unit");
 }
