@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/version.h"
 #include "io/checked_file.h"
@@ -9,6 +11,7 @@
 #include "io/info.h"
 #include "io/run_directory.h"
 #include "io/scene_writer.h"
+#include "io/validate_machine.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
@@ -18,12 +21,27 @@ fs::path identity_file(const fs::path& run) {
   return run / "validate.txt";
 }
 
+constexpr const char* machine_word = "machine ";  // begins the line that is about where the run was made
+
+// The lines that begin with machine_word, or the others.
+enum class Lines { of_machine, of_identity };
+std::string lines_of(const std::string& text, Lines wanted) {
+  std::string chosen;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::string line = text.substr(at, end - at);
+    if (line.starts_with(machine_word) == (wanted == Lines::of_machine)) chosen += line;
+    at = end;
+  }
+  return chosen;
+}
+
 // Empty unless the folder holds a finished run that was kept.
 std::string key_of(const fs::path& run) {
   try {
     const RunPaths paths{run};
     if (json_value(read_whole_file(paths.summary()), "ended") != "finished") return {};
-    return read_whole_file(identity_file(run)) + read_whole_file(paths.scene());
+    return lines_of(read_whole_file(identity_file(run)), Lines::of_identity) + read_whole_file(paths.scene());
   } catch (const Error&) {
     return {};
   }
@@ -62,6 +80,17 @@ std::string run_identity(const Scene& scene, int ranks, const std::string& tampe
   return text + checksums_of_files(scene);
 }
 
+std::string machine_of(const fs::path& run) {
+  try {
+    const std::string line = lines_of(read_whole_file(identity_file(run)), Lines::of_machine);
+    if (line.empty()) return {};
+    const std::size_t begin = std::string(machine_word).size();
+    return line.substr(begin, line.find('\n') - begin);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 RunCache::RunCache(const fs::path& out, Earlier earlier) {
   if (earlier == Earlier::ignore) return;
   for (const fs::path& one : folders_in(out))
@@ -79,7 +108,7 @@ void RunCache::forget(const fs::path& run) {
 }
 
 void RunCache::keep(const fs::path& run, const std::string& identity) {
-  write_file(identity_file(run), identity);
+  write_file(identity_file(run), identity + machine_word + describe_machine() + "\n");
   if (const std::string key = key_of(run); !key.empty()) runs_.emplace(key, run);
 }
 

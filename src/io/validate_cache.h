@@ -31,6 +31,9 @@ std::string checksums_of_files(const Scene& scene);
 // for a test, the bytes of the files that the scene names. Throws Error(bad_input) where such a file cannot be read.
 std::string run_identity(const Scene& scene, int ranks, const std::string& tampering);
 
+// The machine on which a kept run was made (validate_machine.h); empty where that was not noted.
+std::string machine_of(const std::filesystem::path& run);
+
 enum class Earlier { use, ignore };
 
 // Finished runs by scene and identity. On rank 0 alone.
@@ -42,7 +45,7 @@ class RunCache {
   std::optional<std::filesystem::path> find(const Scene& scene, const std::string& identity) const;
   // The run in this folder is about to be replaced.
   void forget(const std::filesystem::path& run);
-  // Remembers the run, here and in its folder. Throws Error(output_failed).
+  // Remembers the run, here and in its folder, with this machine. Throws Error(output_failed).
   void keep(const std::filesystem::path& run, const std::string& identity);
 
  private:

@@ -154,12 +154,17 @@ std::vector<fs::path> case_folders(const fs::path& folder) {
   return folders;
 }
 
-bool fits(const CaseSpec& one, const std::string& word) {
-  return one.name == word || std::count(one.tags.begin(), one.tags.end(), word) > 0;
+bool has_tag(const CaseSpec& one, const std::string& word) {
+  return std::count(one.tags.begin(), one.tags.end(), word) > 0;
+}
+
+// A case's name is that case alone, even where it is a tag as well.
+bool fits(const std::vector<CaseSpec>& cases, const CaseSpec& one, const std::string& word) {
+  return std::ranges::count(cases, word, &CaseSpec::name) > 0 ? one.name == word : has_tag(one, word);
 }
 
 void refuse_unknown(const std::vector<CaseSpec>& cases, const std::string& word) {
-  if (std::any_of(cases.begin(), cases.end(), [&](const CaseSpec& one) { return fits(one, word); })) return;
+  if (std::any_of(cases.begin(), cases.end(), [&](const CaseSpec& one) { return fits(cases, one, word); })) return;
   std::vector<std::string> known;
   for (const CaseSpec& one : cases) {
     known.push_back(one.name);
@@ -201,7 +206,8 @@ std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std
   for (const std::string& word : words) refuse_unknown(cases, word);
   std::vector<CaseSpec> chosen;
   std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen), [&](const CaseSpec& one) {
-    return words.empty() || std::any_of(words.begin(), words.end(), [&](const auto& word) { return fits(one, word); });
+    const auto chosen_by = [&](const std::string& word) { return fits(cases, one, word); };
+    return words.empty() || std::any_of(words.begin(), words.end(), chosen_by);
   });
   return chosen;
 }

@@ -60,7 +60,8 @@ CaseSpec read_case(const std::filesystem::path& folder);
 // All cases below a folder, by name. Throws Error(bad_input).
 std::vector<CaseSpec> read_cases(const std::filesystem::path& folder);
 
-// Those with one of these names or tags, in the order of `cases`; all where no word is given. Throws Error(bad_input)
+// Those with one of these names or tags, in the order of `cases`; all where no word is given. A word that is a case's
+// name is no tag. Throws Error(bad_input)
 // naming words that fit none, with the nearest name.
 std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std::vector<std::string>& words);
 

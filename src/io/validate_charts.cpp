@@ -79,6 +79,18 @@ Chart error_chart(const std::vector<ReportedResult>& all) {
   return chart;
 }
 
+Chart share_chart(const std::vector<ReportedResult>& all) {
+  Chart chart{"run, by its row in the table", "error / bar", Chart::Axes::linear, {}};
+  Points shares;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (is_measured(all[n].result))
+      shares.emplace_back(double(n + 1), all[n].result.measured.error / *max_error_of(all[n].one, all[n].resolution));
+  if (shares.size() < 2 || !error_chart(all).curves.empty()) return chart;
+  chart.curves.push_back({"error", shares, Curve::Style::marks});
+  chart.curves.push_back({"bar", {{shares.front().first, 1}, {shares.back().first, 1}}, Curve::Style::dashes});
+  return chart;
+}
+
 Chart series_chart(const std::vector<ReportedResult>& all) {
   Chart chart;
   const CaseSpec& one = all[0].one;

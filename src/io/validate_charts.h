@@ -8,6 +8,10 @@ namespace seiche {
 // Errors over the cell size with bars and a slope; no curves where there are fewer than two cell sizes.
 Chart error_chart(const std::vector<ReportedResult>& rows);
 
+// Errors over their bars by the number of the run, where error_chart() shows none: runs that differ in other things
+// than the cell size. No curves for fewer than two.
+Chart share_chart(const std::vector<ReportedResult>& rows);
+
 // What was measured over time, in all runs of the case, over the reference's series where the case has one.
 Chart series_chart(const std::vector<ReportedResult>& rows);
 

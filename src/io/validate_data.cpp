@@ -47,6 +47,15 @@ double number(const std::vector<std::string>& row, std::size_t column) {
   return end == text.c_str() ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
+// Tables of runs and references hold no such number; one that does is not to be measured on.
+double finite_number(const std::vector<std::string>& row, std::size_t column) {
+  const double value = number(row, column);
+  if (!std::isfinite(value))
+    fail(fmt::format("'{}' is not a finite number, in the row {}", column < row.size() ? row[column] : "",
+                     fmt::join(row, ",")));
+  return value;
+}
+
 std::size_t column_named(const std::vector<std::vector<std::string>>& rows, const std::string& name) {
   const std::vector<std::string> header = rows.empty() ? std::vector<std::string>() : rows[0];
   const auto found = std::find(header.begin(), header.end(), name);
@@ -63,7 +72,7 @@ Points named_points(const std::vector<std::vector<std::string>>& rows, const std
   Points points;
   for (std::size_t n = 1; n < rows.size(); ++n) {
     if (rows[n].size() <= value || rows[n][name] != wanted || rows[n][value].empty()) continue;
-    points.emplace_back(number(rows[n], time), number(rows[n], value));
+    points.emplace_back(finite_number(rows[n], time), finite_number(rows[n], value));
   }
   return points;
 }
@@ -103,9 +112,7 @@ double slope_between(const Points& points, double low, double high) {
 }
 
 double slope_during(const Points& points, double from, double to) {
-  // Times are sums of steps: rounding must not leave the last one out.
-  const double slack = 1e-9 * (to - from);
-  return slope(points_where(points, [&](double x, double) { return x >= from - slack && x <= to + slack; }), from, to);
+  return slope(points_during(points, from, to), from, to);
 }
 
 double settled_mean(const Points& points, double from, double to) {
@@ -163,7 +170,7 @@ double rms_difference(const Points& y, const Points& z) {
 
 double largest_difference(const Points& y, const Points& z) {
   double largest = 0;
-  for (const double d : differences(y, z)) largest = std::max(largest, std::abs(d));
+  for (const double d : differences(y, z)) largest = larger(largest, std::abs(d));
   return largest;
 }
 
@@ -181,7 +188,7 @@ double energy_decay(const Points& y, double level) {
     if (!best || std::abs(now) > best->second) best = {y[n].first, std::abs(now)};
   }
   if (extremes.size() < 3) fail(fmt::format("no decay: only {} swings about {:g}", extremes.size(), level));
-  return -2 * slope_during(extremes, extremes.front().first, extremes.back().first);
+  return -2 * slope(extremes, extremes.front().first, extremes.back().first);
 }
 
 double growth_rate(const Points& points, double level, double from, double to) {
@@ -190,21 +197,22 @@ double growth_rate(const Points& points, double level, double from, double to) {
     if (y == level) fail(fmt::format("no growth: the value is the level, {:g}", level));
     logarithms.emplace_back(x, std::log(std::abs(y - level)));
   }
-  return slope_during(logarithms, from, to);
+  return slope(logarithms, from, to);
 }
 
 std::vector<double> csv_column(const std::string& text, const std::string& name) {
   const auto rows = rows_of(text);
   const std::size_t column = column_named(rows, name);
   std::vector<double> values;
-  for (std::size_t n = 1; n < rows.size(); ++n) values.push_back(number(rows[n], column));
+  for (std::size_t n = 1; n < rows.size(); ++n) values.push_back(finite_number(rows[n], column));
   return values;
 }
 
 Points csv_points(const std::string& text) {
   const auto rows = rows_of(text);
   Points points;
-  for (std::size_t n = 1; n < rows.size(); ++n) points.emplace_back(number(rows[n], 0), number(rows[n], 1));
+  for (std::size_t n = 1; n < rows.size(); ++n)
+    points.emplace_back(finite_number(rows[n], 0), finite_number(rows[n], 1));
   return points;
 }
 
@@ -215,10 +223,13 @@ Points probe_points(const std::string& text, const std::string& probe, const std
 }
 
 Points points_during(const Points& points, double from, double to) {
+  // Times are sums of steps: rounding must not leave the last one out.
   const double slack = 1e-9 * (to - from);
   if (points.empty() || points.front().first > from + slack || points.back().first < to - slack)
     fail(fmt::format("the run does not reach from {:g} s to {:g} s", from, to));
-  return points_where(points, [&](double x, double) { return x >= from - slack && x <= to + slack; });
+  const Points chosen = points_where(points, [&](double x, double) { return x >= from - slack && x <= to + slack; });
+  if (chosen.empty()) fail(fmt::format("no rows between {:g} s and {:g} s", from, to));
+  return chosen;
 }
 
 namespace {
@@ -254,9 +265,10 @@ double farthest_stray(const std::string& text, double from) {
   std::map<std::string, Vec3> start;
   double farthest = 0;
   for (std::size_t n = 1; n < rows.size(); ++n) {
-    if (number(rows[n], time) < from) continue;
-    const Vec3 x(number(rows[n], columns[0]), number(rows[n], columns[1]), number(rows[n], columns[2]));
-    farthest = std::max(farthest, (x - start.try_emplace(rows[n][name], x).first->second).norm());
+    if (finite_number(rows[n], time) < from) continue;
+    const Vec3 x(finite_number(rows[n], columns[0]), finite_number(rows[n], columns[1]),
+                 finite_number(rows[n], columns[2]));
+    farthest = larger(farthest, (x - start.try_emplace(rows[n][name], x).first->second).norm());
   }
   if (start.empty()) fail(fmt::format("solids.csv has no rows from {:g} s on", from));
   return farthest;

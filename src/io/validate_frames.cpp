@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/expression.h"
 #include "io/scene_formula.h"
+#include "io/validate_measures.h"
 
 namespace seiche {
 namespace {
@@ -242,7 +243,7 @@ double surface_difference(const vdb::Frame& frame, const Formula& formula) {
     for_each_voxel(block, 1, [&](const Vec3& index, const float* phi) {
       if (!(std::abs(*phi) < frame.cell_size)) return;
       any = true;
-      most = std::max(most, std::abs(*phi - exact(cell_center(frame, index), frame.time)));
+      most = larger(most, std::abs(*phi - exact(cell_center(frame, index), frame.time)));
     });
   if (!any) throw Error(ExitCode::cannot_continue, "the last frame holds no surface");
   return most;
@@ -258,6 +259,7 @@ double surface_misplaced(const vdb::Frame& frame, const Formula& formula) {
     Vec3 x = cell_center(frame, index);
     if (frame.dimension == 2) x[2] = 0;
     const double here = exact(x, frame.time);
+    if (!std::isfinite(here)) throw Error(ExitCode::cannot_continue, "the exact surface is not a finite number");
     if (std::abs(*value) >= far && std::abs(here) >= far)
       cells += (*value < 0) != (here < 0);
     else

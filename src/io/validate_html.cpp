@@ -34,9 +34,11 @@ std::string verdict_cell(const CaseResult& r) {
 }
 
 std::string table_of(const std::vector<ReportedResult>& rows) {
-  std::string text =
-      "<table><tr><th>run</th><th>cell size, m</th><th>measured</th><th>reference</th><th>error</th><th>bar</th>"
-      "<th>order</th><th>fit</th><th>least</th><th></th><th>seconds</th><th>others report</th></tr>\n";
+  const std::string& unit = rows[0].unit;
+  std::string text = "<table><tr><th>run</th><th>cell size, m</th><th>measured" +
+                     escape_html(unit.empty() ? "" : ", " + unit) +
+                     "</th><th>reference</th><th>error</th><th>bar</th>"
+                     "<th>order</th><th>fit</th><th>least</th><th></th><th>seconds</th><th>others report</th></tr>\n";
   const auto order = [](const std::optional<double>& v) { return v ? fmt::format("{:.2f}", *v) : "-"; };
   for (const ReportedResult& row : rows) {
     const CaseResult& r = row.result;
@@ -87,7 +89,7 @@ std::string section_of(const Report& report, const std::vector<ReportedResult>& 
     text += "<p class='miss'>" + escape_html(why) + "</p>";
   if (!one.others.empty()) text += "<p>Others: " + escape_html(one.others) + ".</p>\n";
   text += "<div class='row'>";
-  for (const Chart& chart : {error_chart(rows), series_chart(rows)})
+  for (const Chart& chart : {error_chart(rows), share_chart(rows), series_chart(rows)})
     if (const std::string svg = format_svg(chart); !svg.empty()) text += "<div>" + svg + "</div>\n";
   return text + picture_of(rows) + "</div>\n" + page_of(one);
 }
@@ -108,6 +110,11 @@ std::string format_html(const Report& report) {
   std::string text = head;
   text += fmt::format("<h1>Validation</h1>\n<p>Seiche {}, build {}, level {}, {} rank{}: {}.</p>\n", version(),
                       build_digest(), report.level, report.ranks, report.ranks == 1 ? "" : "s", table_summary(report));
+  if (!report.tampering.empty())
+    text += fmt::format(
+        "<p class='miss'>Operators broken on purpose, for a test: {}. No figure here is the program's.</p>\n",
+        escape_html(report.tampering));
+  text += fmt::format("<p>This machine: {}.</p>\n", escape_html(report.machine));
   text += contents_of(report);
   for (const auto& rows : by_case(report)) text += section_of(report, rows);
   return text + "</body></html>\n";

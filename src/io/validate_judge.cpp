@@ -35,4 +35,43 @@ Verdict judge(const CaseSpec& one, const ResolutionSpec& resolution, const CaseR
   return small && steep && fits ? Verdict::passed : Verdict::missed;
 }
 
+namespace {
+
+bool same_series(const ReportedResult& row, const CaseSpec& one, const ResolutionSpec& resolution) {
+  return row.one.name == one.name && reference_of(row.one, row.resolution) == reference_of(one, resolution);
+}
+
+// Those with figures among the last results of the report, as far back as they are to meet the same reference; coarse
+// to fine.
+std::vector<CaseResult> measured_before(const Report& report, const CaseSpec& one, const ResolutionSpec& resolution) {
+  std::vector<CaseResult> found;
+  for (auto row = report.results.rbegin(); row != report.results.rend(); ++row) {
+    if (!same_series(*row, one, resolution)) break;
+    if (is_measured(row->result)) found.insert(found.begin(), row->result);
+  }
+  return found;
+}
+
+}  // namespace
+
+void judge_by_all(const Planned& run, const Report& report, CaseResult& result) {
+  std::vector<CaseResult> all = measured_before(report, *run.one, *run.resolution);
+  if (!all.empty()) result.order = observed_order(all.back(), result);
+  all.push_back(result);
+  if (run.last_of_reference) result.fitted_order = fitted_order(all);
+  result.verdict = judge(*run.one, *run.resolution, result);
+}
+
+const ReportedResult* judge_last_measured(Report& report) {
+  const ReportedResult& last = report.results.back();
+  const std::vector<CaseResult> all = measured_before(report, last.one, last.resolution);
+  if (is_measured(last.result) || all.empty()) return nullptr;
+  auto row = report.results.rbegin();
+  while (!is_measured(row->result)) ++row;
+  const Verdict before = row->result.verdict;
+  row->result.fitted_order = fitted_order(all);
+  row->result.verdict = judge(row->one, row->resolution, row->result);
+  return row->result.verdict == before ? nullptr : &*row;
+}
+
 }  // namespace seiche

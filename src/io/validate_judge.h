@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "io/validate_run.h"
+#include "io/validate_plan.h"
+#include "io/validate_report.h"
 
 namespace seiche {
 
@@ -17,5 +18,12 @@ std::optional<double> fitted_order(const std::vector<CaseResult>& results);
 // Passed or missed: the error by its bar, the fitted order by the case's least one, the order from the resolution
 // before by that less order_scatter. Orders that are not set are not judged.
 Verdict judge(const CaseSpec& one, const ResolutionSpec& resolution, const CaseResult& result);
+
+// Judges a result that was measured, with the results of the report before it that are to meet the same reference.
+void judge_by_all(const Planned& run, const Report& report, CaseResult& result);
+
+// After the last run that is to meet a reference: where that has no figure, the last one that has is judged by the fit
+// instead. Returns that row where this changed its verdict, else null.
+const ReportedResult* judge_last_measured(Report& report);
 
 }  // namespace seiche

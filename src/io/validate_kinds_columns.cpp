@@ -22,7 +22,7 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
   const std::vector<double> values = csv_column(read_whole_file(run.stats()), spec.column);
   if (values.empty()) throw Error(ExitCode::cannot_continue, "stats.csv has no rows");
   double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
+  for (const double value : values) largest = larger(largest, std::abs(value));
   return {largest, {}, largest};
 }
 
@@ -30,7 +30,7 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
 double largest_of_column(const MeasureSpec& spec, const RunPaths& run) {
   double largest = 0;
   for (const auto& [time, value] : points_during(column_series(spec, run), spec.from, spec.to))
-    largest = std::max(largest, std::abs(value));
+    largest = larger(largest, std::abs(value));
   return largest / constant(spec.unit);
 }
 
@@ -45,8 +45,9 @@ Measurement column_extreme(const MeasureSpec& spec, const RunPaths& run) {
 Measurement column_drift(const MeasureSpec& spec, const RunPaths& run) {
   const std::vector<double> values = csv_column(read_whole_file(run.stats()), spec.column);
   if (values.empty()) throw Error(ExitCode::cannot_continue, "stats.csv has no rows");
+  if (values[0] == 0) throw Error(ExitCode::cannot_continue, "no drift: '" + spec.column + "' is zero at the start");
   double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value / values[0] - 1));
+  for (const double value : values) largest = larger(largest, std::abs(value / values[0] - 1));
   return {largest, {}, largest};
 }
 
@@ -68,7 +69,7 @@ Measurement energy_growth(const MeasureSpec& spec, const RunPaths& run) {
   if (!(energy[0].second > 0)) throw Error(ExitCode::cannot_continue, "there is no energy to begin with");
   double largest = 0;
   for (std::size_t n = 1; n < energy.size(); ++n)
-    largest = std::max(largest, (energy[n].second - energy[n - 1].second) / energy[0].second);
+    largest = larger(largest, (energy[n].second - energy[n - 1].second) / energy[0].second);
   return itself(largest);
 }
 
@@ -88,6 +89,7 @@ Points falls(const MeasureSpec& spec, const RunPaths& run) {
   for (std::size_t n = 1; n < points.size(); ++n) {
     const auto [t0, before] = points[n - 1];
     const auto [t1, after] = points[n];
+    if (!(t1 > t0)) throw Error(ExitCode::cannot_continue, "the times of stats.csv do not rise");
     rates.emplace_back(0.5 * (t0 + t1), (before - after) / (unit * (t1 - t0)));
   }
   return rates;

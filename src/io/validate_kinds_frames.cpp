@@ -1,6 +1,9 @@
 // Measures of frames.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/error.h"
 #include "io/checked_file.h"
 #include "io/validate_contour.h"
 #include "io/validate_frames.h"
@@ -11,12 +14,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Comparisons would pass over values that are no numbers.
+vdb::Frame read_frame(const fs::path& file) {
+  vdb::Frame frame = vdb::decode(file);
+  for (const vdb::Grid& grid : frame.grids)
+    for (const vdb::Block& block : grid.blocks)
+      if (!std::ranges::all_of(block.values, [](float value) { return std::isfinite(value); }))
+        throw Error(ExitCode::cannot_continue,
+                    fmt::format("{}: '{}' holds a value that is not a finite number", file.string(), grid.name));
+  return frame;
+}
+
 vdb::Frame last_frame(const RunPaths& run) {
   fs::path last;
   for (const auto& entry : fs::directory_iterator(run.frames())) {
     if (entry.path().extension() == ".vdb") last = std::max(last, entry.path());
   }
-  return vdb::decode(last);
+  return read_frame(last);
 }
 
 // Of the frames, by their times.
@@ -24,7 +38,7 @@ Points circularities(const MeasureSpec&, const RunPaths& run) {
   Points points;
   for (const auto& entry : fs::directory_iterator(run.frames())) {
     if (entry.path().extension() != ".vdb") continue;
-    const vdb::Frame frame = vdb::decode(entry.path());
+    const vdb::Frame frame = read_frame(entry.path());
     points.emplace_back(frame.time, circularity(frame));
   }
   std::sort(points.begin(), points.end());
@@ -51,7 +65,7 @@ Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
   const vdb::Frame frame = last_frame(run);
   double worst = 0;
   for (const LineExtreme& line : csv_lines(read_whole_file(spec.data)))
-    worst = std::max(worst, std::abs(extreme_along(frame, line) / line.value - 1));
+    worst = larger(worst, std::abs(extreme_along(frame, line) / line.value - 1));
   return itself(worst);
 }
 

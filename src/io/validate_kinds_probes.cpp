@@ -1,6 +1,9 @@
 // Measures of probes.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/error.h"
 #include "io/checked_file.h"
 #include "io/validate_kinds.h"
 
@@ -69,9 +72,18 @@ Points front_series(const MeasureSpec& spec, const RunPaths& run) {
   return points;
 }
 
+// Of the part between `from` and `to`, all of which must be there.
+double front_speed(const Points& front, double from, double to) {
+  const auto below = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto [least, most] = std::minmax_element(front.begin(), front.end(), below);
+  if (front.empty() || least->second > from || most->second < to)
+    throw Error(ExitCode::cannot_continue, fmt::format("the front does not go from {:g} to {:g}", from, to));
+  return slope_between(front, from, to);
+}
+
 Measurement front_slope(const MeasureSpec& spec, const RunPaths& run) {
-  return against(slope_between(front_series(spec, run), spec.from, spec.to),
-                 slope_between(csv_points(read_whole_file(spec.data)), spec.from, spec.to));
+  return against(front_speed(front_series(spec, run), spec.from, spec.to),
+                 front_speed(csv_points(read_whole_file(spec.data)), spec.from, spec.to));
 }
 
 // (value - level)/length_unit over time/time_unit.

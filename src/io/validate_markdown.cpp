@@ -5,11 +5,28 @@
 #include <algorithm>
 
 #include "base/version.h"
+#include "io/validate_section.h"
 
 namespace seiche {
 namespace {
 
-constexpr std::size_t short_digest = 8;  // of a build's digest: enough to tell builds apart
+constexpr const char* how_to =
+    R"(## How to make these figures again
+
+In a clone of the repository:
+
+    cmake --preset release && cmake --build build/release --target seiche
+    build/release/seiche validate NAME --level full
+
+[Building](building.md) has the packages that this takes; `./check` installs them, builds all and tests all. Each case
+below has its own command, the scene, what its runs set in that (as after `seiche run --set`), and what is measured; the
+`case.toml` of its folder has all of it. The same build gives the same figures on as many ranks.
+[Validating](validating.md) tells how cases are run and judged.
+
+In the tables "order" is that from the run above, "fit" the least-squares order over all runs of a case that are to meet
+the same reference, at the last of them; "time" is that of the run, or of the one that it shares.
+
+)";
 
 // "; 12 of them made by other builds"
 std::string words_on_builds(const Report& report) {
@@ -19,59 +36,62 @@ std::string words_on_builds(const Report& report) {
   return others == 0 ? "" : fmt::format("; {} of them made by other builds", others);
 }
 
-// A cell of a table.
-std::string cell(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
-  return safe;
+bool has_run(const ReportedResult& row) {
+  return row.result.verdict != Verdict::absent;
 }
 
-// "3f2a81c0, 2026-11-22, 35 min": build, day, and what it took.
-std::string origin_of(const CaseResult& r) {
-  if (!is_measured(r)) return "-";
-  std::string text = fmt::format("{}, {}", r.origin.build.substr(0, short_digest), r.origin.date);
-  if (r.origin.ranks > 1) text += fmt::format(", {} ranks", r.origin.ranks);
-  return text + (r.wall_seconds < 100 ? fmt::format(", {:.0f} s", r.wall_seconds)
-                                      : fmt::format(", {:.0f} min", r.wall_seconds / 60));
+std::vector<std::string> machines_of(const Report& report) {
+  std::vector<std::string> machines;
+  for (const ReportedResult& row : report.results) {
+    const std::string& machine = row.result.origin.machine;
+    if (has_run(row) && !machine.empty() && std::ranges::count(machines, machine) == 0) machines.push_back(machine);
+  }
+  return machines;
 }
 
-std::string row_of(const ReportedResult& row) {
-  const CaseResult& r = row.result;
-  const bool measured = is_measured(r);
-  const auto short_figure = [](const std::optional<double>& v) { return v ? fmt::format("{:.2f}", *v) : "-"; };
-  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.resolution.name,
-                     measured ? figure(r.measured.value) : "-", figure(r.measured.reference),
-                     measured ? figure(r.measured.error) : "-", figure(max_error_of(row.one, row.resolution)),
-                     short_figure(r.order), short_figure(r.fitted_order), short_figure(row.one.min_order),
-                     r.verdict == Verdict::passed ? "pass" : "**" + verdict_name(r.verdict) + "**", origin_of(r),
-                     cell(measured ? row.resolution.others : r.message.substr(0, r.message.find('\n'))));
+std::string list_of_machines(const PageContext& page) {
+  const auto runs_on = [&](const std::string& machine) {
+    return std::ranges::count_if(page.report.results, [&](const ReportedResult& row) {
+      return has_run(row) && row.result.origin.machine == machine;
+    });
+  };
+  std::string text = "Machines:\n\n";
+  for (std::size_t n = 0; n < page.machines.size(); ++n)
+    text += fmt::format("- machine {}, of {} runs: {}\n", n + 1, runs_on(page.machines[n]), page.machines[n]);
+  if (const auto unknown = runs_on(""); unknown > 0) text += fmt::format("- of {} runs it was not kept\n", unknown);
+  return text + fmt::format("- this page was written on {}\n\n", page.report.machine);
 }
 
-std::string section_of(const Report& report, const std::vector<ReportedResult>& rows) {
-  const CaseSpec& one = rows[0].one;
-  std::string text = fmt::format("## {}\n\n`{}`\n\n", one.title, command_of(report, one));
-  text += "| run | measured | reference | error | bar | order | fit | least | | made by | others |\n";
-  text += "|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const ReportedResult& row : rows) text += row_of(row);
-  if (!one.others.empty()) text += fmt::format("\nOthers: {}.\n", one.others);
-  if (const std::string why = words_on_misses(rows); !why.empty()) text += "\n" + why + "\n";
+std::string list_of_cases(const Report& report) {
+  std::string text = "## Cases\n\n| case | | runs |\n|---|---|---|\n";
+  for (const auto& rows : by_case(report)) {
+    Report part;
+    part.results = rows;
+    text += fmt::format("| [{0}](#{0}) | {1} | {2} |\n", rows[0].one.name, markdown_cell(rows[0].one.title),
+                        table_summary(part));
+  }
   return text + "\n";
 }
 
 std::string list_of_misses(const Report& report) {
   std::string text;
-  for (const auto& rows : by_case(report))
-    for (const ReportedResult& row : rows)
-      if (row.result.verdict != Verdict::passed)
-        text += fmt::format("- `{} {}`: {}{}\n", row.one.name, row.resolution.name, verdict_name(row.result.verdict),
-                            is_measured(row.result)
-                                ? fmt::format(", error {} where {} passes", figure(row.result.measured.error),
-                                              figure(max_error_of(row.one, row.resolution)))
-                                : "");
+  for (const ReportedResult& row : report.results)
+    if (row.result.verdict == Verdict::missed || row.result.verdict == Verdict::failed)
+      text += fmt::format(
+          "- [{0} {1}](#{0}): {2}{3}\n", row.one.name, row.resolution.name, verdict_name(row.result.verdict),
+          is_measured(row.result) ? fmt::format(", error {} where {} passes", figure(row.result.measured.error),
+                                                figure(max_error_of(row.one, row.resolution)))
+                                  : "");
   return text.empty() ? "" : "Not passed:\n\n" + text + "\n";
 }
 
 }  // namespace
+
+std::string markdown_cell(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
+  return safe;
+}
 
 std::string command_of(const Report& report, const CaseSpec& one) {
   return fmt::format("seiche validate {} --level {}", one.name, report.level);
@@ -82,24 +102,24 @@ std::string figure(const std::optional<double>& value) {
 }
 
 std::string words_on_misses(const std::vector<ReportedResult>& rows) {
-  const bool missed = std::any_of(rows.begin(), rows.end(), [](const ReportedResult& row) {
-    return row.result.verdict == Verdict::missed || row.result.verdict == Verdict::failed;
-  });
-  if (!missed) return {};
+  const auto any = [&](Verdict verdict) {
+    return std::ranges::any_of(rows, [&](const ReportedResult& row) { return row.result.verdict == verdict; });
+  };
   const std::string& known = rows[0].one.known;
-  return known.empty() ? "Misses its bar; the cause is not known." : "Misses its bar: " + known;
+  const std::string cause = known.empty() ? "the cause is not known." : known;
+  if (any(Verdict::missed)) return known.empty() ? "Misses its bar; " + cause : "Misses its bar: " + cause;
+  if (any(Verdict::failed)) return known.empty() ? "Failed; " + cause : "Failed: " + cause;
+  return any(Verdict::absent) && !known.empty() ? "Not run in full; known: " + known : "";
 }
 
 std::string format_markdown(const Report& report) {
+  const PageContext page{report, machines_of(report)};
   std::string text = fmt::format(
-      "# What was validated\n\nWritten by `seiche validate --level {} --write-docs`, version {}, build {}: {}{}. "
-      "[Validating](validating.md) tells how cases are run and judged; a case's own page is "
-      "`validation/<case>/README.md`. \"order\" is that from the run above, \"fit\" the least-squares order over all "
-      "runs of a case, \"least\" the fit that passes, \"made by\" the build (the start of its digest), the day and the "
-      "time that the run took.\n\n",
+      "# What was validated\n\nWritten by `seiche validate --level {} --write-docs`, version {}, build {}: "
+      "{}{}.\n\n",
       report.level, version(), build_digest().substr(0, short_digest), table_summary(report), words_on_builds(report));
-  text += list_of_misses(report);
-  for (const auto& rows : by_case(report)) text += section_of(report, rows);
+  text += list_of_misses(report) + how_to + list_of_machines(page) + list_of_cases(report);
+  for (const auto& rows : by_case(report)) text += markdown_section(page, rows);
   while (text.ends_with("\n\n")) text.pop_back();
   return text;
 }

@@ -9,10 +9,14 @@ std::string format_markdown(const Report& report);
 // What it takes to run a case again, at the report's level.
 std::string command_of(const Report& report, const CaseSpec& one);
 
+// A text that may stand in a table.
+std::string markdown_cell(const std::string& text);
+
 // A figure of four digits, "-" for none.
 std::string figure(const std::optional<double>& value);
 
-// Words on a case's misses: the known cause, or that there is none; empty where all passed.
+// Words on a case's misses and failures: the known cause, or that there is none. Of runs that are not there what is
+// known; empty where all passed.
 std::string words_on_misses(const std::vector<ReportedResult>& rows);
 
 }  // namespace seiche

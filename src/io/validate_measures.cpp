@@ -15,26 +15,9 @@ namespace {
 
 using T = OptionType;
 
-const std::vector<MeasureKind>& kinds() {
-  static const std::vector<MeasureKind> table = [] {
-    std::vector<MeasureKind> rows;
-    for (const auto& some : {measures_of_frames(), measures_of_probes(), measures_of_columns(), measures_of_solids()})
-      rows.insert(rows.end(), some.begin(), some.end());
-    return rows;
-  }();
-  return table;
-}
-
-const MeasureKind& kind_of(const MeasureSpec& spec) {
-  const auto kind =
-      std::find_if(kinds().begin(), kinds().end(), [&](const MeasureKind& row) { return row.name == spec.kind; });
-  if (kind == kinds().end()) throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
-  return *kind;
-}
-
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
-  for (const MeasureKind& kind : kinds()) names.emplace_back(kind.name);
+  for (const MeasureKind& kind : measure_kinds()) names.emplace_back(kind.name);
   return names;
 }
 
@@ -43,14 +26,43 @@ template <class Member>
 Key<MeasureSpec> parameter(Option option, Member member) {
   option.only_for.key = "kind";
   option.presence = Presence::required;
-  for (const MeasureKind& kind : kinds()) {
-    const auto uses = [&](const char* key) { return option.key == key; };
-    if (std::any_of(kind.keys.begin(), kind.keys.end(), uses)) option.only_for.values.emplace_back(kind.name);
+  for (const MeasureKind& kind : measure_kinds()) {
+    if (uses(kind, option.key)) option.only_for.values.emplace_back(kind.name);
   }
   return value_key<MeasureSpec>(option, member);
 }
 
 }  // namespace
+
+const std::vector<MeasureKind>& measure_kinds() {
+  static const std::vector<MeasureKind> table = [] {
+    std::vector<MeasureKind> rows;
+    const auto add = [&](MeasureSource source, const std::vector<MeasureKind>& some) {
+      for (const MeasureKind& kind : some) {
+        rows.push_back(kind);
+        rows.back().source = source;
+      }
+    };
+    add(MeasureSource::frames, measures_of_frames());
+    add(MeasureSource::probes, measures_of_probes());
+    add(MeasureSource::stats, measures_of_columns());
+    add(MeasureSource::solids, measures_of_solids());
+    return rows;
+  }();
+  return table;
+}
+
+const MeasureKind& kind_of(const MeasureSpec& spec) {
+  const auto& kinds = measure_kinds();
+  const auto kind =
+      std::find_if(kinds.begin(), kinds.end(), [&](const MeasureKind& row) { return row.name == spec.kind; });
+  if (kind == kinds.end()) throw Error(ExitCode::bug, fmt::format("no measure is named '{}'", spec.kind));
+  return *kind;
+}
+
+bool uses(const MeasureKind& kind, const std::string& key) {
+  return std::any_of(kind.keys.begin(), kind.keys.end(), [&](const char* one) { return key == one; });
+}
 
 Points measured_series(const MeasureSpec& spec, const RunPaths& run) {
   const MeasureKind& kind = kind_of(spec);
@@ -89,13 +101,14 @@ double constant(const Formula& formula) {
 Measurement measure(const MeasureSpec& spec, const RunPaths& run) {
   try {
     const Measurement result = kind_of(spec).measure(spec, run);
-    if (std::isfinite(result.error)) return result;
+    const bool finite = std::isfinite(result.value) && std::isfinite(result.reference.value_or(0));
+    if (finite && std::isfinite(result.error) && result.error >= 0) return result;
   } catch (const Error& error) {  // whatever was missing or unreadable, the run is not measured
     throw Error(ExitCode::cannot_continue, error.what());
   } catch (const fs::filesystem_error& error) {
     throw Error(ExitCode::cannot_continue, error.what());
   }
-  throw Error(ExitCode::cannot_continue, fmt::format("{} is not a number", spec.kind));
+  throw Error(ExitCode::cannot_continue, fmt::format("{} is not a number, or an error below zero", spec.kind));
 }
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 #pragma once
 // What can be measured on the run of a validation case. A further measure is a row of a table in validate_kinds_*.cpp.
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,11 @@ struct Measurement {
   std::optional<double> reference;  // unset: the value itself is the error
   double error = 0;                 // what the bar is about, never negative
 };
+
+// The larger of two; not a number where one of them is none, which std::max may drop.
+inline double larger(double a, double b) {
+  return std::isnan(a) || a > b ? a : b;
+}
 
 // The value of a formula that is a constant.
 double constant(const Formula& formula);
@@ -41,13 +47,15 @@ double slope_between(const Points& points, double low, double high);
 // straight lines between points. Throws Error(cannot_continue) for less than one period.
 double mean_period(const Points& points, double level);
 
-// A column of CSV text by its header's name; empty fields become NaN. Throws Error(cannot_continue) without it.
+// A column of CSV text by its header's name. Throws Error(cannot_continue) without it and for fields that are no finite
+// numbers.
 std::vector<double> csv_column(const std::string& text, const std::string& name);
 
-// The first two columns of CSV text, below its header; lines that begin with '#' are skipped.
+// The first two columns of CSV text, below its header; lines that begin with '#' are skipped. Throws as csv_column().
 Points csv_points(const std::string& text);
 
-// Least-squares slope of y(x) over the points with from <= x <= to. Throws Error(cannot_continue) for under two.
+// Least-squares slope of y(x) over the points with from <= x <= to. Throws Error(cannot_continue) for under two, and
+// where they do not reach that far.
 double slope_during(const Points& points, double from, double to);
 
 // Mean of y(x) over from <= x <= to by trapezoids, weighted with sin^2, zero at both ends: next to nothing is left of
@@ -78,7 +86,8 @@ double farthest_stray(const std::string& text, double from);
 // time and a column of a probe (vectors have x, y, z), from the text of probes.csv, without undefined samples.
 Points probe_points(const std::string& text, const std::string& probe, const std::string& column = "value");
 
-// The points with from <= x <= to. Throws Error(cannot_continue) where they do not reach that far.
+// The points with from <= x <= to. Throws Error(cannot_continue) where they do not reach that far and where there are
+// none between.
 Points points_during(const Points& points, double from, double to);
 
 }  // namespace seiche

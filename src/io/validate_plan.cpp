@@ -1,8 +1,11 @@
 #include "io/validate_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "io/run_agree.h"
+#include "io/validate_quantity.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
@@ -15,6 +18,10 @@ void mark_last(std::vector<Planned>& runs) {
         !next || next->one != runs[n].one ||
         reference_of(*next->one, *next->resolution) != reference_of(*runs[n].one, *runs[n].resolution);
   }
+}
+
+std::string place_of(const CaseSpec& one, const ResolutionSpec& resolution) {
+  return fmt::format("{}, resolution '{}'", (one.folder / "case.toml").string(), resolution.name);
 }
 
 }  // namespace
@@ -47,6 +54,7 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOpti
         if (!belongs_to(resolution, options.level)) continue;
         any = any || wanted;
         runs.push_back({&one, &resolution, read_scene(scene_of(one, resolution), resolution.overrides), false, wanted});
+        check_names(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
       }
     }
     if (!any)

@@ -20,8 +20,9 @@ std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Commu
 std::vector<CaseSpec> choose_cases(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                                    const Communicator& ranks);
 
-// The runs of the level: the chosen ones, with a record all. Reads every scene, so that a mistake in the last case ends
-// the program before the first is run. Throws Error(bad_input), where nothing is chosen too. Collective.
+// The runs of the level: the chosen ones, with a record all. Reads every scene and checks the
+// names that measures give, so that a mistake in the last case ends the program before the first is run. Throws
+// Error(bad_input), where nothing is chosen too. Collective.
 std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                           const Communicator& ranks);
 

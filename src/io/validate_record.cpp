@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 
@@ -11,12 +12,15 @@
 #include "io/checkpoint_crc.h"
 #include "io/scene_writer.h"
 #include "io/validate_cache.h"
+#include "io/validate_files.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* header = "case,resolution,identity,build,date,ranks,seconds,value,error,reference";
+constexpr const char* older_header = "case,resolution,identity,build,date,ranks,seconds,value,error,reference";
+constexpr const char* header =
+    "case,resolution,identity,build,date,ranks,seconds,value,error,reference,threads,machine,failure";
 constexpr const char* comment = "# Written by seiche validate --record; see docs/validating.md.\n";
 
 std::string text_of(const MeasureSpec& m) {
@@ -27,12 +31,28 @@ std::string text_of(const MeasureSpec& m) {
   return m.data.empty() ? text : text + " " + checksum_of(m.data);
 }
 
+// A text in quotes where it must be, on one line.
+std::string field_of(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    fields.push_back(line.substr(at, end - at));
-    at = end + 1;
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t n = 0; n < line.size(); ++n) {
+    const bool twice = quoted && line.compare(n, 2, "\"\"") == 0;
+    if (line[n] == ',' && !quoted) {
+      fields.emplace_back();
+    } else if (line[n] == '"' && !twice) {
+      quoted = !quoted;
+    } else {
+      fields.back() += line[n];
+      n += twice;
+    }
   }
   return fields;
 }
@@ -45,17 +65,35 @@ double number(const std::string& field, bool& good) {
   return value;
 }
 
-// Of the fields from the fourth on; nothing where they are no run's.
-std::optional<RecordedRun> run_of(const std::vector<std::string>& f) {
-  if (f.size() != 10) return std::nullopt;
+// Nothing where the fields are no row's.
+std::optional<RecordedRow> row_of(const std::vector<std::string>& f) {
+  if (f.size() != 10 && f.size() != 13) return std::nullopt;
   bool good = true;
-  RecordedRun run;
-  run.origin = {f[3], f[4], int(number(f[5], good))};
+  RecordedRow row{f[0], f[1], f[2], {}};
+  RecordedRun& run = row.run;
+  run.origin = {f[3], f[4], int(number(f[5], good)), 0, ""};
   run.seconds = number(f[6], good);
+  if (f.size() == 13) {
+    if (!f[10].empty()) run.origin.threads = int(number(f[10], good));
+    run.origin.machine = f[11];
+    run.failure = f[12];
+  }
+  if (!run.failure.empty()) return good ? std::optional(row) : std::nullopt;
   run.measured.value = number(f[7], good);
   run.measured.error = number(f[8], good);
   if (!f[9].empty()) run.measured.reference = number(f[9], good);
-  return good ? std::optional(run) : std::nullopt;
+  return good ? std::optional(row) : std::nullopt;
+}
+
+// "value,error,reference"
+std::string figures_of(const RecordedRun& run) {
+  if (!run.failure.empty()) return ",,";
+  const Measurement& m = run.measured;
+  return fmt::format("{:.17g},{:.17g},{}", m.value, m.error, m.reference ? fmt::format("{:.17g}", *m.reference) : "");
+}
+
+std::string day_of(std::chrono::system_clock::time_point time) {
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::to_time_t(time)));
 }
 
 }  // namespace
@@ -67,21 +105,18 @@ std::string measured_identity(const Scene& scene, const MeasureSpec& measure) {
   return fmt::format("{:08x}", crc32c(text));
 }
 
-ValidationRecord::ValidationRecord(fs::path file) : file_(std::move(file)) {
-  if (!fs::exists(file_)) return;
-  const std::string text = read_whole_file(file_);
+ValidationRecord::ValidationRecord(const fs::path& file, const std::string& text) {
   int count = 0;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string line = text.substr(at, end - at);
     at = end + 1, ++count;
-    if (line.empty() || line[0] == '#' || line == header) continue;
-    const std::vector<std::string> fields = fields_of(line);
-    const auto run = run_of(fields);
-    if (!run)
+    if (line.empty() || line[0] == '#' || line == header || line == older_header) continue;
+    const auto row = row_of(fields_of(line));
+    if (!row)
       throw Error(ExitCode::bad_input,
-                  fmt::format("{}, line {}: not a row of a record ({})", file_.string(), count, header));
-    rows_[{fields[0], fields[1]}] = {fields[2], *run};
+                  fmt::format("{}, line {}: not a row of a record ({})", file.string(), count, header));
+    put(*row);
   }
 }
 
@@ -92,28 +127,48 @@ std::optional<RecordedRun> ValidationRecord::find(const std::string& one, const 
   return found->second.run;
 }
 
-void ValidationRecord::put(const std::string& one, const std::string& resolution, const std::string& identity,
-                           const RecordedRun& run) {
-  rows_[{one, resolution}] = {identity, run};
+void ValidationRecord::put(const RecordedRow& row) {
+  rows_[{row.one, row.resolution}] = row;
 }
 
-void ValidationRecord::write() const {
+std::string ValidationRecord::text() const {
   std::string text = comment + std::string(header) + "\n";
   for (const auto& [name, row] : rows_) {
-    const RecordedRun& r = row.run;
-    text += fmt::format("{},{},{},{},{},{},{:.1f},{:.17g},{:.17g},{}\n", name.first, name.second, row.identity,
-                        r.origin.build, r.origin.date, r.origin.ranks, r.seconds, r.measured.value, r.measured.error,
-                        r.measured.reference ? fmt::format("{:.17g}", *r.measured.reference) : "");
+    const Origin& origin = row.run.origin;
+    text += fmt::format("{},{},{},{},{},{},{:.1f},{},{},{},{}\n", row.one, row.resolution, row.identity, origin.build,
+                        origin.date, origin.ranks, row.run.seconds, figures_of(row.run),
+                        origin.threads > 0 ? std::to_string(origin.threads) : "", field_of(origin.machine),
+                        field_of(row.run.failure));
   }
-  write_file(file_, text);
+  return text;
+}
+
+std::string read_record(const fs::path& file) {
+  if (!fs::exists(file)) return {};
+  try {
+    return read_whole_file(file);
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_input, error.what());
+  }
+}
+
+std::string put_on_file(const fs::path& file, const RecordedRow& row) {
+  const FolderLock lock(folder_of(file));
+  ValidationRecord record(file, read_record(file));
+  record.put(row);
+  const std::string text = record.text();
+  replace_file(file, text);
+  return text;
 }
 
 std::string date_of(const fs::path& file) {
   std::error_code failed;
   const auto when = fs::last_write_time(file, failed);
-  if (failed) return {};
-  const auto time = std::chrono::system_clock::to_time_t(std::chrono::file_clock::to_sys(when));
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(time));
+  return failed ? std::string() : day_of(std::chrono::file_clock::to_sys(when));
+}
+
+std::string today() {
+  return day_of(std::chrono::system_clock::now());
 }
 
 }  // namespace seiche

@@ -12,6 +12,7 @@ struct ReportedResult {
   CaseSpec one;
   ResolutionSpec resolution;
   CaseResult result;
+  std::string unit{};  // of the figure, see validate_quantity.h
 };
 
 struct Report {
@@ -19,6 +20,8 @@ struct Report {
   int ranks = 1;
   std::size_t planned = 0;              // runs to be made in all
   std::vector<ReportedResult> results;  // those of one case beside each other
+  std::string tampering;                // operators that were broken for a test; empty: none
+  std::string machine;                  // this one, see validate_machine.h
 };
 
 std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED", "not run"

@@ -53,7 +53,8 @@ ExitCode list_cases(const ValidateOptions& options, const Surroundings& around);
 // keeps out/validation.json and writes out/report.html. With a record it brings that up to date, takes from it what is
 // not run, and the Markdown page has all cases of the level. Cases that could not go on are rows of the table. Returns
 // done (all passed), bug (a bar was missed), cannot_continue (a case could not be run or measured, or is absent),
-// stopped. Throws Error(bad_input) before anything is run. Collective.
+// stopped. Throws Error(bad_input) before anything is run, and Error(output_failed) where the record or the page could
+// not be written. Collective.
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around);
 
 }  // namespace seiche

@@ -8,71 +8,14 @@
 #include "io/validate_html.h"
 #include "io/validate_judge.h"
 #include "io/validate_markdown.h"
+#include "io/validate_readme.h"
 #include "io/validate_report.h"
 #include "io/validate_run.h"
-#include "io_scratch.h"
+#include "io_validate_cases.h"
 
 using namespace seiche;
-namespace fs = std::filesystem;
 
 namespace {
-
-// Liquid that moves with 1 m/s through a periodic box.
-const char* const scene_text = R"(dimension = 2
-gravity = [0.0, 0.0]
-[domain]
-upper = [1.0, 1.0]
-cell_size = 0.125
-[domain.boundary]
-x_lower = "periodic"
-x_upper = "periodic"
-y_lower = "periodic"
-y_upper = "periodic"
-[time]
-end = 0.2
-frame_rate = 5.0
-[liquid]
-velocity = [1.0, 0.0]
-[[liquid.region]]
-shape = "expression"
-phi = "-1"
-)";
-
-std::string case_text(const std::string& column, double bar) {
-  return "title = \"t\"\ntags = [\"one\"]\nscene = \"scene.toml\"\nmax_error = " + std::to_string(bar) +
-         "\n[measure]\nkind = \"max_of_column\"\ncolumn = \"" + column +
-         "\"\n[[resolution]]\nname = \"8\"\n[[resolution]]\nname = \"16\"\nlevels = [\"full\"]\nset = "
-         "[\"domain.cell_size=0.0625\"]\n";
-}
-
-void put_case(const ScratchFolder& folder, const std::string& name, const std::string& text) {
-  fs::create_directories(folder / "cases" / name);
-  put(folder / "cases" / name / "case.toml", text);
-  put(folder / "cases" / name / "scene.toml", scene_text);
-}
-
-struct Outcome {
-  ExitCode code;
-  std::string table, json;
-};
-
-Outcome validate(const ScratchFolder& folder, const std::vector<std::string>& words, const std::string& level,
-                 ValidateOptions options = {}) {
-  const Communicator ranks;
-  const EmergencyChannel emergency(ranks);
-  Outcome outcome;
-  Console console;
-  console.line = [&](const std::string& text) { outcome.table += text + "\n"; };
-  console.warning = [](const std::string&) {};
-  options.words = words;
-  options.level = level;
-  options.cases = folder / "cases";
-  options.out = folder / "out";
-  options.threads = 1;
-  outcome.code = validate_command(options, {ranks, emergency, console});
-  outcome.json = contents(folder / "out" / "validation.json");
-  return outcome;
-}
 
 CaseResult result_of(double h, double error) {
   CaseResult result;
@@ -133,6 +76,10 @@ TEST_CASE("cases are chosen by name and tag, and a slip gets a suggestion") {
   CHECK(select_cases(cases, {"waves", "beta"}).size() == 3);
   REQUIRE(select_cases(cases, {"waves"}).size() == 2);
   CHECK(select_cases(cases, {"waves"})[1].name == "gamma");
+  cases[0].name = "rest";  // which is a tag, too
+  REQUIRE(select_cases(cases, {"rest"}).size() == 1);
+  CHECK(select_cases(cases, {"rest"})[0].name == "rest");
+  CHECK(select_cases(cases, {"rest", "waves"}).size() == 2);
   CHECK_THROWS_WITH(select_cases(cases, {"bta"}), Catch::Contains("did you mean 'beta'"));
   CHECK_THROWS_WITH(select_cases(cases, {"zzzzzz"}), Catch::Contains("--list"));
 }
@@ -189,7 +136,7 @@ TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and
   const ScratchFolder folder;
   put_case(folder, "pass", case_text("max_speed", 1.5));
   put_case(folder, "short", case_text("max_speed", 0.5));
-  put_case(folder, "unmeasured", case_text("no_such_column", 1));
+  put_case(folder, "unmeasured", unmeasurable_text());
   const Outcome good = validate(folder, {"pass"}, "full");
   CHECK(good.code == ExitCode::done);
   CHECK(json_value(good.json, "passed") == "true");
@@ -204,7 +151,7 @@ TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and
 
   const Outcome failed = validate(folder, {"one"}, "quick");  // by tag: all three
   CHECK(failed.code == ExitCode::cannot_continue);
-  CHECK(failed.table.find("no_such_column") != std::string::npos);
+  CHECK(failed.table.find("does not reach from 0 s to 9 s") != std::string::npos);
 }
 
 TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
@@ -268,7 +215,7 @@ TEST_CASE("a record keeps figures of other builds, and the page has all cases") 
   CHECK(validate(folder, {"second"}, "full", options).code == ExitCode::done);
   const std::string page = contents(folder / "page.md");
   CHECK(page.find("4 pass; 2 of them made by other builds") != std::string::npos);
-  CHECK(page.find("| abcdef01, 20") != std::string::npos);
+  CHECK(page.find("- Made by build abcdef01, 20") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out" / "first"));
 
   // Figures of a case that has changed since are none of it.
@@ -299,6 +246,44 @@ TEST_CASE("the pages show misses with their cause, plots and a picture") {
   CHECK(html.find("http") == std::string::npos);  // it needs no other file
   CHECK(page.find("**MISS**") != std::string::npos);
   CHECK(page.find("Misses its bar: the sun") != std::string::npos);
+  options.making = Making::report;
+  fs::remove_all(folder / "out");
+  validate(folder, {"one"}, "full", options);
+  CHECK(contents(folder / "page.md").find("Not run in full; known: the sun") != std::string::npos);
+}
+
+TEST_CASE("a section of the page has what it takes to make its figures again") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 2));
+  put(folder / "cases" / "one" / "README.md", "# Moving\n\nAs [two](../two/README.md).\n");
+  ValidateOptions options;
+  options.docs = folder / "page.md", options.record = folder / "record.csv";
+  CHECK(validate(folder, {}, "full", options).code == ExitCode::done);
+  const std::string page = contents(folder / "page.md");
+  for (const char* part :
+       {"## one: t\n", "### Moving\n", "[two](../cases/two/README.md)", "(`max_of_column`, column `max_speed`), in m/s",
+        "[case.toml](../cases/one/case.toml)", "[scene.toml](../cases/one/scene.toml)", "one --level full",
+        "| 16 | 0.0625 | 1 |", "  - 16: `domain.cell_size=0.0625`\n", "- Made by this build, 20",
+        ", 1 thread, machine 1.", "- machine 1, of 2 runs: "}) {
+    INFO(part);
+    CHECK(page.find(part) != std::string::npos);
+  }
+  CHECK(page.find(folder.path().string()) == std::string::npos);
+  // The machine is that of the run, also where the run is found later.
+  const std::string record = contents(folder / "record.csv");
+  fs::remove(folder / "record.csv");
+  CHECK(validate(folder, {}, "full", options).code == ExitCode::done);
+  const auto line = [](const std::string& text) { return text.substr(text.find("one,8")); };
+  CHECK(line(contents(folder / "record.csv")).find("; g++ ") != std::string::npos);
+  CHECK(line(record).find("; g++ ") != std::string::npos);
+}
+
+TEST_CASE("a case's page stands in another with its headings deeper and its links right") {
+  CHECK(embed_readme("# A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n## B\n", "v/one") ==
+        "### A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n#### B\n");
+  CHECK(embed_readme("[a](b.csv), [c](../d/e.md#f), [g](#h), [i](https://j.k)\n\n", "v/one") ==
+        "[a](../v/one/b.csv), [c](../v/d/e.md#f), [g](#h), [i](https://j.k)\n");
+  CHECK(link_from_page("v/one", "../../scenes/s.toml") == "../scenes/s.toml");
 }
 
 TEST_CASE("the parts of plots") {

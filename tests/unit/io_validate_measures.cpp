@@ -68,8 +68,9 @@ TEST_CASE("the mean period of a sampled wave is that of the wave") {
 TEST_CASE("columns and points are read from CSV text with comments and gaps") {
   const std::string text = "# where from\na,b,c\n1,2,3\r\n4,,6\n";
   CHECK(csv_column(text, "c") == std::vector<double>{3, 6});
-  CHECK(std::isnan(csv_column(text, "b")[1]));
-  CHECK(csv_points(text)[0] == std::pair(1.0, 2.0));
+  CHECK_THROWS_WITH(csv_column(text, "b"), Catch::Contains("not a finite number") && Catch::Contains("4,,6"));
+  CHECK(csv_points("# where from\na,b\n1,2,3\n") == Points{{1, 2}});
+  CHECK_THROWS_WITH(csv_points(text), Catch::Contains("not a finite number"));
   CHECK_THROWS_WITH(csv_column(text, "d"), Catch::Contains("'d'") && Catch::Contains("a, b, c"));
 }
 
@@ -88,6 +89,8 @@ TEST_CASE("the slope during a time takes the rows at its ends in") {
   const Points points{{0, 9}, {0.1, 2}, {0.2, 4}, {0.1 + 0.2, 6}, {0.4, 9}};
   CHECK(slope_during(points, 0.1, 0.3) == Approx(20).epsilon(1e-12));  // rounding of times
   CHECK_THROWS_AS(slope_during(points, 0.15, 0.25), Error);
+  CHECK_THROWS_WITH(slope_during(points, 0.1, 0.5), Catch::Contains("does not reach"));
+  CHECK_THROWS_WITH(slope_during(points, -0.1, 0.3), Catch::Contains("does not reach"));
 }
 
 TEST_CASE("a settled mean leaves next to nothing of an oscillation, whatever the steps") {
@@ -211,6 +214,49 @@ TEST_CASE("growth is the slope of a logarithm, and two probes are measured again
   spec.reference = "-0.5";
   CHECK(measure(spec, run).value == Approx(-0.4));
   CHECK(measure(spec, run).error == Approx(0.2));
+}
+
+TEST_CASE("what is not a number is not measured, wherever it stands") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  MeasureSpec spec;
+  spec.column = "energy", spec.solid = spec.probe = "p", spec.reference = "1", spec.to = 2;
+  const auto refused = [&](const char* kind) {
+    spec.kind = kind;
+    CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("not a finite number"));
+  };
+  for (const char* value : {"nan", "inf", ""}) {
+    put(run.stats(), fmt::format("time,energy\n0,1\n1,{}\n2,1\n", value));
+    for (const char* kind : {"max_of_column", "column_peak", "column_extreme", "column_drift", "column_fall"})
+      refused(kind);
+  }
+  spec.column = "x";
+  put(run.solids(), "time,name,x,y,z\n0,p,1,0,0\n1,p,nan,0,0\n2,p,1,0,0\n");
+  for (const char* kind : {"solid_slope", "solid_peak", "solid_amplitude", "solid_middle", "solid_mean"}) refused(kind);
+  refused("solids_stray");
+  put(run.probes(), "time,name,value,x,y,z\n0,p,,1,0,0\n1,p,,nan,0,0\n2,p,,1,0,0\n");
+  for (const char* kind : {"probe_peak", "probe_peak_time", "probe_amplitude", "probe_mean"}) refused(kind);
+  CHECK(std::isnan(larger(1, std::nan(""))));
+  CHECK(std::isnan(larger(std::nan(""), 1)));
+  CHECK(larger(1, 2) == 2);
+}
+
+TEST_CASE("a measure that would pass on nothing fails") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  put(run.stats(), "time,energy\n0,0\n1,2\n2,0\n");
+  MeasureSpec spec;
+  spec.column = "energy";
+  spec.kind = "column_drift";
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("zero at the start"));
+  spec.kind = "column_peak", spec.from = 0.2, spec.to = 0.8;  // between two rows
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no rows between"));
+  spec.to = 2, spec.unit = "-1";  // would be an error below any bar
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("below zero"));
+  spec.kind = "front_slope", spec.probe = "f", spec.data = folder / "data.csv", spec.from = 1, spec.to = 3;
+  put(spec.data, "t,z\n0,1\n1,2\n2,3\n");
+  put(run.probes(), "time,name,value,x,y,z\n0,f,1,,,\n1,f,2,,,\n");
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not go from 1 to 3"));
 }
 
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {

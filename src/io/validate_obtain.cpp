@@ -1,0 +1,209 @@
+#include "io/validate_obtain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+
+#include "base/version.h"
+#include "io/checked_file.h"
+#include "io/info.h"
+#include "io/run_agree.h"
+#include "io/validate_machine.h"
+
+namespace seiche {
+namespace fs = std::filesystem;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto patience = std::chrono::seconds(3);
+
+// Only warnings and the live line of a run reach the terminal, with the run's name before them.
+Console console_of(const Planned& run, const Console& outer) {
+  const std::string prefix = fmt::format("{} {}: ", run.one->name, run.resolution->name);
+  Console inner;
+  inner.line = [](const std::string&) {};
+  inner.warning = [&outer, prefix](const std::string& text) { outer.warning(prefix + text); };
+  if (outer.live) inner.live = [&outer, prefix](const std::string& text) { outer.live(prefix + text); };
+  return inner;
+}
+
+// Rank 0 measures; all ranks get the figures.
+Measurement measure_on_root(const MeasureSpec& spec, const fs::path& run, const Communicator& ranks) {
+  Measurement result;
+  agree_on_root(ranks, "measuring", [&] { result = measure(spec, RunPaths{run}); });
+  const std::string text =
+      ranks.broadcast(fmt::format("{:a} {:a} {} {:a}", result.value, result.error, int(result.reference.has_value()),
+                                  result.reference.value_or(0)));
+  const char* at = text.c_str();
+  char* end = nullptr;
+  const auto next = [&] {
+    const double value = std::strtod(at, &end);
+    at = end;
+    return value;
+  };
+  result.value = next();
+  result.error = next();
+  const bool has_reference = next() != 0;
+  const double reference = next();
+  result.reference = has_reference ? std::optional(reference) : std::nullopt;
+  return result;
+}
+
+// Whether a run is to be had, and where: an earlier one, or one that is made now.
+struct Found {
+  ExitCode code = ExitCode::done;
+  bool any = true, cached = false;
+  fs::path run;
+};
+
+// Rank 0 looks; all ranks get the answer. `identity` is filled on rank 0.
+Found look_for_run(const Planned& run, const Validation& v, std::string& identity) {
+  Found found;
+  agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
+    identity = run_identity(run.scene, v.around.ranks.size(), v.options.tampering);
+    const auto earlier = v.cache.find(run.scene, identity);
+    found.cached = earlier.has_value();
+    found.run = earlier.value_or(v.options.out / run.one->name / run.resolution->name);
+  });
+  const std::string text = v.around.ranks.broadcast((found.cached ? "1" : "0") + found.run.string());
+  found.cached = text[0] == '1';
+  found.run = text.substr(1);
+  found.any = found.cached || v.options.making == Making::runs;
+  return found;
+}
+
+Found obtain_run(const Planned& run, Validation& v) {
+  std::string identity;
+  Found found = look_for_run(run, v, identity);
+  if (found.cached || !found.any) return found;
+  v.cache.forget(found.run);
+  RunOptions own;
+  own.scene = scene_of(*run.one, *run.resolution);
+  own.out = found.run;
+  own.overrides = run.resolution->overrides;
+  own.existing = ExistingOutput::overwrite;
+  own.session.threads = v.options.threads;
+  own.session.tampering = v.options.tampering;
+  found.code = run_command(own, {v.around.ranks, v.around.emergency, console_of(run, v.around.console)});
+  if (found.code == ExitCode::done)
+    agree_on_root(v.around.ranks, "keeping the run", [&] { v.cache.keep(found.run, identity); });
+  return found;
+}
+
+// Number of a finished run's summary.json; nothing where that cannot be read.
+std::optional<double> number_in_summary(const fs::path& run, const char* key) {
+  try {
+    const std::string text = json_value(read_whole_file(RunPaths{run}.summary()), key);
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return end == text.c_str() ? std::nullopt : std::optional(value);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+std::string identity_of(const Planned& run) {
+  return measured_identity(run.scene, measure_of(*run.one, *run.resolution));
+}
+
+// Of a run that is there, whenever it was made.
+Origin origin_of(const fs::path& run, const Communicator& ranks) {
+  const int threads = int(number_in_summary(run, "threads").value_or(0));
+  return {build_digest(), date_of(RunPaths{run}.summary()), ranks.size(), threads, machine_of(run)};
+}
+
+ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) {
+  const Found found = obtain_run(run, v);
+  result.run = found.run;
+  result.cached = found.cached;
+  if (!found.any) {
+    const fs::path place = result.run;
+    result = recorded_result(run, v.record);
+    if (!result.recorded) result.run = place;
+  }
+  if (!found.any || found.code != ExitCode::done) return found.code;
+  result.measured = measure_on_root(measure_of(*run.one, *run.resolution), result.run, v.around.ranks);
+  result.origin = origin_of(result.run, v.around.ranks);
+  result.verdict = Verdict::missed;  // until judged
+  return found.code;
+}
+
+// As run_and_measure, but a simulation that could not go on, on all ranks together, is a result.
+ExitCode attempt(const Planned& run, Validation& v, CaseResult& result) {
+  try {
+    return run_and_measure(run, v, result);
+  } catch (const Error& error) {
+    const bool together =
+        error.code() == ExitCode::cannot_continue && v.around.emergency.meet(int(error.code()), patience).has_value();
+    if (!together) throw;
+    result.message = error.what();
+    const int threads = int(number_in_summary(result.run, "threads").value_or(0));
+    result.origin = {build_digest(), today(), v.around.ranks.size(), threads, describe_machine()};
+    return ExitCode::done;
+  }
+}
+
+}  // namespace
+
+Validation start(const ValidateOptions& options, const Surroundings& around) {
+  Validation v{options, around, RunCache(options.out, around.ranks.is_root() ? options.earlier : Earlier::ignore), {}};
+  if (!options.record) return v;
+  std::string text;
+  agree_on_root(around.ranks, "reading the record", [&] { text = read_record(*options.record); });
+  text = around.ranks.broadcast(text);
+  agree(around.ranks, "reading the record", [&] { v.record.emplace(*options.record, text); });
+  return v;
+}
+
+ExitCode obtain(const Planned& run, Validation& v, CaseResult& result) {
+  result.cell_size = run.scene.domain.cell_size;
+  result.run = v.options.out / run.one->name / run.resolution->name;
+  const auto began = Clock::now();
+  const ExitCode code = attempt(run, v, result);
+  if (result.cached)
+    result.wall_seconds = number_in_summary(result.run, "wall_seconds").value_or(0);
+  else if (!result.recorded)
+    result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  return code;
+}
+
+CaseResult recorded_result(const Planned& run, const std::optional<ValidationRecord>& record) {
+  CaseResult result;
+  result.cell_size = run.scene.domain.cell_size;
+  result.verdict = Verdict::absent;
+  if (!record) return result;
+  const auto recorded = record->find(run.one->name, run.resolution->name, identity_of(run));
+  if (!recorded) return result;
+  const bool failed = !recorded->failure.empty();
+  result.verdict = failed ? Verdict::failed : Verdict::missed;  // until judged
+  result.recorded = true;
+  result.measured = recorded->measured;
+  result.origin = recorded->origin;
+  result.wall_seconds = recorded->seconds;
+  if (failed) result.message = fmt::format("on {}: {}", result.origin.date, recorded->failure);
+  return result;
+}
+
+void put_on_record(const Planned& run, Validation& v, const CaseResult& result) {
+  if (!v.record || result.recorded || result.verdict == Verdict::absent) return;
+  const std::string failure = is_measured(result)      ? ""
+                              : result.message.empty() ? std::string("no reason given")
+                                                       : result.message;
+  const std::string identity = identity_of(run);
+  Origin origin = result.origin;
+  const auto known = v.record->find(run.one->name, run.resolution->name, identity);
+  if (origin.machine.empty() && known && known->origin.build == origin.build && known->origin.date == origin.date)
+    origin.machine = known->origin.machine;  // of the same run
+  std::string text;
+  agree_on_root(v.around.ranks, "writing the record", [&] {
+    text = put_on_file(
+        *v.options.record,
+        {run.one->name, run.resolution->name, identity, {origin, result.wall_seconds, result.measured, failure}});
+  });
+  text = v.around.ranks.broadcast(text);
+  agree(v.around.ranks, "reading the record", [&] { v.record.emplace(*v.options.record, text); });
+}
+
+}  // namespace seiche
