@@ -109,8 +109,17 @@ Vector SaddleSolver::momentum_weight() const {
   return K_.pack(w, body, {});
 }
 
+// Below that, D u is the rounding of its sums: some hundred epsilon of |D diag(u)|, the Frobenius norm.
+double SaddleSolver::rounding_of_divergence(const Vector& u) const {
+  const DistributedMatrix& Dt = system_.Dt;
+  double sum = 0;
+  for (int i = 0; i < Dt.rows(); ++i)
+    for (int k = Dt.row_start[i]; k < Dt.row_start[i + 1]; ++k) sum += std::pow(Dt.value[k] * u[i], 2);
+  return 100 * std::numeric_limits<double>::epsilon() * std::sqrt(K_.ranks().global_sum(sum));
+}
+
 // The flow (u1, v1) without the constraint and the pressure against it set the scales; f, g and q alone where there is
-// no preconditioner.
+// no preconditioner. Where u1 has no divergence but by rounding (shear between plates), the tolerance leaves that much.
 SaddleSolver::Problem SaddleSolver::pose(const Vector& f, const Eigen::VectorXd& g, const Vector& q,
                                          double flux_scale) {
   Problem problem{K_.pack(f, g, q), {}};
@@ -130,7 +139,8 @@ SaddleSolver::Problem SaddleSolver::pose(const Vector& f, const Eigen::VectorXd&
     K_.divergence(u, v, flux);
     coupled_.project(flux);
     const double more = momentum(fu, fv), free = norm(flux, K_.ranks());
-    if (std::isfinite(more + free)) momentum_scale += more, across += free;
+    if (std::isfinite(more + free))
+      momentum_scale += more, across = std::max(across + free, rounding_of_divergence(u) / options_.tolerance);
   }
   if (flux_scale > 0) across = flux_scale;
   // Where nothing drives them: relative to one.

@@ -65,6 +65,7 @@ class SaddleSolver {
   double make_compatible(Vector& q) const;
   void project_pressure(Vector& x) const;
   Vector momentum_weight() const;
+  double rounding_of_divergence(const Vector& u) const;
   Problem pose(const Vector& f, const Eigen::VectorXd& g, const Vector& q, double flux_scale);
   Residual measure(const Problem& problem, const Vector& x) const;
   std::vector<Rung> make_ladder() const;
