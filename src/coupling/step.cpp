@@ -215,8 +215,17 @@ struct StepInProgress {
     const Parting<Dim>* parting = s.scene.liquid.separates ? &out.state.parting : nullptr;
     const AirRegions<Dim>* air = s.keeps_air() ? &out.state.air : nullptr;
     const FaceField<Dim>* jump = tension ? &tension->jump : nullptr;
-    return {s.layout,        s.halo, s.ranks, out.state.phi, out.geometry.faces, s.density(), dt, parting,
-            s.tampering.gas_density * s.gas_density(), jump, air};
+    return {s.layout,
+            s.halo,
+            s.ranks,
+            out.state.phi,
+            out.geometry.faces,
+            s.density(),
+            dt,
+            parting,
+            s.tampering.gas_density * s.gas_density(),
+            jump,
+            air};
   }
 
   bool solve(const ViscosityField<Dim>* viscosity) {

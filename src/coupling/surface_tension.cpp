@@ -113,8 +113,7 @@ SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>
   filter_for_step(s, phi, crossed, dt, r.jump);
   balance_closed_pieces(s, g.faces, phi, crossed, r.jump);
   const double sigma = s.tampering.surface_tension * s.scene.liquid.surface_tension;
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });
+  for (int a = 0; a < Dim; ++a) for_each_site(s.layout, s.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });
   s.halo.fill_ghosts(r.jump);
   return r;
 }
