@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "io/scene_section.h"
-#include "io/suggest.h"
 #include "io/validate_measures.h"
 
 namespace seiche {
@@ -154,28 +153,6 @@ std::vector<fs::path> case_folders(const fs::path& folder) {
   return folders;
 }
 
-bool has_tag(const CaseSpec& one, const std::string& word) {
-  return std::count(one.tags.begin(), one.tags.end(), word) > 0;
-}
-
-// A case's name is that case alone, even where it is a tag as well.
-bool fits(const std::vector<CaseSpec>& cases, const CaseSpec& one, const std::string& word) {
-  return std::ranges::count(cases, word, &CaseSpec::name) > 0 ? one.name == word : has_tag(one, word);
-}
-
-void refuse_unknown(const std::vector<CaseSpec>& cases, const std::string& word) {
-  if (std::any_of(cases.begin(), cases.end(), [&](const CaseSpec& one) { return fits(cases, one, word); })) return;
-  std::vector<std::string> known;
-  for (const CaseSpec& one : cases) {
-    known.push_back(one.name);
-    known.insert(known.end(), one.tags.begin(), one.tags.end());
-  }
-  const auto near = suggest(word, known);
-  throw Error(ExitCode::bad_input,
-              fmt::format("there is no validation case or tag '{}'; {}", word,
-                          near ? fmt::format("did you mean '{}'?", *near) : "`seiche validate --list` shows all"));
-}
-
 }  // namespace
 
 CaseSpec read_case(const fs::path& folder) {
@@ -200,16 +177,6 @@ std::vector<CaseSpec> read_cases(const fs::path& folder) {
                 fmt::format("{}: holds no validation case (a folder with a case.toml)", folder.string()));
   }
   return cases;
-}
-
-std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std::vector<std::string>& words) {
-  for (const std::string& word : words) refuse_unknown(cases, word);
-  std::vector<CaseSpec> chosen;
-  std::copy_if(cases.begin(), cases.end(), std::back_inserter(chosen), [&](const CaseSpec& one) {
-    const auto chosen_by = [&](const std::string& word) { return fits(cases, one, word); };
-    return words.empty() || std::any_of(words.begin(), words.end(), chosen_by);
-  });
-  return chosen;
 }
 
 bool belongs_to(const ResolutionSpec& resolution, const std::string& level) {

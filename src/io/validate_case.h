@@ -60,11 +60,6 @@ CaseSpec read_case(const std::filesystem::path& folder);
 // All cases below a folder, by name. Throws Error(bad_input).
 std::vector<CaseSpec> read_cases(const std::filesystem::path& folder);
 
-// Those with one of these names or tags, in the order of `cases`; all where no word is given. A word that is a case's
-// name is no tag. Throws Error(bad_input)
-// naming words that fit none, with the nearest name.
-std::vector<CaseSpec> select_cases(const std::vector<CaseSpec>& cases, const std::vector<std::string>& words);
-
 bool belongs_to(const ResolutionSpec& resolution, const std::string& level);
 const std::filesystem::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution);
 std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution);

@@ -232,6 +232,26 @@ Points points_during(const Points& points, double from, double to) {
   return chosen;
 }
 
+std::pair<double, double> extremes_during(const Points& points, double from, double to) {
+  const Points chosen = points_during(points, from, to);
+  std::pair<double, double> found{chosen[0].second, chosen[0].second};
+  for (const auto& [x, y] : chosen) found = {std::min(found.first, y), std::max(found.second, y)};
+  return found;
+}
+
+double root_mean_square(const Points& points, double from, double to) {
+  const Points chosen = points_during(points, from, to);
+  double sum = 0;
+  for (std::size_t n = 1; n < chosen.size(); ++n) {
+    const auto [x0, y0] = chosen[n - 1];
+    const auto [x1, y1] = chosen[n];
+    sum += 0.5 * (x1 - x0) * (y0 * y0 + y1 * y1);
+  }
+  const double length = chosen.back().first - chosen.front().first;
+  if (length <= 0) fail(fmt::format("no mean: a single row between {:g} s and {:g} s", from, to));
+  return std::sqrt(sum / length);
+}
+
 namespace {
 
 Points points_of_solid(const std::vector<std::vector<std::string>>& rows, const std::string& solid,

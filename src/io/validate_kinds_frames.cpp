@@ -8,6 +8,7 @@
 #include "io/validate_contour.h"
 #include "io/validate_frames.h"
 #include "io/validate_kinds.h"
+#include "io/validate_lines.h"
 
 namespace seiche {
 namespace {
@@ -69,6 +70,15 @@ Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
   return itself(worst);
 }
 
+// Over all points of the profile, m/s.
+Measurement line_deviation(const MeasureSpec& spec, const RunPaths& run) {
+  const vdb::Frame frame = last_frame(run);
+  double worst = 0;
+  for (const LinePoint& at : csv_profile(read_whole_file(spec.data)))
+    worst = larger(worst, std::abs(value_along(frame, at) - at.value));
+  return itself(worst);
+}
+
 Measurement surface_deviation(const MeasureSpec& spec, const RunPaths& run) {
   return itself(surface_difference(last_frame(run), spec.surface) / constant(spec.length_unit));
 }
@@ -84,6 +94,7 @@ std::vector<MeasureKind> measures_of_frames() {
       {"vector_l2", {"velocity"}, vector_l2},
       {"region_l2", {"velocity", "region"}, region_l2},
       {"line_extrema", {"data"}, line_extrema},
+      {"line_deviation", {"data"}, line_deviation},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
       {"circularity", {"from", "to", "reference"}, least_circularity, circularities},
       {"surface_misplaced", {"surface", "unit"}, misplaced},

@@ -28,12 +28,8 @@ Measurement probe_mean(const MeasureSpec& spec, const RunPaths& run) {
   return against(settled_mean(component_of_probe(spec, run), spec.from, spec.to), constant(spec.reference));
 }
 
-// Largest and smallest value from `from` to `to`.
 std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run) {
-  const Points points = points_during(component_of_probe(spec, run), spec.from, spec.to);
-  std::pair<double, double> found{points.at(0).second, points[0].second};
-  for (const auto& [time, value] : points) found = {std::min(found.first, value), std::max(found.second, value)};
-  return found;
+  return extremes_during(component_of_probe(spec, run), spec.from, spec.to);
 }
 
 Measurement probe_peak(const MeasureSpec& spec, const RunPaths& run) {
@@ -63,6 +59,12 @@ Measurement probe_arrival(const MeasureSpec& spec, const RunPaths& run) {
 Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
   return against(0.5 * (high - low), constant(spec.reference));
+}
+
+// The middle between them.
+Measurement probe_middle(const MeasureSpec& spec, const RunPaths& run) {
+  const auto [low, high] = extremes(spec, run);
+  return against(0.5 * (high + low), constant(spec.reference));
 }
 
 Points front_series(const MeasureSpec& spec, const RunPaths& run) {
@@ -116,9 +118,16 @@ Measurement probe_difference(const MeasureSpec& spec, const RunPaths& run) {
   return against(mean(spec.probe) - mean(spec.minus), constant(spec.reference));
 }
 
+double decay_of_probe(const MeasureSpec& spec, const RunPaths& run) {
+  return energy_decay(scalar_series(spec, run), constant(spec.level));
+}
+
 Measurement probe_decay(const MeasureSpec& spec, const RunPaths& run) {
-  const Points points = probe_points(read_whole_file(run.probes()), spec.probe);
-  return itself(std::abs(energy_decay(points, constant(spec.level))));
+  return itself(std::abs(decay_of_probe(spec, run)));
+}
+
+Measurement probe_decay_rate(const MeasureSpec& spec, const RunPaths& run) {
+  return against(decay_of_probe(spec, run), constant(spec.reference));
 }
 
 }  // namespace
@@ -132,10 +141,12 @@ std::vector<MeasureKind> measures_of_probes() {
       {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},
       {"probe_arrival", {"probe", "reference"}, probe_arrival, scalar_series},
       {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude, component_of_probe},
+      {"probe_middle", {"probe", "column", "from", "to", "reference"}, probe_middle, component_of_probe},
       {"front_slope", {"probe", "time_unit", "length_unit", "from", "to", "data"}, front_slope, front_series},
       {"probe_rms", {"probe", "level", "time_unit", "length_unit", "data"}, probe_rms, scalar_series},
       {"probe_deviation", {"probe", "level", "time_unit", "length_unit", "data"}, probe_deviation, scalar_series},
       {"probe_decay", {"probe", "level"}, probe_decay, scalar_series},
+      {"probe_decay_rate", {"probe", "level", "reference"}, probe_decay_rate, scalar_series},
       {"probe_growth", {"probe", "level", "from", "to", "reference"}, probe_growth, scalar_series},
       {"probe_difference",
        {"probe", "minus", "column", "from", "to", "reference"},

@@ -38,12 +38,8 @@ Measurement solid_period(const MeasureSpec& spec, const RunPaths& run) {
   return against(mean_period(solid_during(spec, run), constant(spec.level)), constant(spec.reference));
 }
 
-// Largest and smallest value from `from` to `to`.
 std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run) {
-  const Points points = solid_during(spec, run);
-  std::pair<double, double> found{points.at(0).second, points[0].second};
-  for (const auto& [time, value] : points) found = {std::min(found.first, value), std::max(found.second, value)};
-  return found;
+  return extremes_during(solid_series(spec, run), spec.from, spec.to);
 }
 
 // Half the way between the extremes.
@@ -66,6 +62,10 @@ Measurement solid_rms(const MeasureSpec& spec, const RunPaths& run) {
   return itself(rms_difference(points, csv_points(read_whole_file(spec.data))));
 }
 
+Measurement solid_root_mean_square(const MeasureSpec& spec, const RunPaths& run) {
+  return against(root_mean_square(solid_series(spec, run), spec.from, spec.to), constant(spec.reference));
+}
+
 Measurement solids_stray(const MeasureSpec& spec, const RunPaths& run) {
   const double way = farthest_stray(read_whole_file(run.solids()), spec.from) / constant(spec.length_unit);
   return {way, {}, way};
@@ -82,6 +82,7 @@ std::vector<MeasureKind> measures_of_solids() {
       {"solid_amplitude", {"solid", "column", "from", "to", "reference"}, solid_amplitude, solid_series},
       {"solid_middle", {"solid", "column", "from", "to", "reference"}, solid_middle, solid_series},
       {"solid_rms", {"solid", "column", "level", "time_unit", "length_unit", "data"}, solid_rms, solid_series},
+      {"solid_root_mean_square", {"solid", "column", "from", "to", "reference"}, solid_root_mean_square, solid_series},
       {"solids_stray", {"from", "length_unit"}, solids_stray},
   };
 }

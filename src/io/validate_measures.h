@@ -80,6 +80,13 @@ double energy_decay(const Points& y, double level);
 // Throws Error(cannot_continue) where y is at the level or the points do not reach that far.
 double growth_rate(const Points& points, double level, double from, double to);
 
+// The smallest and the largest y over from <= x <= to. Throws as points_during().
+std::pair<double, double> extremes_during(const Points& points, double from, double to);
+
+// Root of the mean square of y(x) over from <= x <= to, weighted with the way between the points by trapezoids. Throws
+// as points_during(), and for a single point.
+double root_mean_square(const Points& points, double from, double to);
+
 // The farthest that any solid goes from where it is in its first row with time >= from, m.
 double farthest_stray(const std::string& text, double from);
 

@@ -6,6 +6,7 @@
 
 #include "io/run_agree.h"
 #include "io/validate_quantity.h"
+#include "io/validate_selection.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
@@ -37,27 +38,26 @@ std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Commu
 std::vector<CaseSpec> choose_cases(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                                    const Communicator& ranks) {
   std::vector<CaseSpec> chosen;
-  agree(ranks, "choosing the validation cases", [&] { chosen = select_cases(cases, options.words); });
+  agree(ranks, "choosing the validation cases", [&] {
+    const Selection selection(cases, options.words);
+    std::ranges::copy_if(cases, std::back_inserter(chosen), [&](const CaseSpec& one) { return selection.takes(one); });
+  });
   return chosen;
 }
 
 std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                           const Communicator& ranks) {
-  const std::vector<CaseSpec> chosen = choose_cases(cases, options, ranks);
   std::vector<Planned> runs;
   agree(ranks, "reading the scenes", [&] {
-    bool any = false;
-    for (const CaseSpec& one : cases) {
-      const bool wanted = std::ranges::count(chosen, one.name, &CaseSpec::name) > 0;
-      if (!wanted && !options.record) continue;
+    const Selection selection(cases, options.words);
+    for (const CaseSpec& one : cases)
       for (const ResolutionSpec& resolution : one.resolutions) {
-        if (!belongs_to(resolution, options.level)) continue;
-        any = any || wanted;
+        const bool wanted = selection.takes(one, resolution, options.level);
+        if (!wanted && !(options.record && belongs_to(resolution, options.level))) continue;
         runs.push_back({&one, &resolution, read_scene(scene_of(one, resolution), resolution.overrides), false, wanted});
         check_names(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
       }
-    }
-    if (!any)
+    if (std::ranges::count(runs, true, &Planned::chosen) == 0)
       throw Error(ExitCode::bad_input,
                   "the chosen cases have no resolution of level '" + options.level + "'; give --level full");
   });

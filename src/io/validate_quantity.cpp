@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "base/error.h"
 #include "io/csv.h"
@@ -21,10 +22,12 @@ struct KindWords {
   const char* what;
 };
 
-constexpr KindWords kind_words[] = {
+constexpr KindWords words_on_fields[] = {
+    // of frames and probes
     {"vector_l2", "m/s", "L2 norm of the last frame's face velocities less the exact ones"},
     {"region_l2", "m/s", "L2 norm of the last frame's face velocities in a region less the exact ones"},
     {"line_extrema", "", "worst relative error of extreme velocities along lines, in the last frame"},
+    {"line_deviation", "m/s", "largest difference from a profile of velocities along lines, in the last frame"},
     {"surface_deviation", "", "largest distance of the last frame's surface from the exact one, over length_unit"},
     {"circularity", "", "least circularity of the frames in a time"},
     {"surface_misplaced", "", "area (3D: volume) on the wrong side of the exact surface in the last frame, over unit"},
@@ -35,12 +38,18 @@ constexpr KindWords kind_words[] = {
     {"probe_peak_time", "s", "when a probe has its largest magnitude in a time"},
     {"probe_arrival", "s", "when a probe first has a value"},
     {"probe_amplitude", "column", "half the difference of a probe's extremes in a time"},
+    {"probe_middle", "column", "half the sum of a probe's extremes in a time"},
     {"front_slope", "", "speed of a front, length/length_unit over time/time_unit, between two lengths"},
     {"probe_rms", "", "root mean square of (value - level)/length_unit less the data"},
     {"probe_deviation", "", "largest magnitude of (value - level)/length_unit less the data"},
     {"probe_decay", "1/s", "rate at which the energy of a probe's swing about level dies away"},
+    {"probe_decay_rate", "1/s", "rate at which the energy of a probe's swing about level dies away"},
     {"probe_growth", "1/s", "rate at which a probe's distance from level grows in a time"},
     {"probe_difference", "column", "mean of a probe in a time, weighted with sin^2, less that of another"},
+};
+
+constexpr KindWords words_on_tables[] = {
+    // of stats.csv, summary.json and solids.csv
     {"max_of_column", "column", "largest magnitude in a column of stats.csv"},
     {"column_peak", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
     {"column_extreme", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
@@ -57,14 +66,16 @@ constexpr KindWords kind_words[] = {
     {"solid_amplitude", "column", "half the difference of a solid's extremes in a time"},
     {"solid_middle", "column", "half the sum of a solid's extremes in a time"},
     {"solid_rms", "", "root mean square of (value - level)/length_unit less the data"},
+    {"solid_root_mean_square", "column", "root mean square of a solid's column in a time"},
     {"solids_stray", "", "farthest way of any solid from where it is at from, over length_unit"},
 };
 
 // Throws Error(bug) where a kind has no row.
 const KindWords& words_of(const MeasureSpec& m) {
-  const auto row = std::ranges::find_if(kind_words, [&](const KindWords& one) { return m.kind == one.kind; });
-  if (row == std::end(kind_words)) throw Error(ExitCode::bug, fmt::format("no words for the measure '{}'", m.kind));
-  return *row;
+  for (const std::span<const KindWords> words : {std::span<const KindWords>(words_on_fields), {words_on_tables}})
+    for (const KindWords& row : words)
+      if (m.kind == row.kind) return row;
+  throw Error(ExitCode::bug, fmt::format("no words for the measure '{}'", m.kind));
 }
 
 struct UnitRow {

@@ -11,6 +11,7 @@
 #include "io/validate_readme.h"
 #include "io/validate_report.h"
 #include "io/validate_run.h"
+#include "io/validate_selection.h"
 #include "io_validate_cases.h"
 
 using namespace seiche;
@@ -67,21 +68,53 @@ TEST_CASE("a measure takes only its own parameters, and all of them") {
                     Catch::Contains("reference") && Catch::Contains("column") && Catch::Contains("level"));
 }
 
+namespace {
+
+std::string names_chosen(const std::vector<CaseSpec>& cases, const std::vector<std::string>& words) {
+  const Selection selection(cases, words);
+  std::string names;
+  for (const CaseSpec& one : cases)
+    if (selection.takes(one)) names += one.name + " ";
+  return names;
+}
+
+}  // namespace
+
 TEST_CASE("cases are chosen by name and tag, and a slip gets a suggestion") {
   std::vector<CaseSpec> cases(3);
   cases[0].name = "alpha", cases[0].tags = {"waves"};
   cases[1].name = "beta", cases[1].tags = {"rest"};
   cases[2].name = "gamma", cases[2].tags = {"waves"};
-  CHECK(select_cases(cases, {}).size() == 3);
-  CHECK(select_cases(cases, {"waves", "beta"}).size() == 3);
-  REQUIRE(select_cases(cases, {"waves"}).size() == 2);
-  CHECK(select_cases(cases, {"waves"})[1].name == "gamma");
+  CHECK(names_chosen(cases, {}) == "alpha beta gamma ");
+  CHECK(names_chosen(cases, {"waves", "beta"}) == "alpha beta gamma ");
+  CHECK(names_chosen(cases, {"waves"}) == "alpha gamma ");
   cases[0].name = "rest";  // which is a tag, too
-  REQUIRE(select_cases(cases, {"rest"}).size() == 1);
-  CHECK(select_cases(cases, {"rest"})[0].name == "rest");
-  CHECK(select_cases(cases, {"rest", "waves"}).size() == 2);
-  CHECK_THROWS_WITH(select_cases(cases, {"bta"}), Catch::Contains("did you mean 'beta'"));
-  CHECK_THROWS_WITH(select_cases(cases, {"zzzzzz"}), Catch::Contains("--list"));
+  CHECK(names_chosen(cases, {"rest"}) == "rest ");
+  CHECK(names_chosen(cases, {"rest", "waves"}) == "rest gamma ");
+  CHECK_THROWS_WITH(Selection(cases, {"bta"}), Catch::Contains("did you mean 'beta'"));
+  CHECK_THROWS_WITH(Selection(cases, {"zzzzzz"}), Catch::Contains("--list"));
+}
+
+TEST_CASE("a single run is chosen by its case and name, whatever its level") {
+  std::vector<CaseSpec> cases(2);
+  cases[0].name = "alpha", cases[0].resolutions.resize(2);
+  cases[0].resolutions[0].name = "32";
+  cases[0].resolutions[1].name = "64", cases[0].resolutions[1].levels = {"full"};
+  cases[1].name = "beta", cases[1].resolutions.resize(1);
+  cases[1].resolutions[0].name = "64";
+  const auto takes = [&](const std::vector<std::string>& words, int one, int run) {
+    return Selection(cases, words)
+        .takes(cases[std::size_t(one)], cases[std::size_t(one)].resolutions[std::size_t(run)], "quick");
+  };
+  CHECK(names_chosen(cases, {"alpha/64"}) == "alpha ");
+  CHECK_FALSE(takes({"alpha/64"}, 0, 0));
+  CHECK(takes({"alpha/64"}, 0, 1));
+  CHECK_FALSE(takes({"alpha"}, 0, 1));
+  CHECK(takes({"alpha"}, 0, 0));
+  CHECK(takes({"alpha/64", "beta"}, 1, 0));
+  CHECK_FALSE(takes({"alpha/64", "beta"}, 0, 0));
+  CHECK_THROWS_WITH(Selection(cases, {"alpha/65"}), Catch::Contains("did you mean 'alpha/64'"));
+  CHECK_THROWS_WITH(Selection(cases, {"beta/32"}), Catch::Contains("case/run 'beta/32'"));
 }
 
 TEST_CASE("the cases folder is found here, beside an installed program, and around a build") {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/validate_contour.h"
 #include "io/validate_frames.h"
+#include "io/validate_lines.h"
 #include "io/validate_measures.h"
 #include "io_scratch.h"
 
@@ -84,6 +85,28 @@ TEST_CASE("extremes to compare with are read from CSV") {
   for (const char* wrong :
        {"", "a,b\n", "a\nx,y,0,0,0,min\n", "a\nw,y,0,0,0,min,1\n", "a\nx,y,0,0,0,most,1\n", "a\nx,y,0,0,0,min,one\n"})
     CHECK_THROWS_AS(csv_lines(wrong), Error);
+}
+
+// A cubic is met between the faces to rounding of the frame's floats; a line beside its faces is linear between them.
+TEST_CASE("a profile along a line is a cubic through the faces") {
+  const auto cubic = [](double y) { return 1 - 3 * y + 2 * y * y - 5 * y * y * y; };
+  const auto frame = square_frame(
+      16, [&](int a, const Vec3& x) { return a == 0 ? cubic(x[1]) + x[0] : 0.0; }, none);
+  for (const double y : {1.0 / 32, 0.04, 0.33, 0.5, 0.9, 31.0 / 32})
+    CHECK(value_along(frame, {0, 1, {0.51, y, 0}, 0}) == Approx(cubic(y) + 0.51).margin(1e-6));
+  CHECK_THROWS_WITH(value_along(frame, {0, 1, {0.5, 0.03, 0}, 0}), Catch::Contains("no samples around"));
+  CHECK_THROWS_AS(value_along(frame, {0, 1, {0.5, 0.98, 0}, 0}), Error);
+}
+
+TEST_CASE("profiles to compare with are read from CSV") {
+  const auto points = csv_profile("# source\ncomponent,along,x,y,z,value\nx,y,0.5,0.1,0,-0.25\ny,x,0.2,0.5,0,2\n");
+  REQUIRE(points.size() == 2);
+  CHECK(points[1].component == 1);
+  CHECK(points[1].along == 0);
+  CHECK(points[1].point == Vec3(0.2, 0.5, 0));
+  CHECK(points[1].value == 2);
+  for (const char* wrong : {"h\n", "h\nx,y,0.5,0.1,0\n", "h\nx,y,0.5,0.1,0,min,2\n", "h\nx,y,0.5,a,0,2\n"})
+    CHECK_THROWS_AS(csv_profile(wrong), Error);
 }
 
 TEST_CASE("a surface is compared with a formula near it alone") {

@@ -134,6 +134,7 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   CHECK(value("probe_peak_time", "0.6") == Approx(0.5));
   spec.to = 10;
   CHECK(value("probe_amplitude", "2") == Approx(3));
+  CHECK(value("probe_middle", "2") == Approx(1));
   spec.level = "1";
   CHECK(value("probe_period", "2") == Approx(1));
   spec.kind = "probe_peak", spec.to = 11;
@@ -187,10 +188,25 @@ TEST_CASE("a column of a solid is measured by its extremes and against data") {
   CHECK(measure(spec, run).error == Approx(0.5));
   spec.kind = "solid_middle";
   CHECK(measure(spec, run).value == Approx(1));
+  spec.kind = "solid_root_mean_square";  // sqrt(1^2 + 3^2/2), over whole periods
+  CHECK(measure(spec, run).value == Approx(std::sqrt(5.5)));
   spec.kind = "solid_rms", spec.column = "x", spec.level = "1", spec.length_unit = "4", spec.time_unit = "5";
   spec.data = folder.path() / "data.csv";
   put(spec.data, "t,y\n0,-0.25\n1,2.35\n");  // (2 * 5 - 1)/4 = 2.25
   CHECK(measure(spec, run).error == Approx(0.1 / std::sqrt(2)));
+}
+
+TEST_CASE("the energy of a swing dies away at a rate") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  std::string text = "time,name,value,x,y,z\n";
+  for (double t = 0; t < 10; t += 0.01)
+    text += fmt::format("{},gauge,{:.17g},,,\n", t, 0.5 + 0.1 * std::exp(-0.15 * t) * std::cos(2 * pi * t));
+  put(run.probes(), text);
+  MeasureSpec spec;
+  spec.kind = "probe_decay_rate", spec.probe = "gauge", spec.level = "0.5", spec.reference = "0.4";
+  CHECK(measure(spec, run).value == Approx(0.3).epsilon(1e-3));  // the extremes are at samples
+  CHECK(measure(spec, run).error == Approx(0.25).epsilon(5e-3));
 }
 
 TEST_CASE("growth is the slope of a logarithm, and two probes are measured against each other") {

@@ -1,0 +1,179 @@
+#include "io/validate_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/scene_formula.h"
+#include "io/validate_frames.h"
+
+namespace seiche {
+namespace {
+
+// The frame's velocity as one block.
+class Velocity {
+ public:
+  explicit Velocity(const vdb::Frame& frame) : frame_(frame) {
+    const vdb::Grid& grid = grid_of(frame, "vel", "velocity");
+    if (grid.blocks.size() != 1) throw Error(ExitCode::cannot_continue, "the last frame holds no velocity");
+    block_ = &grid.blocks[0];
+  }
+  int size(int axis) const { return block_->upper[axis] - block_->lower[axis]; }
+
+  // Component a at a position in units of faces of that component, linear between them and constant beyond the last.
+  double at(int a, const Vec3& where) const {
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1;
+      std::array<int, 3> i{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const double x = std::clamp(where[axis], 0.0, double(size(axis) - 1)), low = std::floor(x);
+        const bool high = (corner >> axis) & 1;
+        weight *= high ? x - low : 1 - (x - low);
+        i[axis] = std::min(int(low) + int(high), size(axis) - 1);
+      }
+      sum += weight * value(a, i);
+    }
+    return sum;
+  }
+
+  // Of a point, m; the third axis of 2D frames has no extent.
+  Vec3 face_index(int a, const Vec3& x) const {
+    Vec3 index = (x - frame_.lower) / frame_.cell_size - Vec3::Constant(0.5);
+    index[a] += 0.5;
+    if (frame_.dimension == 2) index[2] = 0;
+    return index;
+  }
+
+ private:
+  double value(int a, const std::array<int, 3>& i) const {
+    const auto n = std::size_t(i[0]) + std::size_t(size(0)) * (std::size_t(i[1]) + std::size_t(size(1)) * i[2]);
+    return block_->values[3 * n + std::size_t(a)];
+  }
+
+  const vdb::Frame& frame_;
+  const vdb::Block* block_;
+};
+
+// The extreme of the parabola through three samples a step apart, the middle one the largest or smallest.
+double parabola_extreme(double before, double middle, double after) {
+  const double bend = after - 2 * middle + before, slope = 0.5 * (after - before);
+  return bend == 0 ? middle : middle - 0.5 * slope * slope / bend;
+}
+
+int axis_of(const std::string& name) {
+  const std::size_t axis = std::string("xyz").find(name);
+  if (name.size() != 1 || axis == std::string::npos)
+    throw Error(ExitCode::cannot_continue, "'" + name + "' is no axis: x, y or z");
+  return int(axis);
+}
+
+double number_of(const std::string& text) {
+  const auto number = plain_number(text);
+  if (!number) throw Error(ExitCode::cannot_continue, "'" + text + "' is no number");
+  return *number;
+}
+
+// component, along, x, y, z
+template <class Line>
+Line read_place(const std::vector<std::string>& fields, std::size_t columns) {
+  if (fields.size() != columns)
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("a row of a line needs {} columns: {}", columns, fmt::join(fields, ",")));
+  Line line;
+  line.component = axis_of(fields[0]);
+  line.along = axis_of(fields[1]);
+  for (int a = 0; a < 3; ++a) line.point[a] = number_of(fields[std::size_t(2 + a)]);
+  line.value = number_of(fields.back());
+  return line;
+}
+
+LineExtreme read_line(const std::vector<std::string>& fields) {
+  auto line = read_place<LineExtreme>(fields, 7);
+  if (fields[5] != "min" && fields[5] != "max")
+    throw Error(ExitCode::cannot_continue, "'" + fields[5] + "' is no extreme: min or max");
+  line.kind = fields[5] == "min" ? LineExtreme::Kind::min : LineExtreme::Kind::max;
+  return line;
+}
+
+LinePoint read_point(const std::vector<std::string>& fields) {
+  return read_place<LinePoint>(fields, 6);
+}
+
+std::vector<std::string> fields_of(const std::string& row) {
+  std::vector<std::string> fields;
+  std::istringstream in(row);
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+// read(fields) of the rows below the header.
+template <class Read>
+auto rows_below_header(const std::string& text, const Read& read) {
+  std::vector<decltype(read({}))> rows;
+  std::istringstream in(text);
+  bool header = true;
+  for (std::string row; std::getline(in, row);) {
+    if (row.empty() || row[0] == '#') continue;
+    if (!header) rows.push_back(read(fields_of(row)));
+    header = false;
+  }
+  if (rows.empty()) throw Error(ExitCode::cannot_continue, "there are no rows to compare with");
+  return rows;
+}
+
+// Of the cubic through values at -1, 0, 1 and 2.
+double cubic_between(const std::array<double, 4>& f, double x) {
+  return -f[0] * x * (x - 1) * (x - 2) / 6 + f[1] * (x + 1) * (x - 1) * (x - 2) / 2 - f[2] * (x + 1) * x * (x - 2) / 2 +
+         f[3] * (x + 1) * x * (x - 1) / 6;
+}
+
+}  // namespace
+
+std::vector<LineExtreme> csv_lines(const std::string& text) {
+  return rows_below_header(text, read_line);
+}
+
+std::vector<LinePoint> csv_profile(const std::string& text) {
+  return rows_below_header(text, read_point);
+}
+
+double extreme_along(const vdb::Frame& frame, const LineExtreme& line) {
+  const Velocity u(frame);
+  const double sign = line.kind == LineExtreme::Kind::max ? 1 : -1;
+  const int last = u.size(line.along) - 1;
+  Vec3 where = u.face_index(line.component, line.point);
+  const auto sample = [&](int n) {
+    where[line.along] = n;
+    return u.at(line.component, where);
+  };
+  int most = 0;
+  for (int n = 1; n <= last; ++n)
+    if (sign * sample(n) > sign * sample(most)) most = n;
+  if (most == 0 || most == last) return sample(most);
+  return parabola_extreme(sample(most - 1), sample(most), sample(most + 1));
+}
+
+double value_along(const vdb::Frame& frame, const LinePoint& at) {
+  const Velocity u(frame);
+  const int last = u.size(at.along) - 1;
+  Vec3 where = u.face_index(at.component, at.point);
+  const double place = where[at.along];
+  // Rounding may put a point that is on the last sample beyond it.
+  if (last < 3 || place < -1e-9 || place > last + 1e-9)
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("no samples around ({:g}, {:g}, {:g}) on the line", at.point[0], at.point[1], at.point[2]));
+  const int low = std::clamp(int(std::floor(place)), 1, last - 2);
+  std::array<double, 4> samples{};
+  for (int n = 0; n < 4; ++n) {
+    where[at.along] = low - 1 + n;
+    samples[std::size_t(n)] = u.at(at.component, where);
+  }
+  return cubic_between(samples, place - low);
+}
+
+}  // namespace seiche

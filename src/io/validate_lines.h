@@ -1,0 +1,42 @@
+#pragma once
+// What measures compute on a frame's velocity along lines parallel to an axis.
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "levelset/openvdb_adapter.h"
+
+namespace seiche {
+
+// A velocity component along a line through `point`.
+struct LineExtreme {
+  int component = 0, along = 0;
+  Vec3 point{0, 0, 0};  // m; its coordinate along the line is not used
+  enum class Kind { min, max } kind = Kind::min;
+  double value = 0;  // m/s, expected
+};
+
+// From CSV text with the columns component, along (x, y, z), x, y, z, extreme (min, max) and value; lines that begin
+// with '#' are skipped. Throws Error(cannot_continue) for a line that is none, and where there are none.
+std::vector<LineExtreme> csv_lines(const std::string& text);
+
+// The extreme, m/s: linear between the lines of faces around the point, a parabola through the three samples at the
+// extreme one. Throws Error(cannot_continue) where the frame holds no velocity.
+double extreme_along(const vdb::Frame& frame, const LineExtreme& line);
+
+// A velocity component at a point of such a line.
+struct LinePoint {
+  int component = 0, along = 0;
+  Vec3 point{0, 0, 0};  // m
+  double value = 0;     // m/s, expected
+};
+
+// From CSV text with the columns component, along (x, y, z), x, y, z and value. Throws as csv_lines().
+std::vector<LinePoint> csv_profile(const std::string& text);
+
+// The component there, m/s: linear between the lines of faces around the point, a cubic through the four samples around
+// it on them. Throws Error(cannot_continue) where the frame holds no velocity, and for a point beyond the samples or a
+// line of less than four.
+double value_along(const vdb::Frame& frame, const LinePoint& at);
+
+}  // namespace seiche
