@@ -20,19 +20,18 @@ namespace {
   throw Error(ExitCode::output_failed, fmt::format("cannot {} {}: {}", action, path.string(), why));
 }
 
-// Where the file lies, links followed, so that a link stays one.
-fs::path target_of(const fs::path& file) {
-  std::error_code failed;
-  const fs::path target = fs::weakly_canonical(fs::absolute(file), failed);
-  return failed ? fs::absolute(file) : target;
-}
-
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<int> count{0};
   return fmt::format("{}.{}.{}", file.string(), ::getpid(), count++);
 }
 
 }  // namespace
+
+fs::path target_of(const fs::path& file) {
+  std::error_code failed;
+  const fs::path target = fs::weakly_canonical(fs::absolute(file), failed);
+  return failed ? fs::absolute(file) : target;
+}
 
 FolderLock::FolderLock(const fs::path& folder) : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (handle_ < 0) fail(folder, "open the folder", std::strerror(errno));

@@ -18,6 +18,9 @@ class FolderLock {
   int handle_ = -1;
 };
 
+// Where a file lies, links followed, so that a link stays one.
+std::filesystem::path target_of(const std::filesystem::path& file);
+
 // The folder that a file is in, links followed.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 

@@ -65,7 +65,7 @@ Measurement region_l2(const MeasureSpec& spec, const RunPaths& run) {
 Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
   const vdb::Frame frame = last_frame(run);
   double worst = 0;
-  for (const LineExtreme& line : csv_lines(read_whole_file(spec.data)))
+  for (const LineExtreme& line : csv_extremes(read_whole_file(spec.data)))
     worst = larger(worst, std::abs(extreme_along(frame, line) / line.value - 1));
   return itself(worst);
 }

@@ -41,6 +41,13 @@ class Velocity {
     return sum;
   }
 
+  // Whether a position in units of faces is no more than a cell beyond the outermost: the domain's upper side has none.
+  bool has_lines_around(const Vec3& where) const {
+    for (int axis = 0; axis < frame_.dimension; ++axis)
+      if (where[axis] < -0.5 - 1e-9 || where[axis] > size(axis) + 1e-9) return false;
+    return true;
+  }
+
   // Of a point, m; the third axis of 2D frames has no extent.
   Vec3 face_index(int a, const Vec3& x) const {
     Vec3 index = (x - frame_.lower) / frame_.cell_size - Vec3::Constant(0.5);
@@ -92,7 +99,7 @@ Line read_place(const std::vector<std::string>& fields, std::size_t columns) {
   return line;
 }
 
-LineExtreme read_line(const std::vector<std::string>& fields) {
+LineExtreme read_extreme(const std::vector<std::string>& fields) {
   auto line = read_place<LineExtreme>(fields, 7);
   if (fields[5] != "min" && fields[5] != "max")
     throw Error(ExitCode::cannot_continue, "'" + fields[5] + "' is no extreme: min or max");
@@ -108,6 +115,7 @@ std::vector<std::string> fields_of(const std::string& row) {
   std::vector<std::string> fields;
   std::istringstream in(row);
   for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  if (!fields.empty() && fields.back().ends_with('\r')) fields.back().pop_back();
   return fields;
 }
 
@@ -134,8 +142,8 @@ double cubic_between(const std::array<double, 4>& f, double x) {
 
 }  // namespace
 
-std::vector<LineExtreme> csv_lines(const std::string& text) {
-  return rows_below_header(text, read_line);
+std::vector<LineExtreme> csv_extremes(const std::string& text) {
+  return rows_below_header(text, read_extreme);
 }
 
 std::vector<LinePoint> csv_profile(const std::string& text) {
@@ -164,7 +172,7 @@ double value_along(const vdb::Frame& frame, const LinePoint& at) {
   Vec3 where = u.face_index(at.component, at.point);
   const double place = where[at.along];
   // Rounding may put a point that is on the last sample beyond it.
-  if (last < 3 || place < -1e-9 || place > last + 1e-9)
+  if (last < 3 || place < -1e-9 || place > last + 1e-9 || !u.has_lines_around(where))
     throw Error(ExitCode::cannot_continue,
                 fmt::format("no samples around ({:g}, {:g}, {:g}) on the line", at.point[0], at.point[1], at.point[2]));
   const int low = std::clamp(int(std::floor(place)), 1, last - 2);

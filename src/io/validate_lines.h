@@ -18,7 +18,7 @@ struct LineExtreme {
 
 // From CSV text with the columns component, along (x, y, z), x, y, z, extreme (min, max) and value; lines that begin
 // with '#' are skipped. Throws Error(cannot_continue) for a line that is none, and where there are none.
-std::vector<LineExtreme> csv_lines(const std::string& text);
+std::vector<LineExtreme> csv_extremes(const std::string& text);
 
 // The extreme, m/s: linear between the lines of faces around the point, a parabola through the three samples at the
 // extreme one. Throws Error(cannot_continue) where the frame holds no velocity.
@@ -31,12 +31,12 @@ struct LinePoint {
   double value = 0;     // m/s, expected
 };
 
-// From CSV text with the columns component, along (x, y, z), x, y, z and value. Throws as csv_lines().
+// From CSV text with the columns component, along (x, y, z), x, y, z and value. Throws as csv_extremes().
 std::vector<LinePoint> csv_profile(const std::string& text);
 
 // The component there, m/s: linear between the lines of faces around the point, a cubic through the four samples around
-// it on them. Throws Error(cannot_continue) where the frame holds no velocity, and for a point beyond the samples or a
-// line of less than four.
+// it on them. Throws Error(cannot_continue) where the frame holds no velocity, and for a point beyond the samples or
+// the domain, or a line of less than four.
 double value_along(const vdb::Frame& frame, const LinePoint& at);
 
 }  // namespace seiche

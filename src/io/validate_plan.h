@@ -9,7 +9,7 @@ struct Planned {
   const CaseSpec* one;
   const ResolutionSpec* resolution;
   Scene scene;
-  bool last_of_reference = false;  // no finer run of the case is to meet the same reference
+  bool last_of_reference = false;  // no finer one of the plan is to meet the same reference
   bool chosen = true;              // by the user; others are for the record's page
 };
 
@@ -20,8 +20,8 @@ std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Commu
 std::vector<CaseSpec> choose_cases(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                                    const Communicator& ranks);
 
-// The runs of the level: the chosen ones, with a record all. Reads every scene and checks the
-// names that measures give, so that a mistake in the last case ends the program before the first is run. Throws
+// The chosen runs (single ones of any level) and, with a record, all others of the level. Reads every scene and checks
+// the names that measures give, so that a mistake in the last case ends the program before the first is run. Throws
 // Error(bad_input), where nothing is chosen too. Collective.
 std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOptions& options,
                           const Communicator& ranks);

@@ -43,18 +43,14 @@ Report begin_report(const ValidateOptions& options, const Communicator& ranks, s
   return {options.level, ranks.size(), planned, {}, options.tampering, describe_machine()};
 }
 
-// The chosen runs as they are reported and the others as they are on record.
+// The chosen runs and the others as they are on record, all judged together.
 Report whole_of(const std::vector<Planned>& runs, const Report& report, const std::optional<ValidationRecord>& record) {
   Report whole = report;
   whole.planned = runs.size();
   whole.results.clear();
   std::size_t chosen = 0;
   for (const Planned& run : runs) {
-    if (run.chosen) {
-      whole.results.push_back(report.results.at(chosen++));
-      continue;
-    }
-    CaseResult result = recorded_result(run, record);
+    CaseResult result = run.chosen ? report.results.at(chosen++).result : recorded_result(run, record);
     if (is_measured(result)) judge_by_all(run, whole, result);
     whole.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, run.scene)});
     if (run.last_of_reference) judge_last_measured(whole);
@@ -98,6 +94,19 @@ void write_pages(const std::vector<Planned>& runs, const Report& report, const V
   });
 }
 
+// One file cannot hold two of the outputs.
+void refuse_shared_targets(const ValidateOptions& options) {
+  std::vector<std::filesystem::path> targets{target_of(options.out / "validation.json"),
+                                             target_of(options.out / "report.html")};
+  for (const auto& file : {options.record, options.docs}) {
+    if (!file) continue;
+    if (std::ranges::count(targets, target_of(*file)) > 0)
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{} would be written twice: give each output its own file", file->string()));
+    targets.push_back(target_of(*file));
+  }
+}
+
 // What would be found only after hours of runs. Throws Error(bad_input, output_failed). Collective.
 void check_options(const ValidateOptions& options, const Communicator& ranks) {
   agree(ranks, "reading the options", [&] {
@@ -107,6 +116,7 @@ void check_options(const ValidateOptions& options, const Communicator& ranks) {
                   "--break makes wrong figures on purpose: give it without --record and --write-docs");
   });
   agree_on_root(ranks, "trying the files to be written", [&] {
+    refuse_shared_targets(options);
     for (const auto& file : {options.record, options.docs})
       if (file) check_writable(*file);
   });

@@ -14,7 +14,7 @@ class Selection {
   // Throws Error(bad_input) naming a word that fits nothing, with the nearest one that does.
   Selection(const std::vector<CaseSpec>& cases, std::vector<std::string> words);
 
-  // Whether any run of the case is chosen.
+  // Whether the case, or a run of it of any level, is chosen.
   bool takes(const CaseSpec& one) const;
   // Of the runs of the level, and of others those chosen by case/run.
   bool takes(const CaseSpec& one, const ResolutionSpec& run, const std::string& level) const;

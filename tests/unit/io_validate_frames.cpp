@@ -74,7 +74,7 @@ TEST_CASE("extremes along lines are found between the samples") {
 
 TEST_CASE("extremes to compare with are read from CSV") {
   const auto lines =
-      csv_lines("# source\ncomponent,along,x,y,z,extreme,value\nx,y,0.5,0,0,min,-0.25\ny,x,0,0.5,0,max,2\n");
+      csv_extremes("# source\ncomponent,along,x,y,z,extreme,value\nx,y,0.5,0,0,min,-0.25\ny,x,0,0.5,0,max,2\n");
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].component == 0);
   CHECK(lines[0].along == 1);
@@ -84,7 +84,7 @@ TEST_CASE("extremes to compare with are read from CSV") {
   CHECK(lines[1].kind == LineExtreme::Kind::max);
   for (const char* wrong :
        {"", "a,b\n", "a\nx,y,0,0,0,min\n", "a\nw,y,0,0,0,min,1\n", "a\nx,y,0,0,0,most,1\n", "a\nx,y,0,0,0,min,one\n"})
-    CHECK_THROWS_AS(csv_lines(wrong), Error);
+    CHECK_THROWS_AS(csv_extremes(wrong), Error);
 }
 
 // A cubic is met between the faces to rounding of the frame's floats; a line beside its faces is linear between them.
@@ -96,10 +96,12 @@ TEST_CASE("a profile along a line is a cubic through the faces") {
     CHECK(value_along(frame, {0, 1, {0.51, y, 0}, 0}) == Approx(cubic(y) + 0.51).margin(1e-6));
   CHECK_THROWS_WITH(value_along(frame, {0, 1, {0.5, 0.03, 0}, 0}), Catch::Contains("no samples around"));
   CHECK_THROWS_AS(value_along(frame, {0, 1, {0.5, 0.98, 0}, 0}), Error);
+  CHECK_THROWS_AS(value_along(frame, {0, 1, {1.1, 0.5, 0}, 0}), Error);
+  CHECK_THROWS_AS(value_along(frame, {0, 1, {-0.1, 0.5, 0}, 0}), Error);
 }
 
 TEST_CASE("profiles to compare with are read from CSV") {
-  const auto points = csv_profile("# source\ncomponent,along,x,y,z,value\nx,y,0.5,0.1,0,-0.25\ny,x,0.2,0.5,0,2\n");
+  const auto points = csv_profile("# source\ncomponent,along,x,y,z,value\r\nx,y,0.5,0.1,0,-0.25\r\ny,x,0.2,0.5,0,2\n");
   REQUIRE(points.size() == 2);
   CHECK(points[1].component == 1);
   CHECK(points[1].along == 0);

@@ -147,6 +147,32 @@ TEST_CASE("files that cannot be written are noticed before the first run") {
   CHECK(entries(folder.path()) == 2);
 }
 
+TEST_CASE("one file is not taken for two outputs") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 1.5));
+  put(folder / "kept.csv", old_text);
+  fs::create_symlink(folder / "kept.csv", folder / "link.csv");
+  ValidateOptions options;
+  options.record = folder / "kept.csv", options.docs = folder / "link.csv";
+  CHECK(code_of([&] { validate(folder, {}, "quick", options); }) == ExitCode::bad_input);
+  options.docs = folder / "out" / "report.html";
+  CHECK(code_of([&] { validate(folder, {}, "quick", options); }) == ExitCode::bad_input);
+  CHECK(contents(folder / "kept.csv") == old_text);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}
+
+// Both runs are off by 1 m/s: order 0, which a run that is chosen alone does not know.
+TEST_CASE("a single run does not escape the order that its case asks for") {
+  const ScratchFolder folder;
+  put_case(folder, "one", "min_order = 1.9\n" + case_text("max_speed", 1.5));
+  ValidateOptions options;
+  options.record = folder / "r.csv", options.docs = folder / "page.md";
+  validate(folder, {"one/8"}, "full", options);
+  CHECK(contents(folder / "page.md").find("MISS") == std::string::npos);
+  validate(folder, {"one/16"}, "full", options);
+  CHECK(contents(folder / "page.md").find("MISS") != std::string::npos);
+}
+
 TEST_CASE("probes, solids and columns that a scene does not have are named before anything is run") {
   const ScratchFolder folder;
   put_case(folder, "one", case_text("max_sped", 1));
