@@ -31,14 +31,17 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-// Lines that are neither empty nor comments, in fields; the first is the header.
-std::vector<std::vector<std::string>> rows_of(const std::string& text) {
+}  // namespace
+
+std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
   std::vector<std::vector<std::string>> rows;
   for (const std::string& line : split(text, '\n')) {
     if (!line.empty() && line[0] != '#') rows.push_back(split(line, ','));
   }
   return rows;
 }
+
+namespace {
 
 double number(const std::vector<std::string>& row, std::size_t column) {
   const std::string text = column < row.size() ? row[column] : "";
@@ -201,7 +204,7 @@ double growth_rate(const Points& points, double level, double from, double to) {
 }
 
 std::vector<double> csv_column(const std::string& text, const std::string& name) {
-  const auto rows = rows_of(text);
+  const auto rows = csv_rows(text);
   const std::size_t column = column_named(rows, name);
   std::vector<double> values;
   for (std::size_t n = 1; n < rows.size(); ++n) values.push_back(finite_number(rows[n], column));
@@ -209,7 +212,7 @@ std::vector<double> csv_column(const std::string& text, const std::string& name)
 }
 
 Points csv_points(const std::string& text) {
-  const auto rows = rows_of(text);
+  const auto rows = csv_rows(text);
   Points points;
   for (std::size_t n = 1; n < rows.size(); ++n)
     points.emplace_back(finite_number(rows[n], 0), finite_number(rows[n], 1));
@@ -217,7 +220,7 @@ Points csv_points(const std::string& text) {
 }
 
 Points probe_points(const std::string& text, const std::string& probe, const std::string& column) {
-  const Points points = named_points(rows_of(text), probe, column);
+  const Points points = named_points(csv_rows(text), probe, column);
   if (points.empty()) fail(fmt::format("probe '{}' has no samples", probe));
   return points;
 }
@@ -264,7 +267,7 @@ Points points_of_solid(const std::vector<std::vector<std::string>>& rows, const 
 }  // namespace
 
 Points solid_points(const std::string& text, const std::string& solids, const std::string& column) {
-  const auto rows = rows_of(text);
+  const auto rows = csv_rows(text);
   constexpr std::string_view plus = " + ";
   std::size_t end = solids.find(plus);
   Points sum = points_of_solid(rows, solids.substr(0, end), column);
@@ -279,7 +282,7 @@ Points solid_points(const std::string& text, const std::string& solids, const st
 }
 
 double farthest_stray(const std::string& text, double from) {
-  const auto rows = rows_of(text);
+  const auto rows = csv_rows(text);
   const std::size_t time = column_named(rows, "time"), name = column_named(rows, "name");
   const std::array columns{column_named(rows, "x"), column_named(rows, "y"), column_named(rows, "z")};
   std::map<std::string, Vec3> start;

@@ -11,6 +11,8 @@
 
 namespace seiche {
 
+namespace {
+
 const vdb::Grid& grid_of(const vdb::Frame& frame, const std::string& name, const std::string& what) {
   const auto found =
       std::find_if(frame.grids.begin(), frame.grids.end(), [&](const vdb::Grid& grid) { return grid.name == name; });
@@ -18,11 +20,13 @@ const vdb::Grid& grid_of(const vdb::Frame& frame, const std::string& name, const
   return *found;
 }
 
-namespace {
+}  // namespace
 
 const vdb::Grid& velocity_of(const vdb::Frame& frame) {
   return grid_of(frame, "vel", "velocity");
 }
+
+namespace {
 
 // visit(index, values) of every voxel.
 template <class Visit>

@@ -8,8 +8,8 @@
 
 namespace seiche {
 
-// The frame's grid of this name. Throws Error(cannot_continue): "the last frame holds no <what>".
-const vdb::Grid& grid_of(const vdb::Frame& frame, const std::string& name, const std::string& what);
+// The frame's velocity. Throws Error(cannot_continue) where it holds none.
+const vdb::Grid& velocity_of(const vdb::Frame& frame);
 
 // Root of the sum over the axes of mean (u_a - exact_a)^2, m/s, over the faces where `region` is negative. Throws
 // Error(cannot_continue) where the frame holds no velocity or the region no face.

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include "base/error.h"
 #include "io/scene_formula.h"
 #include "io/validate_frames.h"
+#include "io/validate_measures.h"
 
 namespace seiche {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 class Velocity {
  public:
   explicit Velocity(const vdb::Frame& frame) : frame_(frame) {
-    const vdb::Grid& grid = grid_of(frame, "vel", "velocity");
+    const vdb::Grid& grid = velocity_of(frame);
     if (grid.blocks.size() != 1) throw Error(ExitCode::cannot_continue, "the last frame holds no velocity");
     block_ = &grid.blocks[0];
   }
@@ -41,10 +41,12 @@ class Velocity {
     return sum;
   }
 
-  // Whether a position in units of faces is no more than a cell beyond the outermost: the domain's upper side has none.
-  bool has_lines_around(const Vec3& where) const {
-    for (int axis = 0; axis < frame_.dimension; ++axis)
-      if (where[axis] < -0.5 - 1e-9 || where[axis] > size(axis) + 1e-9) return false;
+  // Whether a point, m, lies in the domain, by rounding more.
+  bool covers(const Vec3& x) const {
+    for (int axis = 0; axis < frame_.dimension; ++axis) {
+      const double place = (x[axis] - frame_.lower[axis]) / frame_.cell_size;
+      if (place < -1e-9 || place > size(axis) + 1e-9) return false;
+    }
     return true;
   }
 
@@ -111,27 +113,14 @@ LinePoint read_point(const std::vector<std::string>& fields) {
   return read_place<LinePoint>(fields, 6);
 }
 
-std::vector<std::string> fields_of(const std::string& row) {
-  std::vector<std::string> fields;
-  std::istringstream in(row);
-  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
-  if (!fields.empty() && fields.back().ends_with('\r')) fields.back().pop_back();
-  return fields;
-}
-
 // read(fields) of the rows below the header.
 template <class Read>
-auto rows_below_header(const std::string& text, const Read& read) {
-  std::vector<decltype(read({}))> rows;
-  std::istringstream in(text);
-  bool header = true;
-  for (std::string row; std::getline(in, row);) {
-    if (row.empty() || row[0] == '#') continue;
-    if (!header) rows.push_back(read(fields_of(row)));
-    header = false;
-  }
-  if (rows.empty()) throw Error(ExitCode::cannot_continue, "there are no rows to compare with");
-  return rows;
+auto read_rows(const std::string& text, const Read& read) {
+  const auto rows = csv_rows(text);
+  if (rows.size() < 2) throw Error(ExitCode::cannot_continue, "there are no rows to compare with");
+  std::vector<decltype(read(rows[0]))> found;
+  for (std::size_t n = 1; n < rows.size(); ++n) found.push_back(read(rows[n]));
+  return found;
 }
 
 // Of the cubic through values at -1, 0, 1 and 2.
@@ -143,11 +132,11 @@ double cubic_between(const std::array<double, 4>& f, double x) {
 }  // namespace
 
 std::vector<LineExtreme> csv_extremes(const std::string& text) {
-  return rows_below_header(text, read_extreme);
+  return read_rows(text, read_extreme);
 }
 
 std::vector<LinePoint> csv_profile(const std::string& text) {
-  return rows_below_header(text, read_point);
+  return read_rows(text, read_point);
 }
 
 double extreme_along(const vdb::Frame& frame, const LineExtreme& line) {
@@ -172,7 +161,7 @@ double value_along(const vdb::Frame& frame, const LinePoint& at) {
   Vec3 where = u.face_index(at.component, at.point);
   const double place = where[at.along];
   // Rounding may put a point that is on the last sample beyond it.
-  if (last < 3 || place < -1e-9 || place > last + 1e-9 || !u.has_lines_around(where))
+  if (last < 3 || place < -1e-9 || place > last + 1e-9 || !u.covers(at.point))
     throw Error(ExitCode::cannot_continue,
                 fmt::format("no samples around ({:g}, {:g}, {:g}) on the line", at.point[0], at.point[1], at.point[2]));
   const int low = std::clamp(int(std::floor(place)), 1, last - 2);

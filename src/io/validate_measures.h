@@ -47,6 +47,9 @@ double slope_between(const Points& points, double low, double high);
 // straight lines between points. Throws Error(cannot_continue) for less than one period.
 double mean_period(const Points& points, double level);
 
+// The lines of CSV text that are neither empty nor comments ('#'), in fields; the first is the header.
+std::vector<std::vector<std::string>> csv_rows(const std::string& text);
+
 // A column of CSV text by its header's name. Throws Error(cannot_continue) without it and for fields that are no finite
 // numbers.
 std::vector<double> csv_column(const std::string& text, const std::string& name);

@@ -22,8 +22,7 @@ struct KindWords {
   const char* what;
 };
 
-constexpr KindWords words_on_fields[] = {
-    // of frames and probes
+constexpr KindWords frame_and_probe_words[] = {
     {"vector_l2", "m/s", "L2 norm of the last frame's face velocities less the exact ones"},
     {"region_l2", "m/s", "L2 norm of the last frame's face velocities in a region less the exact ones"},
     {"line_extrema", "", "worst relative error of extreme velocities along lines, in the last frame"},
@@ -48,8 +47,8 @@ constexpr KindWords words_on_fields[] = {
     {"probe_difference", "column", "mean of a probe in a time, weighted with sin^2, less that of another"},
 };
 
-constexpr KindWords words_on_tables[] = {
-    // of stats.csv, summary.json and solids.csv
+// Of stats.csv, summary.json and solids.csv.
+constexpr KindWords table_words[] = {
     {"max_of_column", "column", "largest magnitude in a column of stats.csv"},
     {"column_peak", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
     {"column_extreme", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
@@ -72,7 +71,7 @@ constexpr KindWords words_on_tables[] = {
 
 // Throws Error(bug) where a kind has no row.
 const KindWords& words_of(const MeasureSpec& m) {
-  for (const std::span<const KindWords> words : {std::span<const KindWords>(words_on_fields), {words_on_tables}})
+  for (const std::span<const KindWords> words : {std::span<const KindWords>(frame_and_probe_words), {table_words}})
     for (const KindWords& row : words)
       if (m.kind == row.kind) return row;
   throw Error(ExitCode::bug, fmt::format("no words for the measure '{}'", m.kind));
