@@ -144,6 +144,17 @@ double mean_period(const Points& points, double level) {
   return (times[2 * periods] - times[0]) / double(periods);
 }
 
+double period_scatter(const Points& points, double level) {
+  const std::vector<double> times = crossings(points, level);
+  if (times.size() < 5)
+    fail(fmt::format("no scatter of periods: the value passes {:g} only {} times", level, times.size()));
+  const double count = double(times.size() - 2);
+  double mean = 0, variance = 0;
+  for (std::size_t n = 2; n < times.size(); ++n) mean += (times[n] - times[n - 2]) / count;
+  for (std::size_t n = 2; n < times.size(); ++n) variance += std::pow(times[n] - times[n - 2] - mean, 2) / count;
+  return std::sqrt(variance) / mean;
+}
+
 namespace {
 
 // y less z where z is given.

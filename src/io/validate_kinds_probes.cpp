@@ -24,6 +24,11 @@ Measurement probe_period(const MeasureSpec& spec, const RunPaths& run) {
   return against(mean_period(points, constant(spec.level)), constant(spec.reference));
 }
 
+Measurement probe_period_scatter(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = points_during(component_of_probe(spec, run), spec.from, spec.to);
+  return itself(period_scatter(points, constant(spec.level)));
+}
+
 Measurement probe_mean(const MeasureSpec& spec, const RunPaths& run) {
   return against(settled_mean(component_of_probe(spec, run), spec.from, spec.to), constant(spec.reference));
 }
@@ -136,6 +141,7 @@ std::vector<MeasureKind> measures_of_probes() {
   return {
       {"period_of_probe", {"probe", "level", "reference"}, period_of_probe, scalar_series},
       {"probe_period", {"probe", "column", "level", "from", "to", "reference"}, probe_period, component_of_probe},
+      {"probe_period_scatter", {"probe", "column", "level", "from", "to"}, probe_period_scatter, component_of_probe},
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
       {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
       {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},

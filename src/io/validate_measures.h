@@ -47,6 +47,10 @@ double slope_between(const Points& points, double low, double high);
 // straight lines between points. Throws Error(cannot_continue) for less than one period.
 double mean_period(const Points& points, double level);
 
+// Standard deviation of the whole periods, from each crossing to the second after it, over their mean. Throws as
+// mean_period(), and for less than two periods.
+double period_scatter(const Points& points, double level);
+
 // The lines of CSV text that are neither empty nor comments ('#'), in fields; the first is the header.
 std::vector<std::vector<std::string>> csv_rows(const std::string& text);
 

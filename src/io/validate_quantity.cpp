@@ -32,6 +32,8 @@ constexpr KindWords frame_and_probe_words[] = {
     {"surface_misplaced", "", "area (3D: volume) on the wrong side of the exact surface in the last frame, over unit"},
     {"period_of_probe", "s", "mean of a probe's whole periods about level"},
     {"probe_period", "s", "mean of a probe's whole periods about level in a time"},
+    {"probe_period_scatter", "",
+     "standard deviation of a probe's whole periods about level in a time, over their mean"},
     {"probe_mean", "column", "mean of a probe in a time, weighted with sin^2"},
     {"probe_peak", "column", "a probe's value of the largest magnitude in a time"},
     {"probe_peak_time", "s", "when a probe has its largest magnitude in a time"},

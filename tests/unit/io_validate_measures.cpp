@@ -141,6 +141,12 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
 }
 
+TEST_CASE("periods that differ scatter") {
+  const Points even{{0, 1}, {1, -1}, {3, 1}, {5, -1}, {7, 1}, {9, -1}};
+  CHECK(period_scatter(even, 0) == Approx(std::sqrt(1.0 / 18) / (23.0 / 6)));  // from 0.5, 2, 4 to 4, 6, 8
+  CHECK_THROWS_WITH(period_scatter(even, 2), Catch::Contains("only 0 times"));
+}
+
 TEST_CASE("liquid arrives with the first sample that has a value") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
