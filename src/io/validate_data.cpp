@@ -67,15 +67,15 @@ std::size_t column_named(const std::vector<std::vector<std::string>>& rows, cons
   return std::size_t(found - header.begin());
 }
 
-// time and a column in the rows of this name, empty fields left out.
+// time and a column in the rows of this name; empty fields are left out, or count as `empty`.
 Points named_points(const std::vector<std::vector<std::string>>& rows, const std::string& wanted,
-                    const std::string& column) {
+                    const std::string& column, std::optional<double> empty = {}) {
   const std::size_t time = column_named(rows, "time"), name = column_named(rows, "name"),
                     value = column_named(rows, column);
   Points points;
   for (std::size_t n = 1; n < rows.size(); ++n) {
-    if (rows[n].size() <= value || rows[n][name] != wanted || rows[n][value].empty()) continue;
-    points.emplace_back(finite_number(rows[n], time), finite_number(rows[n], value));
+    if (rows[n].size() <= value || rows[n][name] != wanted || (rows[n][value].empty() && !empty)) continue;
+    points.emplace_back(finite_number(rows[n], time), rows[n][value].empty() ? *empty : finite_number(rows[n], value));
   }
   return points;
 }
@@ -234,6 +234,11 @@ Points probe_points(const std::string& text, const std::string& probe, const std
   const Points points = named_points(csv_rows(text), probe, column);
   if (points.empty()) fail(fmt::format("probe '{}' has no samples", probe));
   return points;
+}
+
+Points impact_points(const std::string& text, const std::string& probe) {
+  probe_points(text, probe);  // one that is never wet measures nothing
+  return named_points(csv_rows(text), probe, "value", 0.0);
 }
 
 Points points_during(const Points& points, double from, double to) {

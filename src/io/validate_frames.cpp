@@ -102,27 +102,49 @@ double share_between(const vdb::Frame& frame, const Vec3& center, int n, const F
 
 }  // namespace
 
-double velocity_difference(const vdb::Frame& frame, const VectorFormula& formula, const Formula& region) {
+namespace {
+
+// visit(axis, u_axis - exact) of the faces in the region.
+template <class Visit>
+void for_each_difference(const vdb::Frame& frame, const VectorFormula& formula, const Formula& region,
+                         const Visit& visit) {
   const VectorExpression exact(formula);
   const Expression inside(region);
-  Vec3 sums = Vec3::Zero(), counts = Vec3::Zero();
   for (const vdb::Block& block : velocity_of(frame).blocks)
     for_each_voxel(block, 3, [&](const Vec3& index, const float* u) {
       for (int axis = 0; axis < frame.dimension; ++axis) {
         Vec3 x = cell_center(frame, index);
         x[axis] -= 0.5 * frame.cell_size;
-        if (!(inside(x, frame.time) < 0)) continue;
-        const double difference = u[axis] - exact.component(axis, x, frame.time);
-        sums[axis] += difference * difference;
-        counts[axis] += 1;
+        if (inside(x, frame.time) < 0) visit(axis, u[axis] - exact.component(axis, x, frame.time));
       }
     });
+}
+
+}  // namespace
+
+double velocity_difference(const vdb::Frame& frame, const VectorFormula& formula, const Formula& region) {
+  Vec3 sums = Vec3::Zero(), counts = Vec3::Zero();
+  for_each_difference(frame, formula, region, [&](int axis, double difference) {
+    sums[axis] += difference * difference;
+    counts[axis] += 1;
+  });
   double mean = 0;
   for (int axis = 0; axis < frame.dimension; ++axis) {
     if (counts[axis] == 0) throw Error(ExitCode::cannot_continue, "no face lies in the region");
     mean += sums[axis] / counts[axis];
   }
   return std::sqrt(mean);
+}
+
+double largest_velocity_difference(const vdb::Frame& frame, const VectorFormula& formula, const Formula& region) {
+  double largest = 0;
+  bool any = false;
+  for_each_difference(frame, formula, region, [&](int, double difference) {
+    largest = larger(largest, std::abs(difference));
+    any = true;
+  });
+  if (!any) throw Error(ExitCode::cannot_continue, "no face lies in the region");
+  return largest;
 }
 
 double surface_difference(const vdb::Frame& frame, const Formula& formula) {

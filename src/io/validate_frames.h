@@ -15,6 +15,9 @@ const vdb::Grid& velocity_of(const vdb::Frame& frame);
 // Error(cannot_continue) where the frame holds no velocity or the region no face.
 double velocity_difference(const vdb::Frame& frame, const VectorFormula& exact, const Formula& region);
 
+// The largest |u_a - exact_a| of any axis over these faces, m/s. Throws as velocity_difference().
+double largest_velocity_difference(const vdb::Frame& frame, const VectorFormula& exact, const Formula& region);
+
 // The largest |phi - exact| of the cells within one cell of the surface, m. Throws Error(cannot_continue) where the
 // frame holds no surface.
 double surface_difference(const vdb::Frame& frame, const Formula& exact);

@@ -62,12 +62,29 @@ Measurement region_l2(const MeasureSpec& spec, const RunPaths& run) {
   return itself(velocity_difference(last_frame(run), spec.velocity, spec.region));
 }
 
+Measurement region_max(const MeasureSpec& spec, const RunPaths& run) {
+  return itself(largest_velocity_difference(last_frame(run), spec.velocity, spec.region));
+}
+
 Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
   const vdb::Frame frame = last_frame(run);
   double worst = 0;
   for (const LineExtreme& line : csv_extremes(read_whole_file(spec.data)))
-    worst = larger(worst, std::abs(extreme_along(frame, line) / line.value - 1));
+    worst = larger(worst, std::abs(extreme_along(frame, line).value / line.value - 1));
   return itself(worst);
+}
+
+// How far the worst lies from where it is expected, m.
+Measurement line_extrema_places(const MeasureSpec& spec, const RunPaths& run) {
+  const vdb::Frame frame = last_frame(run);
+  double worst = 0;
+  for (const LineExtreme& line : csv_extremes(read_whole_file(spec.data)))
+    worst = larger(worst, std::abs(extreme_along(frame, line).place - line.value));
+  return itself(worst);
+}
+
+Measurement stream_function(const MeasureSpec& spec, const RunPaths& run) {
+  return against(stream_function_extreme(last_frame(run)), constant(spec.reference));
 }
 
 // Over all points of the profile, m/s.
@@ -93,7 +110,10 @@ std::vector<MeasureKind> measures_of_frames() {
   return {
       {"vector_l2", {"velocity"}, vector_l2},
       {"region_l2", {"velocity", "region"}, region_l2},
+      {"region_max", {"velocity", "region"}, region_max},
       {"line_extrema", {"data"}, line_extrema},
+      {"line_extrema_places", {"data"}, line_extrema_places},
+      {"stream_function_extreme", {"reference"}, stream_function},
       {"line_deviation", {"data"}, line_deviation},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
       {"circularity", {"from", "to", "reference"}, least_circularity, circularities},

@@ -37,18 +37,32 @@ std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run)
   return extremes_during(component_of_probe(spec, run), spec.from, spec.to);
 }
 
+// The sample of the largest magnitude.
+Points::value_type peak_during(const Points& points, double from, double to) {
+  const Points chosen = points_during(points, from, to);
+  return *std::max_element(chosen.begin(), chosen.end(),
+                           [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
+}
+
 Measurement probe_peak(const MeasureSpec& spec, const RunPaths& run) {
-  const auto [low, high] = extremes(spec, run);
-  return against(std::abs(low) > std::abs(high) ? low : high, constant(spec.reference));
+  return against(peak_during(component_of_probe(spec, run), spec.from, spec.to).second, constant(spec.reference));
 }
 
 // When that is, in s.
 Measurement probe_peak_time(const MeasureSpec& spec, const RunPaths& run) {
-  const Points points = points_during(component_of_probe(spec, run), spec.from, spec.to);
-  const auto peak = std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.second) < std::abs(b.second);
-  });
-  return against(peak->first, constant(spec.reference));
+  return against(peak_during(component_of_probe(spec, run), spec.from, spec.to).first, constant(spec.reference));
+}
+
+Points impact_series(const MeasureSpec& spec, const RunPaths& run) {
+  return impact_points(read_whole_file(run.probes()), spec.probe);
+}
+
+Measurement impact_peak(const MeasureSpec& spec, const RunPaths& run) {
+  return against(peak_during(impact_series(spec, run), spec.from, spec.to).second, constant(spec.reference));
+}
+
+Measurement impact_peak_time(const MeasureSpec& spec, const RunPaths& run) {
+  return against(peak_during(impact_series(spec, run), spec.from, spec.to).first, constant(spec.reference));
 }
 
 Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
@@ -145,6 +159,8 @@ std::vector<MeasureKind> measures_of_probes() {
       {"probe_mean", {"probe", "column", "from", "to", "reference"}, probe_mean, component_of_probe},
       {"probe_peak", {"probe", "column", "from", "to", "reference"}, probe_peak, component_of_probe},
       {"probe_peak_time", {"probe", "column", "from", "to", "reference"}, probe_peak_time, component_of_probe},
+      {"impact_peak", {"probe", "from", "to", "reference"}, impact_peak, impact_series},
+      {"impact_peak_time", {"probe", "from", "to", "reference"}, impact_peak_time, impact_series},
       {"probe_arrival", {"probe", "reference"}, probe_arrival, scalar_series},
       {"probe_amplitude", {"probe", "column", "from", "to", "reference"}, probe_amplitude, component_of_probe},
       {"probe_middle", {"probe", "column", "from", "to", "reference"}, probe_middle, component_of_probe},

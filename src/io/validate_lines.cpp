@@ -68,10 +68,15 @@ class Velocity {
   const vdb::Block* block_;
 };
 
-// The extreme of the parabola through three samples a step apart, the middle one the largest or smallest.
-double parabola_extreme(double before, double middle, double after) {
+// Of the parabola through three samples a step apart, the middle one the largest or smallest: how far its extreme lies
+// from the middle one, in steps, and how much it is more.
+struct Vertex {
+  double way = 0, rise = 0;
+};
+
+Vertex vertex_of(double before, double middle, double after) {
   const double bend = after - 2 * middle + before, slope = 0.5 * (after - before);
-  return bend == 0 ? middle : middle - 0.5 * slope * slope / bend;
+  return bend == 0 ? Vertex{} : Vertex{-slope / bend, -0.5 * slope * slope / bend};
 }
 
 int axis_of(const std::string& name) {
@@ -139,7 +144,7 @@ std::vector<LinePoint> csv_profile(const std::string& text) {
   return read_rows(text, read_point);
 }
 
-double extreme_along(const vdb::Frame& frame, const LineExtreme& line) {
+FoundExtreme extreme_along(const vdb::Frame& frame, const LineExtreme& line) {
   const Velocity u(frame);
   const double sign = line.kind == LineExtreme::Kind::max ? 1 : -1;
   const int last = u.size(line.along) - 1;
@@ -151,8 +156,10 @@ double extreme_along(const vdb::Frame& frame, const LineExtreme& line) {
   int most = 0;
   for (int n = 1; n <= last; ++n)
     if (sign * sample(n) > sign * sample(most)) most = n;
-  if (most == 0 || most == last) return sample(most);
-  return parabola_extreme(sample(most - 1), sample(most), sample(most + 1));
+  const bool inside = most > 0 && most < last;
+  const Vertex vertex = inside ? vertex_of(sample(most - 1), sample(most), sample(most + 1)) : Vertex{};
+  const double shift = line.component == line.along ? 0 : 0.5;  // of the first sample from the domain's end, in cells
+  return {sample(most) + vertex.rise, frame.lower[line.along] + frame.cell_size * (most + shift + vertex.way)};
 }
 
 double value_along(const vdb::Frame& frame, const LinePoint& at) {
@@ -171,6 +178,24 @@ double value_along(const vdb::Frame& frame, const LinePoint& at) {
     samples[std::size_t(n)] = u.at(at.component, where);
   }
   return cubic_between(samples, place - low);
+}
+
+double stream_function_extreme(const vdb::Frame& frame) {
+  if (frame.dimension != 2) throw Error(ExitCode::cannot_continue, "a stream function is of a 2D run");
+  const Velocity u(frame);
+  const int nx = u.size(0), ny = u.size(1);
+  std::vector<double> psi(std::size_t(nx) * std::size_t(ny + 1), 0);  // corner (i, j), i below nx
+  const auto at = [&](int i, int j) -> double& { return psi[std::size_t(i) + std::size_t(nx) * std::size_t(j)]; };
+  int x = 0, y = 0;
+  for (int j = 1; j <= ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      at(i, j) = at(i, j - 1) + frame.cell_size * u.at(0, Vec3(i, j - 1, 0));
+      if (std::abs(at(i, j)) > std::abs(at(x, y))) x = i, y = j;
+    }
+  double extreme = at(x, y);
+  if (x > 0 && x < nx - 1) extreme += vertex_of(at(x - 1, y), at(x, y), at(x + 1, y)).rise;
+  if (y > 0 && y < ny) extreme += vertex_of(at(x, y - 1), at(x, y), at(x, y + 1)).rise;
+  return extreme;
 }
 
 }  // namespace seiche

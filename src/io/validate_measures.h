@@ -100,6 +100,9 @@ double farthest_stray(const std::string& text, double from);
 // time and a column of a probe (vectors have x, y, z), from the text of probes.csv, without undefined samples.
 Points probe_points(const std::string& text, const std::string& probe, const std::string& column = "value");
 
+// time and pressure of a probe, Pa, 0 where it is not in the liquid, from the text of probes.csv.
+Points impact_points(const std::string& text, const std::string& probe);
+
 // The points with from <= x <= to. Throws Error(cannot_continue) where they do not reach that far and where there are
 // none between.
 Points points_during(const Points& points, double from, double to);

@@ -25,7 +25,11 @@ struct KindWords {
 constexpr KindWords frame_and_probe_words[] = {
     {"vector_l2", "m/s", "L2 norm of the last frame's face velocities less the exact ones"},
     {"region_l2", "m/s", "L2 norm of the last frame's face velocities in a region less the exact ones"},
+    {"region_max", "m/s", "largest difference of the last frame's face velocities in a region from the exact ones"},
     {"line_extrema", "", "worst relative error of extreme velocities along lines, in the last frame"},
+    {"line_extrema_places", "m",
+     "worst distance of extreme velocities along lines from their places, in the last frame"},
+    {"stream_function_extreme", "m^2/s", "largest magnitude of the last frame's stream function"},
     {"line_deviation", "m/s", "largest difference from a profile of velocities along lines, in the last frame"},
     {"surface_deviation", "", "largest distance of the last frame's surface from the exact one, over length_unit"},
     {"circularity", "", "least circularity of the frames in a time"},
@@ -37,6 +41,8 @@ constexpr KindWords frame_and_probe_words[] = {
     {"probe_mean", "column", "mean of a probe in a time, weighted with sin^2"},
     {"probe_peak", "column", "a probe's value of the largest magnitude in a time"},
     {"probe_peak_time", "s", "when a probe has its largest magnitude in a time"},
+    {"impact_peak", "Pa", "largest pressure of a probe in a time, dry at first"},
+    {"impact_peak_time", "s", "when the pressure of a probe is largest in a time, dry at first"},
     {"probe_arrival", "s", "when a probe first has a value"},
     {"probe_amplitude", "column", "half the difference of a probe's extremes in a time"},
     {"probe_middle", "column", "half the sum of a probe's extremes in a time"},
@@ -159,6 +165,8 @@ bool is_vector(const ProbeSpec& probe) {
 
 void check_probe(const MeasureSpec& m, const Scene& scene, const std::string& name, const std::string& where) {
   demand(where, "probe", name, probe_names(scene));
+  if (m.kind.starts_with("impact_") && probe_named(scene, name)->kind != ProbeKind::pressure)
+    throw Error(ExitCode::bad_input, fmt::format("{}: probe '{}' is to measure pressure for {}", where, name, m.kind));
   const std::string column = uses(kind_of(m), "column") ? m.column : "value";
   const Names known = is_vector(*probe_named(scene, name)) ? Names{"x", "y", "z"} : Names{"value"};
   demand(where, fmt::format("column of probe '{}'", name), column, known);

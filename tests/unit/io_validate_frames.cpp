@@ -57,6 +57,9 @@ TEST_CASE("velocities are compared where the region says") {
   CHECK(velocity_difference(frame, {"3", "0", "0"}, "x-0.49") == Approx(4));
   CHECK(velocity_difference(frame, still, "-1") == Approx(std::sqrt((9.0 + 49) / 2 + 16)));
   CHECK_THROWS_WITH(velocity_difference(frame, still, "1"), "no face lies in the region");
+  CHECK(largest_velocity_difference(frame, still, "x-0.49") == Approx(4));
+  CHECK(largest_velocity_difference(frame, {"0", "4", "0"}, "-1") == Approx(7));
+  CHECK_THROWS_WITH(largest_velocity_difference(frame, still, "1"), "no face lies in the region");
 }
 
 TEST_CASE("extremes along lines are found between the samples") {
@@ -65,11 +68,30 @@ TEST_CASE("extremes along lines are found between the samples") {
   };
   const auto frame = square_frame(64, wave, none);
   using Kind = LineExtreme::Kind;
-  CHECK(extreme_along(frame, line(0, 1, {0.5, 9, 0}, Kind::min)) == Approx(-1.5).epsilon(1e-6));  // fourth order in h
-  CHECK(extreme_along(frame, line(0, 1, {0.51, 9, 0}, Kind::min)) == Approx(-1.51).epsilon(1e-6));
-  CHECK(extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::max)) == Approx(0.25).epsilon(1e-6));
-  CHECK(extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::min)) ==
-        Approx(0.25 - std::pow(1 - 0.5 / 64 - 0.3, 2)).epsilon(1e-6));  // the last sample: 32-bit rounding
+  const auto lowest = extreme_along(frame, line(0, 1, {0.5, 9, 0}, Kind::min));
+  CHECK(lowest.value == Approx(-1.5).epsilon(1e-6));  // fourth order in h
+  CHECK(lowest.place == Approx(std::acos(0.0) / 3).margin(1e-5));
+  CHECK(extreme_along(frame, line(0, 1, {0.51, 9, 0}, Kind::min)).value == Approx(-1.51).epsilon(1e-6));
+  const auto highest = extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::max));
+  CHECK(highest.value == Approx(0.25).epsilon(1e-6));
+  CHECK(highest.place == Approx(0.3).margin(1e-5));  // 32-bit rounding over a parabola's bend
+  const auto last = extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::min));
+  CHECK(last.value == Approx(0.25 - std::pow(1 - 0.5 / 64 - 0.3, 2)).epsilon(1e-6));  // the last sample
+  CHECK(last.place == 1 - 0.5 / 64);
+}
+
+// psi = -sin^2(pi x) sin^2(pi y)/pi, to second order.
+TEST_CASE("the stream function is what flows between a corner and the lower wall") {
+  constexpr double pi = 3.14159265358979;
+  const auto vortex = [](int a, const Vec3& x) {
+    if (a == 1) return std::sin(2 * pi * x[0]) * std::pow(std::sin(pi * x[1]), 2);
+    return -std::pow(std::sin(pi * x[0]), 2) * std::sin(2 * pi * x[1]);
+  };
+  CHECK(stream_function_extreme(square_frame(64, vortex, none)) == Approx(-1 / pi).epsilon(1e-3));
+  CHECK(stream_function_extreme(square_frame(63, vortex, none)) == Approx(-1 / pi).epsilon(1e-3));  // between corners
+  auto frame = square_frame(8, vortex, none);
+  frame.dimension = 3;
+  CHECK_THROWS_WITH(stream_function_extreme(frame), Catch::Contains("2D"));
 }
 
 TEST_CASE("extremes to compare with are read from CSV") {

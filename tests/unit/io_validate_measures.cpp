@@ -160,6 +160,22 @@ TEST_CASE("liquid arrives with the first sample that has a value") {
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // it never arrived: no time of 0
 }
 
+TEST_CASE("an impact's peak counts from when the probe was dry") {
+  const ScratchFolder folder;
+  const RunPaths run{folder.path()};
+  put(run.probes(), "time,name,value,x,y,z\n0,p,,,,\n0.1,p,,,,\n0.2,p,30,,,\n0.3,p,40,,,\n0.4,p,-5,,,\n");
+  MeasureSpec spec;
+  spec.kind = "impact_peak", spec.probe = "p", spec.reference = "50", spec.to = 0.4;
+  CHECK(measure(spec, run).value == 40);
+  CHECK(measure(spec, run).error == Approx(0.2));
+  spec.kind = "impact_peak_time", spec.reference = "0.2";
+  CHECK(measure(spec, run).value == 0.3);
+  spec.to = 0.5;
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
+  put(run.probes(), "time,name,value,x,y,z\n0,p,,,,\n1,p,,,,\n");
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // a peak of 0 that was never wet
+}
+
 TEST_CASE("a column of stats.csv is compared over time, and by how fast it falls") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
