@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "io/validate_kinds.h"
 #include "io/validate_measures.h"
 #include "io_scratch.h"
 #include "levelset/openvdb_adapter.h"
@@ -300,16 +301,12 @@ TEST_CASE("a measure that would pass on nothing fails") {
 TEST_CASE("a run that does not hold what is measured is said not to be measurable") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  for (const char* kind :
-       {"vector_l2",       "period_of_probe", "front_slope",   "max_of_column", "column_drift", "volume_drift",
-        "solid_mean",      "solid_slope",     "solids_stray",  "probe_period",  "probe_mean",   "probe_peak",
-        "probe_peak_time", "probe_amplitude", "probe_arrival", "column_rms",    "column_fall",  "column_fall_time",
-        "solid_amplitude", "solid_middle",    "solid_rms",     "energy_growth"}) {
+  for (const MeasureKind& kind : measure_kinds()) {
     MeasureSpec spec;
-    spec.kind = kind;
+    spec.kind = kind.name;
     try {
       measure(spec, run);
-      FAIL(kind);
+      FAIL(kind.name);
     } catch (const Error& error) {
       CHECK(error.code() == ExitCode::cannot_continue);
     }

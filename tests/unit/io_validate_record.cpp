@@ -198,6 +198,7 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   m.probe = "tip", m.column = "value";
   refused("probe_mean", "there are: x, y, z");
   refused("probe_rms", "there are: x, y, z");  // of scalar probes
+  refused("impact_peak", "is to measure pressure");
   m.column = "y", m.minus = "tp";
   refused("probe_difference", "did you mean 'tip'");
   m.solid = "cylinder + flg", m.column = "fx";
