@@ -91,6 +91,22 @@ std::vector<double> crossings(const Points& points, double level) {
   return found;
 }
 
+// The last crossing of each way from beyond a quarter of the largest |y - level| to beyond that on the other side.
+std::vector<double> swings(const Points& points, double level) {
+  double band = 0;
+  for (const auto& [x, y] : points) band = larger(band, 0.25 * std::abs(y - level));
+  std::vector<double> found;
+  Points way;  // since the last point beyond the band
+  for (const auto& point : points) {
+    way.push_back(point);
+    if (std::abs(point.second - level) <= band) continue;
+    const std::vector<double> times = crossings(way, level);
+    if (times.size() % 2 == 1 && std::abs(way.front().second - level) > band) found.push_back(times.back());
+    way = {point};
+  }
+  return found;
+}
+
 Points points_where(const Points& points, const std::function<bool(double, double)>& wanted) {
   Points chosen;
   for (const auto& [x, y] : points)
@@ -145,13 +161,14 @@ double mean_period(const Points& points, double level) {
 }
 
 double period_scatter(const Points& points, double level) {
-  const std::vector<double> times = crossings(points, level);
-  if (times.size() < 5)
-    fail(fmt::format("no scatter of periods: the value passes {:g} only {} times", level, times.size()));
+  const std::vector<double> times = swings(points, level);
+  if (times.size() < 5) fail(fmt::format("no scatter of periods: {} swings through {:g}", times.size(), level));
   const double count = double(times.size() - 2);
   double mean = 0, variance = 0;
   for (std::size_t n = 2; n < times.size(); ++n) mean += (times[n] - times[n - 2]) / count;
   for (std::size_t n = 2; n < times.size(); ++n) variance += std::pow(times[n] - times[n - 2] - mean, 2) / count;
+  if (points.back().first - times.back() > mean)
+    fail(fmt::format("the swings end at {:g} s, a period before {:g} s", times.back(), points.back().first));
   return std::sqrt(variance) / mean;
 }
 

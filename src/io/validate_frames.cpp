@@ -100,10 +100,6 @@ double share_between(const vdb::Frame& frame, const Vec3& center, int n, const F
   return double(differ) / points;
 }
 
-}  // namespace
-
-namespace {
-
 // visit(axis, u_axis - exact) of the faces in the region.
 template <class Visit>
 void for_each_difference(const vdb::Frame& frame, const VectorFormula& formula, const Formula& region,

@@ -47,8 +47,9 @@ double slope_between(const Points& points, double low, double high);
 // straight lines between points. Throws Error(cannot_continue) for less than one period.
 double mean_period(const Points& points, double level);
 
-// Standard deviation of the whole periods, from each crossing to the second after it, over their mean. Throws as
-// mean_period(), and for less than two periods.
+// Standard deviation of the whole periods, from each crossing to the second after it, over their mean. To count, a
+// crossing must lie between points farther from `level`, to either side, than a quarter of the farthest. Throws
+// Error(cannot_continue) for less than two periods, and where the swings end more than a mean period before the points.
 double period_scatter(const Points& points, double level);
 
 // The lines of CSV text that are neither empty nor comments ('#'), in fields; the first is the header.

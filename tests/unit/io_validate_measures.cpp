@@ -142,10 +142,15 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
 }
 
-TEST_CASE("periods that differ scatter") {
-  const Points even{{0, 1}, {1, -1}, {3, 1}, {5, -1}, {7, 1}, {9, -1}};
-  CHECK(period_scatter(even, 0) == Approx(std::sqrt(1.0 / 18) / (23.0 / 6)));  // from 0.5, 2, 4 to 4, 6, 8
-  CHECK_THROWS_WITH(period_scatter(even, 2), Catch::Contains("only 0 times"));
+TEST_CASE("periods that differ scatter, and chatter about the level is no period") {
+  Points points{{0, 1}, {1, -1}, {3, 1}, {5, -1}, {7, 1}, {9, -1}};  // passes at 0.5, 2, 4, 6, 8: 3.5, 4 and 4
+  const double scatter = std::sqrt(1.0 / 18) / (23.0 / 6);
+  CHECK(period_scatter(points, 0) == Approx(scatter));
+  points.insert(points.begin() + 2, {{1.9, 0.1}, {1.95, -0.05}});  // passes three times, the last at 2
+  CHECK(period_scatter(points, 0) == Approx(scatter));
+  CHECK_THROWS_WITH(period_scatter(points, 2), Catch::Contains("0 swings"));
+  points.emplace_back(20, -1);
+  CHECK_THROWS_WITH(period_scatter(points, 0), Catch::Contains("swings end at 8 s"));
 }
 
 TEST_CASE("liquid arrives with the first sample that has a value") {
@@ -164,7 +169,7 @@ TEST_CASE("liquid arrives with the first sample that has a value") {
 TEST_CASE("an impact's peak counts from when the probe was dry") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  put(run.probes(), "time,name,value,x,y,z\n0,p,,,,\n0.1,p,,,,\n0.2,p,30,,,\n0.3,p,40,,,\n0.4,p,-5,,,\n");
+  put(run.probes(), "time,name,value,x,y,z\n0,p,,,,\n0.1,p,,,,\n0.2,p,30,,,\n0.3,p,40,,,\n0.4,p,-50,,,\n");
   MeasureSpec spec;
   spec.kind = "impact_peak", spec.probe = "p", spec.reference = "50", spec.to = 0.4;
   CHECK(measure(spec, run).value == 40);
