@@ -55,7 +55,7 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOpti
         const bool wanted = selection.takes(one, resolution, options.level);
         if (!wanted && !(options.record && belongs_to(resolution, options.level))) continue;
         runs.push_back({&one, &resolution, read_scene(scene_of(one, resolution), resolution.overrides), false, wanted});
-        check_names(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
+        check_measure(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
       }
     if (std::ranges::count(runs, true, &Planned::chosen) == 0)
       throw Error(ExitCode::bad_input,

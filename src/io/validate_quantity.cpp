@@ -7,9 +7,11 @@
 #include <span>
 
 #include "base/error.h"
+#include "io/checked_file.h"
 #include "io/csv.h"
 #include "io/suggest.h"
 #include "io/validate_kinds.h"
+#include "io/validate_lines.h"
 
 namespace seiche {
 namespace {
@@ -198,15 +200,31 @@ std::string unit_of_column(const MeasureSpec& m, const Scene& scene, MeasureSour
   return row == std::end(solids_units) ? "" : row->unit[dimension];
 }
 
+// Reads the data as the measure is going to.
+void check_data(const MeasureSpec& m, const std::string& where) {
+  try {
+    const std::string text = read_whole_file(m.data);
+    if (m.kind == "line_deviation")
+      csv_profile(text);
+    else if (m.kind.starts_with("line_extrema"))
+      csv_extremes(text);
+    else if (csv_points(text).size() < 2)
+      throw Error(ExitCode::bad_input, "less than two rows to compare with");
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: {}: {}", where, m.data.string(), error.what()));
+  }
+}
+
 }  // namespace
 
-void check_names(const MeasureSpec& measure, const Scene& scene, const std::string& where) {
+void check_measure(const MeasureSpec& measure, const Scene& scene, const std::string& where) {
   const MeasureKind& kind = kind_of(measure);
   if (uses(kind, "probe")) check_probe(measure, scene, measure.probe, where);
   if (uses(kind, "minus")) check_probe(measure, scene, measure.minus, where);
   if (uses(kind, "solid")) check_solids(measure, scene, where);
   if (kind.source == MeasureSource::stats && uses(kind, "column"))
     demand(where, "column of stats.csv", measure.column, names_in(stats_header()));
+  if (uses(kind, "data")) check_data(measure, where);
 }
 
 std::string what_is_measured(const MeasureSpec& measure) {

@@ -180,7 +180,6 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
                     Catch::Contains("case.toml, resolution '8'") && Catch::Contains("did you mean 'max_speed'"));
   CHECK(code_of([&] { validate(folder, {}, "quick"); }) == ExitCode::bad_input);
   CHECK_FALSE(fs::exists(folder / "out"));
-
   Scene scene;
   scene.dimension = 2;
   scene.probes.resize(2);
@@ -191,7 +190,7 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   MeasureSpec m;
   const auto refused = [&](const char* kind, const char* word) {
     m.kind = kind;
-    CHECK_THROWS_WITH(check_names(m, scene, "w"), Catch::Contains(word));
+    CHECK_THROWS_WITH(check_measure(m, scene, "w"), Catch::Contains(word));
   };
   m.probe = "tpi", m.column = "y";
   refused("probe_mean", "did you mean 'tip'");
@@ -199,14 +198,26 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   refused("probe_mean", "there are: x, y, z");
   refused("probe_rms", "there are: x, y, z");  // of scalar probes
   refused("impact_peak", "is to measure pressure");
-  m.column = "y", m.minus = "tp";
+  m.data = folder / "none.csv", m.probe = "wall";
+  refused("probe_rms", "none.csv");
+  m.data = folder / "one.csv";
+  put(m.data, "t,y\n0,1\n");
+  refused("probe_rms", "less than two rows");
+  put(m.data, "t,y\n0,one\n1,2\n");
+  refused("probe_rms", "one");
+  refused("line_extrema", "needs 7 columns");
+  refused("line_deviation", "needs 6 columns");
+  put(m.data, "t,y\n0,1\n1,2\n");
+  m.kind = "probe_rms";
+  CHECK_NOTHROW(check_measure(m, scene, "w"));
+  m.probe = "tip", m.column = "y", m.minus = "tp";
   refused("probe_difference", "did you mean 'tip'");
   m.solid = "cylinder + flg", m.column = "fx";
   refused("solid_mean", "did you mean 'flag'");
   m.solid = "cylinder + flag", m.column = "name";
   refused("solid_mean", "column of solids.csv");
   m.column = "fx";
-  CHECK_NOTHROW(check_names(m, scene, "w"));
+  CHECK_NOTHROW(check_measure(m, scene, "w"));
   CHECK(unit_of(m, scene) == "N/m");
   m.kind = "solid_slope", m.column = "vx";
   CHECK(unit_of(m, scene) == "m/s^2");
