@@ -96,9 +96,7 @@ Points falls(const MeasureSpec& spec, const RunPaths& run) {
 }
 
 Points::value_type steepest_fall(const MeasureSpec& spec, const RunPaths& run) {
-  const Points rates = points_during(falls(spec, run), spec.from, spec.to);
-  return *std::max_element(rates.begin(), rates.end(),
-                           [](const auto& a, const auto& b) { return a.second < b.second; });
+  return highest_during(falls(spec, run), spec.from, spec.to);
 }
 
 Measurement column_fall(const MeasureSpec& spec, const RunPaths& run) {

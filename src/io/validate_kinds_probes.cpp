@@ -58,9 +58,7 @@ Points impact_series(const MeasureSpec& spec, const RunPaths& run) {
 }
 
 Points::value_type impact(const MeasureSpec& spec, const RunPaths& run) {
-  const Points points = points_during(impact_series(spec, run), spec.from, spec.to);
-  return *std::max_element(points.begin(), points.end(),
-                           [](const auto& a, const auto& b) { return a.second < b.second; });
+  return highest_during(impact_series(spec, run), spec.from, spec.to);
 }
 
 Measurement impact_peak(const MeasureSpec& spec, const RunPaths& run) {

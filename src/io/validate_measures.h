@@ -88,6 +88,9 @@ double energy_decay(const Points& y, double level);
 // Throws Error(cannot_continue) where y is at the level or the points do not reach that far.
 double growth_rate(const Points& points, double level, double from, double to);
 
+// The point of the largest y over from <= x <= to. Throws as points_during().
+Points::value_type highest_during(const Points& points, double from, double to);
+
 // The smallest and the largest y over from <= x <= to. Throws as points_during().
 std::pair<double, double> extremes_during(const Points& points, double from, double to);
 

@@ -180,6 +180,7 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
                     Catch::Contains("case.toml, resolution '8'") && Catch::Contains("did you mean 'max_speed'"));
   CHECK(code_of([&] { validate(folder, {}, "quick"); }) == ExitCode::bad_input);
   CHECK_FALSE(fs::exists(folder / "out"));
+
   Scene scene;
   scene.dimension = 2;
   scene.probes.resize(2);
