@@ -36,12 +36,23 @@ std::string lines_of(const std::string& text, Lines wanted) {
   return chosen;
 }
 
-// Empty unless the folder holds a finished run that was kept.
-std::string key_of(const fs::path& run) {
+std::string key_of(const Scene& scene, const std::string& identity) {
+  return identity + write_scene(scene);
+}
+
+// Of the run in a folder, finished or not; empty where none was made by a validation.
+std::string key_in(const fs::path& run) {
   try {
-    const RunPaths paths{run};
-    if (json_value(read_whole_file(paths.summary()), "ended") != "finished") return {};
-    return lines_of(read_whole_file(identity_file(run)), Lines::of_identity) + read_whole_file(paths.scene());
+    return lines_of(read_whole_file(identity_file(run)), Lines::of_identity) + read_whole_file(RunPaths{run}.scene());
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// How the run in a folder ended, as its summary says; empty where there is none, as after a kill.
+std::string end_of(const fs::path& run) {
+  try {
+    return json_value(read_whole_file(RunPaths{run}.summary()), "ended");
   } catch (const Error&) {
     return {};
   }
@@ -91,25 +102,33 @@ std::string machine_of(const fs::path& run) {
   }
 }
 
-RunCache::RunCache(const fs::path& out, Earlier earlier) {
+RunCache::RunCache(const fs::path& out, Earlier earlier) : earlier_(earlier) {
   if (earlier == Earlier::ignore) return;
   for (const fs::path& one : folders_in(out))
     for (const fs::path& run : folders_in(one))
-      if (const std::string key = key_of(run); !key.empty()) runs_.emplace(key, run);
+      if (const std::string key = key_in(run); !key.empty() && end_of(run) == "finished") runs_.emplace(key, run);
 }
 
 std::optional<fs::path> RunCache::find(const Scene& scene, const std::string& identity) const {
-  const auto found = runs_.find(identity + write_scene(scene));
+  const auto found = runs_.find(key_of(scene, identity));
   return found == runs_.end() ? std::nullopt : std::optional(found->second);
 }
 
-void RunCache::forget(const fs::path& run) {
+// One that failed would fail again.
+bool RunCache::began(const fs::path& run, const Scene& scene, const std::string& identity) const {
+  return earlier_ == Earlier::use && key_in(run) == key_of(scene, identity) && !end_of(run).starts_with("failed");
+}
+
+void RunCache::begin(const fs::path& run, const Scene& scene, const std::string& identity) {
   std::erase_if(runs_, [&](const auto& entry) { return entry.second == run; });
+  const RunDirectory emptied(run, ExistingOutput::overwrite);
+  write_file(RunPaths{run}.scene(), write_scene(scene));
+  write_file(identity_file(run), identity);
 }
 
 void RunCache::keep(const fs::path& run, const std::string& identity) {
   write_file(identity_file(run), identity + machine_word + describe_machine() + "\n");
-  if (const std::string key = key_of(run); !key.empty()) runs_.emplace(key, run);
+  if (const std::string key = key_in(run); !key.empty()) runs_.emplace(key, run);
 }
 
 }  // namespace seiche

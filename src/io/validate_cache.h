@@ -1,5 +1,6 @@
 #pragma once
-// Runs that need not be made again: those of the same scene on as many ranks by a build that gives the same.
+// Runs that need not be made again, or only their rest: those of the same scene on as many ranks by a build that gives
+// the same.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -36,19 +37,23 @@ std::string machine_of(const std::filesystem::path& run);
 
 enum class Earlier { use, ignore };
 
-// Finished runs by scene and identity. On rank 0 alone.
+// Finished runs by scene and identity, and the unfinished ones in their own folders. On rank 0 alone.
 class RunCache {
  public:
   // Looks at the runs in out/<case>/<resolution>/ unless earlier ones are to be ignored.
   RunCache(const std::filesystem::path& out, Earlier earlier);
   // The folder of such a run, if there is one.
   std::optional<std::filesystem::path> find(const Scene& scene, const std::string& identity) const;
-  // The run in this folder is about to be replaced.
-  void forget(const std::filesystem::path& run);
+  // Whether this folder holds a run of that kind that was stopped or killed, its checkpoints unseen.
+  bool began(const std::filesystem::path& run, const Scene& scene, const std::string& identity) const;
+  // A run of that kind is about to be made in this folder: removes what there is and leaves what `began` looks for.
+  // Throws Error(output_failed), where another job works there too.
+  void begin(const std::filesystem::path& run, const Scene& scene, const std::string& identity);
   // Remembers the run, here and in its folder, with this machine. Throws Error(output_failed).
   void keep(const std::filesystem::path& run, const std::string& identity);
 
  private:
+  Earlier earlier_;
   std::map<std::string, std::filesystem::path> runs_;  // by identity and scene
 };
 

@@ -16,7 +16,6 @@ namespace seiche {
 namespace fs = std::filesystem;
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr auto patience = std::chrono::seconds(3);
 
 // Only warnings and the live line of a run reach the terminal, with the run's name before them.
@@ -51,42 +50,76 @@ Measurement measure_on_root(const MeasureSpec& spec, const fs::path& run, const 
   return result;
 }
 
-// Whether a run is to be had, and where: an earlier one, or one that is made now.
+// A run that is to be had: an earlier one, one that was stopped and goes on, one that is made now; or none.
+enum class Source { earlier, rest, anew, none };
+
 struct Found {
   ExitCode code = ExitCode::done;
-  bool any = true, cached = false;
+  Source source = Source::none;
   fs::path run;
 };
+
+Source source_of(const Planned& run, const Validation& v, const std::string& identity, fs::path& place) {
+  if (const auto earlier = v.cache.find(run.scene, identity)) {
+    place = *earlier;
+    return Source::earlier;
+  }
+  if (v.options.making == Making::report) return Source::none;
+  return v.cache.began(place, run.scene, identity) ? Source::rest : Source::anew;
+}
 
 // Rank 0 looks; all ranks get the answer. `identity` is filled on rank 0.
 Found look_for_run(const Planned& run, const Validation& v, std::string& identity) {
   Found found;
   agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
     identity = run_identity(run.scene, v.around.ranks.size(), v.options.tampering);
-    const auto earlier = v.cache.find(run.scene, identity);
-    found.cached = earlier.has_value();
-    found.run = earlier.value_or(v.options.out / run.one->name / run.resolution->name);
+    found.run = v.options.out / run.one->name / run.resolution->name;
+    found.source = source_of(run, v, identity, found.run);
   });
-  const std::string text = v.around.ranks.broadcast((found.cached ? "1" : "0") + found.run.string());
-  found.cached = text[0] == '1';
+  const std::string text = v.around.ranks.broadcast(fmt::format("{}{}", int(found.source), found.run.string()));
+  found.source = Source(text[0] - '0');
   found.run = text.substr(1);
-  found.any = found.cached || v.options.making == Making::runs;
   return found;
+}
+
+SessionOptions session_of(const ValidateOptions& options) {
+  SessionOptions session;
+  session.threads = options.threads;
+  session.tampering = options.tampering;
+  return session;
+}
+
+// The rest of a run that was stopped; nothing where it left no checkpoint to go on from.
+std::optional<ExitCode> run_rest(const fs::path& folder, const Validation& v, const Surroundings& around) {
+  try {
+    return resume_command({folder, {}, EditPolicy::refuse, session_of(v.options)}, around);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::bad_checkpoint) throw;
+    around.console.warning(fmt::format("{}; the run is made anew", error.what()));
+    return std::nullopt;
+  }
+}
+
+ExitCode run_anew(const Planned& run, const fs::path& folder, const std::string& identity, Validation& v,
+                  const Surroundings& around) {
+  agree_on_root(v.around.ranks, "preparing the run", [&] { v.cache.begin(folder, run.scene, identity); });
+  RunOptions own;
+  own.scene = scene_of(*run.one, *run.resolution);
+  own.out = folder;
+  own.overrides = run.resolution->overrides;
+  own.existing = ExistingOutput::resume;  // of what the cache has put there
+  own.session = session_of(v.options);
+  return run_command(own, around);
 }
 
 Found obtain_run(const Planned& run, Validation& v) {
   std::string identity;
   Found found = look_for_run(run, v, identity);
-  if (found.cached || !found.any) return found;
-  v.cache.forget(found.run);
-  RunOptions own;
-  own.scene = scene_of(*run.one, *run.resolution);
-  own.out = found.run;
-  own.overrides = run.resolution->overrides;
-  own.existing = ExistingOutput::overwrite;
-  own.session.threads = v.options.threads;
-  own.session.tampering = v.options.tampering;
-  found.code = run_command(own, {v.around.ranks, v.around.emergency, console_of(run, v.around.console)});
+  if (found.source == Source::earlier || found.source == Source::none) return found;
+  const Surroundings inner{v.around.ranks, v.around.emergency, console_of(run, v.around.console)};
+  std::optional<ExitCode> code;
+  if (found.source == Source::rest) code = run_rest(found.run, v, inner);
+  found.code = code ? *code : run_anew(run, found.run, identity, v, inner);
   if (found.code == ExitCode::done)
     agree_on_root(v.around.ranks, "keeping the run", [&] { v.cache.keep(found.run, identity); });
   return found;
@@ -117,13 +150,14 @@ Origin origin_of(const fs::path& run, const Communicator& ranks) {
 ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) {
   const Found found = obtain_run(run, v);
   result.run = found.run;
-  result.cached = found.cached;
-  if (!found.any) {
+  result.cached = found.source == Source::earlier;
+  if (found.source == Source::none) {
     const fs::path place = result.run;
     result = recorded_result(run, v.record);
     if (!result.recorded) result.run = place;
+    return found.code;
   }
-  if (!found.any || found.code != ExitCode::done) return found.code;
+  if (found.code != ExitCode::done) return found.code;
   result.measured = measure_on_root(measure_of(*run.one, *run.resolution), result.run, v.around.ranks);
   result.origin = origin_of(result.run, v.around.ranks);
   result.verdict = Verdict::missed;  // until judged
@@ -160,12 +194,9 @@ Validation start(const ValidateOptions& options, const Surroundings& around) {
 ExitCode obtain(const Planned& run, Validation& v, CaseResult& result) {
   result.cell_size = run.scene.domain.cell_size;
   result.run = v.options.out / run.one->name / run.resolution->name;
-  const auto began = Clock::now();
   const ExitCode code = attempt(run, v, result);
-  if (result.cached)
+  if (!result.recorded && result.verdict != Verdict::absent)
     result.wall_seconds = number_in_summary(result.run, "wall_seconds").value_or(0);
-  else if (!result.recorded)
-    result.wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
   return code;
 }
 

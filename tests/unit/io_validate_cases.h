@@ -1,6 +1,7 @@
 #pragma once
 // Small cases for tests of `seiche validate`.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,13 +59,14 @@ struct Outcome {
 };
 
 inline Outcome validate(const ScratchFolder& folder, const std::vector<std::string>& words, const std::string& level,
-                        ValidateOptions options = {}) {
+                        ValidateOptions options = {}, const std::function<void(const std::string&)>& live = {}) {
   const Communicator ranks;
   const EmergencyChannel emergency(ranks);
   Outcome outcome;
   Console console;
   console.line = [&outcome](const std::string& text) { outcome.table += text + "\n"; };
   console.warning = [](const std::string&) {};
+  console.live = live;
   options.words = words;
   options.level = level;
   options.cases = folder / "cases";
