@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <csignal>
+#include <utility>
 
 #include "io/info.h"
 #include "io_validate_cases.h"
@@ -15,8 +16,12 @@ TEST_CASE("a run that was stopped goes on, with the figures of one that was not"
   slow.replace(slow.find("end = 0.2"), 9, "end = 0.2\nmax_step = 0.02");
   put(folder / "cases" / "one" / "scene.toml", slow);
   const fs::path run = folder / "out" / "one" / "8";
-  const auto stop = [&] {
-    return validate(folder, {"one"}, "quick", {}, [](const std::string&) { std::raise(SIGTERM); }).code;
+  const auto stop = [&](const ValidateOptions& options = {}) {
+    bool asked = false;  // a second signal would end the test
+    const auto ask = [&](const std::string&) {
+      if (!std::exchange(asked, true)) std::raise(SIGTERM);
+    };
+    return validate(folder, {"one"}, "quick", options, ask).code;
   };
   const auto steps = [&] { return json_value(contents(run / "summary.json"), "steps"); };
   const auto went_on = [&] { return contents(run / "log.txt").find("resuming at step") != std::string::npos; };
@@ -30,7 +35,7 @@ TEST_CASE("a run that was stopped goes on, with the figures of one that was not"
   SECTION("not if it is not to") {
     ValidateOptions fresh;
     fresh.earlier = Earlier::ignore;
-    validate(folder, {"one"}, "quick", fresh, [](const std::string&) { std::raise(SIGTERM); });
+    CHECK(stop(fresh) == ExitCode::stopped);
     CHECK(validate(folder, {"one"}, "quick", fresh).code == ExitCode::done);
     CHECK_FALSE(went_on());
     CHECK(steps() == "10");
