@@ -72,6 +72,7 @@ void write_docs(const std::vector<Planned>& runs, const Report& report, const Va
 TableWidths widths_of(const std::vector<Planned>& runs) {
   TableWidths widths;
   for (const Planned& run : runs) {
+    if (!run.chosen) continue;
     widths.name = std::max(widths.name, run.one->name.size());
     widths.resolution = std::max(widths.resolution, run.resolution->name.size());
   }
