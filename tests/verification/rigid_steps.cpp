@@ -92,6 +92,37 @@ TEST_CASE("a body let go in liquid is not late after long steps") {
   }
 }
 
+// A disc that sinks to the floor: by halves x1 = x0 + dt/2 (v0 + v1) until it could touch within two steps, and as a
+// whole from there on. What a checkpoint holds is enough to go on from anywhere, to the last bit.
+TEST_CASE("steps by halves and whole ones go on from a checkpoint with the same bits") {
+  Scene s = test::box_scene(2, 24);
+  s.gravity = {0, -9.81, 0};
+  test::add_pool(s, 0.8);
+  s.time.max_step = 0.02;
+  s.solids.push_back(test::rigid_ball("disc", 0.15, {0.5, 0.35, 0}, 2500));
+  const auto whole = make_simulation(s, Communicator());
+  int by_halves = 0, as_whole = 0, touching = 0;
+  for (int n = 0; n < 25; ++n) {
+    const auto other = make_simulation(s, Communicator());
+    other->load(whole->save());
+    const SolidState before = whole->solids()[0];
+    const StepStats a = whole->step(1), b = other->step(1);
+    const SolidState disc = whole->solids()[0];
+    CHECK(a.dt == b.dt);
+    CHECK(a.kinetic_energy == b.kinetic_energy);
+    CHECK(disc.position == other->solids()[0].position);
+    CHECK(whole->frame_field("surface").values == other->frame_field("surface").values);
+    CHECK(whole->frame_field("vel").values == other->frame_field("vel").values);
+    const Vec3 off = disc.position - before.position - 0.5 * a.dt * (before.velocity + disc.velocity);
+    if (disc.velocity.norm() > 1e-3) ++(off.norm() < 1e-14 ? by_halves : as_whole);  // at rest they are one
+    touching += a.contacts > 0;
+  }
+  WARN(by_halves << " steps by halves, " << as_whole << " as a whole, " << touching << " in contact");
+  CHECK(by_halves >= 3);
+  CHECK(as_whole >= 1);
+  CHECK(touching >= 3);
+}
+
 // Free-slip liquid does not know whether a disc turns about its own centre.
 TEST_CASE("liquid around a disc that moves as prescribed is the same if the disc spins") {
   std::vector<StepStats> ends;
