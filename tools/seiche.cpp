@@ -59,7 +59,7 @@ int parse(CLI::App& program, int argc, char** argv, const Communicator& ranks) {
 
 int run_program(int argc, char** argv, const Communicator& ranks, const EmergencyChannel& emergency) {
   CLI::App program("Seiche: liquid among moving and deforming solids", "seiche");
-  program.set_version_flag("--version", "seiche " + version());
+  program.set_version_flag("--version", fmt::format("seiche {} (build {})", version(), build_digest()));
   program.require_subcommand(1);
   VerbContext context{ranks, emergency, {}};
   for (const AddVerb add : verbs()) add(program, context);

@@ -22,6 +22,7 @@ fs::path identity_file(const fs::path& run) {
 }
 
 constexpr const char* machine_word = "machine ";  // begins the line that is about where the run was made
+const std::string unfinished = "unfinished\n";    // before the identity of a run until that is kept
 
 // The lines that begin with machine_word, or the others.
 enum class Lines { of_machine, of_identity };
@@ -40,7 +41,7 @@ std::string key_of(const Scene& scene, const std::string& identity) {
   return identity + write_scene(scene);
 }
 
-// Of the run in a folder, finished or not; empty where none was made by a validation.
+// Of the run in a folder; empty where none was made by a validation.
 std::string key_in(const fs::path& run) {
   try {
     return lines_of(read_whole_file(identity_file(run)), Lines::of_identity) + read_whole_file(RunPaths{run}.scene());
@@ -49,12 +50,28 @@ std::string key_in(const fs::path& run) {
   }
 }
 
-// How the run in a folder ended, as its summary says; empty where there is none, as after a kill.
-std::string end_of(const fs::path& run) {
+// From the summary of the run in a folder; empty where there is none, as after a kill.
+std::string summary_value(const fs::path& run, const char* key) {
   try {
-    return json_value(read_whole_file(RunPaths{run}.summary()), "ended");
+    return json_value(read_whole_file(RunPaths{run}.summary()), key);
   } catch (const Error&) {
     return {};
+  }
+}
+
+// One that could not go on would fail again; one that was finished, but not for us, may be of any build.
+bool may_go_on(const fs::path& run) {
+  const std::string code = summary_value(run, "exit_code");
+  const auto is = [&](ExitCode one) { return code == std::to_string(int(one)); };
+  return !is_finished(run) && !is(ExitCode::cannot_continue) && !is(ExitCode::bug);
+}
+
+bool is_free(const fs::path& run) {
+  try {
+    const RunDirectory tried(run, ExistingOutput::resume);
+    return true;
+  } catch (const Error&) {
+    return false;
   }
 }
 
@@ -102,11 +119,17 @@ std::string machine_of(const fs::path& run) {
   }
 }
 
-RunCache::RunCache(const fs::path& out, Earlier earlier) : earlier_(earlier) {
+bool is_finished(const fs::path& run) {
+  return summary_value(run, "ended") == "finished";
+}
+
+RunCache::RunCache(const fs::path& out, Earlier earlier) {
   if (earlier == Earlier::ignore) return;
   for (const fs::path& one : folders_in(out))
-    for (const fs::path& run : folders_in(one))
-      if (const std::string key = key_in(run); !key.empty() && end_of(run) == "finished") runs_.emplace(key, run);
+    for (const fs::path& run : folders_in(one)) {
+      const std::string key = key_in(run);
+      if (key.starts_with(unfinished) ? may_go_on(run) : !key.empty() && is_finished(run)) runs_.emplace(key, run);
+    }
 }
 
 std::optional<fs::path> RunCache::find(const Scene& scene, const std::string& identity) const {
@@ -114,20 +137,21 @@ std::optional<fs::path> RunCache::find(const Scene& scene, const std::string& id
   return found == runs_.end() ? std::nullopt : std::optional(found->second);
 }
 
-// One that failed would fail again.
-bool RunCache::began(const fs::path& run, const Scene& scene, const std::string& identity) const {
-  return earlier_ == Earlier::use && key_in(run) == key_of(scene, identity) && !end_of(run).starts_with("failed");
+std::optional<fs::path> RunCache::find_begun(const Scene& scene, const std::string& identity) const {
+  const auto found = find(scene, unfinished + identity);
+  return found && is_free(*found) ? found : std::nullopt;
 }
 
 void RunCache::begin(const fs::path& run, const Scene& scene, const std::string& identity) {
   std::erase_if(runs_, [&](const auto& entry) { return entry.second == run; });
   const RunDirectory emptied(run, ExistingOutput::overwrite);
   write_file(RunPaths{run}.scene(), write_scene(scene));
-  write_file(identity_file(run), identity);
+  write_file(identity_file(run), unfinished + identity);
 }
 
 void RunCache::keep(const fs::path& run, const std::string& identity) {
   write_file(identity_file(run), identity + machine_word + describe_machine() + "\n");
+  std::erase_if(runs_, [&](const auto& entry) { return entry.second == run; });
   if (const std::string key = key_in(run); !key.empty()) runs_.emplace(key, run);
 }
 

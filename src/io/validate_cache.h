@@ -37,24 +37,26 @@ std::string machine_of(const std::filesystem::path& run);
 
 enum class Earlier { use, ignore };
 
-// Finished runs by scene and identity, and the unfinished ones in their own folders. On rank 0 alone.
+// Whether the run in a folder ended with its last frame.
+bool is_finished(const std::filesystem::path& run);
+
+// Runs by scene and identity: finished ones, and those that were stopped or killed. On rank 0 alone.
 class RunCache {
  public:
   // Looks at the runs in out/<case>/<resolution>/ unless earlier ones are to be ignored.
   RunCache(const std::filesystem::path& out, Earlier earlier);
-  // The folder of such a run, if there is one.
+  // The folder of such a run that is finished, if there is one.
   std::optional<std::filesystem::path> find(const Scene& scene, const std::string& identity) const;
-  // Whether this folder holds a run of that kind that was stopped or killed, its checkpoints unseen.
-  bool began(const std::filesystem::path& run, const Scene& scene, const std::string& identity) const;
-  // A run of that kind is about to be made in this folder: removes what there is and leaves what `began` looks for.
-  // Throws Error(output_failed), where another job works there too.
+  // The folder of such a run that may go on, its checkpoints unseen, if no other job works there.
+  std::optional<std::filesystem::path> find_begun(const Scene& scene, const std::string& identity) const;
+  // Such a run is about to be made in this folder: removes what there is, and leaves what find_begun looks for until
+  // the run is kept. Throws Error(output_failed), where another job works there too.
   void begin(const std::filesystem::path& run, const Scene& scene, const std::string& identity);
   // Remembers the run, here and in its folder, with this machine. Throws Error(output_failed).
   void keep(const std::filesystem::path& run, const std::string& identity);
 
  private:
-  Earlier earlier_;
-  std::map<std::string, std::filesystem::path> runs_;  // by identity and scene
+  std::map<std::string, std::filesystem::path> runs_;  // by identity and scene, after `unfinished` where it is so
 };
 
 }  // namespace seiche

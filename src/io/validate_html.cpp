@@ -85,8 +85,10 @@ std::string section_of(const Report& report, const std::vector<ReportedResult>& 
   std::string text = fmt::format("<h2 id='{0}'>{1}</h2>\n<p><code>{2}</code></p>\n", one.name, escape_html(one.title),
                                  escape_html(command_of(report, one)));
   text += table_of(rows);
+  const bool passed =
+      std::ranges::all_of(rows, [](const ReportedResult& row) { return row.result.verdict == Verdict::passed; });
   if (const std::string why = words_on_misses(rows); !why.empty())
-    text += "<p class='miss'>" + escape_html(why) + "</p>";
+    text += fmt::format("<p{}>{}</p>", passed ? "" : " class='miss'", escape_html(why));
   if (!one.others.empty()) text += "<p>Others: " + escape_html(one.others) + ".</p>\n";
   text += "<div class='row'>";
   for (const Chart& chart : {error_chart(rows), share_chart(rows), series_chart(rows)})

@@ -24,7 +24,8 @@ below has its own command, the scene, what its runs set in that (as after `seich
 [Validating](validating.md) tells how cases are run and judged.
 
 In the tables "order" is that from the run above, "fit" the least-squares order over all runs of a case that are to meet
-the same reference, at the last of them; "time" is that of the run, or of the one that it shares.
+the same reference, at the last of them; "time" is that of the run, or of the one that it shares, on a machine that did
+other things as well: it may be off by a factor of two. `seiche --version` has the build's number.
 
 )";
 
@@ -109,7 +110,8 @@ std::string words_on_misses(const std::vector<ReportedResult>& rows) {
   const std::string cause = known.empty() ? "the cause is not known." : known;
   if (any(Verdict::missed)) return known.empty() ? "Misses its bar; " + cause : "Misses its bar: " + cause;
   if (any(Verdict::failed)) return known.empty() ? "Failed; " + cause : "Failed: " + cause;
-  return any(Verdict::absent) && !known.empty() ? "Not run in full; known: " + known : "";
+  if (known.empty()) return {};
+  return (any(Verdict::absent) ? "Not run in full; known: " : "Known: ") + known;
 }
 
 std::string format_markdown(const Report& report) {

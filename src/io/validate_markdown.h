@@ -15,8 +15,8 @@ std::string markdown_cell(const std::string& text);
 // A figure of four digits, "-" for none.
 std::string figure(const std::optional<double>& value);
 
-// Words on a case's misses and failures: the known cause, or that there is none. Of runs that are not there what is
-// known; empty where all passed.
+// Words on a case's misses and failures: the known cause, or that there is none. Of runs that passed or are not there
+// what is known; empty where nothing is.
 std::string words_on_misses(const std::vector<ReportedResult>& rows);
 
 }  // namespace seiche

@@ -59,13 +59,19 @@ struct Found {
   fs::path run;
 };
 
+fs::path place_of(const Planned& run, const Validation& v) {
+  return v.options.out / run.one->name / run.resolution->name;
+}
+
 Source source_of(const Planned& run, const Validation& v, const std::string& identity, fs::path& place) {
   if (const auto earlier = v.cache.find(run.scene, identity)) {
     place = *earlier;
     return Source::earlier;
   }
   if (v.options.making == Making::report) return Source::none;
-  return v.cache.began(place, run.scene, identity) ? Source::rest : Source::anew;
+  const auto begun = v.cache.find_begun(run.scene, identity);
+  if (begun) place = *begun;
+  return begun ? Source::rest : Source::anew;
 }
 
 // Rank 0 looks; all ranks get the answer. `identity` is filled on rank 0.
@@ -73,7 +79,7 @@ Found look_for_run(const Planned& run, const Validation& v, std::string& identit
   Found found;
   agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
     identity = run_identity(run.scene, v.around.ranks.size(), v.options.tampering);
-    found.run = v.options.out / run.one->name / run.resolution->name;
+    found.run = place_of(run, v);
     found.source = source_of(run, v, identity, found.run);
   });
   const std::string text = v.around.ranks.broadcast(fmt::format("{}{}", int(found.source), found.run.string()));
@@ -89,15 +95,21 @@ SessionOptions session_of(const ValidateOptions& options) {
   return session;
 }
 
-// The rest of a run that was stopped; nothing where it left no checkpoint to go on from.
+bool is_finished_on_root(const fs::path& run, const Communicator& ranks) {
+  return ranks.broadcast(ranks.is_root() && is_finished(run) ? "1" : "0") == "1";
+}
+
+// The rest of a run that was stopped; nothing where its checkpoints are lost, or are of its end while its summary is
+// not.
 std::optional<ExitCode> run_rest(const fs::path& folder, const Validation& v, const Surroundings& around) {
   try {
-    return resume_command({folder, {}, EditPolicy::refuse, session_of(v.options)}, around);
+    const ExitCode code = resume_command({folder, {}, EditPolicy::refuse, session_of(v.options)}, around);
+    if (code != ExitCode::done || is_finished_on_root(folder, around.ranks)) return code;
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_checkpoint) throw;
-    around.console.warning(fmt::format("{}; the run is made anew", error.what()));
-    return std::nullopt;
+    around.console.warning(fmt::format("made anew, since its checkpoints cannot be used: {}", error.what()));
   }
+  return std::nullopt;
 }
 
 ExitCode run_anew(const Planned& run, const fs::path& folder, const std::string& identity, Validation& v,
@@ -119,7 +131,11 @@ Found obtain_run(const Planned& run, Validation& v) {
   const Surroundings inner{v.around.ranks, v.around.emergency, console_of(run, v.around.console)};
   std::optional<ExitCode> code;
   if (found.source == Source::rest) code = run_rest(found.run, v, inner);
-  found.code = code ? *code : run_anew(run, found.run, identity, v, inner);
+  if (!code) {
+    found.run = place_of(run, v);
+    code = run_anew(run, found.run, identity, v, inner);
+  }
+  found.code = *code;
   if (found.code == ExitCode::done)
     agree_on_root(v.around.ranks, "keeping the run", [&] { v.cache.keep(found.run, identity); });
   return found;
@@ -193,7 +209,7 @@ Validation start(const ValidateOptions& options, const Surroundings& around) {
 
 ExitCode obtain(const Planned& run, Validation& v, CaseResult& result) {
   result.cell_size = run.scene.domain.cell_size;
-  result.run = v.options.out / run.one->name / run.resolution->name;
+  result.run = place_of(run, v);
   const ExitCode code = attempt(run, v, result);
   if (!result.recorded && result.verdict != Verdict::absent)
     result.wall_seconds = number_in_summary(result.run, "wall_seconds").value_or(0);

@@ -165,7 +165,8 @@ ExitCode validate_command(const ValidateOptions& options, const Surroundings& ar
   for (const Planned& run : runs) {
     if (!run.chosen) continue;
     if (const ExitCode code = run_one(run, v, report, table); code != ExitCode::done) {
-      v.say(fmt::format("stopped in {} {}; validate again to go on with it", run.one->name, run.resolution->name));
+      v.say(fmt::format("stopped in {} {}; validate again{} to go on with it", run.one->name, run.resolution->name,
+                        options.earlier == Earlier::ignore ? " without --fresh" : ""));
       return code;
     }
     write_report(report, options, around.ranks);

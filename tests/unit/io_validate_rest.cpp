@@ -53,10 +53,40 @@ TEST_CASE("a run that was stopped goes on, with the figures of one that was not"
     fs::remove_all(folder / "out");
     CHECK(stop() == ExitCode::stopped);
     std::string summary = contents(run / "summary.json");
-    summary.replace(summary.find("stopped: SIGTERM"), 16, "failed: by itself");
+    summary.replace(summary.find("\"exit_code\": 75"), 15, "\"exit_code\": 3");
     put(run / "summary.json", summary);
     CHECK(validate(folder, {"one"}, "quick").code == ExitCode::done);
     CHECK_FALSE(went_on());
+  }
+  SECTION("by another case of that scene") {
+    fs::remove_all(folder / "out");
+    CHECK(stop() == ExitCode::stopped);
+    put_case(folder, "other", case_text("dt", 1.5));
+    put(folder / "cases" / "other" / "scene.toml", slow);
+    CHECK(validate(folder, {"other"}, "quick").code == ExitCode::done);
+    CHECK(went_on());
+    CHECK_FALSE(fs::exists(folder / "out" / "other"));
+  }
+  SECTION("not where something else has finished it") {
+    fs::remove_all(folder / "out");
+    CHECK(stop() == ExitCode::stopped);
+    const Communicator ranks;
+    const EmergencyChannel emergency(ranks);
+    const auto quiet = [](const std::string&) {};
+    CHECK(resume_command({run, {}, EditPolicy::refuse, {}}, {ranks, emergency, {quiet, quiet, {}}}) == ExitCode::done);
+    CHECK(validate(folder, {"one"}, "quick").code == ExitCode::done);
+    CHECK_FALSE(went_on());
+    CHECK(steps() == "10");
+  }
+  SECTION("anew where it was killed before it could say that it had come to its end") {
+    fs::remove_all(folder / "out");
+    CHECK(stop() == ExitCode::stopped);
+    CHECK(validate(folder, {"one"}, "quick").code == ExitCode::done);
+    put(run / "validate.txt", "unfinished\n" + run_identity(read_scene(run / "scene.toml", {}), 1, ""));
+    fs::remove(run / "summary.json");
+    CHECK(validate(folder, {"one"}, "quick").code == ExitCode::done);
+    CHECK_FALSE(went_on());
+    CHECK(steps() == "10");
   }
   SECTION("anew where its checkpoints are lost") {
     fs::remove_all(folder / "out");
