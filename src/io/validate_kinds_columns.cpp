@@ -26,20 +26,23 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
   return {largest, {}, largest};
 }
 
-// The largest magnitude over from <= t <= to.
-double largest_of_column(const MeasureSpec& spec, const RunPaths& run) {
-  double largest = 0;
-  for (const auto& [time, value] : points_during(column_series(spec, run), spec.from, spec.to))
-    largest = larger(largest, std::abs(value));
-  return largest / constant(spec.unit);
+// The point of the largest magnitude over from <= t <= to, as magnitude.
+Points::value_type largest_of_column(const MeasureSpec& spec, const RunPaths& run) {
+  Points points = column_series(spec, run);
+  for (auto& [time, value] : points) value = std::abs(value);
+  return highest_during(points, spec.from, spec.to);
 }
 
 Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
-  return itself(largest_of_column(spec, run));
+  return itself(largest_of_column(spec, run).second / constant(spec.unit));
 }
 
 Measurement column_extreme(const MeasureSpec& spec, const RunPaths& run) {
-  return against(largest_of_column(spec, run), constant(spec.reference));
+  return against(largest_of_column(spec, run).second / constant(spec.unit), constant(spec.reference));
+}
+
+Measurement column_extreme_time(const MeasureSpec& spec, const RunPaths& run) {
+  return against(largest_of_column(spec, run).first, constant(spec.reference));
 }
 
 Measurement column_drift(const MeasureSpec& spec, const RunPaths& run) {
@@ -122,6 +125,7 @@ std::vector<MeasureKind> measures_of_columns() {
       {"max_of_column", {"column"}, max_of_column, column_series},
       {"column_peak", {"column", "from", "to", "unit"}, column_peak, column_series},
       {"column_extreme", {"column", "from", "to", "unit", "reference"}, column_extreme, column_series},
+      {"column_extreme_time", {"column", "from", "to", "reference"}, column_extreme_time, column_series},
       {"column_drift", {"column"}, column_drift, column_series},
       {"column_rms", {"column", "time_unit", "unit", "data"}, column_rms, column_series},
       {"column_fall", {"column", "from", "to", "unit", "reference"}, column_fall, falls},

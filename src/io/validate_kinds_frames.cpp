@@ -54,6 +54,20 @@ Measurement least_circularity(const MeasureSpec& spec, const RunPaths& run) {
   return {least, reference, std::abs(least - reference)};
 }
 
+// The vertex of the parabola through the frame of the least and its neighbours.
+Measurement least_circularity_time(const MeasureSpec& spec, const RunPaths& run) {
+  const Points points = points_during(circularities(spec, run), spec.from, spec.to);
+  const auto least = std::ranges::min_element(points, {}, [](const auto& point) { return point.second; });
+  if (least == points.begin() || least + 1 == points.end())
+    throw Error(ExitCode::cannot_continue, "the least circularity is that of the first or last frame of the time");
+  const double before = least->first - (least - 1)->first, after = (least + 1)->first - least->first;
+  const double fall = (least->second - (least - 1)->second) / before;
+  const double rise = ((least + 1)->second - least->second) / after;
+  // The slopes are those halfway between the frames; between them the slope is linear.
+  const double time = least->first - 0.5 * before - 0.5 * fall * (before + after) / (rise - fall);
+  return against(time, constant(spec.reference));
+}
+
 Measurement vector_l2(const MeasureSpec& spec, const RunPaths& run) {
   return itself(velocity_difference(last_frame(run), spec.velocity, "-1"));
 }
@@ -117,6 +131,7 @@ std::vector<MeasureKind> measures_of_frames() {
       {"line_deviation", {"data"}, line_deviation},
       {"surface_deviation", {"surface", "length_unit"}, surface_deviation},
       {"circularity", {"from", "to", "reference"}, least_circularity, circularities},
+      {"circularity_time", {"from", "to", "reference"}, least_circularity_time, circularities},
       {"surface_misplaced", {"surface", "unit"}, misplaced},
   };
 }

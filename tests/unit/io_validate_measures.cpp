@@ -197,6 +197,9 @@ TEST_CASE("a column of stats.csv is compared over time, and by how fast it falls
   spec.kind = "column_rms", spec.time_unit = "2", spec.unit = "2", spec.data = folder.path() / "data.csv";
   put(spec.data, "t,y\n0.5,4.1640275800758169\n1.5,2.5\n");  // 3 - tanh(2 0.5 - 3) + 0.2, 3 - tanh(0) - 0.5
   CHECK(measure(spec, run).error == Approx(std::sqrt((0.2 * 0.2 + 0.5 * 0.5) / 2)));
+  spec.kind = "column_extreme_time", spec.from = 2, spec.reference = "4";
+  CHECK(measure(spec, run).value == 2);  // it falls all the time
+  CHECK(measure(spec, run).error == 0.5);
   spec.kind = "column_fall", spec.to = 7;
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
 }
