@@ -274,6 +274,12 @@ Points::value_type highest_during(const Points& points, double from, double to) 
                            [](const auto& a, const auto& b) { return a.second < b.second; });
 }
 
+Points::value_type peak_during(const Points& points, double from, double to) {
+  const Points chosen = points_during(points, from, to);
+  return *std::max_element(chosen.begin(), chosen.end(),
+                           [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
+}
+
 std::pair<double, double> extremes_during(const Points& points, double from, double to) {
   const Points chosen = points_during(points, from, to);
   std::pair<double, double> found{chosen[0].second, chosen[0].second};

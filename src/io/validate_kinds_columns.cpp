@@ -26,23 +26,20 @@ Measurement max_of_column(const MeasureSpec& spec, const RunPaths& run) {
   return {largest, {}, largest};
 }
 
-// The point of the largest magnitude over from <= t <= to, as magnitude.
-Points::value_type largest_of_column(const MeasureSpec& spec, const RunPaths& run) {
-  Points points = column_series(spec, run);
-  for (auto& [time, value] : points) value = std::abs(value);
-  return highest_during(points, spec.from, spec.to);
+Points::value_type peak_of_column(const MeasureSpec& spec, const RunPaths& run) {
+  return peak_during(column_series(spec, run), spec.from, spec.to);
 }
 
 Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
-  return itself(largest_of_column(spec, run).second / constant(spec.unit));
+  return itself(std::abs(peak_of_column(spec, run).second) / constant(spec.unit));
 }
 
 Measurement column_extreme(const MeasureSpec& spec, const RunPaths& run) {
-  return against(largest_of_column(spec, run).second / constant(spec.unit), constant(spec.reference));
+  return against(std::abs(peak_of_column(spec, run).second) / constant(spec.unit), constant(spec.reference));
 }
 
 Measurement column_extreme_time(const MeasureSpec& spec, const RunPaths& run) {
-  return against(largest_of_column(spec, run).first, constant(spec.reference));
+  return against(peak_of_column(spec, run).first, constant(spec.reference));
 }
 
 Measurement column_drift(const MeasureSpec& spec, const RunPaths& run) {

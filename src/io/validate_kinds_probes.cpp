@@ -37,13 +37,6 @@ std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run)
   return extremes_during(component_of_probe(spec, run), spec.from, spec.to);
 }
 
-// The sample of the largest magnitude.
-Points::value_type peak_during(const Points& points, double from, double to) {
-  const Points chosen = points_during(points, from, to);
-  return *std::max_element(chosen.begin(), chosen.end(),
-                           [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
-}
-
 Measurement probe_peak(const MeasureSpec& spec, const RunPaths& run) {
   return against(peak_during(component_of_probe(spec, run), spec.from, spec.to).second, constant(spec.reference));
 }

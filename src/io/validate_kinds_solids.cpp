@@ -28,10 +28,7 @@ Points solid_during(const MeasureSpec& spec, const RunPaths& run) {
 }
 
 Measurement solid_peak(const MeasureSpec& spec, const RunPaths& run) {
-  double peak = 0;
-  for (const auto& [time, value] : solid_during(spec, run))
-    if (std::abs(value) > std::abs(peak)) peak = value;
-  return against(peak, constant(spec.reference));
+  return against(peak_during(solid_series(spec, run), spec.from, spec.to).second, constant(spec.reference));
 }
 
 Measurement solid_period(const MeasureSpec& spec, const RunPaths& run) {

@@ -91,6 +91,9 @@ double growth_rate(const Points& points, double level, double from, double to);
 // The point of the largest y over from <= x <= to. Throws as points_during().
 Points::value_type highest_during(const Points& points, double from, double to);
 
+// The point of the largest |y| over from <= x <= to. Throws as points_during().
+Points::value_type peak_during(const Points& points, double from, double to);
+
 // The smallest and the largest y over from <= x <= to. Throws as points_during().
 std::pair<double, double> extremes_during(const Points& points, double from, double to);
 

@@ -197,8 +197,9 @@ TEST_CASE("the least circularity of the frames in a time is measured") {
   CHECK(measure(spec, run).error < 1e-3);
 }
 
-// An ellipse of the ratio 1 + s is by 3 s^2/8 longer than the circle of its area, but for terms in s^3 and, of 40
-// cells, 1e-4: with s = 0.3 - 0.1 (t - 1.2)^2 the circularity is least at t = 1.2.
+// An ellipse of the ratio 1 + s is by 3 s^2/16 longer than the circle of its area, but for terms in s^3: with
+// s = 0.3 - 0.1 (t - 1.2)^2 the circularity is least at t = 1.2, and the parabola through the exact ones at 0.6, 1 and
+// 1.6 at 1.198. An error of 1e-4, which 40 cells make, moves that by 0.02.
 TEST_CASE("the time of the least circularity is found between frames") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
