@@ -30,12 +30,16 @@ Points::value_type peak_of_column(const MeasureSpec& spec, const RunPaths& run) 
   return peak_during(column_series(spec, run), spec.from, spec.to);
 }
 
+double largest_of_column(const MeasureSpec& spec, const RunPaths& run) {
+  return std::abs(peak_of_column(spec, run).second) / constant(spec.unit);
+}
+
 Measurement column_peak(const MeasureSpec& spec, const RunPaths& run) {
-  return itself(std::abs(peak_of_column(spec, run).second) / constant(spec.unit));
+  return itself(largest_of_column(spec, run));
 }
 
 Measurement column_extreme(const MeasureSpec& spec, const RunPaths& run) {
-  return against(std::abs(peak_of_column(spec, run).second) / constant(spec.unit), constant(spec.reference));
+  return against(largest_of_column(spec, run), constant(spec.reference));
 }
 
 Measurement column_extreme_time(const MeasureSpec& spec, const RunPaths& run) {
