@@ -70,6 +70,7 @@ Section<ResolutionSpec> resolution_section() {
       value_key<S>({.key = "reference", .type = T::formula, .unset = "the measure's", .doc = "what is expected here"},
                    &S::reference),
       value_key<S>({.key = "others", .type = T::text, .doc = "what others report here"}, &S::others),
+      value_key<S>({.key = "series", .type = T::text, .doc = "runs that orders are taken over"}, &S::series),
   };
   s.finish = [](SceneContext& c, const Place& p, S& spec) {
     if (!is_plain_name(spec.name)) c.report(p, "name must be made of letters, digits, '_' and '-'");
@@ -193,6 +194,10 @@ std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& re
 
 const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolution) {
   return resolution.reference ? *resolution.reference : one.measure.reference;
+}
+
+bool same_series(const CaseSpec& one, const ResolutionSpec& a, const ResolutionSpec& b) {
+  return a.series == b.series && reference_of(one, a) == reference_of(one, b);
 }
 
 MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution) {

@@ -39,6 +39,7 @@ struct ResolutionSpec {
   std::optional<double> max_error;   // unset: the case's
   std::optional<Formula> reference;  // unset: the measure's
   std::string others;                // what others report at this resolution
+  std::string series;                // of runs that differ in the grid alone; empty: a series of its own as well
 };
 
 struct CaseSpec {
@@ -68,6 +69,8 @@ std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& re
 constexpr double order_scatter = 0.2;
 
 const Formula& reference_of(const CaseSpec& one, const ResolutionSpec& resolution);
+// Whether two runs of a case refine the same thing, so that orders are taken over them: the same series and reference.
+bool same_series(const CaseSpec& one, const ResolutionSpec& a, const ResolutionSpec& b);
 // The case's measure with the reference of this resolution.
 MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution);
 

@@ -58,21 +58,23 @@ void name_axes(const CaseSpec& one, Chart& chart) {
 
 Chart error_chart(const std::vector<ReportedResult>& all) {
   Chart chart{"cell size, m", "error", Chart::Axes::logarithmic, {}};
-  std::map<Formula, Points> errors;
-  std::map<Formula, std::string> names;  // the first run to meet it
+  using Series = std::pair<std::string, Formula>;
+  std::map<Series, Points> errors;
+  std::map<Series, std::string> names;  // or its first run
   Points bars;
   for (const ReportedResult& row : measured_of(all)) {
-    errors[reference_of(row.one, row.resolution)].emplace_back(row.result.cell_size, row.result.measured.error);
-    names.emplace(reference_of(row.one, row.resolution), row.resolution.name);
+    const Series series(row.resolution.series, reference_of(row.one, row.resolution));
+    errors[series].emplace_back(row.result.cell_size, row.result.measured.error);
+    names.emplace(series, row.resolution.series.empty() ? "from " + row.resolution.name : row.resolution.series);
     bars.emplace_back(row.result.cell_size, *max_error_of(row.one, row.resolution));
   }
   std::sort(bars.begin(), bars.end());
   if (bars.empty() || bars.front().first == bars.back().first) return chart;
-  for (auto& [reference, points] : errors) {
+  for (auto& [series, points] : errors) {
     std::sort(points.begin(), points.end());
     if (chart.curves.size() < most_curves)
       chart.curves.push_back(
-          {errors.size() == 1 ? "error" : "error, from " + names[reference], points, Curve::Style::line_and_marks});
+          {errors.size() == 1 ? "error" : "error, " + names[series], points, Curve::Style::line_and_marks});
   }
   chart.curves.push_back({"bar", bars, Curve::Style::marks});
   chart.curves.push_back(slope_line(chart.curves[0].points, all[0].one.min_order.value_or(2)));

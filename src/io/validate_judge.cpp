@@ -1,5 +1,6 @@
 #include "io/validate_judge.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -37,39 +38,37 @@ Verdict judge(const CaseSpec& one, const ResolutionSpec& resolution, const CaseR
 
 namespace {
 
-bool same_series(const ReportedResult& row, const CaseSpec& one, const ResolutionSpec& resolution) {
-  return row.one.name == one.name && reference_of(row.one, row.resolution) == reference_of(one, resolution);
+// Whether a row has a figure of the series that this run of a case belongs to.
+bool has_figure_of(const ReportedResult& row, const CaseSpec& one, const ResolutionSpec& resolution) {
+  return row.one.name == one.name && same_series(one, row.resolution, resolution) && is_measured(row.result);
 }
 
-// Those with figures among the last results of the report, as far back as they are to meet the same reference; coarse
-// to fine.
-std::vector<CaseResult> measured_before(const Report& report, const CaseSpec& one, const ResolutionSpec& resolution) {
+// Coarse to fine.
+std::vector<CaseResult> figures_of(const Report& report, const CaseSpec& one, const ResolutionSpec& resolution) {
   std::vector<CaseResult> found;
-  for (auto row = report.results.rbegin(); row != report.results.rend(); ++row) {
-    if (!same_series(*row, one, resolution)) break;
-    if (is_measured(row->result)) found.insert(found.begin(), row->result);
-  }
+  for (const ReportedResult& row : report.results)
+    if (has_figure_of(row, one, resolution)) found.push_back(row.result);
   return found;
 }
 
 }  // namespace
 
 void judge_by_all(const Planned& run, const Report& report, CaseResult& result) {
-  std::vector<CaseResult> all = measured_before(report, *run.one, *run.resolution);
+  std::vector<CaseResult> all = figures_of(report, *run.one, *run.resolution);
   if (!all.empty()) result.order = observed_order(all.back(), result);
   all.push_back(result);
-  if (run.last_of_reference) result.fitted_order = fitted_order(all);
+  if (run.last_of_series) result.fitted_order = fitted_order(all);
   result.verdict = judge(*run.one, *run.resolution, result);
 }
 
 const ReportedResult* judge_last_measured(Report& report) {
-  const ReportedResult& last = report.results.back();
-  const std::vector<CaseResult> all = measured_before(report, last.one, last.resolution);
-  if (is_measured(last.result) || all.empty()) return nullptr;
-  auto row = report.results.rbegin();
-  while (!is_measured(row->result)) ++row;
+  const ReportedResult last = report.results.back();
+  if (is_measured(last.result)) return nullptr;
+  const auto row = std::find_if(report.results.rbegin(), report.results.rend(),
+                                [&](const ReportedResult& r) { return has_figure_of(r, last.one, last.resolution); });
+  if (row == report.results.rend()) return nullptr;
   const Verdict before = row->result.verdict;
-  row->result.fitted_order = fitted_order(all);
+  row->result.fitted_order = fitted_order(figures_of(report, last.one, last.resolution));
   row->result.verdict = judge(row->one, row->resolution, row->result);
   return row->result.verdict == before ? nullptr : &*row;
 }

@@ -23,8 +23,8 @@ below has its own command, the scene, what its runs set in that (as after `seich
 `case.toml` of its folder has all of it. The same build gives the same figures on as many ranks.
 [Validating](validating.md) tells how cases are run and judged.
 
-In the tables "order" is that from the run above, "fit" the least-squares order over all runs of a case that are to meet
-the same reference, at the last of them; "time" is that of the run, or of the one that it shares, on a machine that did
+In the tables "order" is that from the run before in a series (runs of a case that differ in the grid and are to meet the
+same reference), "fit" the least-squares order over all of a series, at its last run; "time" is that of the run, or of the one that it shares, on a machine that did
 other things as well: it may be off by a factor of two. `seiche --version` has the build's number.
 
 )";

@@ -13,12 +13,10 @@ namespace fs = std::filesystem;
 namespace {
 
 void mark_last(std::vector<Planned>& runs) {
-  for (std::size_t n = 0; n < runs.size(); ++n) {
-    const Planned* next = n + 1 < runs.size() ? &runs[n + 1] : nullptr;
-    runs[n].last_of_reference =
-        !next || next->one != runs[n].one ||
-        reference_of(*next->one, *next->resolution) != reference_of(*runs[n].one, *runs[n].resolution);
-  }
+  for (auto run = runs.begin(); run != runs.end(); ++run)
+    run->last_of_series = std::none_of(run + 1, runs.end(), [&](const Planned& later) {
+      return later.one == run->one && same_series(*run->one, *run->resolution, *later.resolution);
+    });
 }
 
 std::string place_of(const CaseSpec& one, const ResolutionSpec& resolution) {

@@ -9,8 +9,8 @@ struct Planned {
   const CaseSpec* one;
   const ResolutionSpec* resolution;
   Scene scene;
-  bool last_of_reference = false;  // no finer one of the plan is to meet the same reference
-  bool chosen = true;              // by the user; others are for the record's page
+  bool last_of_series = false;  // of the plan
+  bool chosen = true;           // by the user; others are for the record's page
 };
 
 // The cases of the folder that the options name, or of the one that is found. Throws Error(bad_input). Collective.

@@ -241,3 +241,27 @@ TEST_CASE("the order is judged at the last run that has a figure") {
   CHECK(judge_last_measured(report) == nullptr);
   CHECK(report.results[2].result.fitted_order);
 }
+
+TEST_CASE("orders are taken within a series, in whatever turn its runs come") {
+  CaseSpec one;
+  one.name = "one", one.max_error = 1;
+  one.resolutions.resize(2);
+  one.resolutions[1].series = "stiff";
+  const auto row = [&](const ResolutionSpec& series, double h, double error) {
+    ReportedResult found = row_of(one, h, error);
+    found.resolution = series;
+    return found;
+  };
+  Report report;
+  report.results = {row(one.resolutions[0], 0.2, 0.4), row(one.resolutions[1], 0.2, 0.08)};
+  const auto order_at = [&](const ResolutionSpec& series, double error) {
+    CaseResult fine = row(series, 0.1, error).result;
+    judge_by_all({&one, &series, {}, true}, report, fine);
+    CHECK(fine.order == fine.fitted_order);  // of the same two runs
+    return *fine.order;
+  };
+  CHECK(order_at(one.resolutions[0], 0.1) == Approx(2).epsilon(1e-12));  // rounding of two logarithms
+  CHECK(order_at(one.resolutions[1], 0.04) == Approx(1).epsilon(1e-12));
+  one.resolutions[1].reference = "2";
+  CHECK_FALSE(same_series(one, one.resolutions[1], report.results[1].resolution));
+}
