@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -123,9 +124,13 @@ bool is_finished(const fs::path& run) {
   return summary_value(run, "ended") == "finished";
 }
 
-RunCache::RunCache(const fs::path& out, Earlier earlier) {
-  if (earlier == Earlier::ignore) return;
-  for (const fs::path& one : folders_in(out))
+RunCache::RunCache(fs::path out, Earlier earlier) : out_(std::move(out)), earlier_(earlier) {
+  look();
+}
+
+void RunCache::look() {
+  if (earlier_ == Earlier::ignore) return;
+  for (const fs::path& one : folders_in(out_))
     for (const fs::path& run : folders_in(one)) {
       const std::string key = key_in(run);
       if (key.starts_with(unfinished) ? may_go_on(run) : !key.empty() && is_finished(run)) runs_.emplace(key, run);

@@ -44,7 +44,9 @@ bool is_finished(const std::filesystem::path& run);
 class RunCache {
  public:
   // Looks at the runs in out/<case>/<resolution>/ unless earlier ones are to be ignored.
-  RunCache(const std::filesystem::path& out, Earlier earlier);
+  RunCache(std::filesystem::path out, Earlier earlier);
+  // Looks again, for what other jobs have made meanwhile.
+  void look();
   // The folder of such a run that is finished, if there is one.
   std::optional<std::filesystem::path> find(const Scene& scene, const std::string& identity) const;
   // The folder of such a run that may go on, its checkpoints unseen, if no other job works there.
@@ -56,6 +58,8 @@ class RunCache {
   void keep(const std::filesystem::path& run, const std::string& identity);
 
  private:
+  std::filesystem::path out_;
+  Earlier earlier_;
   std::map<std::string, std::filesystem::path> runs_;  // by identity and scene, after `unfinished` where it is so
 };
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/scene_section.h"
+#include "io/validate_kinds.h"
 #include "io/validate_measures.h"
 
 namespace seiche {
@@ -48,7 +49,10 @@ Key<ResolutionSpec> overrides_key() {
   key.read = [](SceneContext& c, const Place& p, ResolutionSpec& s) {
     for (const std::string& text : texts_of(c, p)) {
       try {
-        s.overrides.push_back(parse_override(text));
+        const Override one = parse_override(text);
+        if (std::ranges::count(s.overrides, one.path, &Override::path) > 0)
+          c.report(p, fmt::format("{} is set twice", one.path));
+        s.overrides.push_back(one);
       } catch (const Error& error) {
         c.report(p, error.what());
       }
@@ -94,13 +98,33 @@ Section<PlotSpec> plot_section() {
   return s;
 }
 
+bool takes_reference(const MeasureSpec& measure) {
+  return std::ranges::any_of(
+      measure_kinds(), [&](const MeasureKind& kind) { return measure.kind == kind.name && uses(kind, "reference"); });
+}
+
+// Two runs of a series at least, for an order.
+bool has_series(const CaseSpec& spec) {
+  const auto& all = spec.resolutions;
+  for (auto run = all.begin(); run != all.end(); ++run)
+    if (std::any_of(run + 1, all.end(), [&](const ResolutionSpec& other) { return same_series(spec, *run, other); }))
+      return true;
+  return false;
+}
+
 void check_case(SceneContext& c, const Place& p, const CaseSpec& spec) {
+  if (!is_plain_name(spec.name))
+    c.report(p, fmt::format("the name of its folder, '{}', must be made of letters, digits, '_' and '-'", spec.name));
+  if (spec.min_order && !has_series(spec))
+    c.report(p, "min_order needs two resolutions of the same series and the same reference");
   std::vector<std::string> names;
   for (const ResolutionSpec& resolution : spec.resolutions) {
     if (std::count(names.begin(), names.end(), resolution.name) > 0) {
       c.report(p, fmt::format("two resolutions are named '{}'", resolution.name));
     }
     names.push_back(resolution.name);
+    if (resolution.reference && !takes_reference(spec.measure))
+      c.report(p, fmt::format("resolution '{}' has a reference, and the measure takes none", resolution.name));
     if (!max_error_of(spec, resolution)) c.report(p, fmt::format("resolution '{}' has no max_error", resolution.name));
     if (!resolution.scene && spec.scene.empty())
       c.report(p, fmt::format("resolution '{}' has no scene", resolution.name));

@@ -117,6 +117,7 @@ Picture last_picture(const std::filesystem::path& run) {
     const RunPaths paths{run};
     const std::vector<int> frames = render::list_frames(paths.frames());
     if (frames.empty()) return {"", "the run wrote no frames"};
+    if (read_scene(paths.scene(), {}).output.frames.empty()) return {"", "the run's frames hold no fields"};
     render::RenderOptions options;
     options.run = run;
     options.width = 640;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "base/error.h"
 #include "io/validate_measures.h"
@@ -43,11 +44,13 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
 
 namespace {
 
+// A whole field; no number where there is none, or more than one.
 double number(const std::vector<std::string>& row, std::size_t column) {
   const std::string text = column < row.size() ? row[column] : "";
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  return end == text.c_str() ? std::numeric_limits<double>::quiet_NaN() : value;
+  const bool whole = std::string_view(end).find_first_not_of(" \t") == std::string_view::npos;
+  return end == text.c_str() || !whole ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
 // Tables of runs and references hold no such number; one that does is not to be measured on.
@@ -241,6 +244,8 @@ std::vector<double> csv_column(const std::string& text, const std::string& name)
 
 Points csv_points(const std::string& text) {
   const auto rows = csv_rows(text);
+  if (!rows.empty() && std::isfinite(number(rows[0], 0)))
+    fail(fmt::format("the first row is to name the columns: {}", fmt::join(rows[0], ",")));
   Points points;
   for (std::size_t n = 1; n < rows.size(); ++n)
     points.emplace_back(finite_number(rows[n], 0), finite_number(rows[n], 1));

@@ -67,6 +67,7 @@ void replace_file(const fs::path& file, std::string_view bytes) {
 void check_writable(const fs::path& file) {
   const fs::path target = target_of(file);
   if (fs::is_directory(target)) fail(file, "write", "it is a folder");
+  if (fs::exists(target) && !fs::is_regular_file(target)) fail(file, "write", "it is no ordinary file");
   const fs::path temporary = temporary_beside(target);
   const int handle = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (handle < 0) fail(file, "write", std::strerror(errno));

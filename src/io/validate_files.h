@@ -27,7 +27,8 @@ std::filesystem::path folder_of(const std::filesystem::path& file);
 // As write_file() by way of a temporary file that no other writer has. Throws Error(output_failed).
 void replace_file(const std::filesystem::path& file, std::string_view bytes);
 
-// Throws Error(output_failed) naming the file where replace_file() could not write it; what is there stays as it is.
+// Throws Error(output_failed) naming the file where replace_file() could not write it, or would replace a folder or a
+// device; what is there stays as it is.
 void check_writable(const std::filesystem::path& file);
 
 }  // namespace seiche

@@ -118,10 +118,12 @@ LinePoint read_point(const std::vector<std::string>& fields) {
   return read_place<LinePoint>(fields, 6);
 }
 
-// read(fields) of the rows below the header.
+// read(fields) of the rows below this header.
 template <class Read>
-auto read_rows(const std::string& text, const Read& read) {
+auto read_rows(const std::string& text, const std::string& header, const Read& read) {
   const auto rows = csv_rows(text);
+  if (!rows.empty() && fmt::format("{}", fmt::join(rows[0], ",")) != header)
+    throw Error(ExitCode::cannot_continue, fmt::format("the first row is to be {}", header));
   if (rows.size() < 2) throw Error(ExitCode::cannot_continue, "there are no rows to compare with");
   std::vector<decltype(read(rows[0]))> found;
   for (std::size_t n = 1; n < rows.size(); ++n) found.push_back(read(rows[n]));
@@ -137,11 +139,11 @@ double cubic_between(const std::array<double, 4>& f, double x) {
 }  // namespace
 
 std::vector<LineExtreme> csv_extremes(const std::string& text) {
-  return read_rows(text, read_extreme);
+  return read_rows(text, "component,along,x,y,z,extreme,value", read_extreme);
 }
 
 std::vector<LinePoint> csv_profile(const std::string& text) {
-  return read_rows(text, read_point);
+  return read_rows(text, "component,along,x,y,z,value", read_point);
 }
 
 FoundExtreme extreme_along(const vdb::Frame& frame, const LineExtreme& line) {

@@ -23,9 +23,10 @@ below has its own command, the scene, what its runs set in that (as after `seich
 `case.toml` of its folder has all of it. The same build gives the same figures on as many ranks.
 [Validating](validating.md) tells how cases are run and judged.
 
-In the tables "order" is that from the run before in a series (runs of a case that differ in the grid and are to meet the
-same reference), "fit" the least-squares order over all of a series, at its last run; "time" is that of the run, or of the one that it shares, on a machine that did
-other things as well: it may be off by a factor of two. `seiche --version` has the build's number.
+In the tables "order" is that from the run before in a series (runs of a case that differ in the grid and are to meet
+the same reference), "fit" the least-squares order over all of a series, at its last run; "time" is that of the run, or
+of the one that it shares, on a machine that did other things as well: it may be off by a factor of two.
+`seiche --version` has the build's number. One run alone is made by its case and name: `seiche validate fsi1/90`.
 
 )";
 
@@ -117,8 +118,7 @@ std::string words_on_misses(const std::vector<ReportedResult>& rows) {
 std::string format_markdown(const Report& report) {
   const PageContext page{report, machines_of(report)};
   std::string text = fmt::format(
-      "# What was validated\n\nWritten by `seiche validate --level {} --write-docs`, version {}, build {}: "
-      "{}{}.\n\n",
+      "{}\nWritten by `seiche validate --level {} --write-docs`, version {}, build {}: {}{}.\n\n", page_title,
       report.level, version(), build_digest().substr(0, short_digest), table_summary(report), words_on_builds(report));
   text += list_of_misses(report) + how_to + list_of_machines(page) + list_of_cases(report);
   for (const auto& rows : by_case(report)) text += markdown_section(page, rows);

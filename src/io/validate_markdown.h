@@ -1,8 +1,12 @@
 #pragma once
 // The report as a page of the documentation.
+#include <string_view>
+
 #include "io/validate_report.h"
 
 namespace seiche {
+
+constexpr std::string_view page_title = "# What was validated\n";  // its first line
 
 std::string format_markdown(const Report& report);
 

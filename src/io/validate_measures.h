@@ -59,7 +59,8 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text);
 // numbers.
 std::vector<double> csv_column(const std::string& text, const std::string& name);
 
-// The first two columns of CSV text, below its header; lines that begin with '#' are skipped. Throws as csv_column().
+// The first two columns of CSV text, below its header; lines that begin with '#' are skipped. Throws as csv_column(),
+// and for a first row of numbers.
 Points csv_points(const std::string& text);
 
 // Least-squares slope of y(x) over the points with from <= x <= to. Throws Error(cannot_continue) for under two, and

@@ -63,8 +63,15 @@ fs::path place_of(const Planned& run, const Validation& v) {
   return v.options.out / run.one->name / run.resolution->name;
 }
 
-Source source_of(const Planned& run, const Validation& v, const std::string& identity, fs::path& place) {
-  if (const auto earlier = v.cache.find(run.scene, identity)) {
+// Where it is known of none, the cache looks again: another validation may have made it.
+std::optional<fs::path> earlier_run(const Planned& run, Validation& v, const std::string& identity) {
+  if (const auto known = v.cache.find(run.scene, identity)) return known;
+  v.cache.look();
+  return v.cache.find(run.scene, identity);
+}
+
+Source source_of(const Planned& run, Validation& v, const std::string& identity, fs::path& place) {
+  if (const auto earlier = earlier_run(run, v, identity)) {
     place = *earlier;
     return Source::earlier;
   }
@@ -75,7 +82,7 @@ Source source_of(const Planned& run, const Validation& v, const std::string& ide
 }
 
 // Rank 0 looks; all ranks get the answer. `identity` is filled on rank 0.
-Found look_for_run(const Planned& run, const Validation& v, std::string& identity) {
+Found look_for_run(const Planned& run, Validation& v, std::string& identity) {
   Found found;
   agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
     identity = run_identity(run.scene, v.around.ranks.size(), v.options.tampering);
@@ -163,6 +170,16 @@ Origin origin_of(const fs::path& run, const Communicator& ranks) {
   return {build_digest(), date_of(RunPaths{run}.summary()), ranks.size(), threads, machine_of(run)};
 }
 
+// One that was made before may have been damaged since.
+Measurement measure_found(const Planned& run, const Found& found, const Communicator& ranks) {
+  try {
+    return measure_on_root(measure_of(*run.one, *run.resolution), found.run, ranks);
+  } catch (const Error& error) {
+    if (found.source != Source::earlier) throw;
+    throw Error(error.code(), fmt::format("{} (of an earlier run; --fresh makes it anew)", error.what()));
+  }
+}
+
 ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) {
   const Found found = obtain_run(run, v);
   result.run = found.run;
@@ -174,7 +191,7 @@ ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) 
     return found.code;
   }
   if (found.code != ExitCode::done) return found.code;
-  result.measured = measure_on_root(measure_of(*run.one, *run.resolution), result.run, v.around.ranks);
+  result.measured = measure_found(run, found, v.around.ranks);
   result.origin = origin_of(result.run, v.around.ranks);
   result.verdict = Verdict::missed;  // until judged
   return found.code;

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "io/run_agree.h"
-#include "io/validate_quantity.h"
+#include "io/validate_checks.h"
 #include "io/validate_selection.h"
 
 namespace seiche {
@@ -21,6 +21,14 @@ void mark_last(std::vector<Planned>& runs) {
 
 std::string place_of(const CaseSpec& one, const ResolutionSpec& resolution) {
   return fmt::format("{}, resolution '{}'", (one.folder / "case.toml").string(), resolution.name);
+}
+
+Scene scene_for(const CaseSpec& one, const ResolutionSpec& resolution) {
+  try {
+    return read_scene(scene_of(one, resolution), resolution.overrides);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", place_of(one, resolution), error.what()));
+  }
 }
 
 }  // namespace
@@ -52,12 +60,13 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOpti
       for (const ResolutionSpec& resolution : one.resolutions) {
         const bool wanted = selection.takes(one, resolution, options.level);
         if (!wanted && !(options.record && belongs_to(resolution, options.level))) continue;
-        runs.push_back({&one, &resolution, read_scene(scene_of(one, resolution), resolution.overrides), false, wanted});
+        runs.push_back({&one, &resolution, scene_for(one, resolution), false, wanted});
         check_measure(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
+        check_plot(one.plot, place_of(one, resolution));
       }
     if (std::ranges::count(runs, true, &Planned::chosen) == 0)
-      throw Error(ExitCode::bad_input,
-                  "the chosen cases have no resolution of level '" + options.level + "'; give --level full");
+      throw Error(ExitCode::bad_input, fmt::format("the chosen cases have no resolution of level '{}'{}", options.level,
+                                                   options.level == "full" ? "" : "; give --level full"));
   });
   mark_last(runs);
   return runs;

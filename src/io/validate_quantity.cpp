@@ -7,16 +7,10 @@
 #include <span>
 
 #include "base/error.h"
-#include "io/checked_file.h"
-#include "io/csv.h"
-#include "io/suggest.h"
 #include "io/validate_kinds.h"
-#include "io/validate_lines.h"
 
 namespace seiche {
 namespace {
-
-using Names = std::vector<std::string>;
 
 struct KindWords {
   const char* kind;
@@ -114,78 +108,9 @@ constexpr UnitRow stats_units[] = {{"time", {"s", "s"}},
 constexpr UnitRow solids_units[] = {
     {"xyz", {"m", "m"}}, {"v", {"m/s", "m/s"}}, {"w", {"1/s", "1/s"}}, {"f", {"N/m", "N"}}, {"t", {"N", "N m"}}};
 
-// "time,name\n" -> time, name
-Names names_in(const std::string& header) {
-  Names names;
-  for (std::size_t at = 0; at < header.size();) {
-    const std::size_t end = std::min(header.find_first_of(",\n", at), header.size());
-    if (end > at) names.push_back(header.substr(at, end - at));
-    at = end + 1;
-  }
-  return names;
-}
-
-Names probe_names(const Scene& scene) {
-  Names names;
-  for (const ProbeSpec& probe : scene.probes) names.push_back(probe.name);
-  return names;
-}
-
-Names solid_names(const Scene& scene) {
-  Names names;
-  for (const SolidSpec& solid : scene.solids) names.push_back(solid.name);
-  return names;
-}
-
-// "a + b" -> a, b
-Names parts_of_sum(const std::string& solids) {
-  constexpr std::string_view plus = " + ";
-  Names parts;
-  for (std::size_t at = 0; at <= solids.size();) {
-    const std::size_t end = std::min(solids.find(plus, at), solids.size());
-    parts.push_back(solids.substr(at, end - at));
-    at = end + plus.size();
-  }
-  return parts;
-}
-
-void demand(const std::string& where, const std::string& what, const std::string& name, const Names& known) {
-  if (std::ranges::count(known, name) > 0) return;
-  const auto near = suggest(name, known);
-  const std::string help = near            ? fmt::format("did you mean '{}'?", *near)
-                           : known.empty() ? std::string("there is none at all")
-                                           : fmt::format("there are: {}", fmt::join(known, ", "));
-  throw Error(ExitCode::bad_input, fmt::format("{}: there is no {} '{}'; {}", where, what, name, help));
-}
-
-const ProbeSpec* probe_named(const Scene& scene, const std::string& name) {
-  const auto found = std::ranges::find(scene.probes, name, &ProbeSpec::name);
-  return found == scene.probes.end() ? nullptr : &*found;
-}
-
-bool is_vector(const ProbeSpec& probe) {
-  return probe.kind == ProbeKind::velocity || probe.kind == ProbeKind::displacement;
-}
-
-void check_probe(const MeasureSpec& m, const Scene& scene, const std::string& name, const std::string& where) {
-  demand(where, "probe", name, probe_names(scene));
-  if (m.kind.starts_with("impact_") && probe_named(scene, name)->kind != ProbeKind::pressure)
-    throw Error(ExitCode::bad_input, fmt::format("{}: probe '{}' is to measure pressure for {}", where, name, m.kind));
-  const std::string column = uses(kind_of(m), "column") ? m.column : "value";
-  const Names known = is_vector(*probe_named(scene, name)) ? Names{"x", "y", "z"} : Names{"value"};
-  demand(where, fmt::format("column of probe '{}'", name), column, known);
-}
-
-void check_solids(const MeasureSpec& m, const Scene& scene, const std::string& where) {
-  for (const std::string& name : parts_of_sum(m.solid)) demand(where, "solid", name, solid_names(scene));
-  Names known = names_in(solids_header());
-  std::erase(known, "name");
-  demand(where, "column of solids.csv", m.column, known);
-}
-
 std::string unit_of_probe(const MeasureSpec& m, const Scene& scene) {
-  const ProbeSpec* probe = probe_named(scene, m.probe);
-  if (!probe) return {};
+  const auto probe = std::ranges::find(scene.probes, m.probe, &ProbeSpec::name);
+  if (probe == scene.probes.end()) return {};
   return probe->kind == ProbeKind::pressure ? "Pa" : probe->kind == ProbeKind::velocity ? "m/s" : "m";
 }
 
@@ -202,32 +127,7 @@ std::string unit_of_column(const MeasureSpec& m, const Scene& scene, MeasureSour
   return row == std::end(solids_units) ? "" : row->unit[dimension];
 }
 
-// Reads the data as the measure is going to.
-void check_data(const MeasureSpec& m, const std::string& where) {
-  try {
-    const std::string text = read_whole_file(m.data);
-    if (m.kind == "line_deviation")
-      csv_profile(text);
-    else if (m.kind.starts_with("line_extrema"))
-      csv_extremes(text);
-    else if (csv_points(text).size() < 2)
-      throw Error(ExitCode::bad_input, "less than two rows to compare with");
-  } catch (const Error& error) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: {}: {}", where, m.data.string(), error.what()));
-  }
-}
-
 }  // namespace
-
-void check_measure(const MeasureSpec& measure, const Scene& scene, const std::string& where) {
-  const MeasureKind& kind = kind_of(measure);
-  if (uses(kind, "probe")) check_probe(measure, scene, measure.probe, where);
-  if (uses(kind, "minus")) check_probe(measure, scene, measure.minus, where);
-  if (uses(kind, "solid")) check_solids(measure, scene, where);
-  if (kind.source == MeasureSource::stats && uses(kind, "column"))
-    demand(where, "column of stats.csv", measure.column, names_in(stats_header()));
-  if (uses(kind, "data")) check_data(measure, where);
-}
 
 std::string what_is_measured(const MeasureSpec& measure) {
   return words_of(measure).what;

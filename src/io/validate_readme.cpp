@@ -33,17 +33,23 @@ std::string link_from_page(const std::string& folder, const std::string& file) {
 std::string embed_readme(const std::string& text, const std::string& folder) {
   std::string page;
   bool code = false;
+  std::string code_begin;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string line = text.substr(at, end - at);
     at = end + 1;
-    const bool fence = line.starts_with("```");
+    const bool fence = code ? line.starts_with(code_begin) : line.starts_with("```") || line.starts_with("~~~");
     if (fence) code = !code;
+    if (fence && code) code_begin = line.substr(0, 3);
     const bool plain = code || fence || line.starts_with("    ");
     page += plain ? line : (line.starts_with('#') ? "##" : "") + with_links(line, folder);
     page += '\n';
   }
   while (page.ends_with("\n\n")) page.pop_back();
+  // What is left open would swallow the pages that follow.
+  if (code) page += code_begin + "\n";
+  const std::size_t comment = page.rfind("<!--");
+  if (comment != std::string::npos && page.find("-->", comment) == std::string::npos) page += "-->\n";
   return page;
 }
 

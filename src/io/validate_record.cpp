@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "base/error.h"
 #include "io/checked_file.h"
@@ -57,12 +59,19 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-// A whole field as a number; `good` is cleared where it is none.
+// A whole field as a finite number; `good` is cleared where it is none.
 double number(const std::string& field, bool& good) {
   char* end = nullptr;
   const double value = std::strtod(field.c_str(), &end);
-  good = good && !field.empty() && *end == '\0';
+  good = good && !field.empty() && *end == '\0' && std::isfinite(value);
   return value;
+}
+
+// The same of a count.
+int count_in(const std::string& field, bool& good) {
+  const double value = number(field, good);
+  good = good && value >= 1 && value <= std::numeric_limits<int>::max() && value == std::floor(value);
+  return good ? int(value) : 0;
 }
 
 // Nothing where the fields are no row's.
@@ -71,16 +80,17 @@ std::optional<RecordedRow> row_of(const std::vector<std::string>& f) {
   bool good = true;
   RecordedRow row{f[0], f[1], f[2], {}};
   RecordedRun& run = row.run;
-  run.origin = {f[3], f[4], int(number(f[5], good)), 0, ""};
+  run.origin = {f[3], f[4], count_in(f[5], good), 0, ""};
   run.seconds = number(f[6], good);
   if (f.size() == 13) {
-    if (!f[10].empty()) run.origin.threads = int(number(f[10], good));
+    if (!f[10].empty()) run.origin.threads = count_in(f[10], good);
     run.origin.machine = f[11];
     run.failure = f[12];
   }
   if (!run.failure.empty()) return good ? std::optional(row) : std::nullopt;
   run.measured.value = number(f[7], good);
   run.measured.error = number(f[8], good);
+  good = good && run.measured.error >= 0;
   if (!f[9].empty()) run.measured.reference = number(f[9], good);
   return good ? std::optional(row) : std::nullopt;
 }
@@ -116,6 +126,9 @@ ValidationRecord::ValidationRecord(const fs::path& file, const std::string& text
     if (!row)
       throw Error(ExitCode::bad_input,
                   fmt::format("{}, line {}: not a row of a record ({})", file.string(), count, header));
+    if (rows_.contains({row->one, row->resolution}))
+      throw Error(ExitCode::bad_input, fmt::format("{}, line {}: a second row of {}/{}: leave one", file.string(),
+                                                   count, row->one, row->resolution));
     put(*row);
   }
 }

@@ -58,7 +58,7 @@ Report whole_of(const std::vector<Planned>& runs, const Report& report, const st
   return whole;
 }
 
-// The page has what other validations have put on the record meanwhile.
+// The whole level as Markdown. The page has what other validations have put on the record meanwhile.
 void write_docs(const std::vector<Planned>& runs, const Report& report, const ValidateOptions& options) {
   std::optional<FolderLock> lock;
   std::optional<ValidationRecord> record;
@@ -86,13 +86,17 @@ void write_report(const Report& report, const ValidateOptions& options, const Co
   });
 }
 
-// The pages for people: of the chosen cases with pictures, of the whole level as Markdown.
-void write_pages(const std::vector<Planned>& runs, const Report& report, const ValidateOptions& options,
-                 const Communicator& ranks) {
-  agree_on_root(ranks, "writing the report", [&] {
-    replace_file(options.out / "report.html", format_html(report));
-    if (options.docs) write_docs(runs, report, options);
+// That of an earlier validation is not to stand beside the figures of one that was stopped.
+void remove_html(const ValidateOptions& options, const Communicator& ranks) {
+  agree_on_root(ranks, "removing an earlier report", [&] {
+    std::error_code ignored;  // where it stays, write_html() says so
+    std::filesystem::remove(options.out / "report.html", ignored);
   });
+}
+
+// For people: the chosen cases with pictures.
+void write_html(const Report& report, const ValidateOptions& options, const Communicator& ranks) {
+  agree_on_root(ranks, "writing the report", [&] { replace_file(options.out / "report.html", format_html(report)); });
 }
 
 // One file cannot hold two of the outputs.
@@ -108,6 +112,16 @@ void refuse_shared_targets(const ValidateOptions& options) {
   }
 }
 
+// What is there and was not written by a validation stays. Throws Error(bad_input).
+void refuse_other_texts(const std::filesystem::path& docs) {
+  if (!std::filesystem::is_regular_file(docs)) return;
+  const std::string there = read_whole_file(docs);
+  if (!there.empty() && !there.starts_with(page_title))
+    throw Error(ExitCode::bad_input, fmt::format("{} is there and is no page of seiche validate: name another file for "
+                                                 "--write-docs, or remove it",
+                                                 docs.string()));
+}
+
 // What would be found only after hours of runs. Throws Error(bad_input, output_failed). Collective.
 void check_options(const ValidateOptions& options, const Communicator& ranks) {
   agree(ranks, "reading the options", [&] {
@@ -120,6 +134,9 @@ void check_options(const ValidateOptions& options, const Communicator& ranks) {
     refuse_shared_targets(options);
     for (const auto& file : {options.record, options.docs})
       if (file) check_writable(*file);
+    for (const char* report : {"validation.json", "report.html"})
+      if (std::filesystem::exists(options.out / report)) check_writable(options.out / report);
+    if (options.docs) refuse_other_texts(*options.docs);
   });
 }
 
@@ -160,6 +177,7 @@ ExitCode validate_command(const ValidateOptions& options, const Surroundings& ar
   Validation v = start(options, around);
   Report report = begin_report(options, around.ranks, std::size_t(std::ranges::count(runs, true, &Planned::chosen)));
   const Table table{v, widths_of(runs)};
+  remove_html(options, around.ranks);
   write_report(report, options, around.ranks);
   v.say(table_header(table.widths));
   for (const Planned& run : runs) {
@@ -171,7 +189,8 @@ ExitCode validate_command(const ValidateOptions& options, const Surroundings& ar
     }
     write_report(report, options, around.ranks);
   }
-  write_pages(runs, report, options, around.ranks);
+  write_html(report, options, around.ranks);
+  if (options.docs) agree_on_root(around.ranks, "writing the page", [&] { write_docs(runs, report, options); });
   v.say(fmt::format("{}; figures in {}, plots and pictures in {}", table_summary(report),
                     (options.out / "validation.json").string(), (options.out / "report.html").string()));
   return code_of(report);

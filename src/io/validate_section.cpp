@@ -56,11 +56,18 @@ std::string value_of(const CaseSpec& one, const std::string& key) {
   return fmt::format("{:g}", key == "from" ? m.from : m.to);
 }
 
+bool share_reference(const Rows& rows) {
+  return std::ranges::all_of(rows, [&](const ReportedResult& row) {
+    return reference_of(row.one, row.resolution) == rows[0].one.measure.reference;
+  });
+}
+
 std::string words_on_measure(const Rows& rows) {
   const CaseSpec& one = rows[0].one;
   std::string text = fmt::format("Measured: {} (`{}`", what_is_measured(one.measure), one.measure.kind);
   for (const char* key : kind_of(one.measure).keys)
-    if (key != std::string("reference")) text += fmt::format(", {} {}", key, value_of(one, key));
+    if (key != std::string("reference") || share_reference(rows))
+      text += fmt::format(", {} {}", key, value_of(one, key));
   const std::string& unit = rows[0].unit;
   return text + fmt::format("){}. Error: {}.", unit.empty() ? "" : ", in " + unit, error_in_words(one.measure));
 }
@@ -73,6 +80,11 @@ std::string words_on_scenes(const Rows& rows) {
     if (std::ranges::count(links, link) == 0) links.push_back(link);
   }
   return fmt::format("Files: {}.", fmt::join(links, ", "));
+}
+
+// With as many digits as the error needs to be seen in it.
+std::string whole_figure(const std::optional<double>& value) {
+  return value ? fmt::format("{:.7g}", *value) : "-";
 }
 
 std::string cell_of(const std::optional<double>& v) {
@@ -92,7 +104,7 @@ std::string table_of(const Rows& rows) {
     const CaseResult& r = row.result;
     const bool measured = is_measured(r);
     text += fmt::format("| {} | {:.4g} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.resolution.name, r.cell_size,
-                        measured ? figure(r.measured.value) : "-", figure(r.measured.reference),
+                        measured ? whole_figure(r.measured.value) : "-", whole_figure(r.measured.reference),
                         measured ? figure(r.measured.error) : "-", figure(max_error_of(row.one, row.resolution)),
                         cell_of(r.order), cell_of(r.fitted_order),
                         r.verdict == Verdict::passed ? "pass" : "**" + verdict_name(r.verdict) + "**", time_of(r));
@@ -100,12 +112,13 @@ std::string table_of(const Rows& rows) {
   return text;
 }
 
-// What a run differs in: `domain.cell_size=0.01`, and its scene where runs have several.
-std::string settings_of(const ReportedResult& row, bool several_scenes) {
+// What a run differs in: `domain.cell_size=0.01`, and its scene and reference where runs have several.
+std::string settings_of(const ReportedResult& row, bool several_scenes, bool several_references) {
   std::vector<std::string> parts;
   if (several_scenes) parts.push_back(link_to(row.one, scene_of(row.one, row.resolution)));
   for (const Override& one : row.resolution.overrides) parts.push_back(fmt::format("`{}={}`", one.path, one.value));
-  return parts.empty() ? "the scene as it is" : fmt::format("{}", fmt::join(parts, ", "));
+  const std::string scene = parts.empty() ? "the scene as it is" : fmt::format("{}", fmt::join(parts, ", "));
+  return several_references ? scene + fmt::format("; reference `{}`", reference_of(row.one, row.resolution)) : scene;
 }
 
 std::string list_of_settings(const Rows& rows) {
@@ -114,7 +127,7 @@ std::string list_of_settings(const Rows& rows) {
   });
   std::string text = "- Runs:\n";
   for (const ReportedResult& row : rows)
-    text += fmt::format("  - {}: {}\n", row.resolution.name, settings_of(row, several));
+    text += fmt::format("  - {}: {}\n", row.resolution.name, settings_of(row, several, !share_reference(rows)));
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "io/info.h"
+#include "io/validate_checks.h"
 #include "io/validate_files.h"
 #include "io/validate_judge.h"
 #include "io/validate_quantity.h"

@@ -1,0 +1,194 @@
+#include "io/validate_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "io/checked_file.h"
+#include "io/csv.h"
+#include "io/suggest.h"
+#include "io/validate_kinds.h"
+#include "io/validate_lines.h"
+#include "io/validate_quantity.h"
+
+namespace seiche {
+namespace fs = std::filesystem;
+namespace {
+
+using Names = std::vector<std::string>;
+
+// "time,name\n" -> time, name
+Names names_in(const std::string& header) {
+  Names names;
+  for (std::size_t at = 0; at < header.size();) {
+    const std::size_t end = std::min(header.find_first_of(",\n", at), header.size());
+    if (end > at) names.push_back(header.substr(at, end - at));
+    at = end + 1;
+  }
+  return names;
+}
+
+Names probe_names(const Scene& scene) {
+  Names names;
+  for (const ProbeSpec& probe : scene.probes) names.push_back(probe.name);
+  return names;
+}
+
+Names solid_names(const Scene& scene) {
+  Names names;
+  for (const SolidSpec& solid : scene.solids) names.push_back(solid.name);
+  return names;
+}
+
+// "a + b" -> a, b
+Names parts_of_sum(const std::string& solids) {
+  constexpr std::string_view plus = " + ";
+  Names parts;
+  for (std::size_t at = 0; at <= solids.size();) {
+    const std::size_t end = std::min(solids.find(plus, at), solids.size());
+    parts.push_back(solids.substr(at, end - at));
+    at = end + plus.size();
+  }
+  return parts;
+}
+
+void demand(const std::string& where, const std::string& what, const std::string& name, const Names& known) {
+  if (std::ranges::count(known, name) > 0) return;
+  const auto near = suggest(name, known);
+  const std::string help = near            ? fmt::format("did you mean '{}'?", *near)
+                           : known.empty() ? std::string("there is none at all")
+                                           : fmt::format("there are: {}", fmt::join(known, ", "));
+  throw Error(ExitCode::bad_input, fmt::format("{}: there is no {} '{}'; {}", where, what, name, help));
+}
+
+bool is_vector(const ProbeSpec& probe) {
+  return probe.kind == ProbeKind::velocity || probe.kind == ProbeKind::displacement;
+}
+
+void check_probe(const MeasureSpec& m, const Scene& scene, const std::string& name, const std::string& where) {
+  demand(where, "probe", name, probe_names(scene));
+  const ProbeSpec& probe = *std::ranges::find(scene.probes, name, &ProbeSpec::name);
+  if (m.kind.starts_with("impact_") && probe.kind != ProbeKind::pressure)
+    throw Error(ExitCode::bad_input, fmt::format("{}: probe '{}' is to measure pressure for {}", where, name, m.kind));
+  const std::string column = uses(kind_of(m), "column") ? m.column : "value";
+  const Names known = is_vector(probe) ? Names{"x", "y", "z"} : Names{"value"};
+  demand(where, fmt::format("column of probe '{}'", name), column, known);
+}
+
+void check_solids(const MeasureSpec& m, const Scene& scene, const std::string& where) {
+  for (const std::string& name : parts_of_sum(m.solid)) demand(where, "solid", name, solid_names(scene));
+  Names known = names_in(solids_header());
+  std::erase(known, "name");
+  demand(where, "column of solids.csv", m.column, known);
+}
+
+// Whether a point, m, lies in the domain, but for this axis (-1: all count).
+bool lies_in(const DomainSpec& domain, int dimension, const Vec3& x, int but) {
+  for (int a = 0; a < dimension; ++a) {
+    const double slack = 1e-9 * (domain.upper[a] - domain.lower[a]);
+    if (a != but && (x[a] < domain.lower[a] - slack || x[a] > domain.upper[a] + slack)) return false;
+  }
+  return true;
+}
+
+// A line's place along itself does not count, a point's does.
+int free_axis(const LineExtreme& line) {
+  return line.along;
+}
+
+int free_axis(const LinePoint&) {
+  return -1;
+}
+
+// Lines of velocities along which measures look.
+template <class Line>
+void check_lines(const std::vector<Line>& lines, const Scene& scene) {
+  for (const Line& line : lines) {
+    if (std::max(line.component, line.along) >= scene.dimension)
+      throw Error(ExitCode::bad_input, "z is no axis of a 2D scene");
+    if (!lies_in(scene.domain, scene.dimension, line.point, free_axis(line)))
+      throw Error(ExitCode::bad_input, fmt::format("({:g}, {:g}, {:g}) lies outside of the domain", line.point[0],
+                                                   line.point[1], line.point[2]));
+  }
+}
+
+void check_values(const std::vector<LineExtreme>& lines) {
+  if (std::ranges::count(lines, 0.0, &LineExtreme::value) > 0)
+    throw Error(ExitCode::bad_input, "a value is zero, and errors are relative to it");
+}
+
+// Digitised curves may go straight up, but not back.
+void check_series(const std::string& text) {
+  const Points points = csv_points(text);
+  if (points.size() < 2) throw Error(ExitCode::bad_input, "less than two rows to compare with");
+  for (std::size_t n = 1; n < points.size(); ++n)
+    if (points[n].first < points[n - 1].first)
+      throw Error(ExitCode::bad_input,
+                  fmt::format("the first column goes back, from {:g} to {:g}", points[n - 1].first, points[n].first));
+}
+
+// check(text of the file), a problem with the names of the case and of the file before it.
+template <class Check>
+void check_file(const fs::path& file, const std::string& where, const Check& check) {
+  try {
+    check(read_whole_file(file));
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: {}: {}", where, file.string(), error.what()));
+  }
+}
+
+// Reads the data as the measure is going to.
+void check_data(const MeasureSpec& m, const Scene& scene, const std::string& where) {
+  check_file(m.data, where, [&](const std::string& text) {
+    if (m.kind == "line_deviation")
+      check_lines(csv_profile(text), scene);
+    else if (m.kind.starts_with("line_extrema"))
+      check_lines(csv_extremes(text), scene);
+    else
+      check_series(text);
+    if (m.kind == "line_extrema") check_values(csv_extremes(text));
+  });
+}
+
+// What is compared in a time.
+void check_times(const MeasureSpec& m, const Scene& scene, const std::string& where) {
+  if (!(m.from < m.to)) throw Error(ExitCode::bad_input, fmt::format("{}: from must be below to", where));
+  const bool of_time = m.kind != "front_slope";  // its bounds are lengths
+  if (of_time && m.to > scene.time.end * (1 + 1e-9))
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: to = {:g} s lies beyond the scene's end, {:g} s", where, m.to, scene.time.end));
+}
+
+// What a figure is divided by.
+void check_divisor(const char* key, const Formula& formula, const std::string& where) {
+  const double value = constant(formula);
+  if (value == 0 || !std::isfinite(value))
+    throw Error(ExitCode::bad_input, fmt::format("{}: {} is {:g}, and errors are over it", where, key, value));
+}
+
+}  // namespace
+
+void check_measure(const MeasureSpec& measure, const Scene& scene, const std::string& where) {
+  const MeasureKind& kind = kind_of(measure);
+  if (uses(kind, "probe")) check_probe(measure, scene, measure.probe, where);
+  if (uses(kind, "minus")) check_probe(measure, scene, measure.minus, where);
+  if (uses(kind, "solid")) check_solids(measure, scene, where);
+  if (kind.source == MeasureSource::stats && uses(kind, "column"))
+    demand(where, "column of stats.csv", measure.column, names_in(stats_header()));
+  if (uses(kind, "data")) check_data(measure, scene, where);
+  if (uses(kind, "from") && uses(kind, "to")) check_times(measure, scene, where);
+  if (uses(kind, "unit")) check_divisor("unit", measure.unit, where);
+  if (uses(kind, "reference") && error_in_words(measure).starts_with("relative"))
+    check_divisor("reference", measure.reference, where);
+}
+
+void check_plot(const PlotSpec& plot, const std::string& where) {
+  if (plot.data.empty()) return;
+  check_file(plot.data, where, check_series);
+  check_divisor("value_unit", plot.value_unit, where);
+}
+
+}  // namespace seiche
