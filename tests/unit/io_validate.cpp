@@ -184,7 +184,7 @@ TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and
 
   const Outcome failed = validate(folder, {"one"}, "quick");  // by tag: all three
   CHECK(failed.code == ExitCode::cannot_continue);
-  CHECK(failed.table.find("does not reach from 0 s to 9 s") != std::string::npos);
+  CHECK(failed.table.find("is zero at the start") != std::string::npos);
 }
 
 TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
@@ -316,6 +316,8 @@ TEST_CASE("a case's page stands in another with its headings deeper and its link
         "### A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n#### B\n");
   CHECK(embed_readme("[a](b.csv), [c](../d/e.md#f), [g](#h), [i](https://j.k)\n\n", "v/one") ==
         "[a](../v/one/b.csv), [c](../v/d/e.md#f), [g](#h), [i](https://j.k)\n");
+  CHECK(embed_readme("~~~\n# code\n```\n", "v/one") == "~~~\n# code\n```\n~~~\n");  // closed for what follows
+  CHECK(embed_readme("<!-- a -->\n<!-- b\n", "v/one") == "<!-- a -->\n<!-- b\n-->\n");
   CHECK(link_from_page("v/one", "../../scenes/s.toml") == "../scenes/s.toml");
 }
 

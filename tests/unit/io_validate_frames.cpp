@@ -111,9 +111,11 @@ TEST_CASE("extremes to compare with are read from CSV") {
   CHECK(lines[0].kind == LineExtreme::Kind::min);
   CHECK(lines[0].value == -0.25);
   CHECK(lines[1].kind == LineExtreme::Kind::max);
-  for (const char* wrong :
-       {"", "a,b\n", "a\nx,y,0,0,0,min\n", "a\nw,y,0,0,0,min,1\n", "a\nx,y,0,0,0,most,1\n", "a\nx,y,0,0,0,min,one\n"})
-    CHECK_THROWS_AS(csv_extremes(wrong), Error);
+  const std::string header = "component,along,x,y,z,extreme,value\n";
+  for (const char* wrong : {"", "x,y,0,0,0,min\n", "w,y,0,0,0,min,1\n", "x,y,0,0,0,most,1\n", "x,y,0,0,0,min,one\n"})
+    CHECK_THROWS_AS(csv_extremes(header + wrong), Error);
+  CHECK_THROWS_WITH(csv_extremes("along,component,x,y,z,extreme,value\nx,y,0,0,0,min,1\n"),
+                    Catch::Contains("is to be component,along"));
 }
 
 // A cubic is met between the faces to rounding of the frame's floats; a line beside its faces is linear between them.
@@ -136,8 +138,10 @@ TEST_CASE("profiles to compare with are read from CSV") {
   CHECK(points[1].along == 0);
   CHECK(points[1].point == Vec3(0.2, 0.5, 0));
   CHECK(points[1].value == 2);
-  for (const char* wrong : {"h\n", "h\nx,y,0.5,0.1,0\n", "h\nx,y,0.5,0.1,0,min,2\n", "h\nx,y,0.5,a,0,2\n"})
-    CHECK_THROWS_AS(csv_profile(wrong), Error);
+  const std::string header = "component,along,x,y,z,value\n";
+  for (const char* wrong : {"", "x,y,0.5,0.1,0\n", "x,y,0.5,0.1,0,min,2\n", "x,y,0.5,a,0,2\n"})
+    CHECK_THROWS_AS(csv_profile(header + wrong), Error);
+  CHECK_THROWS_WITH(csv_profile("x,y,0.5,0.1,0,2\nx,y,0.5,0.2,0,2\n"), Catch::Contains("is to be component,along"));
 }
 
 TEST_CASE("a surface is compared with a formula near it alone") {

@@ -87,7 +87,7 @@ TEST_CASE("a run that fails replaces the pass on record") {
   CHECK(validate(folder, {}, "quick", options).code == ExitCode::cannot_continue);
   std::string text = contents(*options.record);
   CHECK(text.find(",,,") != std::string::npos);
-  CHECK(text.find("does not reach from 0 s to 9 s") != std::string::npos);
+  CHECK(text.find("is zero at the start") != std::string::npos);
 
   // A pass of the same scene and measure by an older build.
   ValidationRecord record("", text);
@@ -108,7 +108,7 @@ TEST_CASE("a run that fails replaces the pass on record") {
   const Outcome outcome = validate(folder, {}, "quick", options);
   CHECK(outcome.code == ExitCode::cannot_continue);
   CHECK(outcome.table.find("FAILED") != std::string::npos);
-  CHECK(outcome.table.find("does not reach") != std::string::npos);
+  CHECK(outcome.table.find("is zero at the start") != std::string::npos);
 }
 
 TEST_CASE("broken operators leave record and page alone, and their reports say what they are") {
@@ -146,6 +146,21 @@ TEST_CASE("files that cannot be written are noticed before the first run") {
   CHECK(contents(folder / "kept.csv") == old_text);
   CHECK_FALSE(fs::exists(folder / "out"));
   CHECK(entries(folder.path()) == 2);
+}
+
+TEST_CASE("what is no output of a validation is not replaced by one") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 1.5));
+  ValidateOptions options;
+  options.docs = "/dev/null";
+  CHECK(code_of([&] { validate(folder, {}, "quick", options); }) == ExitCode::output_failed);
+  CHECK(fs::is_character_file("/dev/null"));
+  options.docs = folder / "cases" / "one" / "case.toml";
+  CHECK_THROWS_WITH(validate(folder, {}, "quick", options), Catch::Contains("no page of seiche validate"));
+  CHECK_FALSE(fs::exists(folder / "out"));
+  options.docs = folder / "page.md";
+  CHECK(validate(folder, {}, "quick", options).code == ExitCode::done);
+  CHECK(validate(folder, {}, "quick", options).code == ExitCode::done);  // replaces its own
 }
 
 TEST_CASE("one file is not taken for two outputs") {
