@@ -20,6 +20,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+constexpr std::string_view front = "front_slope";  // compares slopes: its bounds are lengths, its data of any time
+
 // "time,name\n" -> time, name
 Names names_in(const std::string& header) {
   Names names;
@@ -140,6 +142,11 @@ void check_file(const fs::path& file, const std::string& where, const Check& che
   }
 }
 
+void check_reach(double last, const Scene& scene) {
+  if (last > scene.time.end * (1 + 1e-9))
+    throw Error(ExitCode::bad_input, fmt::format("{:g} s lies beyond the scene's end, {:g} s", last, scene.time.end));
+}
+
 // Reads the data as the measure is going to.
 void check_data(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   check_file(m.data, where, [&](const std::string& text) {
@@ -150,16 +157,20 @@ void check_data(const MeasureSpec& m, const Scene& scene, const std::string& whe
     else
       check_series(text);
     if (m.kind == "line_extrema") check_values(csv_extremes(text));
+    if (uses(kind_of(m), "time_unit") && m.kind != front)
+      check_reach(csv_points(text).back().first * constant(m.time_unit), scene);
   });
 }
 
 // What is compared in a time.
 void check_times(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   if (!(m.from < m.to)) throw Error(ExitCode::bad_input, fmt::format("{}: from must be below to", where));
-  const bool of_time = m.kind != "front_slope";  // its bounds are lengths
-  if (of_time && m.to > scene.time.end * (1 + 1e-9))
-    throw Error(ExitCode::bad_input,
-                fmt::format("{}: to = {:g} s lies beyond the scene's end, {:g} s", where, m.to, scene.time.end));
+  if (m.kind == front) return;
+  try {
+    check_reach(m.to, scene);
+  } catch (const Error& error) {
+    throw Error(ExitCode::bad_input, fmt::format("{}: to: {}", where, error.what()));
+  }
 }
 
 // What a figure is divided by.

@@ -67,6 +67,7 @@ TEST_CASE("reference data that go back, lie outside or are not what their header
   refuses_data("probe_rms", "0,1\n1,1\n2,1\n", "name the columns");
   refuses_data("probe_rms", "t,y\n0,1;0\n1,1\n", "not a finite number");
   refuses_data("probe_rms", "t,y\n0,1 m\n1,1\n", "not a finite number");
+  refuses_data("probe_rms", "t,y\n0,1\n3,1\n", "3 s lies beyond the scene's end, 2 s");
   const std::string header = "component,along,x,y,z,extreme,value\n";
   refuses_data("line_extrema", header + "x,y,7.5,0,0,min,1\n", "outside of the domain");
   refuses_data("line_extrema", header + "z,y,0.5,0,0,min,1\n", "no axis of a 2D");
@@ -83,7 +84,7 @@ TEST_CASE("times that a scene does not have, and zeros that errors would be over
     CHECK_THROWS_WITH(check_measure(m, scene, "w"), Catch::Contains(word));
   };
   refused(1, 1, "2", "from must be below to");
-  refused(0, 3, "2", "beyond the scene's end, 2 s");
+  refused(0, 3, "2", "to: 3 s lies beyond the scene's end");
   refused(0, 2, "1-1", "reference is 0");
   m.reference = "2";
   CHECK_NOTHROW(check_measure(m, scene, "w"));
