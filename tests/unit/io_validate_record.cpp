@@ -222,7 +222,9 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   refused("probe_rms", "less than two rows");
   put(m.data, "t,y\n0,one\n1,2\n");
   refused("probe_rms", "one");
+  put(m.data, "component,along,x,y,z,extreme,value\nx,y,0,0,0,min\n");
   refused("line_extrema", "needs 7 columns");
+  put(m.data, "component,along,x,y,z,value\nx,y,0,0,0\n");
   refused("line_deviation", "needs 6 columns");
   put(m.data, "t,y\n0,1\n1,2\n");
   m.kind = "probe_rms";
@@ -233,7 +235,7 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   refused("solid_mean", "did you mean 'flag'");
   m.solid = "cylinder + flag", m.column = "name";
   refused("solid_mean", "column of solids.csv");
-  m.column = "fx";
+  m.column = "fx", m.to = scene.time.end;
   CHECK_NOTHROW(check_measure(m, scene, "w"));
   CHECK(unit_of(m, scene) == "N/m");
   m.kind = "solid_slope", m.column = "vx";
