@@ -167,15 +167,26 @@ bool is_case(const fs::path& folder) {
   return fs::is_regular_file(folder / "case.toml", ignored);
 }
 
-// Folders of cases directly below, by name.
-std::vector<fs::path> case_folders(const fs::path& folder) {
-  std::vector<fs::path> folders;
+// Whether this would be a case but for its case.toml: a folder or a link, not hidden, that holds none.
+bool lacks_case(const fs::path& place) {
+  std::error_code ignored;
+  const bool may_be = fs::is_directory(place, ignored) || fs::is_symlink(place, ignored);
+  return may_be && !place.filename().string().starts_with('.') && !is_case(place);
+}
+
+// What is directly below, by name.
+template <class Wanted>
+std::vector<fs::path> places_below(const fs::path& folder, const Wanted& wanted) {
+  std::vector<fs::path> found;
   std::error_code failed;
-  for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
-    if (is_case(it->path())) folders.push_back(it->path());
-  }
-  std::sort(folders.begin(), folders.end());
-  return folders;
+  for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed))
+    if (wanted(it->path())) found.push_back(it->path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<fs::path> case_folders(const fs::path& folder) {
+  return places_below(folder, is_case);
 }
 
 }  // namespace
@@ -202,6 +213,10 @@ std::vector<CaseSpec> read_cases(const fs::path& folder) {
                 fmt::format("{}: holds no validation case (a folder with a case.toml)", folder.string()));
   }
   return cases;
+}
+
+std::vector<fs::path> folders_without_case(const fs::path& folder) {
+  return places_below(folder, lacks_case);
 }
 
 bool belongs_to(const ResolutionSpec& resolution, const std::string& level) {

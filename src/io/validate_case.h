@@ -61,6 +61,9 @@ CaseSpec read_case(const std::filesystem::path& folder);
 // All cases below a folder, by name. Throws Error(bad_input).
 std::vector<CaseSpec> read_cases(const std::filesystem::path& folder);
 
+// What lies there beside the cases and would be one, had it a case.toml; by name.
+std::vector<std::filesystem::path> folders_without_case(const std::filesystem::path& folder);
+
 bool belongs_to(const ResolutionSpec& resolution, const std::string& level);
 const std::filesystem::path& scene_of(const CaseSpec& one, const ResolutionSpec& resolution);
 std::optional<double> max_error_of(const CaseSpec& one, const ResolutionSpec& resolution);

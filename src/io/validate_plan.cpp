@@ -33,11 +33,17 @@ Scene scene_for(const CaseSpec& one, const ResolutionSpec& resolution) {
 
 }  // namespace
 
-std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Communicator& ranks) {
+std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Surroundings& around) {
   std::vector<CaseSpec> cases;
-  agree(ranks, "reading the validation cases", [&] {
-    cases = read_cases(options.cases ? *options.cases : find_cases_folder(fs::current_path(), program_file()));
+  std::vector<fs::path> left_out;
+  agree(around.ranks, "reading the validation cases", [&] {
+    const fs::path folder = options.cases ? *options.cases : find_cases_folder(fs::current_path(), program_file());
+    cases = read_cases(folder);
+    left_out = folders_without_case(folder);
   });
+  for (const fs::path& one : left_out)
+    if (around.ranks.is_root())
+      around.console.warning(fmt::format("{} holds no case.toml: it is no case, and left out", one.string()));
   return cases;
 }
 

@@ -13,8 +13,9 @@ struct Planned {
   bool chosen = true;           // by the user; others are for the record's page
 };
 
-// The cases of the folder that the options name, or of the one that is found. Throws Error(bad_input). Collective.
-std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Communicator& ranks);
+// The cases of the folder that the options name, or of the one that is found; warns of what is left out. Throws
+// Error(bad_input). Collective.
+std::vector<CaseSpec> read_all_cases(const ValidateOptions& options, const Surroundings& around);
 
 // Those the user named. Throws Error(bad_input). Collective.
 std::vector<CaseSpec> choose_cases(const std::vector<CaseSpec>& cases, const ValidateOptions& options,

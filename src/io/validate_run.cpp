@@ -160,7 +160,7 @@ std::string resolutions_of(const CaseSpec& one, const std::string& level) {
 }  // namespace
 
 ExitCode list_cases(const ValidateOptions& options, const Surroundings& around) {
-  const std::vector<CaseSpec> cases = choose_cases(read_all_cases(options, around.ranks), options, around.ranks);
+  const std::vector<CaseSpec> cases = choose_cases(read_all_cases(options, around), options, around.ranks);
   if (!around.ranks.is_root()) return ExitCode::done;
   for (const CaseSpec& one : cases) {
     around.console.line(fmt::format("{}: {}", one.name, one.title));
@@ -171,7 +171,7 @@ ExitCode list_cases(const ValidateOptions& options, const Surroundings& around) 
 }
 
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around) {
-  const std::vector<CaseSpec> all = read_all_cases(options, around.ranks);
+  const std::vector<CaseSpec> all = read_all_cases(options, around);
   const std::vector<Planned> runs = plan(all, options, around.ranks);
   check_options(options, around.ranks);
   Validation v = start(options, around);

@@ -53,6 +53,18 @@ TEST_CASE("names, settings, references and orders of a case that cannot be") {
   refuses_case("one", "min_order = 1.0\n" + case_text("max_speed", 1) + "series = \"fine\"\n", "same series");
 }
 
+TEST_CASE("a folder whose case.toml is missing or misspelt is named") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 1));
+  put(folder / "cases" / "README.md", "cases\n");
+  for (const char* other : {".git", "two", "three"}) fs::create_directories(folder / "cases" / other);
+  put(folder / "cases" / "two" / "Case.toml", case_text("max_speed", 1));
+  fs::create_symlink(folder / "none", folder / "cases" / "four");
+  const auto left_out = folders_without_case(folder / "cases");
+  CHECK(left_out ==
+        std::vector<fs::path>{folder / "cases" / "four", folder / "cases" / "three", folder / "cases" / "two"});
+}
+
 TEST_CASE("a wrong setting names its case and resolution") {
   const ScratchFolder folder;
   std::string text = case_text("max_speed", 1);
