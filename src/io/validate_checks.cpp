@@ -173,6 +173,13 @@ void check_times(const MeasureSpec& m, const Scene& scene, const std::string& wh
   }
 }
 
+// What measures of frames read is to be in them.
+void check_frames(const MeasureSpec& m, const Scene& scene, const std::string& where) {
+  const bool of_surface = uses(kind_of(m), "surface") || m.kind.starts_with("circularity");
+  demand(where, fmt::format("field in output.frames for {},", m.kind), of_surface ? "surface" : "velocity",
+         scene.output.frames);
+}
+
 // What a figure is divided by.
 void check_divisor(const char* key, const Formula& formula, const std::string& where) {
   const double value = constant(formula);
@@ -189,6 +196,7 @@ void check_measure(const MeasureSpec& measure, const Scene& scene, const std::st
   if (uses(kind, "solid")) check_solids(measure, scene, where);
   if (kind.source == MeasureSource::stats && uses(kind, "column"))
     demand(where, "column of stats.csv", measure.column, names_in(stats_header()));
+  if (kind.source == MeasureSource::frames) check_frames(measure, scene, where);
   if (uses(kind, "data")) check_data(measure, scene, where);
   if (uses(kind, "from") && uses(kind, "to")) check_times(measure, scene, where);
   if (uses(kind, "unit")) check_divisor("unit", measure.unit, where);

@@ -100,6 +100,13 @@ TEST_CASE("times that a scene does not have, and zeros that errors would be over
   refused(0, 2, "1-1", "reference is 0");
   m.reference = "2";
   CHECK_NOTHROW(check_measure(m, scene, "w"));
+  Scene bare = scene;
+  bare.output.frames = {"surface"};
+  MeasureSpec of_frames;
+  of_frames.kind = "vector_l2";
+  CHECK_THROWS_WITH(check_measure(of_frames, bare, "w"),
+                    Catch::Contains("field in output.frames for vector_l2, 'velocity'; there are: surface"));
+  CHECK_NOTHROW(check_measure(of_frames, scene, "w"));
   m.kind = "column_peak", m.column = "max_speed", m.unit = "0";
   CHECK_THROWS_WITH(check_measure(m, scene, "w"), Catch::Contains("unit is 0"));
 
