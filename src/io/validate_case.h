@@ -39,7 +39,7 @@ struct ResolutionSpec {
   std::optional<double> max_error;   // unset: the case's
   std::optional<Formula> reference;  // unset: the measure's
   std::string others;                // what others report at this resolution
-  std::string series;                // of runs that differ in the grid alone; empty: a series of its own as well
+  std::string series;                // of runs that differ in the grid alone; those that name none make one
 };
 
 struct CaseSpec {

@@ -22,39 +22,16 @@ using Names = std::vector<std::string>;
 
 constexpr std::string_view front = "front_slope";  // compares slopes: its bounds are lengths, its data of any time
 
-// "time,name\n" -> time, name
-Names names_in(const std::string& header) {
-  Names names;
-  for (std::size_t at = 0; at < header.size();) {
-    const std::size_t end = std::min(header.find_first_of(",\n", at), header.size());
-    if (end > at) names.push_back(header.substr(at, end - at));
-    at = end + 1;
-  }
-  return names;
+// The columns of a table by its first line.
+Names columns_of(const std::string& header) {
+  return csv_rows(header).at(0);
 }
 
-Names probe_names(const Scene& scene) {
+template <class Named>
+Names names_of(const std::vector<Named>& all) {
   Names names;
-  for (const ProbeSpec& probe : scene.probes) names.push_back(probe.name);
+  for (const Named& one : all) names.push_back(one.name);
   return names;
-}
-
-Names solid_names(const Scene& scene) {
-  Names names;
-  for (const SolidSpec& solid : scene.solids) names.push_back(solid.name);
-  return names;
-}
-
-// "a + b" -> a, b
-Names parts_of_sum(const std::string& solids) {
-  constexpr std::string_view plus = " + ";
-  Names parts;
-  for (std::size_t at = 0; at <= solids.size();) {
-    const std::size_t end = std::min(solids.find(plus, at), solids.size());
-    parts.push_back(solids.substr(at, end - at));
-    at = end + plus.size();
-  }
-  return parts;
 }
 
 void demand(const std::string& where, const std::string& what, const std::string& name, const Names& known) {
@@ -71,7 +48,7 @@ bool is_vector(const ProbeSpec& probe) {
 }
 
 void check_probe(const MeasureSpec& m, const Scene& scene, const std::string& name, const std::string& where) {
-  demand(where, "probe", name, probe_names(scene));
+  demand(where, "probe", name, names_of(scene.probes));
   const ProbeSpec& probe = *std::ranges::find(scene.probes, name, &ProbeSpec::name);
   if (m.kind.starts_with("impact_") && probe.kind != ProbeKind::pressure)
     throw Error(ExitCode::bad_input, fmt::format("{}: probe '{}' is to measure pressure for {}", where, name, m.kind));
@@ -81,8 +58,8 @@ void check_probe(const MeasureSpec& m, const Scene& scene, const std::string& na
 }
 
 void check_solids(const MeasureSpec& m, const Scene& scene, const std::string& where) {
-  for (const std::string& name : parts_of_sum(m.solid)) demand(where, "solid", name, solid_names(scene));
-  Names known = names_in(solids_header());
+  for (const std::string& name : parts_of_sum(m.solid)) demand(where, "solid", name, names_of(scene.solids));
+  Names known = columns_of(solids_header());
   std::erase(known, "name");
   demand(where, "column of solids.csv", m.column, known);
 }
@@ -122,14 +99,15 @@ void check_values(const std::vector<LineExtreme>& lines) {
     throw Error(ExitCode::bad_input, "a value is zero, and errors are relative to it");
 }
 
-// Digitised curves may go straight up, but not back.
-void check_series(const std::string& text) {
+// Two rows or more; digitised curves may go straight up, but not back.
+Points checked_series(const std::string& text) {
   const Points points = csv_points(text);
   if (points.size() < 2) throw Error(ExitCode::bad_input, "less than two rows to compare with");
   for (std::size_t n = 1; n < points.size(); ++n)
     if (points[n].first < points[n - 1].first)
       throw Error(ExitCode::bad_input,
                   fmt::format("the first column goes back, from {:g} to {:g}", points[n - 1].first, points[n].first));
+  return points;
 }
 
 // check(text of the file), a problem with the names of the case and of the file before it.
@@ -142,42 +120,39 @@ void check_file(const fs::path& file, const std::string& where, const Check& che
   }
 }
 
-void check_reach(double last, const Scene& scene) {
+// `what` begins the message.
+void check_reach(const std::string& what, double last, const Scene& scene) {
   if (last > scene.time.end * (1 + 1e-9))
-    throw Error(ExitCode::bad_input, fmt::format("{:g} s lies beyond the scene's end, {:g} s", last, scene.time.end));
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}{:g} s lies beyond the scene's end, {:g} s", what, last, scene.time.end));
 }
 
 // Reads the data as the measure is going to.
 void check_data(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   check_file(m.data, where, [&](const std::string& text) {
-    if (m.kind == "line_deviation")
+    if (m.kind == "line_deviation") {
       check_lines(csv_profile(text), scene);
-    else if (m.kind.starts_with("line_extrema"))
-      check_lines(csv_extremes(text), scene);
-    else
-      check_series(text);
-    if (m.kind == "line_extrema") check_values(csv_extremes(text));
-    if (uses(kind_of(m), "time_unit") && m.kind != front)
-      check_reach(csv_points(text).back().first * constant(m.time_unit), scene);
+    } else if (m.kind.starts_with("line_extrema")) {
+      const std::vector<LineExtreme> lines = csv_extremes(text);
+      check_lines(lines, scene);
+      if (m.kind == "line_extrema") check_values(lines);
+    } else {
+      const double last = checked_series(text).back().first;
+      if (m.kind != front) check_reach("", last * constant(m.time_unit), scene);
+    }
   });
 }
 
 // What is compared in a time.
 void check_times(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   if (!(m.from < m.to)) throw Error(ExitCode::bad_input, fmt::format("{}: from must be below to", where));
-  if (m.kind == front) return;
-  try {
-    check_reach(m.to, scene);
-  } catch (const Error& error) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: to: {}", where, error.what()));
-  }
+  if (m.kind != front) check_reach(where + ": to: ", m.to, scene);
 }
 
 // What measures of frames read is to be in them.
 void check_frames(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   const bool of_surface = uses(kind_of(m), "surface") || m.kind.starts_with("circularity");
-  demand(where, fmt::format("field in output.frames for {},", m.kind), of_surface ? "surface" : "velocity",
-         scene.output.frames);
+  demand(where + ": for " + m.kind, "field in output.frames", of_surface ? "surface" : "velocity", scene.output.frames);
 }
 
 // What a figure is divided by.
@@ -195,7 +170,7 @@ void check_measure(const MeasureSpec& measure, const Scene& scene, const std::st
   if (uses(kind, "minus")) check_probe(measure, scene, measure.minus, where);
   if (uses(kind, "solid")) check_solids(measure, scene, where);
   if (kind.source == MeasureSource::stats && uses(kind, "column"))
-    demand(where, "column of stats.csv", measure.column, names_in(stats_header()));
+    demand(where, "column of stats.csv", measure.column, columns_of(stats_header()));
   if (kind.source == MeasureSource::frames) check_frames(measure, scene, where);
   if (uses(kind, "data")) check_data(measure, scene, where);
   if (uses(kind, "from") && uses(kind, "to")) check_times(measure, scene, where);
@@ -206,7 +181,7 @@ void check_measure(const MeasureSpec& measure, const Scene& scene, const std::st
 
 void check_plot(const PlotSpec& plot, const std::string& where) {
   if (plot.data.empty()) return;
-  check_file(plot.data, where, check_series);
+  check_file(plot.data, where, checked_series);
   check_divisor("value_unit", plot.value_unit, where);
 }
 

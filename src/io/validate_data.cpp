@@ -316,15 +316,26 @@ Points points_of_solid(const std::vector<std::vector<std::string>>& rows, const 
 
 }  // namespace
 
+std::vector<std::string> parts_of_sum(const std::string& solids) {
+  constexpr std::string_view plus = " + ";
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= solids.size();) {
+    const std::size_t end = std::min(solids.find(plus, at), solids.size());
+    parts.push_back(solids.substr(at, end - at));
+    at = end + plus.size();
+  }
+  return parts;
+}
+
 Points solid_points(const std::string& text, const std::string& solids, const std::string& column) {
   const auto rows = csv_rows(text);
-  constexpr std::string_view plus = " + ";
-  std::size_t end = solids.find(plus);
-  Points sum = points_of_solid(rows, solids.substr(0, end), column);
-  while (end != std::string::npos) {
-    const std::size_t begin = end + plus.size();
-    end = solids.find(plus, begin);
-    const Points more = points_of_solid(rows, solids.substr(begin, end - begin), column);
+  Points sum;
+  for (const std::string& solid : parts_of_sum(solids)) {
+    const Points more = points_of_solid(rows, solid, column);
+    if (sum.empty()) {
+      sum = more;
+      continue;
+    }
     if (more.size() != sum.size()) fail(fmt::format("solids.csv has not as many rows of each of '{}'", solids));
     for (std::size_t n = 0; n < sum.size(); ++n) sum[n].second += more[n].second;
   }

@@ -45,9 +45,10 @@ std::string table_of(const std::vector<ReportedResult>& rows) {
     const bool measured = is_measured(r);
     text += fmt::format("<tr><td>{}</td>", escape_html(row.resolution.name));
     for (const std::string& value :
-         {fmt::format("{:.4g}", r.cell_size), measured ? figure(r.measured.value) : "-", figure(r.measured.reference),
-          measured ? figure(r.measured.error) : "-", figure(max_error_of(row.one, row.resolution)), order(r.order),
-          order(r.fitted_order), order(row.one.min_order)})
+         {fmt::format("{:.4g}", r.cell_size), measured ? whole_figure(r.measured.value) : "-",
+          whole_figure(r.measured.reference), measured ? figure(r.measured.error) : "-",
+          figure(max_error_of(row.one, row.resolution)), order(r.order), order(r.fitted_order),
+          order(row.one.min_order)})
       text += "<td>" + value + "</td>";
     text +=
         verdict_cell(r) + fmt::format("<td>{:.1f}{}</td>", r.wall_seconds, r.cached || r.recorded ? " (earlier)" : "");

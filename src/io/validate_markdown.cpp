@@ -103,6 +103,10 @@ std::string figure(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : "-";
 }
 
+std::string whole_figure(const std::optional<double>& value) {
+  return value ? fmt::format("{:.7g}", *value) : "-";
+}
+
 std::string words_on_misses(const std::vector<ReportedResult>& rows) {
   const auto any = [&](Verdict verdict) {
     return std::ranges::any_of(rows, [&](const ReportedResult& row) { return row.result.verdict == verdict; });

@@ -19,6 +19,9 @@ std::string markdown_cell(const std::string& text);
 // A figure of four digits, "-" for none.
 std::string figure(const std::optional<double>& value);
 
+// The same of seven digits: what is measured and what it should be may differ late.
+std::string whole_figure(const std::optional<double>& value);
+
 // Words on a case's misses and failures: the known cause, or that there is none. Of runs that passed or are not there
 // what is known; empty where nothing is.
 std::string words_on_misses(const std::vector<ReportedResult>& rows);

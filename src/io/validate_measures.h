@@ -71,6 +71,9 @@ double slope_during(const Points& points, double from, double to);
 // oscillations that go round more than twice. Throws Error(cannot_continue) where the points do not reach that far.
 double settled_mean(const Points& points, double from, double to);
 
+// "a + b" -> a, b
+std::vector<std::string> parts_of_sum(const std::string& solids);
+
 // time and a column of a solid, or its sum over "several + solids", from the text of solids.csv.
 Points solid_points(const std::string& text, const std::string& solids, const std::string& column);
 

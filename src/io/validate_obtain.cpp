@@ -63,9 +63,10 @@ fs::path place_of(const Planned& run, const Validation& v) {
   return v.options.out / run.one->name / run.resolution->name;
 }
 
-// Where it is known of none, the cache looks again: another validation may have made it.
+// Before a run is made, the cache looks again: another validation may have made it.
 std::optional<fs::path> earlier_run(const Planned& run, Validation& v, const std::string& identity) {
-  if (const auto known = v.cache.find(run.scene, identity)) return known;
+  const auto known = v.cache.find(run.scene, identity);
+  if (known || v.options.making == Making::report) return known;
   v.cache.look();
   return v.cache.find(run.scene, identity);
 }

@@ -62,14 +62,15 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOpti
   std::vector<Planned> runs;
   agree(ranks, "reading the scenes", [&] {
     const Selection selection(cases, options.words);
-    for (const CaseSpec& one : cases)
+    for (const CaseSpec& one : cases) {
       for (const ResolutionSpec& resolution : one.resolutions) {
         const bool wanted = selection.takes(one, resolution, options.level);
         if (!wanted && !(options.record && belongs_to(resolution, options.level))) continue;
         runs.push_back({&one, &resolution, scene_for(one, resolution), false, wanted});
         check_measure(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
-        check_plot(one.plot, place_of(one, resolution));
       }
+      if (!runs.empty() && runs.back().one == &one) check_plot(one.plot, (one.folder / "case.toml").string());
+    }
     if (std::ranges::count(runs, true, &Planned::chosen) == 0)
       throw Error(ExitCode::bad_input, fmt::format("the chosen cases have no resolution of level '{}'{}", options.level,
                                                    options.level == "full" ? "" : "; give --level full"));

@@ -20,8 +20,8 @@ enum class Verdict { passed, missed, failed, absent };
 struct CaseResult {
   Verdict verdict = Verdict::failed;
   Measurement measured;
-  std::optional<double> order;         // of convergence from the resolution before
-  std::optional<double> fitted_order;  // over all resolutions with this reference, at the last of them
+  std::optional<double> order;         // of convergence from the run before in its series
+  std::optional<double> fitted_order;  // over all of the series, at its last run
   double cell_size = 0;                // m
   double wall_seconds = 0;             // of the run, whenever it was made
   bool cached = false;                 // an earlier run was taken

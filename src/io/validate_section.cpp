@@ -82,11 +82,6 @@ std::string words_on_scenes(const Rows& rows) {
   return fmt::format("Files: {}.", fmt::join(links, ", "));
 }
 
-// With as many digits as the error needs to be seen in it.
-std::string whole_figure(const std::optional<double>& value) {
-  return value ? fmt::format("{:.7g}", *value) : "-";
-}
-
 std::string cell_of(const std::optional<double>& v) {
   return v ? fmt::format("{:.2f}", *v) : "-";
 }

@@ -104,8 +104,9 @@ TEST_CASE("times that a scene does not have, and zeros that errors would be over
   bare.output.frames = {"surface"};
   MeasureSpec of_frames;
   of_frames.kind = "vector_l2";
-  CHECK_THROWS_WITH(check_measure(of_frames, bare, "w"),
-                    Catch::Contains("field in output.frames for vector_l2, 'velocity'; there are: surface"));
+  CHECK_THROWS_WITH(
+      check_measure(of_frames, bare, "w"),
+      Catch::Contains("for vector_l2: there is no field in output.frames 'velocity'; there are: surface"));
   CHECK_NOTHROW(check_measure(of_frames, scene, "w"));
   m.kind = "column_peak", m.column = "max_speed", m.unit = "0";
   CHECK_THROWS_WITH(check_measure(m, scene, "w"), Catch::Contains("unit is 0"));
