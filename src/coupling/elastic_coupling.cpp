@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "coupling/facet_fluxes.h"
 #include "coupling/thin_weight.h"
 #include "linalg/matrix_entries.h"
 #include "solid/elastic_potential.h"
@@ -100,6 +101,31 @@ void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const
       add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
     }
   }
+}
+
+// Pins divide a surface of the body that walls in liquid together with what the pins stand on.
+template <int Dim>
+bool is_divided(const ElasticSolid<Dim>& solid) {
+  return std::any_of(solid.patches.begin(), solid.patches.end(), [](const auto& patch) { return !patch.is_closed(); });
+}
+
+// Pressure acts on the facets in each cell: what the shares show is taken back. Liquid at rest is to act as it does on
+// the mesh.
+template <int Dim>
+void hang_on_facets(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                    const State<Dim>& state, const CellField<Dim, char>& open, const Vec<Dim>& gravity, double dt,
+                    BodyEntries& body, SolidCoupling<Dim>& c) {
+  const Eigen::VectorXd& u = state.elastic[std::size_t(body.body)].state.u;
+  const FacetFluxes<Dim> fluxes = facet_fluxes(s, g, open, body.body, u);
+  for (FluxEntry e : spread_shares(s, *g.shares[std::size_t(body.body)], *g.attached[std::size_t(body.body)], rows)) {
+    e.value = -e.value;
+    body.entries.push_back(e);
+  }
+  const std::vector<FluxEntry> own = entries_of(s, rows, fluxes);
+  body.entries.insert(body.entries.end(), own.begin(), own.end());
+  const Eigen::VectorXd force = missing_buoyancy(s, rows, state.phi, body.body, u, fluxes, gravity);
+  c.push.segment(body.first, u.size()) += dt * force;
+  c.buoyancy_correction.segment(body.first, u.size()) = force;
 }
 
 // Those behind the first `known`, by cells.
@@ -228,6 +254,7 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
   std::vector<BodyEntries> entries;
   std::vector<std::size_t> shown;  // of the entries of each body, by its faces
   const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
+  const CellField<Dim, char> open = s.has_elastic() ? open_cells(s, g.faces) : CellField<Dim, char>();
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
     const int k = c.bodies[b], first = c.first[b];
     if (!s.bodies[k].is_elastic()) continue;
@@ -242,7 +269,10 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
     bring_home_air(s, rows, 0, entries.back().entries);
     shown.push_back(entries.back().entries.size());
-    keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries.back().entries);
+    if (s.bodies[k].is_thin() || is_divided(solid))
+      keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries.back().entries);
+    else
+      hang_on_facets(s, g, rows, state, open, gravity, dt, entries.back(), c);
     bring_home_air(s, rows, shown.back(), entries.back().entries);
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
     shares.push_back({&solid.body, &e.u, first});

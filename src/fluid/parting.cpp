@@ -10,7 +10,7 @@ namespace {
 template <int Dim>
 double flux_after(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
                   const FaceField<Dim>& u_star, Site cell) {
-  double sum = 0;
+  double sum = in.faces.cell_flux[cell];
   for_each_face_of(in.layout, cell, [&](int a, Site f, int sign, Site) {
     const bool given = in.faces.kind_at(a, f) == FaceKind::prescribed;
     const double u =

@@ -40,12 +40,6 @@ std::vector<int> side_nodes(const ElasticMesh<Dim>& mesh, int element, int side)
   return r;
 }
 
-// A face's nodes as linear facets.
-std::vector<std::vector<int>> linear_facets(const std::vector<int>& n) {
-  if (n.size() == 6) return {{n[0], n[3], n[5]}, {n[3], n[1], n[4]}, {n[5], n[4], n[2]}, {n[3], n[4], n[5]}};
-  return {n};
-}
-
 }  // namespace
 
 template <int Dim>
@@ -65,6 +59,13 @@ std::vector<BoundaryFace> boundary_faces(const ElasticMesh<Dim>& mesh) {
   std::vector<BoundaryFace> faces;
   for (const auto& [e, side] : sides) faces.push_back({e, side_nodes(mesh, e, side)});
   return faces;
+}
+
+std::vector<std::vector<int>> facets_of_side(int dim, int order) {
+  if (dim == 2)
+    return order == 1 ? std::vector<std::vector<int>>{{0, 1}} : std::vector<std::vector<int>>{{0, 2}, {2, 1}};
+  if (order == 1) return {{0, 1, 2}};
+  return {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
 }
 
 namespace {
@@ -104,21 +105,15 @@ ElasticSurface surface_of(const ElasticMesh<Dim>& mesh) {
     }
     return point[node];
   };
-  for (const BoundaryFace& face : boundary_faces(mesh)) {
-    const auto& n = face.nodes;
-    if constexpr (Dim == 2) {
-      const std::vector<int> line = n.size() == 3 ? std::vector<int>{n[0], n[2], n[1]} : n;
-      for (size_t i = 0; i + 1 < line.size(); ++i) {
-        const int from = point_of(line[i]);
-        surface.facets.segments.push_back({from, point_of(line[i + 1])});
-      }
-    } else {
-      for (const auto& f : linear_facets(n)) {
-        const int a = point_of(f[0]), b = point_of(f[1]);
-        surface.facets.triangles.push_back({a, b, point_of(f[2])});
-      }
+  surface.sides = boundary_faces(mesh);
+  for (const BoundaryFace& side : surface.sides)
+    for (const std::vector<int>& f : facets_of_side(Dim, mesh.order)) {
+      const int a = point_of(side.nodes[size_t(f[0])]), b = point_of(side.nodes[size_t(f[1])]);
+      if constexpr (Dim == 2)
+        surface.facets.segments.push_back({a, b});
+      else
+        surface.facets.triangles.push_back({a, b, point_of(side.nodes[size_t(f[2])])});
     }
-  }
   number_parts(surface);
   return surface;
 }

@@ -30,12 +30,16 @@ struct BoundaryFace {
 template <int Dim>
 std::vector<BoundaryFace> boundary_faces(const ElasticMesh<Dim>& mesh);
 
+// The linear facets that stand for a side of an element, as indices of the side's nodes.
+std::vector<std::vector<int>> facets_of_side(int dim, int order);
+
 // The boundary as closed triangles or segments for contact and liquid. Its points are mesh nodes, so the barycentric
 // weights on a facet are the weights on nodes. A quadratic face becomes 2 segments or 4 triangles.
 struct ElasticSurface {
-  SurfaceMesh facets;      // at rest
-  std::vector<int> nodes;  // the mesh node of each point
-  std::vector<int> part;   // of each point: which connected part of the surface it is on, counted from 0
+  SurfaceMesh facets;               // at rest
+  std::vector<BoundaryFace> sides;  // each as many facets as facets_of_side, one side after the other
+  std::vector<int> nodes;           // the mesh node of each point
+  std::vector<int> part;            // of each point: which connected part of the surface it is on, counted from 0
   int parts = 0;
 };
 

@@ -1,0 +1,119 @@
+#!/usr/bin/python3
+"""The fuzzer's oracle raises the right fault for each kind of wrong result, and none for a right one."""
+import copy
+import json
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+from fuzzing import damage, oracle, registry, scene_mode, scenes, tables, toml  # noqa: E402
+from fuzzing.program import Done  # noqa: E402
+
+SCENE = {"dimension": 2, "domain": {"lower": [0, 0], "upper": [1, 1], "cell_size": 0.1}, "liquid": {"density": 1000.0}}
+COLUMNS = ("step", "time", "liquid_volume", "kinetic_energy", "potential_energy", "elastic_energy", "wall_seconds")
+SQUARE = numpy.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+
+
+def stats(kinetic, potential=0.0):
+    rows = {"time": [0, 1], "liquid_volume": [0.5, 0.5], "kinetic_energy": [10, kinetic],
+            "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0]}
+    return {name: numpy.array(values, dtype=float) for name, values in rows.items()}
+
+
+def ended(code, errors=""):
+    return Done(code, "", errors, 10, 0.1, 0.1, 1 << 20)
+
+
+def square(x, size=1.0):
+    return numpy.array([[x, 0], [x + size, 0], [x + size, size], [x, size]]), SQUARE
+
+
+class Ends(unittest.TestCase):
+    def test_codes(self):
+        oracle.check_end(ended(0), (0, 2), "check")
+        oracle.check_end(ended(3, "seiche: not settled after 50 solves"), (0, 3), "run")
+        for done, what in ((ended(1, "seiche: x"), "code 1"), (ended(-11), "code -11"), (ended(None), "time"),
+                           (ended(2), "message"), (ended(3, "seiche: no figures"), "message"),
+                           (ended(1, "==7==ERROR: AddressSanitizer: heap-use-after-free"), "sanitizer")):
+            with self.assertRaises(tables.Fault) as found:
+                oracle.check_end(done, (0, 2, 3), "run")
+            self.assertEqual(found.exception.what, what)
+
+
+class Results(unittest.TestCase):
+    def test_energy(self):
+        oracle.check_energy(SCENE, stats(9))
+        oracle.check_energy(SCENE, stats(260, -251))          # what falls
+        with self.assertRaisesRegex(tables.Fault, "energy"):
+            oracle.check_energy(SCENE, stats(10000))
+
+    def test_what_feeds_energy(self):
+        self.assertFalse(oracle.is_fed(SCENE))
+        for key, value in (("gravity", ["sin(t)", 0]), ("solid", [{"kind": "kinematic"}]),
+                           ("liquid", {"source": [{}]}), ("domain", {"boundary": {"x_lower": {"type": "inflow"}}})):
+            self.assertTrue(oracle.is_fed({**SCENE, key: value}), key)
+
+    def test_overlap(self):
+        self.assertEqual(tables.overlap(square(0), square(1.001)), 0)
+        self.assertAlmostEqual(tables.overlap(square(0), square(0.9)), 0.1)
+        self.assertGreater(tables.overlap(square(0.3, 0.2), square(0)), 0.05)
+
+    def test_tables(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "stats.csv"
+            for text, fault in (("a,b\n1,2\n", ""), ("a,b\n1,nan\n", "finite"), ("a,b\n1\n", "table"), ("", "table")):
+                path.write_text(text)
+                if fault:
+                    self.assertRaisesRegex(tables.Fault, fault, tables.check_finite, path)
+                else:
+                    tables.check_finite(path)
+
+    def test_volume(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "log.txt").write_text("")
+            for volume, wrong in ((0.5, False), (0.45, False), (0.4, True)):
+                (folder / "summary.json").write_text(json.dumps(
+                    {"liquid_volume": volume, "expected_volume": 0.5, "initial_volume": 0.5}))
+                if wrong:
+                    self.assertRaisesRegex(tables.Fault, "volume", oracle.check_volume, SCENE, folder)
+                else:
+                    oracle.check_volume(SCENE, folder)
+
+
+class Inputs(unittest.TestCase):
+    def test_every_key_has_values(self):
+        keys = registry.read_registry()
+        self.assertEqual(list(scenes.uncovered(keys)), [])
+        new = registry.Key("liquid", "salinity", "a number", (), False, "", ())
+        self.assertEqual(list(scenes.uncovered({"liquid": [*keys["liquid"], new]})), ["[liquid] salinity"])
+        shape = next(k for k in keys["solid[]"] if k.name == "shape")
+        other = registry.Key("solid[]", "shape", shape.kind, (*shape.choices, "torus"), True, "", ())
+        self.assertEqual(list(scenes.uncovered({"solid[]": [other]})), ["[solid[]] shape: torus"])
+
+    def test_scenes_follow_from_their_seed(self):
+        keys = registry.read_registry()
+        one, other = (toml.to_toml(scenes.make_scene(keys, random.Random(7))[0]) for _ in range(2))
+        self.assertEqual(one, other)
+
+    def test_parts_are_left_out(self):
+        scene = {"time": {"end": 1.0}, "solid": [{"name": "a", "pinned": {"shape": "box"}}]}
+        kept = copy.deepcopy(scene)
+        smaller = [scene_mode.without(scene, path) for path in scene_mode.paths(scene)]
+        self.assertEqual(scene, kept)
+        self.assertIn({"time": {"end": 1.0}}, smaller)
+        self.assertIn({"time": {"end": 1.0}, "solid": [{"name": "a"}]}, smaller)
+
+    def test_damage_changes_bytes(self):
+        for n in range(300):
+            for data in (b"", b"1.5 2\nf 1 2 3\n", bytes(range(256))):
+                self.assertNotEqual(damage.damage(random.Random(n), data, text=bool(n % 2))[1], data)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,137 @@
+"""Good files for scenes to name: surfaces, elements and a level set of a body of size 1 about the origin."""
+import itertools
+import pathlib
+import struct
+
+from fuzzing.program import Program
+
+LEVEL_SET_SCENE = """\
+dimension = {dim}
+[domain]
+lower = {lower}
+upper = {upper}
+cell_size = 0.25
+[time]
+end = 0.0
+[[liquid.region]]
+shape = "sphere"
+center = {center}
+radius = 0.8
+"""
+
+
+def ball_points(cells):
+    """Corners of a cube's surface in cells x cells squares a side, pulled half-way to a ball; quadrilaterals of it."""
+    index, points, squares = {}, [], []
+
+    def corner(i):
+        if i not in index:
+            x = [2 * n / cells - 1 for n in i]
+            length = sum(v * v for v in x) ** 0.5
+            index[i] = len(points)
+            points.append([0.5 * v + 0.4 * v / length for v in x])
+        return index[i]
+
+    for axis, side in itertools.product(range(3), (0, cells)):
+        for a, b in itertools.product(range(cells), repeat=2):
+            square = []
+            for da, db in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                i = [0, 0, 0]
+                i[axis], i[(axis + 1) % 3], i[(axis + 2) % 3] = side, a + da, b + db
+                square.append(corner(tuple(i)))
+            squares.append(square if side else square[::-1])
+    return points, squares
+
+
+def surface(cells=3):
+    """Points and triangles of a closed surface, outward."""
+    points, squares = ball_points(cells)
+    return points, [t for s in squares for t in ((s[0], s[1], s[2]), (s[0], s[2], s[3]))]
+
+
+def elements(dim, cells=2):
+    """Points and triangles or tetrahedra (Kuhn's six a cube) of a square or cube."""
+    index = {i: n for n, i in enumerate(itertools.product(range(cells + 1), repeat=dim))}
+    points = [[1.4 * v / cells - 0.7 for v in i] + [0.0] * (3 - dim) for i in index]
+    found = []
+    for cell in itertools.product(range(cells), repeat=dim):
+        for order in itertools.permutations(range(dim)):
+            corners, at = [index[cell]], list(cell)
+            for axis in order:
+                at[axis] += 1
+                corners.append(index[tuple(at)])
+            odd = sum(order[i] > order[j] for i in range(dim) for j in range(i + 1, dim)) % 2
+            found.append(corners[:-2] + corners[:-3:-1] if odd else corners)
+    return points, found
+
+
+def rows(table, first=0):
+    return "".join(" ".join(str(v + first if isinstance(v, int) else v) for v in row) + "\n" for row in table)
+
+
+def obj(points, triangles):
+    return ("".join("v " + r + "\n" for r in rows(points).splitlines()) +
+            "".join("f " + r + "\n" for r in rows(triangles, 1).splitlines())).encode()
+
+
+def ply(points, triangles):
+    head = (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+            "property float x\nproperty float y\nproperty float z\n"
+            f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+    return (head + rows(points) + "".join("3 " + r + "\n" for r in rows(triangles).splitlines())).encode()
+
+
+def stl(points, triangles):
+    body = b"".join(struct.pack("<12fH", 0, 0, 0, *(v for n in t for v in points[n]), 0) for t in triangles)
+    return b"made by tools/fuzz".ljust(80) + struct.pack("<I", len(triangles)) + body
+
+
+def msh(points, cells):
+    kind = {3: 2, 4: 4}[len(cells[0])]
+    nodes = "".join(f"{n + 1} {r}\n" for n, r in enumerate(rows(points).splitlines()))
+    body = "".join(f"{n + 1} {kind} 2 1 1 {r}\n" for n, r in enumerate(rows(cells, 1).splitlines()))
+    return (f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n{nodes}$EndNodes\n"
+            f"$Elements\n{len(cells)}\n{body}$EndElements\n").encode()
+
+
+def medit(points, cells):
+    dim = len(cells[0]) - 1
+    word = {3: "Triangles", 4: "Tetrahedra"}[len(cells[0])]
+    nodes = "".join(" ".join(map(str, p[:dim])) + " 0\n" for p in points)
+    body = "".join(r + " 0\n" for r in rows(cells, 1).splitlines())
+    return (f"MeshVersionFormatted 2\nDimension {dim}\nVertices {len(points)}\n{nodes}"
+            f"{word} {len(cells)}\n{body}End\n").encode()
+
+
+def vtu(points, cells):
+    kind = {3: 5, 4: 10}[len(cells[0])]
+    offsets = " ".join(str((n + 1) * len(cells[0])) for n in range(len(cells)))
+    array = '<DataArray type="{}" Name="{}" {}format="ascii">{}</DataArray>\n'
+    return ('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">\n'
+            f'<UnstructuredGrid>\n<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">\n<Points>\n'
+            + array.format("Float64", "Points", 'NumberOfComponents="3" ', rows(points)) + "</Points>\n<Cells>\n"
+            + array.format("Int64", "connectivity", "", rows(cells)) + array.format("Int64", "offsets", "", offsets)
+            + array.format("UInt8", "types", "", " ".join([str(kind)] * len(cells)))
+            + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n").encode()
+
+
+def make_level_set(program: Program, folder: pathlib.Path, dim):
+    """The first frame of a run with a ball of liquid."""
+    at = folder / f"level_set{dim}"
+    at.mkdir()
+    scene = LEVEL_SET_SCENE.format(dim=dim, lower=[-1.5] * dim, upper=[1.5] * dim, center=[0.0] * dim)
+    (at / "scene.toml").write_text(scene)
+    done = program.run("run", "scene.toml", "--out", "out", folder=at)
+    if done.code != 0:
+        raise RuntimeError(f"the scene of a level set did not run:\n{done.errors}")
+    return (at / "out/frames/frame.0000.vdb").read_bytes()
+
+
+def make_assets(program, folder):
+    """Bytes by name: "ball.obj", "block2.msh", ..."""
+    files = {"ball.obj": obj(*surface()), "ball.ply": ply(*surface()), "ball.stl": stl(*surface())}
+    for dim in (2, 3):
+        for ending, write in (("msh", msh), ("mesh", medit), ("vtu", vtu)):
+            files[f"block{dim}.{ending}"] = write(*elements(dim))
+        files[f"ball{dim}.vdb"] = make_level_set(program, folder, dim)
+    return files

@@ -1,0 +1,156 @@
+"""What must hold of every scene and every run, whatever is in it."""
+import re
+import sys
+import pathlib
+
+import numpy
+
+from fuzzing.program import OTHER_HEAP
+from fuzzing.tables import Fault, check_finite, overlap, read_stats, read_summary, read_surfaces, same_stats
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "faults"))
+from read_frames import frame_faults  # noqa: E402
+
+DEEPEST = 0.02        # cells; surfaces of frames are drawn with facets, contact is exact
+LOST_VOLUME = 0.05    # of the liquid, and so many cells' worth besides: a tiny scene is mostly surface
+LOST_CELLS = 3
+MEMORY = 2 << 30      # bytes, of a scene of a few hundred cells
+
+
+def check_end(done, codes, verb):
+    """An exit code that the contract allows, with one message where it is no success."""
+    if done.code is None:
+        raise Fault("time", f"{verb} did not end within {done.cpu:.0f} s of processor time")
+    if "ERROR: AddressSanitizer" in done.said or "runtime error:" in done.said or "LeakSanitizer" in done.said:
+        raise Fault("sanitizer", done.errors[-1500:])
+    if done.code not in codes:
+        raise Fault(f"code {done.code}", f"{verb} ended with {done.code}, not {codes}: {done.errors[-600:]}")
+    if done.printed > 4 << 20:
+        raise Fault("flood", f"{verb} printed {done.printed} bytes")
+    if done.memory > MEMORY and "AddressSanitizer" not in done.said:
+        raise Fault("memory", f"{verb} took {done.memory >> 20} MiB")
+    messages = [line for line in done.errors.splitlines() if line.startswith("seiche: ")]
+    if done.code in (2, 3, 4, 5, 6) and not messages:
+        raise Fault("message", f"{verb} ended with {done.code} and no message")
+    if done.code == 3 and not re.search(r"\d", messages[0]):
+        raise Fault("message", f"no figure in: {messages[0]}")
+
+
+def is_constant(value):
+    return all(not isinstance(v, str) or re.fullmatch(r"[-+.\de]+", v) for v in value)
+
+
+def is_fed(scene):
+    """Whether anything may bring energy in from outside."""
+    sides = scene["domain"].get("boundary", {})
+    kinds = {s if isinstance(s, str) else s["type"] for s in sides.values()}
+    liquid = scene.get("liquid", {})
+    if kinds & {"inflow", "outflow", "moving_wall"} or "source" in liquid or "prescribed_velocity" in liquid:
+        return True
+    if not is_constant(scene.get("gravity", [0.0])):
+        return True
+    for solid in scene.get("solid", []):
+        pins = solid.get("pinned", [])
+        moved = any("motion" in p for p in (pins if isinstance(pins, list) else [pins]))
+        if moved or solid["kind"] == "kinematic" or "body_force" in solid or "traction" in solid:
+            return True
+    return False
+
+
+def periodic_along(scene, g):
+    sides = scene["domain"].get("boundary", {})
+    return any(g[n] != 0 and "periodic" in str(sides.get(f"{axis}_lower", ""))
+               for n, axis in enumerate("xyz"[:scene["dimension"]]))
+
+
+def check_energy(scene, stats):
+    """E = E_kin + E_pot + E_el of a closed scene stays below that of the start.
+
+    Margin: a twentieth of the kinetic energy. A surface is known to about a cell: all mass lifted by half of one, and
+    the volume that is amiss lifted through the domain. Surface tension holds sigma a face of a cell at most."""
+    g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0])][:scene["dimension"]]
+    if periodic_along(scene, g):
+        return
+    energy = stats["kinetic_energy"] + stats["potential_energy"] + stats["elastic_energy"]
+    h, gravity = scene["domain"]["cell_size"], float(numpy.linalg.norm(g))
+    extent = numpy.subtract(scene["domain"]["upper"], scene["domain"]["lower"])
+    volume, liquid = float(numpy.prod(extent)), scene["liquid"]
+    mass = liquid["density"] * float(stats["liquid_volume"].max())
+    mass += sum(s.get("density", 0) * volume * 0.3 for s in scene.get("solid", []))
+    amiss = numpy.abs(stats["liquid_volume"] - stats["liquid_volume"][0])
+    margin = (0.05 * stats["kinetic_energy"][0] + gravity * (0.5 * mass * h + liquid["density"] * amiss * extent.sum())
+              + liquid.get("surface_tension", 0) * volume / h + 1e-9 * numpy.abs(energy[0]))
+    gained = energy - energy[0] - margin
+    if (gained > 0).any():
+        n, kinetic = int(gained.argmax()), stats["kinetic_energy"]
+        raise Fault("energy", f"{energy[0]:.6g} J at the start, {energy[n]:.6g} J at t = {stats['time'][n]:.6g} s "
+                              f"(kinetic {kinetic[0]:.4g}, {kinetic[n]:.4g}; margin {numpy.max(margin):.3g})")
+
+
+def check_volume(scene, folder):
+    """The liquid follows what is booked, or the run says that it does not."""
+    summary = read_summary(folder)
+    amiss = abs(summary["liquid_volume"] - summary["expected_volume"])
+    cell = scene["domain"]["cell_size"] ** scene["dimension"]
+    allowed = LOST_VOLUME * max(summary["initial_volume"], abs(summary["expected_volume"])) + LOST_CELLS * cell
+    warned = re.search("warning: .*volume", (folder / "log.txt").read_text(encoding="utf-8"))
+    if amiss > allowed and not warned:
+        raise Fault("volume", f"{summary['liquid_volume']:.6g} of {summary['expected_volume']:.6g} "
+                              f"m^{scene['dimension']}, {amiss / cell:.3g} cells amiss, without a warning")
+
+
+def check_overlaps(scene, folder):
+    """No body that moves freely lies within another solid."""
+    solids = scene.get("solid", [])
+    moves = [s["kind"] in ("rigid", "elastic") for s in solids]
+    if not any(moves):
+        return
+    for path in sorted((folder / "frames").glob("solids.*.vtu")):
+        found = read_surfaces(path, scene["dimension"])
+        for i, j in ((i, j) for i in found for j in found if i != j and (moves[i] or moves[j])):
+            if solids[i].get("invert") or solids[j].get("invert"):
+                continue
+            depth = overlap(found[i], found[j]) / scene["domain"]["cell_size"]
+            if depth > DEEPEST:
+                raise Fault("overlap", f"{path.name}: solid {i} lies {depth:.3g} cells within solid {j}")
+
+
+def check_frames(folder):
+    for path in sorted((folder / "frames").glob("*.vdb")):
+        faults = frame_faults(str(path))
+        if faults:
+            raise Fault("frame", f"{path.name}: {faults}")
+
+
+def check_result(scene, folder):
+    """Everything that a run has left behind."""
+    for name in ("stats.csv", "solids.csv", "probes.csv"):
+        if (folder / name).exists():
+            check_finite(folder / name)
+    stats = read_stats(folder)
+    if not is_fed(scene):
+        check_energy(scene, stats)
+    if "liquid" in scene:
+        check_volume(scene, folder)
+    check_overlaps(scene, folder)
+    check_frames(folder)
+
+
+def check_repeated(program, folder, name):
+    """The same run beside other rubbish in fresh memory takes the same steps, bit for bit."""
+    done = program.run("run", name, "--out", "again", "--threads", "1", folder=folder, heap=OTHER_HEAP)
+    if done.code not in (0, 3) or not same_stats(folder / "out", folder / "again"):
+        raise Fault("repeat", f"the same run a second time ended with {done.code}, with other rows in stats.csv")
+
+
+def judge(program, scene, folder, name="scene.toml", twice=False):
+    """Checks and runs a scene; returns the exit code, or raises the first fault."""
+    checked = program.run("check", name, folder=folder, ranks=1)
+    check_end(checked, (0, 2), "check")
+    done = program.run("run", name, "--out", "out", "--threads", "1", folder=folder)
+    check_end(done, (0, 3) if checked.code == 0 else (2,), "run")
+    if done.code in (0, 3):
+        check_result(scene, folder / "out")
+        if twice:
+            check_repeated(program, folder, name)
+    return done.code

@@ -1,0 +1,93 @@
+"""Runs the program under test with bounds on time, memory and output."""
+import dataclasses
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import tempfile
+import time
+
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+       "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+       "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_mpi_yield_when_idle": "1"}
+SHOWN = 4000            # characters of what was printed that are read
+MOST_OUTPUT = 256 << 20   # bytes; a program that writes more into one file is ended
+MOST_MEMORY = 6 << 30     # bytes of address space; the sanitizers take terabytes of it and go without
+FRESH_HEAP, OTHER_HEAP = 0x7F, 0x01   # doubles of fresh memory are then -3e-306 or -5e303
+
+
+@dataclasses.dataclass
+class Done:
+    """How a run of the program ended; `code` is negative for a signal, None where it was stopped for its time."""
+    code: int
+    output: str
+    errors: str
+    printed: int     # bytes on both streams
+    seconds: float   # of the clock
+    cpu: float       # s, of the program and its children
+    memory: int      # bytes, largest resident set
+
+    @property
+    def said(self):
+        return self.output + self.errors
+
+
+class Program:
+    """`scratch` takes what Open MPI keeps of a session; that of killed runs would be in the way of others."""
+
+    def __init__(self, path, scratch, ranks=1, cpu=60.0, nice=5):
+        self.path, self.scratch = str(pathlib.Path(path).resolve()), str(scratch)
+        self.ranks, self.cpu, self.nice = ranks, cpu, nice
+        self.sanitized = b"__asan_init" in pathlib.Path(self.path).read_bytes()
+
+    def command(self, arguments, ranks):
+        words = [self.path, *map(str, arguments)]
+        return words if ranks == 1 else ["mpirun", "--oversubscribe", "-n", str(ranks), *words]
+
+    def prepare(self):
+        os.nice(self.nice)
+        os.setsid()
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_OUTPUT, MOST_OUTPUT))
+        if not self.sanitized:
+            resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+        resource.setrlimit(resource.RLIMIT_CPU, (int(self.cpu) + 1, int(self.cpu) + 2))
+
+    def start(self, *arguments, folder, ranks=None, heap=FRESH_HEAP, out=subprocess.DEVNULL, err=subprocess.DEVNULL):
+        environment = {**os.environ, **MPI, "MALLOC_PERTURB_": str(heap), "TMPDIR": self.scratch}
+        return subprocess.Popen(self.command(arguments, ranks or self.ranks), cwd=folder, env=environment,
+                                stdin=subprocess.DEVNULL, stdout=out, stderr=err, preexec_fn=self.prepare)
+
+    def run(self, *arguments, folder, ranks=None, heap=FRESH_HEAP):
+        """Waits for the end; one that takes eight times its share of processor time on the clock is ended.
+
+        Memory that the program has not written to holds the complement of `heap` in every byte."""
+        with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+            started = time.monotonic()
+            process = self.start(*arguments, folder=folder, ranks=ranks, heap=heap, out=out, err=err)
+            code, usage = wait(process, started + 8 * self.cpu)
+            printed = os.fstat(out.fileno()).st_size + os.fstat(err.fileno()).st_size
+            return Done(code, tail(out), tail(err), printed, time.monotonic() - started,
+                        usage.ru_utime + usage.ru_stime if usage else self.cpu,
+                        usage.ru_maxrss * 1024 if usage else 0)
+
+
+def tail(stream):
+    size = stream.seek(0, os.SEEK_END)
+    stream.seek(max(0, size - SHOWN))
+    return stream.read().decode(errors="replace")
+
+
+def wait(process, until):
+    """(exit code or None, usage); wait4 tells what this child and its children used."""
+    while True:
+        done, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if done:
+            process.returncode = os.waitstatus_to_exitcode(status)
+            return (None if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else process.returncode), usage
+        if time.monotonic() > until:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            return None, None
+        time.sleep(0.005)

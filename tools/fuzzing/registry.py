@@ -1,0 +1,60 @@
+"""The program's list of scene keys, read from docs/scene-reference.md, which a unit test keeps true to the reader."""
+import dataclasses
+import pathlib
+import re
+
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "scene-reference.md"
+CONDITION = re.compile(r'; for (\w+) = ((?:"\w+"(?:, | or )?)+)')
+RESERVED = "; not in this version"
+
+
+@dataclasses.dataclass(frozen=True)
+class Key:
+    table: str          # "liquid.region[]"
+    name: str
+    kind: str           # the column "value"
+    choices: tuple      # words it may be, empty if it is no choice
+    required: bool
+    decided_by: str     # key of the same table on which this one depends, or ""
+    for_values: tuple   # values of that key which allow this one
+
+    @property
+    def takes_many(self):
+        return self.kind.startswith("any of")
+
+    def applies(self, table):
+        """Whether the key may stand beside what the table (a dict) holds; keys that decide come first in a table."""
+        return not self.decided_by or table.get(self.decided_by) in self.for_values
+
+    @property
+    def label(self):
+        return f"[{self.table}] {self.name}" if self.table else self.name
+
+
+def table_name(title):
+    """"`[[liquid.region]]`" -> "liquid.region[]"; sides of the domain go by "side"."""
+    if title == "Top level":
+        return ""
+    name = title.split("`")[1]
+    name = name[2:-2] + "[]" if name.startswith("[[") else name[1:-1]
+    return "side" if name == "domain.boundary.x_lower" else name
+
+
+def parse_row(table, line):
+    cells = [cell.strip().replace("\0", "|") for cell in line.replace("\\|", "\0").strip("| \n").split(" | ")]
+    name, kind, default, meaning = cells[0].strip("`"), cells[1], cells[2], cells[-1]
+    words = tuple(re.findall(r'"(\w+)"', kind))
+    condition = CONDITION.search(meaning.split(RESERVED)[0])
+    return Key(table, name, kind, words, default == "required", condition.group(1) if condition else "",
+               tuple(re.findall(r'"(\w+)"', condition.group(2))) if condition else ())
+
+
+def read_registry(page=PAGE):
+    """Keys by table, in the order of the page."""
+    tables, table = {}, None
+    for line in page.read_text(encoding="utf-8").splitlines():
+        if line.startswith("## "):
+            table = None if line == "## Not in this version" else table_name(line[3:])
+        elif table is not None and line.startswith("| `"):
+            tables.setdefault(table, []).append(parse_row(table, line))
+    return tables

@@ -1,0 +1,185 @@
+"""Random scenes on tiny grids, made from every key of the registry."""
+import math
+import random
+
+from fuzzing import shapes
+from fuzzing.shapes import AXES, fit_shape, number, point
+from fuzzing.values import VALUES, table_of
+
+# Keys that a scene's own plan sets: the dimension, the grid and how long it runs.
+PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "probe"),
+           ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
+           ("domain", "cell_size"), ("time", "end"), ("time", "frame_rate"),
+           *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
+SHAPES = ("liquid.region[]", "liquid.source[]", "solid[]", "solid[].pinned", "solid[].traction")
+MAKEABLE = {*shapes.GEOMETRY}
+
+
+def uncovered(registry):
+    """Keys that no generator makes: what is new in the program has to be given one."""
+    for table, keys in registry.items():
+        for key in keys:
+            simple = key.choices or key.kind == "true or false"
+            is_shape = table in SHAPES and key.name in shapes.KEYS
+            if table in SHAPES and key.name == "shape" and set(key.choices) - MAKEABLE:
+                yield f"{key.label}: {', '.join(set(key.choices) - MAKEABLE)}"
+            turn = table.endswith(".rotate") and key.name in ("axis", "degrees")
+            if not (simple or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
+                yield key.label
+
+
+SIZES = ("0.05", "0.0625", "0.01", "1", "30", "0.0005")   # m, of cells
+
+
+class Case:
+    """One random scene in the making: its grid, its scales, and what stands where."""
+
+    def __init__(self, registry, rng):
+        self.registry, self.rng, self.used = registry, rng, set()
+        self.dim = rng.choice([2, 2, 3])
+        self.often = rng.choice([0.1, 0.3, 0.5])   # how often a key that may be left out is given
+        most = 20 if self.dim == 2 else 8
+        self.cells = [rng.randint(6 if self.dim == 2 else 4, most) for _ in range(self.dim)]
+        self.h = float(rng.choice(SIZES))
+        self.lower = [number(self.h * rng.choice([0, 0, -3, 7.5])) for _ in range(self.dim)]
+        self.extent = [n * self.h for n in self.cells]
+        self.upper = [l + e for l, e in zip(self.lower, self.extent)]
+        self.length = min(self.extent)
+        self.acceleration = rng.choice([9.81, 9.81, 9.81, 0.0, 1.5])
+        self.speed = number(math.sqrt((self.acceleration or 1.0) * self.length))
+        self.end = number(rng.uniform(1.5, 6) * self.h / self.speed)
+        self.density_scale = rng.choice([1000.0, 1000.0, 1.0, 13600.0])
+        self.pressure = self.density_scale * self.speed ** 2
+        self.prescribes = rng.random() < 0.04
+        self.has_gas = not self.prescribes and rng.random() < 0.3
+        self.periodic, self.bodies, self.followed = [], [], {}
+
+    def use(self, table, name, value=None):
+        self.used.add((table, name, value))
+
+    def use_shape(self, table, shape):
+        for key in shape:
+            self.use(table, key, shape[key] if key == "shape" else None)
+
+    def choices(self, table, name):
+        return next(key.choices for key in self.registry[table] if key.name == name)
+
+    def value(self, key, here):
+        make = VALUES.get((key.table, key.name))
+        if make:
+            return make(self, here)
+        if key.takes_many:
+            return [w for w in key.choices if self.rng.random() < 0.5] or [key.choices[0]]
+        return self.rng.choice(key.choices or [True, False])
+
+    def fill(self, table, here):
+        """Adds keys of the table to `here`, in the order in which they decide about each other."""
+        for key in sorted(self.registry[table], key=lambda k: (k.table, k.name) in LAST):
+            made_by_shape = table in SHAPES and key.name in shapes.KEYS and (table, key.name) not in VALUES
+            if key.name in here or made_by_shape or (table, key.name) in PLANNED or not key.applies(here):
+                continue
+            if not key.required and self.rng.random() > self.often and (table, key.name) not in ALWAYS:
+                continue
+            value = self.value(key, here)
+            if value is not None:
+                here[key.name] = value
+                for word in (value if key.takes_many else [value if key.choices else None]):
+                    self.use(table, key.name, word)
+
+
+# Values that depend on those of keys further down.
+LAST = {("probe[]", "position")}
+# Asked for a value each time; these say themselves how often they are there.
+ALWAYS = {("solid[]", "fixed"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
+          ("liquid", "prescribed_velocity"), ("liquid", "density"), ("domain", "boundary"),
+          *((f"solid[].{t}motion.rotate", key) for t in ("", "pinned.") for key in ("axis", "center"))}
+
+
+def slots(c):
+    """Places for up to three solids beside one another along the longest axis, and the radius that each may have."""
+    count = c.rng.choice([0, 1, 1, 2, 3]) if not c.prescribes else 0
+    count = min(count, max(c.cells) // 4)
+    along = c.extent.index(max(c.extent))
+    width = c.extent[along] / max(count, 1)
+    radius = 0.5 * min(0.8 * width, 0.8 * c.length)
+    for n in range(count):
+        center = [l + e * c.rng.uniform(0.45, 0.55) for l, e in zip(c.lower, c.extent)]
+        center[along] = c.lower[along] + (n + 0.5) * width
+        yield center, radius * c.rng.choice([0.4, 0.6, 0.8, 1.15])   # the last all but touch
+
+
+def solid(c, center, radius):
+    c.slot, c.radius = center, radius
+    here = {"kind": c.rng.choice(c.choices("solid[]", "kind"))}
+    c.use("solid[]", "kind", here["kind"])
+    if c.rng.random() < 0.9 or here["kind"] == "elastic":
+        here = {"name": VALUES["solid[]", "name"](c, here), **here}
+    elastic = here["kind"] == "elastic"
+    kinds = [k for k in c.choices("solid[]", "shape") if c.dim == 3 or elastic or k != "mesh"]
+    if here["kind"] != "static":
+        kinds.remove("plane")
+    files = [f"block{c.dim}.{e}" for e in ("msh", "mesh", "vtu")] if elastic else []
+    files += shapes.SURFACES if c.dim == 3 else ()
+    kind = c.rng.choice(kinds)
+    shape = fit_shape(c.rng, c.dim, kind, center, radius, files)
+    if kind == "plane":   # a corner of the domain; it would cut into others in the middle
+        at = point(l + 0.1 * e for l, e in zip(c.lower, c.extent))
+        shape = {"shape": "plane", "point": at, "normal": [1.0] * c.dim}
+    c.use_shape("solid[]", shape)
+    here.update(shape)
+    own_elements = str(here.get("file", "")).startswith("block")
+    if own_elements:
+        here["element_size"] = None
+    elif elastic:
+        here["element_size"] = VALUES["solid[]", "element_size"](c, here)
+        c.use("solid[]", "element_size")
+    c.fill("solid[]", here)
+    if elastic and c.rng.random() < 0.9 and kind != "mesh":
+        c.followed[here["name"]] = center
+    c.bodies.append(here)
+    return {key: value for key, value in here.items() if value is not None}
+
+
+def container(c):
+    """An inverted static ball or box around everything else, at times."""
+    middle = [l + e / 2 for l, e in zip(c.lower, c.extent)]
+    kind = c.rng.choice(["sphere", "box", "expression"])
+    shape = fit_shape(c.rng, c.dim, kind, middle, 0.75 * max(c.extent))
+    c.use("solid[]", "invert")
+    return {"name": "vessel", "kind": "static", **shape, "invert": True}
+
+
+def probes(c):
+    found = []
+    for _ in range(c.rng.choice([0, 0, 1, 3])):
+        kinds = [k for k in c.choices("probe[]", "kind") if k != "displacement" or c.followed]
+        here = {"kind": c.rng.choice(kinds)}
+        c.use("probe[]", "kind", here["kind"])
+        c.fill("probe[]", here)
+        found.append(here)
+    return found
+
+
+def make_scene(registry, rng: random.Random):
+    """(scene, what of the registry it uses, the case)."""
+    c = Case(registry, rng)
+    scene = {"dimension": c.dim}
+    domain = {"lower": point(c.lower), "cell_size": c.h}
+    domain["upper"] = [number(l + e) for l, e in zip(domain["lower"], c.extent)]
+    if not c.prescribes:
+        c.fill("domain", domain)
+    frames = rng.randint(1, 3)
+    scene.update({"domain": domain, "time": {"end": c.end, "frame_rate": number(frames / c.end)}})
+    c.fill("", scene)
+    c.fill("time", scene["time"])
+    scene["liquid"] = table_of("liquid")(c, None)
+    if c.has_gas:
+        scene["gas"] = table_of("gas")(c, None)
+    scene["solid"] = [solid(c, center, radius) for center, radius in slots(c)]
+    if not scene["solid"] and not c.prescribes and rng.random() < 0.1:
+        scene["solid"] = [container(c)]
+    scene["probe"] = probes(c)
+    for table in ("tracking", "solver", "output"):
+        if rng.random() < 0.5:
+            scene[table] = table_of(table)(c, None)
+    return {key: value for key, value in scene.items() if value not in ([], {})}, c

@@ -1,0 +1,327 @@
+"""A value for every key of a scene that is no choice of words, by table and key; None leaves the key out."""
+from fuzzing.shapes import AXES, SURFACES, fit_shape, number, point, rotation, unit_vector
+
+CLOSED = ("free_slip", "no_slip")
+
+
+def log_uniform(c, low, high):
+    return number(low * (high / low) ** c.rng.random())
+
+
+def vector(c, size):
+    return point(size * c.rng.random() * x for x in unit_vector(c.rng, c.dim))
+
+
+def formulas_of_time(c, size):
+    """A vector that is zero at t = 0."""
+    wave = f"{number(size / c.dim)!r}*sin({number(c.rng.uniform(1, 6) / c.end)!r}*t)"
+    return [c.rng.choice([wave, 0.0, "0"]) for _ in range(c.dim)]
+
+
+def flow(c, size):
+    """Numbers, or formulas in place and time."""
+    if c.rng.random() < 0.6:
+        return vector(c, size)
+    x = f"({c.rng.choice(AXES[:c.dim])}-({number(c.lower[0])!r}))/{number(c.length)!r}"
+    return [c.rng.choice([f"{number(size / c.dim)!r}*sin(6*{x})", f"{number(size / c.dim)!r}*cos(t/{c.end!r})", 0.0])
+            for _ in range(c.dim)]
+
+
+# --- top level, sides, time -------------------------------------------------------------------------------------------
+
+def gravity(c, _):
+    if c.acceleration == 0:
+        return [0.0] * c.dim
+    if c.rng.random() < 0.7:
+        return [0.0, -c.acceleration] + [0.0] * (c.dim - 2)
+    if c.rng.random() < 0.5:
+        return point(c.acceleration * x for x in unit_vector(c.rng, c.dim))
+    return [f"{c.acceleration / 2!r}*sin(t/{c.end!r})", f"-{c.acceleration / 2!r}"] + [0.0] * (c.dim - 2)
+
+
+def boundary(c, _):
+    """Periodic sides in pairs; an inflow has an outflow across."""
+    sides = {}
+    for axis in AXES[:c.dim]:
+        low, high = f"{axis}_lower", f"{axis}_upper"
+        what = c.rng.choice(["", "", "walls", "periodic", "through", "open"])
+        if what == "periodic":
+            sides[low] = sides[high] = "periodic"
+            c.periodic.append(axis)
+        elif what == "walls":
+            sides[low], sides[high] = side(c, low, c.rng.choice((*CLOSED, "moving_wall"))), side(c, high, "no_slip")
+        elif what:
+            sides[high] = side(c, high, "outflow")
+            sides[low] = side(c, low, "inflow") if what == "through" else "free_slip"
+    for name, value in sides.items():
+        c.use("side", "type", value if isinstance(value, str) else value["type"])
+        c.use("domain.boundary", name)
+    return sides or None
+
+
+def side(c, name, kind):
+    if kind in (*CLOSED, "periodic") and c.rng.random() < 0.7:
+        return kind
+    table = {"type": kind}
+    c.side = name
+    c.fill("side", table)
+    return table
+
+
+def side_velocity(c, here):
+    """Into the domain; along a wall that moves."""
+    axis = AXES.index(c.side[0])
+    speed = number(c.speed * c.rng.uniform(0.1, 0.6))
+    values = [0.0] * c.dim
+    if here["type"] == "moving_wall":
+        values[(axis + 1) % c.dim] = c.rng.choice([speed, f"{speed!r}*min(1,t/{c.end!r})"])
+        return values
+    across = AXES[(axis + 1) % c.dim]
+    middle = number(c.lower[AXES.index(across)] + c.length / 2)
+    values[axis] = c.rng.choice([speed, f"{speed!r}*min(1,10*t/{c.end!r})", f"{across} < {middle!r} ? {speed!r} : 0"])
+    return values
+
+
+def side_pressure(c, _):
+    head = number(c.pressure * c.rng.uniform(0, 0.3))
+    return c.rng.choice([0.0, head, f"{head!r}*sin(t/{c.end!r})"])
+
+
+def fixed_step(c, _):
+    return number(c.end / c.rng.randint(12, 40)) if c.rng.random() < 0.2 else None
+
+
+# --- liquid and gas --------------------------------------------------------------------------------------------------
+
+def viscosity(c, here):
+    if c.prescribes:
+        return None
+    value = c.density_scale * c.speed * c.length / log_uniform(c, 0.1, 1e5)
+    if c.rng.random() < 0.7:
+        return c.rng.choice([0.0, number(value), number(value)])
+    return f"{number(value)!r}*(1.5+sin({c.rng.choice(AXES[:c.dim])}/{number(c.length)!r}))"
+
+
+def surface_tension(c, _):
+    if c.prescribes:
+        return None
+    return number(c.density_scale * c.h * c.speed ** 2 * log_uniform(c, 1e-3, 0.3))
+
+
+def rheology(c, here):
+    if "viscosity" in here or c.prescribes:
+        return None
+    table = {}
+    c.fill("liquid.rheology", table)
+    return table
+
+
+def stress_scale(c):
+    return c.density_scale * c.speed ** 2
+
+
+def viscosity_scale(c):
+    return stress_scale(c) * c.length / c.speed
+
+
+def region_center(c):
+    return [l + e * c.rng.uniform(0.1, 0.9) for l, e in zip(c.lower, c.extent)]
+
+
+def pool(c):
+    """The lower part of the domain, up to a random height."""
+    upper = list(c.upper)
+    upper[1] = c.lower[1] + c.extent[1] * c.rng.uniform(0.2, 1.0)
+    return {"shape": "box", "lower": point(c.lower), "upper": point(upper)}
+
+
+def random_shape(c, table, center, r, files=None):
+    kind = c.rng.choice([v for v in c.choices(table, "shape") if v != "mesh" or files or c.dim == 3])
+    shape = fit_shape(c.rng, c.dim, kind, center, r, files or SURFACES)
+    c.use_shape(table, shape)
+    return shape
+
+
+def regions(c, _):
+    found = []
+    for n in range(c.rng.choice([1, 1, 2, 3])):
+        if n == 0 and c.rng.random() < 0.6:
+            here = pool(c)
+        elif c.rng.random() < 0.1:
+            level = number(c.lower[1] + c.length / 3)
+            here = {"shape": "expression", "phi": c.rng.choice([-1, "-1", f"y-({level!r})"])}
+        else:
+            here = random_shape(c, "liquid.region[]", region_center(c), c.length * c.rng.uniform(0.15, 0.4))
+            if c.rng.random() < 0.1:
+                here["invert"] = True
+                c.use("liquid.region[]", "invert")
+        c.fill("liquid.region[]", here)
+        found.append(here)
+    return found
+
+
+def sources(c, _):
+    here = random_shape(c, "liquid.source[]", region_center(c), c.length * c.rng.uniform(0.1, 0.2))
+    if c.rng.random() < 0.05:
+        here["invert"] = True
+        c.use("liquid.source[]", "invert")
+    c.fill("liquid.source[]", here)
+    return [here]
+
+
+def prescribed(c, _):
+    """Free of divergence; only in scenes of liquid alone."""
+    if not c.prescribes:
+        return None
+    s = number(c.speed / c.length)
+    middle = [number(l + e / 2) for l, e in zip(c.lower, c.extent)]
+    return c.rng.choice([[f"-{s!r}*(y-({middle[1]!r}))", f"{s!r}*(x-({middle[0]!r}))"] + [0.0] * (c.dim - 2),
+                         vector(c, c.speed / 2), [f"{c.speed / 2!r}*cos(t/{c.end!r})", "0"] + ["0"] * (c.dim - 2)])
+
+
+# --- solids and probes -----------------------------------------------------------------------------------------------
+
+def motion(c, table, size):
+    """Zero at t = 0, of at most this size."""
+    c.reach = size
+    here = {}
+    c.fill(table, here)
+    return here
+
+
+def motion_rotate(c, table):
+    here = {}
+    c.fill(table, here)
+    return here
+
+
+def motion_axis(c, _):
+    return unit_vector(c.rng, 3) if c.dim == 3 else None
+
+
+def angular_velocity(c, _):
+    turn = c.rng.uniform(-1, 1) * c.speed / c.length
+    return number(turn) if c.dim == 2 else point([turn, 0.0, turn])
+
+
+def fixed(c, here):
+    """Bodies do not cross periodic sides; along and about what is fixed a body has no velocity."""
+    turns = c.rng.choice([("rotation",), ("rotation_x", "rotation_y", "rotation_z") if c.dim == 3 else ()])
+    names = {n for n in (*AXES[:c.dim], *turns) if c.rng.random() < 0.3} | set(c.periodic)
+    if "velocity" in here:
+        here["velocity"] = [0.0 if AXES[a] in names else v for a, v in enumerate(here["velocity"])]
+    if any(n.startswith("rotation") for n in names):
+        here.pop("angular_velocity", None)
+    return sorted(names) or None
+
+
+def pins(c, _):
+    """One side of the body, or two opposite ones. Loose bodies and periodic sides do not go together."""
+    if not c.periodic and c.rng.random() < 0.4:
+        return None
+    two, axis, found = c.rng.random() < 0.3, c.rng.randrange(c.dim), []
+    for side_of in ((-1, 1) if two else (c.rng.choice([-1, 1]),)):
+        center = list(c.slot)
+        center[axis] += side_of * c.radius * (0.9 if two else 0.6)
+        left_out = ("mesh",) * (c.dim == 2) + ("plane",) * two
+        kinds = [k for k in c.choices("solid[].pinned", "shape") if k not in left_out]
+        here = fit_shape(c.rng, c.dim, c.rng.choice(kinds), center, (0.8 if two else 1.4) * c.radius, SURFACES)
+        if here["shape"] == "plane" and "translate" not in here:
+            here["point"] = point(c.slot)
+        c.use_shape("solid[].pinned", here)
+        c.fill("solid[].pinned", here)
+        found.append(here)
+    return found if two or c.rng.random() < 0.5 else found[0]
+
+
+def tractions(c, _):
+    here = random_shape(c, "solid[].traction", c.slot, 1.5 * c.radius)
+    c.fill("solid[].traction", here)
+    return c.rng.choice([here, [here]])
+
+
+def table_of(name):
+    def make(c, _):
+        here = {}
+        c.fill(name, here)
+        return here
+    return make
+
+
+def probe_position(c, here):
+    if here["kind"] == "displacement":
+        return point(c.followed[here["solid"]])
+    return point(l + e * c.rng.uniform(0.0, 1.0) for l, e in zip(c.lower, c.extent))
+
+
+VALUES = {
+    ("", "title"): lambda c, _: c.rng.choice(["", "fuzz", "Wässer \"7\" \\ ü", "a" * 300]),
+    ("", "gravity"): gravity,
+    ("domain", "boundary"): boundary,
+    ("side", "velocity"): side_velocity,
+    ("side", "pressure"): side_pressure,
+    ("time", "cfl"): lambda c, _: number(c.rng.choice([0.3, 0.9, 1.0, 2.0, 4.0, c.rng.uniform(0.2, 8)])),
+    ("time", "max_step"): lambda c, _: number(c.end / c.rng.randint(3, 20)),
+    ("time", "fixed_step"): fixed_step,
+    ("liquid", "density"): lambda c, _: c.density_scale,
+    ("liquid", "viscosity"): viscosity,
+    ("liquid", "surface_tension"): surface_tension,
+    ("liquid", "contact_angle"): lambda c, _: number(c.rng.uniform(20, 160)),
+    ("liquid", "rheology"): rheology,
+    ("liquid", "velocity"): lambda c, _: None if c.prescribes else flow(c, 0.5 * c.speed),
+    ("liquid", "prescribed_velocity"): prescribed,
+    ("liquid", "separates"): lambda c, _: not c.has_gas and not c.prescribes and c.rng.random() < 0.3,
+    ("liquid", "region"): regions,
+    ("liquid", "source"): sources,
+    ("liquid.rheology", "viscosity_zero"): lambda c, _: number(viscosity_scale(c) * log_uniform(c, 1e-2, 10)),
+    ("liquid.rheology", "viscosity_infinity"): lambda c, _: number(viscosity_scale(c) * log_uniform(c, 1e-5, 1e-2)),
+    ("liquid.rheology", "time"): lambda c, _: number(c.length / c.speed * log_uniform(c, 0.1, 10)),
+    ("liquid.rheology", "viscosity"): lambda c, _: number(viscosity_scale(c) * log_uniform(c, 1e-3, 1)),
+    ("liquid.rheology", "consistency"): lambda c, _: number(viscosity_scale(c) * log_uniform(c, 1e-3, 1)),
+    ("liquid.rheology", "exponent"): lambda c, _: number(c.rng.choice([0.5, 1.0, c.rng.uniform(0.2, 2)])),
+    ("liquid.rheology", "yield_stress"): lambda c, _: number(
+        stress_scale(c) * c.rng.choice([0.0, 0.3 * c.rng.random()])),
+    ("liquid.rheology", "regularisation"): lambda c, _: number(c.speed / c.length * log_uniform(c, 1e-4, 1e-1)),
+    ("liquid.region[]", "velocity"): lambda c, _: None if c.prescribes else flow(c, c.speed),
+    ("liquid.source[]", "velocity"): lambda c, _: None if c.prescribes else flow(c, c.speed),
+    ("liquid.source[]", "from"): lambda c, _: number(c.end * c.rng.uniform(0, 0.5)),
+    ("liquid.source[]", "start"): lambda c, _: number(c.end * c.rng.uniform(0, 0.5)),
+    ("liquid.source[]", "until"): lambda c, _: number(c.end * c.rng.uniform(0.6, 1.5)),
+    ("gas", "density"): lambda c, _: log_uniform(c, c.density_scale * 1e-3, c.density_scale),
+    ("gas", "viscosity"): lambda c, _: c.rng.choice([0.0, number(c.density_scale * c.speed * c.length * 1e-4)]),
+    ("gas", "velocity"): lambda c, _: flow(c, 0.5 * c.speed),
+    ("solid[]", "name"): lambda c, _: c.rng.choice(["body", "Körper", "a b", "../up", "x" * 60]) + str(len(c.bodies)),
+    ("solid[]", "motion"): lambda c, _: motion(c, "solid[].motion", 0.3 * c.radius),
+    ("solid[]", "density"): lambda c, _: log_uniform(c, c.density_scale * 0.01, c.density_scale * 10),
+    ("solid[]", "velocity"): lambda c, _: vector(c, 0.3 * c.speed),
+    ("solid[]", "angular_velocity"): angular_velocity,
+    ("solid[]", "fixed"): fixed,
+    ("solid[]", "friction"): lambda c, _: c.rng.choice([0.0, 0.3, 1.0, 1e4]),
+    ("solid[]", "contact_angle"): lambda c, _: number(c.rng.uniform(20, 160)),
+    ("solid[]", "material"): table_of("solid[].material"),
+    ("solid[]", "element_size"): lambda c, _: number(c.radius / c.rng.uniform(1.2, 2.5)),
+    ("solid[]", "element_order"): lambda c, _: c.rng.choice([1, 2]),
+    ("solid[]", "pinned"): pins,
+    ("solid[]", "body_force"): lambda c, _: flow(c, c.density_scale * max(c.acceleration, c.speed ** 2 / c.length)),
+    ("solid[]", "traction"): tractions,
+    ("solid[].traction", "stress"): lambda c, _: flow(c, 0.3 * stress_scale(c)),
+    ("solid[].material", "youngs_modulus"): lambda c, _: number(stress_scale(c) * log_uniform(c, 3, 1e5)),
+    ("solid[].material", "poisson_ratio"): lambda c, _: c.rng.choice([0, 0.3, 0.45, 0.499]),
+    ("solid[].material", "damping"): lambda c, _: number(c.end * c.rng.choice([0, 0.01, 0.1])),
+    ("solid[].material", "mass_damping"): lambda c, _: number(c.rng.choice([0, 0.1, 1]) / c.end),
+    ("solid[].pinned", "motion"): lambda c, _: motion(c, "solid[].pinned.motion", 0.1 * c.radius),
+    ("probe[]", "name"): lambda c, _: f"probe {c.rng.random()}",
+    ("probe[]", "position"): probe_position,
+    ("probe[]", "every"): lambda c, _: number(c.end / c.rng.uniform(1, 15)),
+    ("probe[]", "solid"): lambda c, _: c.rng.choice(list(c.followed)),
+    ("solver", "tolerance"): lambda c, _: log_uniform(c, 1e-11, 1e-4),
+    ("solver", "rheology_tolerance"): lambda c, _: log_uniform(c, 1e-5, 1e-1),
+    ("solver", "rheology_iterations"): lambda c, _: c.rng.choice([30, 60, 200]),
+    ("output", "checkpoint_every"): lambda c, _: c.rng.choice([1, 2, 1000]),
+}
+for _prefix in ("solid[].motion", "solid[].pinned.motion"):
+    VALUES[_prefix, "translate"] = lambda c, _: formulas_of_time(c, c.reach)
+    VALUES[_prefix, "rotate"] = lambda c, _, table=_prefix + ".rotate": motion_rotate(c, table)
+    VALUES[_prefix + ".rotate", "axis"] = motion_axis
+    VALUES[_prefix + ".rotate", "center"] = lambda c, _: point(c.slot)
+    VALUES[_prefix + ".rotate", "degrees"] = lambda c, _: f"{number(c.rng.uniform(-20, 20))!r}*sin(t/{c.end!r})"
