@@ -4,6 +4,7 @@
 
 #include "base/emergency_channel.h"
 #include "base/version.h"
+#include "command_line.h"
 #include "console.h"
 #include "verbs.h"
 
@@ -52,7 +53,7 @@ int parse(CLI::App& program, int argc, char** argv, const Communicator& ranks) {
       if (ranks.is_root()) program.exit(outcome);
       return 0;
     }
-    if (ranks.is_root()) print_error(fmt::format("{}; see `seiche --help`", outcome.what()));
+    if (ranks.is_root()) print_error(describe_mistake(program, outcome, {argv + 1, argv + argc}));
     return int(ExitCode::bad_input);
   }
 }

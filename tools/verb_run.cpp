@@ -45,7 +45,7 @@ void add_run(CLI::App& program, VerbContext& context) {
   verb->add_option("--out", options->out, "Run directory; default: out/<scene name>");
   verb->add_flag_callback(
       "--overwrite", [options] { options->existing = ExistingOutput::overwrite; },
-      "Replace the run that the directory holds");
+      "Replace the run that the directory holds, its frames, tables, checkpoints and pictures");
   add_set_option(*verb, options->overrides);
   add_session_options(*verb, options->session);
   verb->callback([options, &context] {
@@ -56,7 +56,7 @@ void add_run(CLI::App& program, VerbContext& context) {
 void add_resume(CLI::App& program, VerbContext& context) {
   CLI::App* verb = program.add_subcommand("resume", "Continue a stopped, killed or finished run");
   const auto options = std::make_shared<ResumeOptions>();
-  verb->add_option("directory", options->folder, "Run directory")->required();
+  verb->add_option("directory", options->folder, "Run directory, such as out/<scene name>")->required();
   verb->add_option("--end", options->end, "New end time, s");
   verb->add_flag_callback(
       "--force", [options] { options->edits = EditPolicy::force; },

@@ -3,8 +3,29 @@
 #include <muParser.h>
 
 #include "base/error.h"
+#include "base/expression_names.h"
+#include "base/expression_terms.h"
 
 namespace seiche {
+namespace {
+
+// Names are told first: the parser's own words for them ("unexpected parenthesis") do not help.
+std::string describe_fault(const Formula& text, const std::string& parser_message) {
+  return "expression '" + text + "': " + fault_of_names(text).value_or(parser_message);
+}
+
+template <class Map>
+std::vector<std::string> keys_of(const Map& map) {
+  std::vector<std::string> keys;
+  for (const auto& [name, entry] : map) keys.push_back(name);
+  return keys;
+}
+
+void define_constants(mu::Parser& parser) {
+  parser.DefineConst("pi", 3.14159265358979323846);
+}
+
+}  // namespace
 
 struct Expression::Impl {
   mu::Parser parser;
@@ -20,12 +41,12 @@ Expression::Expression(const Formula& text) : impl_(std::make_unique<Impl>()) {
     p.DefineVar("y", &impl_->y);
     p.DefineVar("z", &impl_->z);
     p.DefineVar("t", &impl_->t);
-    p.DefineConst("pi", 3.14159265358979323846);
+    define_constants(p);
     p.SetExpr(text);
     impl_->constant = p.GetUsedVar().empty();
     impl_->value = p.Eval();
   } catch (const mu::Parser::exception_type& e) {
-    throw Error(ExitCode::bad_input, "expression '" + text + "': " + e.GetMsg());
+    throw Error(ExitCode::bad_input, describe_fault(text, e.GetMsg()));
   }
 }
 
@@ -51,6 +72,16 @@ VectorExpression::VectorExpression(const VectorFormula& text)
 
 Vec3 VectorExpression::operator()(const Vec3& x, double t) const {
   return {parts_[0](x, t), parts_[1](x, t), parts_[2](x, t)};
+}
+
+std::vector<std::string> parser_functions() {
+  return keys_of(mu::Parser().GetFunDef());
+}
+
+std::vector<std::string> parser_constants() {
+  mu::Parser parser;
+  define_constants(parser);
+  return keys_of(parser.GetConst());
 }
 
 }  // namespace seiche

@@ -9,7 +9,7 @@ namespace seiche {
 
 class Expression {
  public:
-  explicit Expression(const Formula& text);  // throws Error(bad_input) with muParser's message and position
+  explicit Expression(const Formula& text);  // throws Error(bad_input) naming the fault
   ~Expression();
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+
 #include "base/error.h"
 #include "coupling/solid_coupling.h"
 
@@ -124,25 +127,58 @@ std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
 }
 
 template <int Dim>
+std::string corners_text(const Vec3& lower, const Vec3& upper) {
+  const Vec<Dim> a = truncate<Dim>(lower), b = truncate<Dim>(upper);
+  return fmt::format("[{:.4g}] to [{:.4g}] m", fmt::join(a.begin(), a.end(), ", "),
+                     fmt::join(b.begin(), b.end(), ", "));
+}
+
+// Why a body that crosses a side cannot be meant so: it lies wholly outside of the domain, or is far larger. Else
+// empty.
+template <int Dim>
+std::string misplacement(const Setup<Dim>& s, const Body<Dim>& body) {
+  const Vec3 lower = s.scene.domain.lower, upper = s.scene.domain.upper;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : body.contact_surface().points) box.extend(x);
+  constexpr double far_larger = 10;
+  bool outside = false, larger = false;
+  for (int a = 0; a < Dim; ++a) {
+    outside |= box.max()[a] <= lower[a] || box.min()[a] >= upper[a];
+    larger |= box.sizes()[a] > far_larger * (upper[a] - lower[a]);
+  }
+  if (!outside && !larger) return {};
+  return fmt::format("{}: it spans {}, the domain {}; {}",
+                     larger ? "is far larger than the domain" : "lies outside of the domain",
+                     corners_text<Dim>(box.min(), box.max()), corners_text<Dim>(lower, upper),
+                     larger ? "lengths are in metres (from millimetres: scale = 0.001)" : "move it inside");
+}
+
+template <int Dim>
+std::string fault_of_overlap(const Setup<Dim>& s, const Overlap& o, double least) {
+  const std::string name = s.bodies[o.body].spec().name;
+  if (o.with == Overlap::With::body && o.other == o.body)
+    return fmt::format(
+        "the surface of the elements of solid '{}' crosses itself; take another element_size, or round its edges",
+        name);
+  const std::string how = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
+                                      : fmt::format("touch or are closer than {:.3g} m", least);
+  return fmt::format("solid '{}' and {} {} at the start; {}", name, other_name(s, o), how, remedy(s, o));
+}
+
+template <int Dim>
 void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
   if (!s.contact) return;
-  std::string all;
+  std::vector<std::string> lines;
   const double least = clearance * reach * s.layout.h();
   for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, state, 0), least)) {
-    const SolidSpec& spec = s.bodies[o.body].spec();
-    if (o.with == Overlap::With::body && o.other == o.body) {
-      all += fmt::format(
-          "{}{}: the surface of the elements of solid '{}' crosses itself; take another element_size, or "
-          "round its edges",
-          all.empty() ? "" : "\n", spec.shape.where, spec.name);
-      continue;
-    }
-    const std::string how = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
-                                        : fmt::format("touch or are closer than {:.3g} m", least);
-    all += fmt::format("{}{}: solid '{}' and {} {} at the start; {}", all.empty() ? "" : "\n", spec.shape.where,
-                       spec.name, other_name(s, o), how, remedy(s, o));
+    const Body<Dim>& body = s.bodies[o.body];
+    const std::string misplaced = o.with == Overlap::With::wall ? misplacement(s, body) : "";
+    const std::string fault =
+        misplaced.empty() ? fault_of_overlap(s, o, least) : fmt::format("solid '{}' {}", body.spec().name, misplaced);
+    const std::string line = body.spec().shape.where + ": " + fault;
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   }
-  if (!all.empty()) throw Error(ExitCode::bad_input, all);
+  if (!lines.empty()) throw Error(ExitCode::bad_input, fmt::format("{}", fmt::join(lines, "\n")));
 }
 
 template <int Dim>

@@ -40,6 +40,13 @@ double end_of_frames(int frames, const Scene& scene) {
   return frames / scene.time.frame_rate;
 }
 
+void tell_removed(const RemovedFiles& removed, const fs::path& folder, RunLog& log) {
+  if (removed.others + removed.pictures == 0) return;
+  const std::string pictures = removed.pictures > 0 ? fmt::format(", {} of them pictures", removed.pictures) : "";
+  log.note(fmt::format("note: the run that was in {} is replaced ({} files{})", folder.string(),
+                       removed.others + removed.pictures, pictures));
+}
+
 fs::path output_folder(const RunOptions& options) {
   return options.out.value_or(fs::path("out") / options.scene.stem());
 }
@@ -97,6 +104,7 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   check_machine(scene, ranks);
   const fs::path folder = output_folder(options);
   const auto directory = open_directory(folder, options.existing, ranks);
+  if (directory) tell_removed(directory->removed(), folder, log);
   if (scene.time.end <= 0)
     log.note(fmt::format("note: the end time {:g} s leaves nothing to simulate", scene.time.end));
   return run_session({scene, around, options.session, log, RunPaths{fs::absolute(folder).lexically_normal()}}, {});

@@ -34,14 +34,16 @@ bool is_ours(const std::string& name) {
   throw Error(ExitCode::output_failed, describe_failure(path, action, errno));
 }
 
-void remove_run(const fs::path& folder) {
+RemovedFiles remove_run(const fs::path& folder) {
   std::vector<fs::path> files, folders;
+  RemovedFiles removed;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
     if (entry.is_directory() && !entry.is_symlink()) {
       folders.push_back(entry.path());
     } else if (is_ours(name) && name != "lock") {
       files.push_back(entry.path());
+      ++(name.starts_with("pictures/") ? removed.pictures : removed.others);
     }
   }
   for (const fs::path& file : files) {
@@ -50,6 +52,7 @@ void remove_run(const fs::path& folder) {
   // Deepest first; those that still hold other people's files stay.
   std::sort(folders.begin(), folders.end(), std::greater<>());
   for (const fs::path& empty : folders) ::rmdir(empty.c_str());
+  return removed;
 }
 
 bool holds_output(const fs::path& folder) {
@@ -57,6 +60,19 @@ bool holds_output(const fs::path& folder) {
     if (entry.path().filename() != "lock") return true;
   }
   return false;
+}
+
+// A scene's name in place of the folder of its run is the likely slip.
+[[noreturn]] void refuse_to_resume(const fs::path& given) {
+  std::error_code ignored;
+  if (!fs::exists(given, ignored))
+    throw Error(ExitCode::bad_input, fmt::format("{}: there is no such run directory to resume", given.string()));
+  const fs::path usual = fs::path("out") / given.stem();
+  const bool there = fs::exists(usual / "scene.toml", ignored);
+  const std::string remedy = there ? fmt::format("did you mean `seiche resume {}`?", usual.string())
+                                   : fmt::format("such as {}", usual.string());
+  throw Error(ExitCode::bad_input, fmt::format("{} is a file; resume takes the directory of a run, {}{}",
+                                               given.string(), remedy, there ? "" : " or the one given with --out"));
 }
 
 std::string first_line(const fs::path& file) {
@@ -71,9 +87,7 @@ std::string first_line(const fs::path& file) {
 RunDirectory::RunDirectory(const fs::path& folder, ExistingOutput policy)
     : paths_{fs::absolute(folder).lexically_normal()} {
   std::error_code ignored;
-  if (policy == ExistingOutput::resume && !fs::exists(paths_.folder, ignored)) {
-    throw Error(ExitCode::bad_input, fmt::format("{}: there is no such run directory to resume", folder.string()));
-  }
+  if (policy == ExistingOutput::resume && !fs::is_directory(paths_.folder, ignored)) refuse_to_resume(folder);
   try {
     create_folder();
     take_lock();
@@ -141,11 +155,12 @@ void RunDirectory::look_at_contents(ExistingOutput policy) {
   }
   if (policy == ExistingOutput::refuse && holds_output(paths_.folder)) {
     throw Error(ExitCode::bad_input,
-                fmt::format("{} already holds {}; give --overwrite to replace it, `seiche resume` to continue it, or "
+                fmt::format("{} already holds {}; give --overwrite to replace it{}, `seiche resume` to continue it, or "
                             "another --out",
-                            paths_.folder.string(), is_run ? "a run" : "files"));
+                            paths_.folder.string(), is_run ? "a run" : "files",
+                            fs::exists(paths_.pictures()) ? " (its pictures, too)" : ""));
   }
-  if (policy == ExistingOutput::overwrite) remove_run(paths_.folder);
+  if (policy == ExistingOutput::overwrite) removed_ = remove_run(paths_.folder);
 }
 
 }  // namespace seiche

@@ -14,6 +14,7 @@ struct RunPaths {
   std::filesystem::path stats() const { return folder / "stats.csv"; }
   std::filesystem::path solids() const { return folder / "solids.csv"; }
   std::filesystem::path probes() const { return folder / "probes.csv"; }
+  std::filesystem::path pictures() const { return folder / "pictures"; }
   std::filesystem::path summary() const { return folder / "summary.json"; }
   std::filesystem::path log() const { return folder / "log.txt"; }
   std::filesystem::path stop() const { return folder / "stop"; }
@@ -21,6 +22,11 @@ struct RunPaths {
 };
 
 enum class ExistingOutput { refuse, overwrite, resume };
+
+// Files that overwriting took away.
+struct RemovedFiles {
+  int pictures = 0, others = 0;
+};
 
 // Holds the folder for the life of the object (an flock on `lock`, which also holds the process id). Rank 0 owns the
 // only one of a run.
@@ -36,6 +42,7 @@ class RunDirectory {
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   const RunPaths& paths() const { return paths_; }
+  const RemovedFiles& removed() const { return removed_; }
 
  private:
   void create_folder();
@@ -44,6 +51,7 @@ class RunDirectory {
   void look_at_contents(ExistingOutput policy);
 
   RunPaths paths_;
+  RemovedFiles removed_;
   int lock_ = -1;
   std::vector<std::filesystem::path> created_;  // outermost first
 };

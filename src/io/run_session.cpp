@@ -18,6 +18,12 @@
 namespace seiche {
 namespace {
 
+// As it is typed: in quotes where a shell would split it or read a sign in it.
+std::string shell_word(const std::string& text) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%=";
+  return text.find_first_not_of(plain) == std::string::npos ? text : "'" + text + "'";
+}
+
 std::string end_of(const RunSummary& summary, const RunPaths& paths) {
   // A failure's message is the program's last word, not repeated here.
   const std::string ended = summary.ended.starts_with("failed") ? "failed" : summary.ended;
@@ -28,7 +34,10 @@ std::string end_of(const RunSummary& summary, const RunPaths& paths) {
   text += fmt::format("liquid volume {:.6g}, drift {:+.3g} %; worst residual {:.2e}; peak memory {}\n",
                       summary.state.liquid_volume, 100 * volume_drift(summary.state), summary.state.worst_residual,
                       readable_bytes(summary.peak_memory));
-  return text + "results in " + paths.folder.string();
+  text += "results in " + paths.folder.string();
+  if (summary.code == ExitCode::stopped)
+    text += fmt::format("\n`seiche resume {}` continues it", shell_word(paths.folder.string()));
+  return text;
 }
 
 std::int64_t cells_of(const Scene& scene) {

@@ -9,8 +9,8 @@
 
 #include "base/gravity.h"
 #include "base/options.h"
+#include "base/suggest.h"
 #include "fluid/rheology.h"
-#include "io/suggest.h"
 
 namespace seiche {
 namespace {

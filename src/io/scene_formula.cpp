@@ -2,49 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/expression.h"
+#include "base/expression_names.h"
 
 namespace seiche {
 namespace {
 
-bool is_letter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
-}
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) || c == '.';
-}
-
-// The end of the number that starts here, its exponent included.
-std::size_t skip_number(const std::string& text, std::size_t at) {
-  while (at < text.size() && is_digit(text[at])) ++at;
-  if (at >= text.size() || (text[at] != 'e' && text[at] != 'E')) return at;
-  std::size_t digits = at + 1;
-  if (digits < text.size() && (text[digits] == '+' || text[digits] == '-')) ++digits;
-  if (digits >= text.size() || !is_digit(text[digits])) return at;
-  while (digits < text.size() && is_digit(text[digits])) ++digits;
-  return digits;
-}
-
 // The first of x, y, z, t in the text that the option does not offer, or nothing.
 std::optional<std::string> strange_variable(const std::string& text, const std::string& allowed) {
-  for (std::size_t at = 0; at < text.size();) {
-    if (is_digit(text[at])) {
-      at = skip_number(text, at);
-    } else if (is_letter(text[at])) {
-      std::size_t end = at;
-      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
-      const std::string word = text.substr(at, end - at);
-      const bool coordinate = word.size() == 1 && std::string("xyzt").find(word) != std::string::npos;
-      if (coordinate && allowed.find(word) == std::string::npos) return word;
-      at = end;
-    } else {
-      ++at;
-    }
+  for (const NameInText& found : names_in(text)) {
+    const bool coordinate = found.name.size() == 1 && std::string("xyzt").find(found.name) != std::string::npos;
+    if (coordinate && allowed.find(found.name) == std::string::npos) return found.name;
   }
   return std::nullopt;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/suggest.h"
+#include "base/suggest.h"
 
 namespace seiche {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/suggest.h"
 #include "io/scene_formula.h"
-#include "io/suggest.h"
 
 namespace seiche {
 namespace {

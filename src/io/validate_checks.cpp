@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "io/checked_file.h"
 #include "io/csv.h"
-#include "io/suggest.h"
 #include "io/validate_kinds.h"
 #include "io/validate_lines.h"
 #include "io/validate_quantity.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/suggest.h"
+#include "base/suggest.h"
 
 namespace seiche {
 namespace {

@@ -47,7 +47,8 @@ bool is_thinner_than(const ElasticSolid<Dim>& solid, double h) {
 
 template <int Dim>
 bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, const Vec<Dim>& upper) {
-  if (body.spec().shape.kind == "expression") return false;
+  // A container, the outside of a shape, goes on beyond the domain.
+  if (body.spec().shape.kind == "expression" || body.spec().shape.invert) return false;
   Vec<Dim> low = upper, high = lower;
   for (const Vec3& x : body.contact_surface().points) {
     low = low.cwiseMin(truncate<Dim>(x));

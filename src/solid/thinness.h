@@ -5,8 +5,8 @@
 namespace seiche {
 
 // Whether no ball of diameter h fits into the solid within the box [lower, upper], by samples a quarter of h apart: up
-// to 1.3 h may count as thinner. Shapes that are too large for that many samples, and those whose value is no distance,
-// count as thick.
+// to 1.3 h may count as thinner. Shapes that are too large for that many samples, those whose value is no distance,
+// and the outsides of shapes (invert) count as thick.
 template <int Dim>
 bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, const Vec<Dim>& upper);
 

@@ -701,10 +701,23 @@ def bodies_overlap_at_start(bench):
 
 def body_overlaps_wall(bench):
     """Row 22: a body partly or wholly outside closed walls: 2; across or beyond an open side it may stand."""
-    for shape in (box((-0.1, 0.2), (0.4, 0.4)), box((1.1, 0.2), (1.4, 0.4)), ball((0.5, 1.5), 0.2)):
-        bench.simulate(text=box_scene([16, 16], POOL, rigid("a", shape))).needs(2, "'a' and the side ", "overlap")
+    bench.simulate(text=box_scene([16, 16], POOL, rigid("a", box((-0.1, 0.2), (0.4, 0.4))))).needs(2, "'a' and the side ", "overlap")
+    for shape in (box((1.1, 0.2), (1.4, 0.4)), ball((0.5, 1.5), 0.2)):
+        bench.simulate(text=box_scene([16, 16], POOL, rigid("a", shape))).needs(2, "'a' lies outside of the domain")
     for shape in (box((0.8, 0.2), (1.2, 0.4)), box((1.1, 0.2), (1.4, 0.4))):
         bench.simulate("--overwrite", text=box_scene([16, 16], POOL, OPEN_SIDE + rigid("a", shape))).needs(0)
+
+
+def body_far_outside(bench):
+    """A body wholly outside of the domain, or far larger than it, is told as such; a container is not thin."""
+    for corners, text in (("lower = [400.0, 0.2]\nupper = [400.1, 0.3]", "lies outside of the domain: it spans [400, 0.2]"),
+                          ("lower = [0.1, 0.1]\nupper = [156.0, 120.0]", "is far larger than the domain")):
+        body = f'[[solid]]\nname = "block"\nkind = "rigid"\nshape = "box"\n{corners}\ndensity = 500.0\n'
+        bench.simulate(text=box_scene([16, 16], body)).needs(2, "solid 'block' " + text)
+    vessel = ('[[solid]]\nname = "vessel"\nkind = "static"\nshape = "box"\nlower = [0.1, 0.1]\nupper = [0.9, 0.9]\n'
+              'invert = true\n')
+    result = bench.simulate("--frames", "0", text=box_scene([16, 16], vessel), out="vessel").needs(0)
+    expect("thinner than a cell" not in result.output + result.errors, "a container is called thin")
 
 
 def body_leaves_the_domain(bench):
@@ -899,6 +912,31 @@ def command_line(bench):
     expect(bench.path("out/scene/stats.csv").exists(), "the default folder is not out/<scene name>")
 
 
+def misspelt_words(bench):
+    """Misspelt verbs and options are told with the right ones; a scene in place of a run's folder too."""
+    scene = bench.scene()
+    bench.run("rn", scene).needs(2, "unknown verb 'rn'; did you mean 'run'?")
+    bench.run("sail").needs(2, "unknown verb 'sail'; verbs: run, resume, check")
+    bench.run("run", scene, "--thread", "2").needs(2, "unknown option '--thread'; did you mean '--threads'?")
+    bench.run("run", scene, "--ot=x").needs(2, "unknown option '--ot'; did you mean '--out'?", "seiche run --help")
+    bench.run("run", scene, "other.toml").needs(2, "other.toml")
+    bench.run("resume", scene).needs(2, "is a file; resume takes the directory of a run, such as out/scene")
+    bench.run("run", scene, "--frames", "1").needs(0)
+    bench.run("resume", scene).needs(2, "did you mean `seiche resume out/scene`?")
+
+
+def pictures_and_overwriting(bench):
+    """Overwriting takes the pictures, and says so before and after; a stop says how to go on."""
+    bench.simulate("--frames", "1").needs(0)
+    pictures = bench.path("out") / "pictures"
+    pictures.mkdir()
+    (pictures / "a.png").write_text("x")
+    bench.simulate("--frames", "1").needs(2, "(its pictures, too)")
+    bench.simulate("--frames", "1", "--overwrite").needs(0, "1 of them pictures")
+    expect(not pictures.exists(), "the pictures are still there")
+    bench.simulate("--walltime", "0", out="with space").needs(75, "`seiche resume '", "with space'` continues it")
+
+
 TABLES = {
     "domains": [no_liquid_at_all, liquid_drains_away, no_solids_no_container, full_closed_container,
                 full_container_with_moving_solid, inflow_without_outlet, inflow_balanced_to_round_off,
@@ -915,8 +953,8 @@ TABLES = {
     "checkpoints": [damaged_checkpoints, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
                     foreign_checkpoints, other_rank_counts, edited_scene],
     "frames": [frames_open_elsewhere],
-    "command_line": [command_line],
-    "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_leaves_the_domain, body_thinner_than_a_cell,
+    "command_line": [command_line, misspelt_words, pictures_and_overwriting],
+    "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_far_outside, body_leaves_the_domain, body_thinner_than_a_cell,
               body_smaller_than_a_cell, too_many_bodies, fast_body_and_thin_wall, body_squeezed_between_solids,
               piston_in_a_full_tank, density_ratios, no_gravity_and_too_much, gravity_flips, prescribed_motion_jumps],
     "elastic": [elastic_out_of_range, elastic_meshes_at_fault],

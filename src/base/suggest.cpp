@@ -1,8 +1,16 @@
-#include "io/suggest.h"
+#include "base/suggest.h"
 
 #include <algorithm>
 
 namespace seiche {
+namespace {
+
+// Letters that both words begin with.
+std::ptrdiff_t common_start(const std::string& a, const std::string& b) {
+  return std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin();
+}
+
+}  // namespace
 
 // Optimal string alignment (Damerau, Levenshtein), three rows at a time.
 int edit_distance(const std::string& a, const std::string& b) {
@@ -29,7 +37,9 @@ std::optional<std::string> suggest(const std::string& word, const std::vector<st
   int best_distance = std::max(1, int(word.size() + 1) / 3) + 1;
   for (const std::string& candidate : candidates) {
     const int distance = edit_distance(word, candidate);
-    if (distance >= best_distance || distance >= int(candidate.size())) continue;
+    if (distance > best_distance || distance >= int(candidate.size())) continue;
+    const bool tied = distance == best_distance;
+    if (tied && (!best || common_start(word, candidate) <= common_start(word, *best))) continue;
     best_distance = distance;
     best = candidate;
   }

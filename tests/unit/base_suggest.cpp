@@ -1,4 +1,4 @@
-#include "io/suggest.h"
+#include "base/suggest.h"
 
 #include <catch2/catch.hpp>
 
@@ -27,4 +27,9 @@ TEST_CASE("only slips are suggested") {
   CHECK(!suggest("colour", keys));
   CHECK(!suggest("zz", keys));
   CHECK(!suggest(std::string(1000, 'd'), keys));
+}
+
+TEST_CASE("of names equally near the one that begins alike is suggested") {
+  CHECK(suggest("sinn", {"sign", "sin", "sinh"}) == "sin");
+  CHECK(suggest("coss", {"cosh", "cos"}) == "cosh");
 }
