@@ -45,6 +45,12 @@ bool is_in_enclosed_air(const Setup<Dim>& s, const State<Dim>& state, const Vec<
   return s.ranks.any(holds(s.layout, x) && state.air.label[s.layout.site(cell_of(s.layout, x))] >= 0);
 }
 
+// None before the first solve.
+template <int Dim>
+bool has_pressure(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
+  return state.step > 0 && (is_wet(s, state, x) || is_in_enclosed_air(s, state, x));
+}
+
 // Pressure of the fluid at x, continued straight from its cells, so that a probe on a wall reads the wall.
 template <int Dim>
 double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
@@ -155,7 +161,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   };
   switch (probe.kind) {
     case ProbeKind::pressure:
-      out.defined = is_wet(s, state, x) || is_in_enclosed_air(s, state, x);
+      out.defined = has_pressure(s, state, x);
       if (out.defined) out.value = pressure_at(s, state, x);
       break;
     case ProbeKind::velocity:

@@ -6,6 +6,7 @@
 #include "coupling/contact_setup.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
+#include "coupling/initial_surface.h"
 #include "coupling/liquid_viscosity.h"
 #include "coupling/prescribed_flow.h"
 #include "coupling/restore.h"
@@ -13,7 +14,6 @@
 #include "coupling/thin_weight.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
-#include "levelset/redistance.h"
 
 namespace seiche {
 namespace {
@@ -91,11 +91,6 @@ std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::strin
   return sources;
 }
 
-// Shapes whose values are no exact distances near their zero.
-bool needs_redistancing(const ShapeSpec& s) {
-  return s.kind == "expression";
-}
-
 // What is said of an initial velocity that is not finite; `region` is its index, -1 for the liquid's own.
 template <int Dim>
 std::string velocity_fault(const Setup<Dim>& s, int region, int axis, double value, const Vec<Dim>& x) {
@@ -161,21 +156,6 @@ std::shared_ptr<const Level<Dim>> initial_level(const Setup<Dim>& s, const StepG
     });
   continue_level(s, g, near, level);
   return std::make_shared<Level<Dim>>(std::move(level));
-}
-
-template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
-  CellField<Dim> phi(s.layout, s.band());
-  for (const auto& shape : shapes)
-    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-      const double d = (*shape)(s.layout.position(i, cell_offset<Dim>()));
-      phi[c] = std::clamp(std::min(phi[c], d), -s.band(), s.band());
-    });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
-  const auto& regions = s.scene.liquid.regions;
-  if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); }))
-    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi);
-  return phi;
 }
 
 }  // namespace

@@ -72,9 +72,7 @@ double net_inflow(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellFie
         const double inward = (side == 0 ? 1 : -1) * g.faces.open.at(a, f) * u.at(a, f);
         const bool fed = s.sides.type(a, side) == SideType::inflow && inward > 0;
         const double share = std::clamp(0.5 - phi[inside] / s.layout.h(), 0.0, 1.0);
-        // Through an outflow side liquid leaves; what flows back is air.
-        const bool back = s.sides.is_outflow(a, side) && inward > 0;
-        sum += back ? 0 : inward * (fed ? 1 : share);
+        sum += inward * (fed ? 1 : share);
       });
     }
   return s.ranks.global_sum(sum) * s.layout.geometry().face_area();

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "coupling/contact_setup.h"
+#include "coupling/given_motion.h"
 #include "coupling/prescribed_flow.h"
 #include "coupling/surface_tension.h"
 #include "coupling/viscous_transport.h"
@@ -52,7 +53,7 @@ namespace {
 // omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension
 // add.
 template <int Dim>
-double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+double limit_of_present_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (s.has_prescribed_flow()) return limit_of_prescribed(s, state, until - state.time);
   const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),
                reach = s.scene.time.cfl * s.layout.h();
@@ -62,6 +63,15 @@ double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until)
   if (!s.has_gas() && !has_surface(s, state.phi)) return std::min(flow, capillary);  // nothing to wave
   const double waves = 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g));
   return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
+}
+
+// So does what the scene gives, which the flow follows before it is seen in it.
+template <int Dim>
+double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const double limit = limit_of_present_flow(s, state, until);
+  if (s.has_prescribed_flow()) return limit;
+  const double span = std::min(limit, until - state.time), given = limit_of_given_flow(s, state.time, span);
+  return given < span ? given : limit;
 }
 
 constexpr double rounding = 1e-9;  // relative, of a motion that takes just the whole reach
@@ -84,11 +94,23 @@ std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state
   return placed;
 }
 
+// How far solids go in dt. Those that move as prescribed may be back where they began by then.
+template <int Dim>
+double largest_way(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  const bool prescribed = std::any_of(s.bodies.begin(), s.bodies.end(),
+                                      [](const Body<Dim>& body) { return body.spec().kind == SolidKind::kinematic; });
+  double largest = s.solids.largest_displacement(motion_ahead(s, state, dt), dt);
+  for (const double part : {0.29, 0.5})
+    if (prescribed)
+      largest = std::max(largest, s.solids.largest_displacement(motion_ahead(s, state, part * dt), part * dt));
+  return largest;
+}
+
 // Moving solids go at most one cell a step.
 template <int Dim>
 double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   if (s.contact && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
-  for (int n = 0; n < 60 && s.solids.largest_displacement(motion_ahead(s, state, dt), dt) > s.layout.h(); ++n) dt /= 2;
+  for (int n = 0; n < 60 && largest_way(s, state, dt) > s.layout.h(); ++n) dt /= 2;
   return dt;
 }
 
@@ -192,6 +214,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const bool planned = s.has_elastic() && state.step > 0 && !spec.fixed_step;
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
+  if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(s, state, std::min(dt, remaining));
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
     dt = state.horizon;
   else if (!spec.fixed_step)

@@ -1,12 +1,14 @@
 #include "coupling/transport.h"
 
 #include "coupling/formula_checks.h"
+#include "coupling/path_origins.h"
 #include "coupling/restore.h"
 #include "coupling/shear_jump.h"
 #include "coupling/sources.h"
 #include "coupling/two_fluids.h"
 #include "coupling/viscous_transport.h"
 #include "fluid/advection.h"
+#include "fluid/inflow.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
@@ -45,6 +47,8 @@ FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const
                              const FaceField<Dim, char>& interior, const ViscousPlan& plan, double dt) {
   FaceField<Dim> w = flow.now->u;
   if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, w);
+  continue_beyond_inflows(s.layout, s.sides, state.time, w);
+  let_air_follow(s.layout, s.sides, state.time, flow.now->valid, w);
   if (!flow.before || s.scene.time.scheme == TimeScheme::first_order) return w;
   if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
   const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
@@ -57,6 +61,8 @@ FaceField<Dim> path_velocity(const Setup<Dim>& s, const State<Dim>& state, const
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, w);
   if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time + dt / 2, FaceValues::means, w);
+  continue_beyond_inflows(s.layout, s.sides, state.time + dt / 2, w);
+  let_air_follow(s.layout, s.sides, state.time + dt / 2, flow.now->valid, w);
   return w;
 }
 
@@ -158,34 +164,6 @@ FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, cons
   return memory;
 }
 
-// Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
-template <int Dim>
-std::pair<double, double> valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
-  std::pair<double, double> range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
-  constexpr int neighbours = Dim == 2 ? 9 : 27;
-  for (int n = 0; n < neighbours; ++n) {
-    Site at = f;
-    for (int a = 0, left = n; a < Dim; ++a, left /= 3) at += (left % 3 - 1) * layout.stride(a);
-    if (!level.valid.at(axis, at)) continue;
-    range = {std::min(range.first, level.u.at(axis, at)), std::max(range.second, level.u.at(axis, at))};
-  }
-  return range;
-}
-
-// Where the path leads through air, what it brings is no more than a guess: continued straight on and carried back into
-// the liquid step after step, the slope of a thin film along a solid grows without bound. It keeps to what the liquid
-// around has.
-template <int Dim>
-void limit_at_surfaces(const Setup<Dim>& s, const Level<Dim>& level, const FaceField<Dim, char>& near,
-                       const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (!near.at(a, f) || interior.at(a, f)) return;
-      const auto [least, most] = valid_range(s.layout, level, a, f);
-      if (least <= most) u.at(a, f) = std::clamp(u.at(a, f), least, most);
-    });
-}
-
 // What is carried along the path: `inner` where all it needs is known, `outer` elsewhere.
 template <int Dim>
 struct Carried {
@@ -243,6 +221,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   if (known.solids) continue_into_solids(s, flow.now->valid, acc);
   Carried<Dim> carried{flow.now->u, flow.now->u};
   if (plan.full) continue_beyond_walls(s.layout, s.sides, state.time, FaceValues::means, carried.outer);
+  continue_beyond_inflows(s.layout, s.sides, state.time, carried.outer);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.padded(), [&](Site f) {
       carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
@@ -253,13 +232,15 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
     advect_means(s, state, carried, path, near, interior, known.whole, dt, u);
   else
     advect_faces(s.layout, path, s.tampering.velocity_advection * dt, near, interior, carried.inner, carried.outer, u);
-  limit_at_surfaces(s, *flow.now, near, interior, u);
+  const FacePaths<Dim> paths{path, near, s.tampering.velocity_advection * dt};
+  limit_at_surfaces(s, *flow.now, paths, interior, u);
   if (plan.full) add_missing_viscosity(s, state, known.whole, carried.outer, dt, u);
   const Vec3 g = s.tampering.gravity * s.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (near.at(a, f) || s.is_viscous()) u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
     });
+  let_liquid_in(s, *flow.now, paths, state.time, memory, u);
   return u;
 }
 
@@ -296,7 +277,12 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   LevelSetTransport how;
   if (s.has_prescribed_flow()) how.trace = Trace::third_order;  // nothing else errs there
   how.one_sided_at_kinks = !s.has_gas();                        // docs/decisions/0023-kinks.md
-  advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi, how);
+  FaceField<Dim> path = u;
+  if (!s.has_prescribed_flow()) {
+    continue_beyond_inflows(s.layout, s.sides, t, path);
+    let_air_follow(s.layout, s.sides, t, state.now->valid, path);
+  }
+  advect_level_set(s.layout, path, s.tampering.surface_advection * dt, s.band(), joined, phi, how);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   return add_sources(s, state, t, t + dt, phi);
 }

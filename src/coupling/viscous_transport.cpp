@@ -1,6 +1,7 @@
 #include "coupling/viscous_transport.h"
 
 #include "base/expression.h"
+#include "fluid/inflow.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -87,6 +88,7 @@ FaceField<Dim> points_of_means(const Setup<Dim>& s, const FaceField<Dim, char>& 
     });
   fill_velocity_ghosts(s.layout, s.halo, s.sides, points);
   continue_beyond_walls(s.layout, s.sides, t, FaceValues::points, points);
+  continue_beyond_inflows(s.layout, s.sides, t, points);
   return points;
 }
 

@@ -53,6 +53,13 @@ Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, c
 }
 
 template <int Dim>
+Vec<Dim> departure_of_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site f, const IVec<Dim>& i,
+                           double dt) {
+  return trace_midpoint<Dim>(layout, u, mean_at_face(layout, u, axis, f), layout.position(i, face_offset<Dim>(axis)),
+                             dt);
+}
+
+template <int Dim>
 void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, double band,
                       const CellField<Dim>& phi, CellField<Dim>& moved, const LevelSetTransport& how) {
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
@@ -75,8 +82,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   for (int a = 0; a < Dim; ++a)
     for_each_index(layout, layout.faces(a), [&](Site s, const IVec<Dim>& i) {
       if (!near.at(a, s)) return;
-      const Vec<Dim> from = trace_midpoint<Dim>(layout, path, mean_at_face(layout, path, a, s),
-                                                layout.position(i, face_offset<Dim>(a)), dt);
+      const Vec<Dim> from = departure_of_face(layout, path, a, s, i, dt);
       const bool inside = interior.at(a, s);
       const double* carried = inside ? inner[a].data() : outer[a].data();
       const Vec<Dim> g = index_coordinates<Dim>(layout, from, face_offset<Dim>(a));
@@ -89,6 +95,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
   template Vec<D> sample_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&);                          \
   template Vec<D> trace_midpoint<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double);    \
   template Vec<D> trace_third_order<D>(const Layout<D>&, const FaceField<D>&, const Vec<D>&, const Vec<D>&, double); \
+  template Vec<D> departure_of_face<D>(const Layout<D>&, const FaceField<D>&, int, Site, const IVec<D>&, double);    \
   template void advect_level_set<D>(const Layout<D>&, const FaceField<D>&, double, double, const CellField<D>&,      \
                                     CellField<D>&, const LevelSetTransport&);                                        \
   template void advect_faces<D>(const Layout<D>&, const FaceField<D>&, double, const FaceField<D, char>&,            \

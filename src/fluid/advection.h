@@ -19,6 +19,11 @@ template <int Dim>
 Vec<Dim> trace_third_order(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
                            double dt);
 
+// Where the flow brought the value of a face (index i) from in dt, by the midpoint rule.
+template <int Dim>
+Vec<Dim> departure_of_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site face, const IVec<Dim>& i,
+                           double dt);
+
 enum class Trace { midpoint, third_order };
 
 struct LevelSetTransport {

@@ -68,41 +68,9 @@ void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, cons
     extend_beyond_sides<Dim>(layout, u[a].data(), face_offset<Dim>(a), sides.velocity_extensions(a));
 }
 
-namespace {
-
-// Cells up to `reach` layers on both sides of a domain side, in the padded box.
-template <int Dim>
-Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach) {
-  Box<Dim> box = layout.padded();
-  const int edge = side == 0 ? 0 : layout.geometry().cells[axis];
-  box.lower[axis] = std::max(box.lower[axis], edge - reach);
-  box.upper[axis] = std::min(box.upper[axis], edge + reach);
-  return box;
-}
-
-}  // namespace
-
-template <int Dim>
-void join_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, CellField<Dim>& phi) {
-  for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2; ++side) {
-      if (sides.type(a, side) != SideType::inflow) continue;
-      const double edge = side == 0 ? 0 : layout.geometry().cells[a];
-      for_each_index_in_order(layout, side_layers(layout, a, side, layout.halo()), [&](Site s, const IVec<Dim>& i) {
-        Vec<Dim> x = layout.position(i, cell_offset<Dim>());
-        x[a] = layout.geometry().lower[a] + layout.h() * edge;
-        if (sides.inward_speed(a, side, x, t) <= 0) return;
-        const double inside = (side == 0 ? 1 : -1) * (i[a] + 0.5 - edge);  // cells
-        phi[s] = std::min(phi[s], inside * layout.h());
-      });
-    }
-}
-
 template class Sides<2>;
 template class Sides<3>;
 template void fill_velocity_ghosts<2>(const Layout<2>&, const Halo<2>&, const Sides<2>&, FaceField<2>&);
 template void fill_velocity_ghosts<3>(const Layout<3>&, const Halo<3>&, const Sides<3>&, FaceField<3>&);
-template void join_inflow<2>(const Layout<2>&, const Sides<2>&, double, CellField<2>&);
-template void join_inflow<3>(const Layout<3>&, const Sides<3>&, double, CellField<3>&);
 
 }  // namespace seiche

@@ -43,9 +43,4 @@ class Sides {
 template <int Dim>
 void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides, FaceField<Dim>& u);
 
-// Makes the level set know the liquid that stands behind inflow sides: phi at most the distance to the inflow. Ghosts
-// of phi must be filled; fills some of them.
-template <int Dim>
-void join_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, CellField<Dim>& phi);
-
 }  // namespace seiche

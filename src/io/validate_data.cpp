@@ -140,7 +140,9 @@ double slope_during(const Points& points, double from, double to) {
 double settled_mean(const Points& points, double from, double to) {
   constexpr double pi = 3.14159265358979323846;
   const double slack = 1e-9 * (to - from);
-  if (points.empty() || points.front().first > from + slack || points.back().first < to - slack)
+  // The first sample may lack a value (pressure at t = 0), where the weight is next to nothing.
+  const double sample = points.size() > 1 ? points[1].first - points[0].first : 0;
+  if (points.empty() || points.front().first > from + sample + slack || points.back().first < to - slack)
     fail(fmt::format("no mean: the run does not reach from {:g} s to {:g} s", from, to));
   const auto weight = [&](double t) {
     return std::pow(std::sin(pi * (std::clamp(t, from, to) - from) / (to - from)), 2);

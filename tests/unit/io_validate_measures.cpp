@@ -100,6 +100,9 @@ TEST_CASE("a settled mean leaves next to nothing of an oscillation, whatever the
   CHECK(settled_mean(points, 1, 9) == Approx(3).epsilon(0.01));  // between one and two hundred rows, five periods
   CHECK_THROWS_AS(settled_mean(points, 1, 11), Error);
   CHECK_THROWS_AS(settled_mean({}, 0, 1), Error);
+  const Points later(points.begin() + 1, points.end());  // no pressure before the first solve
+  CHECK(settled_mean(later, 0, 8) == Approx(settled_mean(points, 0, 8)).epsilon(1e-3));
+  CHECK_THROWS_AS(settled_mean(later, -1, 9), Error);
 }
 
 TEST_CASE("rows of one solid are picked from solids.csv, and the farthest way of all") {

@@ -1,0 +1,175 @@
+// The level set behind inflow sides.
+#include "fluid/inflow.h"
+#include "fluid/inflow_places.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// The streams that enter through a side at one time: faces that let liquid in, and the drift of the liquid beyond along
+// the side as it comes nearer by one. A stream's rim is where dry faces begin; liquid beside it goes on into it. Walls
+// around the side continue its outermost faces. Lengths are cells.
+template <int Dim>
+class Streams {
+ public:
+  Streams(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, const CellField<Dim>& phi)
+      : axis_(axis), reach_(layout.halo()), box_(layout.padded().grown(2 * layout.halo())) {
+    box_.lower[axis] = 0, box_.upper[axis] = 1;
+    const std::size_t size = std::size_t(box_.size());
+    drift_.resize(size);
+    dry_.resize(size);
+    for (std::size_t n = 0; n < size; ++n) {
+      IVec<Dim> cell = index(n);
+      Vec<Dim> x = layout.position(cell, cell_offset<Dim>());
+      x[axis] = side_position(layout, axis, side);
+      drift_[n] = drift_at(sides, side, center_of_face(layout, axis, bring_inside(layout, axis, x)), t);
+      cell[axis] = side == 0 ? 0 : layout.geometry().cells[axis] - 1;
+      dry_[n] = !drift_[n] && layout.padded().contains(cell) && phi[layout.site(cell)] >= 0;
+      any_ = any_ || drift_[n];
+    }
+  }
+
+  bool any() const { return any_; }
+
+  // Of a point `depth` behind the side, at cell i along it: distance to the stream where it lies outside, less than 0
+  // where it lies within, by the distance to its rim. Empty where no stream is near.
+  std::optional<double> distance(const IVec<Dim>& i, double depth) const {
+    const auto near = nearest_drift(i, int(std::ceil(depth)));
+    if (!near) return {};
+    const auto ahead = nearest_drift(nearest(i.template cast<double>() + depth * *near), 1).value_or(*near);
+    const Vec<Dim> there = i.template cast<double>() + depth * ahead;
+    const double slant = std::sqrt(1 + ahead.squaredNorm());
+    return (feeds(nearest(there)) ? -distance_to_rim(there) : distance_along(there)) / slant;
+  }
+
+  // From a point on the side to the nearest face that lets liquid in; as far as the halo reaches.
+  double distance_along(const Vec<Dim>& x) const {
+    return least_gap(x, [&](const IVec<Dim>& j) { return feeds(j); });
+  }
+
+ private:
+  using Drift = std::optional<Vec<Dim>>;
+
+  Drift drift_at(const Sides<Dim>& sides, int side, const Vec<Dim>& x, double t) const {
+    const double inward = sides.inward_speed(axis_, side, x, t);
+    if (inward <= 0) return {};
+    Vec<Dim> r;
+    for (int b = 0; b < Dim; ++b) r[b] = b == axis_ ? 0 : sides.velocity(axis_, side, b, x, t) / inward;
+    return r;
+  }
+
+  IVec<Dim> nearest(const Vec<Dim>& x) const { return x.array().round().template cast<int>(); }
+  IVec<Dim> index(std::size_t n) const {
+    IVec<Dim> i = box_.lower;
+    for (int b = 0; b < Dim; ++b) {
+      const std::size_t length = std::size_t(box_.upper[b] - box_.lower[b]);
+      i[b] += int(n % length);
+      n /= length;
+    }
+    return i;
+  }
+  // Beyond the box that of the outermost faces.
+  std::size_t number(const IVec<Dim>& i) const {
+    std::size_t n = 0;
+    for (int b = Dim - 1; b >= 0; --b) {
+      const int k = b == axis_ ? 0 : std::clamp(i[b], box_.lower[b], box_.upper[b] - 1) - box_.lower[b];
+      n = n * std::size_t(box_.upper[b] - box_.lower[b]) + std::size_t(k);
+    }
+    return n;
+  }
+  bool feeds(const IVec<Dim>& i) const { return drift_[number(i)].has_value(); }
+
+  // body(face) for the faces within `reach` along the side.
+  template <class Body>
+  void around(const IVec<Dim>& i, int reach, const Body& body) const {
+    const int width = 2 * reach + 1, count = Dim == 2 ? width : width * width;
+    for (int n = 0; n < count; ++n) {
+      IVec<Dim> at = i;
+      for (int b = 1, left = n; b < Dim; ++b, left /= width) at[(axis_ + b) % Dim] += left % width - reach;
+      body(at);
+    }
+  }
+  Drift nearest_drift(const IVec<Dim>& i, int reach) const {
+    if (const Drift own = drift_[number(i)]) return own;
+    Drift best;
+    double closest = std::numeric_limits<double>::infinity();
+    around(i, reach, [&](const IVec<Dim>& j) {
+      const double d = (j - i).template cast<double>().squaredNorm();
+      if (const Drift r = drift_[number(j)]; r && d < closest) best = r, closest = d;
+    });
+    return best;
+  }
+  template <class Wanted>
+  double least_gap(const Vec<Dim>& x, const Wanted& wanted) const {
+    double least = reach_;
+    around(nearest(x), reach_, [&](const IVec<Dim>& j) {
+      if (!wanted(j)) return;
+      Vec<Dim> gap = ((x - j.template cast<double>()).cwiseAbs().array() - 0.5).max(0.0);
+      gap[axis_] = 0;
+      least = std::min(least, gap.norm());
+    });
+    return least;
+  }
+  double distance_to_rim(const Vec<Dim>& x) const {
+    return least_gap(x, [&](const IVec<Dim>& j) { return dry_[number(j)] != 0; });
+  }
+
+  int axis_, reach_;
+  Box<Dim> box_;
+  std::vector<Drift> drift_;
+  std::vector<char> dry_;
+  bool any_ = false;
+};
+
+// Level set at a point `depth` behind a side, at the distance d from the stream there, both m; `straight` is phi
+// continued straight, `first` that of the first cell inside. Beside the rim of a stream into air that is the stream's
+// own; elsewhere liquid that stands before the side goes on beyond.
+double join_behind(double straight, double first, double d, double depth, double h) {
+  if (d >= 0) return first > 0 && d < 2 * h ? d : std::min(straight, d);
+  return std::max(std::min(straight, std::max(d, -depth)), d);
+}
+
+// Cells up to `reach` layers on both sides of a domain side, in the padded box.
+template <int Dim>
+Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach) {
+  Box<Dim> box = layout.padded();
+  const int edge = side == 0 ? 0 : layout.geometry().cells[axis];
+  box.lower[axis] = std::max(box.lower[axis], edge - reach);
+  box.upper[axis] = std::min(box.upper[axis], edge + reach);
+  return box;
+}
+
+}  // namespace
+
+// Before the side phi is at most the distance to its faces that let liquid in.
+template <int Dim>
+void join_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, CellField<Dim>& phi) {
+  const int reach = layout.halo();
+  const double h = layout.h();
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side) {
+      const Box<Dim> layers = side_layers(layout, a, side, reach);
+      if (sides.type(a, side) != SideType::inflow || layers.empty()) continue;
+      const Streams<Dim> streams(layout, sides, a, side, t, phi);
+      if (!streams.any()) continue;
+      const CellField<Dim> before = phi;
+      const Site inward = (side == 0 ? 1 : -1) * layout.stride(a);
+      const int edge = side == 0 ? 0 : layout.geometry().cells[a] - 1;
+      for_each_index(layout, layers, [&](Site s, const IVec<Dim>& i) {
+        const int k = (side == 0 ? 1 : -1) * (i[a] - edge);  // cells from the first inside
+        IVec<Dim> along = i;
+        along[a] = 0;
+        if (k >= 0) {
+          const double beside = streams.distance_along(along.template cast<double>());
+          if (beside < reach) phi[s] = std::min(phi[s], std::hypot(k + 0.5, beside) * h);
+        } else if (const auto d = streams.distance(along, -k - 0.5)) {
+          phi[s] = join_behind(phi[s], before[s - k * inward], *d * h, (-k - 0.5) * h, h);
+        }
+      });
+    }
+}
+
+template void join_inflow<2>(const Layout<2>&, const Sides<2>&, double, CellField<2>&);
+template void join_inflow<3>(const Layout<3>&, const Sides<3>&, double, CellField<3>&);
+
+}  // namespace seiche
