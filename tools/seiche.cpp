@@ -6,6 +6,7 @@
 #include "base/version.h"
 #include "command_line.h"
 #include "console.h"
+#include "io/signals.h"
 #include "verbs.h"
 
 namespace seiche {
@@ -62,11 +63,12 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
   CLI::App program("Seiche: liquid among moving and deforming solids", "seiche");
   program.set_version_flag("--version", fmt::format("seiche {} (build {})", version(), build_digest()));
   program.require_subcommand(1);
-  VerbContext context{ranks, emergency, {}};
+  VerbContext context{ranks, emergency, {}, Stops::at_once};
   for (const AddVerb add : verbs()) add(program, context);
   try {
     const int parsed = parse(program, argc, argv, ranks);
     if (parsed >= 0) return parsed;
+    if (context.stops == Stops::at_once) restore_stop_signals();
     return int(context.action());
   } catch (...) {
     return end_with(current_failure(ranks.rank()), ranks, emergency);
@@ -77,6 +79,7 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
 }  // namespace seiche
 
 int main(int argc, char** argv) {
+  seiche::note_stop_signals();
   std::setlocale(LC_ALL, "C");
   const seiche::MpiSession mpi(argc, argv);
   const seiche::Communicator ranks;

@@ -49,6 +49,7 @@ void add_run(CLI::App& program, VerbContext& context) {
   add_set_option(*verb, options->overrides);
   add_session_options(*verb, options->session);
   verb->callback([options, &context] {
+    context.stops = Stops::when_safe;
     context.action = [options, &context] { return run_command(*options, surroundings(context)); };
   });
 }
@@ -60,9 +61,10 @@ void add_resume(CLI::App& program, VerbContext& context) {
   verb->add_option("--end", options->end, "New end time, s");
   verb->add_flag_callback(
       "--force", [options] { options->edits = EditPolicy::force; },
-      "Accept changes of output, solver and probes in scene.toml");
+      "Accept changes of output, solver and probes in scene.toml, and damaged tables");
   add_session_options(*verb, options->session);
   verb->callback([options, &context] {
+    context.stops = Stops::when_safe;
     context.action = [options, &context] { return resume_command(*options, surroundings(context)); };
   });
 }

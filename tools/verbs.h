@@ -13,12 +13,16 @@
 
 namespace seiche {
 
+// When a signal ends a verb: at once, or where the verb itself looks for one.
+enum class Stops { at_once, when_safe };
+
 struct VerbContext {
   const Communicator& ranks;
   const EmergencyChannel& emergency;
   // Set by the verb that was chosen. Runs on every rank; returns the exit code or throws Error (the main program prints
   // it once and ends all ranks with its code).
   std::function<ExitCode()> action;
+  Stops stops = Stops::at_once;
 };
 
 using AddVerb = void (*)(CLI::App&, VerbContext&);

@@ -188,8 +188,19 @@ void AppendFile::flush() {
   size_ += text.size();
 }
 
+// A file that was removed or replaced behind the run's back takes in all that is written and keeps nothing.
+void AppendFile::check_name() const {
+  struct stat held {
+  }, named{};
+  if (::fstat(handle_, &held) != 0) fail(path_, "examine", errno);
+  if (::stat(path_.c_str(), &named) == 0 && held.st_ino == named.st_ino && held.st_dev == named.st_dev) return;
+  throw Error(ExitCode::output_failed,
+              fmt::format("{} was removed or replaced while the run was writing it", path_.string()));
+}
+
 void AppendFile::sync() {
   flush();
+  check_name();
   if (const int error = sync_handle(handle_)) fail(path_, "sync", error);
 }
 

@@ -41,11 +41,13 @@ class AppendFile {
 
   void append(std::string_view text) { pending_ += text; }
   void flush();  // writes what was appended; throws Error(output_failed)
-  void sync();   // flush and fsync
+  void sync();   // flush and fsync; throws Error(output_failed), also where the name no longer leads to the file
   std::uint64_t size() const { return size_ + pending_.size(); }
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  void check_name() const;
+
   std::filesystem::path path_;
   int handle_ = -1;
   std::uint64_t size_ = 0;

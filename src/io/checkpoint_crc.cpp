@@ -28,9 +28,9 @@ constexpr Tables tables = make_tables();
 
 }  // namespace
 
-std::uint32_t crc32c(std::string_view bytes) {
+std::uint32_t crc32c(std::string_view bytes, std::uint32_t before) {
   static_assert(std::endian::native == std::endian::little, "the eight-byte loop reads little-endian words");
-  std::uint32_t c = ~0u;
+  std::uint32_t c = ~before;
   for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data(), 8);

@@ -1,10 +1,11 @@
 #pragma once
-// CRC-32C (Castagnoli), the checksum of checkpoints.
+// CRC-32C (Castagnoli), the checksum of checkpoints and tables.
 #include <cstdint>
 #include <string_view>
 
 namespace seiche {
 
-std::uint32_t crc32c(std::string_view bytes);
+// `before`: the checksum of the bytes that come before these.
+std::uint32_t crc32c(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace seiche

@@ -11,6 +11,7 @@
 #include "io/run_loop.h"
 #include "io/run_memory.h"
 #include "io/run_session.h"
+#include "io/run_tables.h"
 
 namespace seiche {
 namespace fs = std::filesystem;
@@ -90,6 +91,10 @@ Continuation read_run(const ResumeOptions& options, const Communicator& ranks, R
       refuse_changed_scene(run.scene, before, options.edits, paths.folder);
     }
   });
+  agree_on_root(ranks, "comparing the tables", [&] {
+    for (const std::string& fault : verify_tables(paths, options.edits, run.state))
+      log.warn(fault + "; going on with the rows that are left (--force)");
+  });
   return run;
 }
 
@@ -102,6 +107,7 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   Scene scene = read_together(options.scene, options.overrides, ranks);
   if (options.session.frames) scene.time.end = std::min(scene.time.end, end_of_frames(*options.session.frames, scene));
   check_machine(scene, ranks);
+  if (stopped_early(ranks, log)) return ExitCode::stopped;
   const fs::path folder = output_folder(options);
   const auto directory = open_directory(folder, options.existing, ranks);
   if (directory) tell_removed(directory->removed(), folder, log);

@@ -128,6 +128,16 @@ std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder
   return directory;
 }
 
+bool stopped_early(const Communicator& ranks, RunLog& log) {
+  const int number = noted_signal();
+  if (!ranks.any(number != 0)) return false;
+  std::string name;
+  for (const std::string& got : ranks.all_gather(number != 0 ? signal_name(number) : ""))
+    if (name.empty()) name = got;
+  log.warn(fmt::format("stopped: {} before the first step; nothing was written", name));
+  return true;
+}
+
 ExitCode run_session(const Session& session, const Restore& restore) {
   const Surroundings& around = session.around;
   const StopSignals signals;
@@ -136,6 +146,7 @@ ExitCode run_session(const Session& session, const Restore& restore) {
   Watchdog watchdog(std::chrono::duration<double>(session.options.watchdog),
                     [&](const std::string& phase) { end_hung_run(around, session.options.watchdog, phase); });
   try {
+    if (stopped_early(around.ranks, session.log)) return ExitCode::stopped;
     watchdog.beat("setting up");
     const std::unique_ptr<Simulation> simulation =
         make_simulation(session.scene, around.ranks, parse_tampering(session.options.tampering));

@@ -26,6 +26,9 @@ using Restore = std::function<RunState(Simulation&)>;
 std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
                                              const Communicator& ranks);
 
+// Whether a rank got a signal to stop since the program began; the log then says so. Collective.
+bool stopped_early(const Communicator& ranks, RunLog& log);
+
 // Builds the simulation, restores it where `restore` is given, writes scene.toml, runs the loop and writes
 // summary.json. Collective; throws what the loop throws, after the summary is written.
 ExitCode run_session(const Session& session, const Restore& restore);

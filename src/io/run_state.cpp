@@ -7,7 +7,7 @@
 namespace seiche {
 namespace {
 
-const std::string probe_prefix = "run.probe_due.", phase_prefix = "run.phase.";
+const std::string probe_prefix = "run.probe_due.", phase_prefix = "run.phase.", checksum_prefix = "run.table_checksum.";
 
 // One list serves both directions: f(name, number) for every plain number of the state.
 template <class State, class F>
@@ -42,6 +42,7 @@ std::map<std::string, double> with_prefix(const std::map<std::string, double>& a
 void store(const RunState& state, CheckpointData& data) {
   for_each_number(state, [&](const char* name, auto value) { data.scalars[name] = double(value); });
   for (const auto& [name, due] : state.probe_due) data.scalars[probe_prefix + name] = due;
+  for (const auto& [name, sum] : state.table_checksums) data.scalars[checksum_prefix + name] = sum;
   for (const auto& [name, seconds] : state.phase_seconds) data.scalars[phase_prefix + name] = seconds;
   data.texts["run.scene"] = state.scene_text;
 }
@@ -56,6 +57,7 @@ RunState restore_run_state(const CheckpointData& data) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(entry->second);
   });
   state.probe_due = with_prefix(data.scalars, probe_prefix);
+  state.table_checksums = with_prefix(data.scalars, checksum_prefix);
   state.phase_seconds = with_prefix(data.scalars, phase_prefix);
   const auto text = data.texts.find("run.scene");
   if (text != data.texts.end()) state.scene_text = text->second;

@@ -14,6 +14,7 @@ struct RunState {
   double time = 0;                                                    // s
   int frame = -1;                                                     // the last one written
   std::uint64_t stats_bytes = 0, solids_bytes = 0, probes_bytes = 0;  // sizes of the CSV files
+  std::map<std::string, double> table_checksums;                      // of those bytes (CRC-32C), by file name
   std::map<std::string, double> probe_due;                            // by name, s: the next sample
   std::map<std::string, double> phase_seconds;
   double wall_seconds = 0;

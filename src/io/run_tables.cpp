@@ -11,12 +11,25 @@
 namespace seiche {
 namespace {
 
-std::unique_ptr<AppendFile> open_table(const std::filesystem::path& path, std::uint64_t keep,
-                                       const std::string& header) {
-  auto file = std::make_unique<AppendFile>(path, keep);
-  if (file->size() == 0) file->append(header);
-  file->flush();
-  return file;
+const std::string stats_name = "stats.csv", solids_name = "solids.csv", probes_name = "probes.csv";
+
+TableMark mark_of(const RunState& state, const std::string& name, std::uint64_t bytes) {
+  const auto sum = state.table_checksums.find(name);
+  if (sum == state.table_checksums.end()) return {bytes, std::nullopt};
+  return {bytes, std::uint32_t(sum->second)};
+}
+
+void set_mark(const TableMark& mark, const std::string& name, std::uint64_t& bytes, RunState& state) {
+  bytes = mark.bytes;
+  if (mark.checksum) state.table_checksums[name] = *mark.checksum;
+}
+
+// The damage of one table, or "". What is kept of a damaged one ends with a line.
+std::string verify_table(const std::filesystem::path& path, const std::string& name, RunState& state,
+                         std::uint64_t& bytes) {
+  const std::string fault = fault_of_table(path, mark_of(state, name, bytes));
+  if (!fault.empty()) bytes = whole_lines(path, bytes);
+  return fault;
 }
 
 void check_finite(const std::string& culprit, const std::string& owner, const StepStats& stats) {
@@ -34,12 +47,25 @@ bool is_due(double due, double time, double every) {
 
 }  // namespace
 
+std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy, RunState& state) {
+  std::vector<std::string> faults;
+  if (state.frame < 0) return faults;  // they begin anew
+  for (const std::string& fault : {verify_table(paths.stats(), stats_name, state, state.stats_bytes),
+                                   verify_table(paths.solids(), solids_name, state, state.solids_bytes),
+                                   verify_table(paths.probes(), probes_name, state, state.probes_bytes)})
+    if (!fault.empty()) faults.push_back(fault);
+  if (policy == EditPolicy::force || faults.empty()) return faults;
+  throw Error(ExitCode::bad_checkpoint,
+              fmt::format("{}; put it back as it was, or give --force to go on with the rows that are left",
+                          fmt::join(faults, "; ")));
+}
+
 RunTables::RunTables(const Scene& scene, const RunPaths& paths, const Communicator& ranks, RunState& state)
     : scene_(scene), ranks_(ranks) {
   agree_on_root(ranks, "opening the tables", [&] {
-    stats_ = open_table(paths.stats(), state.stats_bytes, stats_header());
-    solids_ = open_table(paths.solids(), state.solids_bytes, solids_header());
-    probes_ = open_table(paths.probes(), state.probes_bytes, probes_header());
+    stats_ = std::make_unique<TableFile>(paths.stats(), state.stats_bytes, stats_header());
+    solids_ = std::make_unique<TableFile>(paths.solids(), state.solids_bytes, solids_header());
+    probes_ = std::make_unique<TableFile>(paths.probes(), state.probes_bytes, probes_header());
   });
 }
 
@@ -76,9 +102,9 @@ void RunTables::add(const StepStats& stats, const Simulation& simulation, RunSta
     for (const ProbeSample& sample : samples) check_finite(not_finite(sample), "probe '" + sample.name + "'", stats);
     if (!ranks_.is_root()) return;
     write_rows(stats, solids, samples);
-    state.stats_bytes = stats_->size();
-    state.solids_bytes = solids_->size();
-    state.probes_bytes = probes_->size();
+    set_mark(stats_->mark(), stats_name, state.stats_bytes, state);
+    set_mark(solids_->mark(), solids_name, state.solids_bytes, state);
+    set_mark(probes_->mark(), probes_name, state.probes_bytes, state);
   });
 }
 

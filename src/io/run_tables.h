@@ -5,11 +5,16 @@
 
 #include "base/scene.h"
 #include "coupling/simulation.h"
-#include "io/checked_file.h"
 #include "io/run_directory.h"
+#include "io/run_scene.h"
 #include "io/run_state.h"
+#include "io/table_file.h"
 
 namespace seiche {
+
+// Compares the tables with the checkpoint they belong to. Damage is an Error(bad_checkpoint); forced, it is returned as
+// warnings, and `state` is changed so that the run goes on after the whole lines that are left. Not collective.
+std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy, RunState& state);
 
 class RunTables {
  public:
@@ -28,7 +33,7 @@ class RunTables {
 
   const Scene& scene_;
   const Communicator& ranks_;
-  std::unique_ptr<AppendFile> stats_, solids_, probes_;  // rank 0
+  std::unique_ptr<TableFile> stats_, solids_, probes_;  // rank 0
 };
 
 }  // namespace seiche

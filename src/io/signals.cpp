@@ -21,11 +21,23 @@ void handle(int number, void (*handler)(int), int flags) {
 
 }  // namespace
 
-StopSignals::StopSignals() {
-  received_signal = 0;
+void note_stop_signals() {
   handle(SIGUSR1, note_signal, SA_RESTART);
   handle(SIGINT, note_signal, SA_RESTART | int(SA_RESETHAND));
   handle(SIGTERM, note_signal, SA_RESTART | int(SA_RESETHAND));
+}
+
+void restore_stop_signals() {
+  for (const int number : {SIGUSR1, SIGINT, SIGTERM}) handle(number, SIG_DFL, 0);
+  if (received_signal != 0) std::raise(received_signal);
+}
+
+int noted_signal() {
+  return received_signal;
+}
+
+StopSignals::StopSignals() {
+  if (received_signal == 0) note_stop_signals();
   handle(SIGXFSZ, SIG_IGN, 0);
 }
 
@@ -34,6 +46,7 @@ StopSignals::~StopSignals() {
   handle(SIGUSR1, SIG_IGN, 0);
   handle(SIGINT, SIG_DFL, 0);
   handle(SIGTERM, SIG_DFL, 0);
+  received_signal = 0;
 }
 
 int StopSignals::received() const {

@@ -12,6 +12,7 @@ import signal
 import struct
 import subprocess
 import sys
+import time
 from xml.etree import ElementTree
 
 import numpy
@@ -381,6 +382,35 @@ def stop_by_signal(bench):
         resumed_equals(bench, out, bench.path("whole"))
 
 
+def stop_in_the_first_moments(bench):
+    """SIGTERM 0 to 0.3 s after the start: 75 and a message, never a death by the signal once main has begun."""
+    scene, heard = bench.scene(LONG), 0
+    for n in range(15):
+        process = bench.start("run", scene, "--out", f"out{n}")
+        time.sleep(0.02 * n)
+        process.send_signal(signal.SIGTERM)
+        result = bench.finish(process)
+        if result.code == -signal.SIGTERM:   # while the system still loaded libraries
+            expect(not bench.path(f"out{n}").exists() and not heard, f"after {0.02 * n} s the run died of the signal")
+            continue
+        heard += 1
+        result.needs(75, "stopped: SIGTERM")
+        if bench.path(f"out{n}").exists():
+            expect(summary(bench.path(f"out{n}"))["exit_code"] == 75, "the summary does not say it")
+    expect(heard > 0, "no signal was heard")
+    for verb in ("check", "info"):   # verbs that do not look for signals keep none back
+        expect(bench.run(verb, scene if verb == "check" else ".").code in (0, 2), verb)
+
+
+def run_folder_removed(bench):
+    """The run directory removed while running: 4, and never 0."""
+    short = DAM.replace("cell_size = 0.03125", "cell_size = 0.0078125").replace("frame_rate = 20.0", "frame_rate = 5.0")
+    process = bench.start("run", bench.scene(short), "--out", "gone")
+    wait_for_steps(bench, "gone")
+    shutil.rmtree(bench.path("gone"), ignore_errors=True)
+    bench.finish(process).needs(4)
+
+
 def stop_by_file_and_walltime(bench):
     """A file named stop, and --walltime."""
     whole = unbroken(bench)
@@ -525,6 +555,28 @@ def damaged_checkpoints(bench):
         same_tables(copy, whole)
         same_frames(copy, whole)
         shutil.rmtree(copy)
+
+
+def damaged_tables(bench):
+    """stats.csv, solids.csv or probes.csv missing, cut, changed: 6 with the name; --force goes on with what is left."""
+    out = stopped_run(bench)
+    for name in ("stats.csv", "solids.csv", "probes.csv"):
+        table = out / name
+        original = table.read_bytes()
+        for text, damage in (("is missing", None), ("bytes where", original[:-7]), ("checksum", b"X" + original[1:])):
+            if damage is None:
+                table.unlink()
+            else:
+                table.write_bytes(damage)
+            for ranks in (0, 2):
+                bench.run("resume", "out", "--end", "0.2", ranks=ranks).needs(6, name, text, "--force")
+            table.write_bytes(original)
+    table = out / "stats.csv"
+    rows = len(lines_of(table))
+    table.write_bytes(table.read_bytes()[:-7])
+    bench.run("resume", "out", "--end", "0.2", "--force").needs(0, "stats.csv has")
+    expect(len(lines_of(table)) >= rows and all(line.count(",") == lines_of(table)[0].count(",") for line in lines_of(table)),
+           "the table has broken rows")
 
 
 def no_checkpoint_left(bench):
@@ -947,10 +999,10 @@ TABLES = {
     "output": [output_folder_created, output_is_a_file, output_not_writable, existing_output_refused,
                two_jobs_in_one_folder, file_size_limit, full_device, full_disk, few_file_handles],
     "memory": [grid_larger_than_any_machine, address_space_limit, allocation_fails_on_one_rank],
-    "stopping": [stop_by_signal, stop_by_file_and_walltime, stop_under_mpirun, hung_rank, killed_and_resumed,
+    "stopping": [stop_by_signal, stop_in_the_first_moments, run_folder_removed, stop_by_file_and_walltime, stop_under_mpirun, hung_rank, killed_and_resumed,
                  resume_of_finished_run],
     "injection": [exception_in_every_phase, rank_killed, nan_once_in_numerics, nan_that_stays],
-    "checkpoints": [damaged_checkpoints, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
+    "checkpoints": [damaged_checkpoints, damaged_tables, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
                     foreign_checkpoints, other_rank_counts, edited_scene],
     "frames": [frames_open_elsewhere],
     "command_line": [command_line, misspelt_words, pictures_and_overwriting],

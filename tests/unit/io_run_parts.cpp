@@ -58,6 +58,17 @@ TEST_CASE("stop signals are noted, not fatal") {
   CHECK(signal_name(SIGUSR1) == "SIGUSR1");
 }
 
+TEST_CASE("a signal before a run's own handlers stand is not lost") {
+  note_stop_signals();
+  std::raise(SIGTERM);
+  CHECK(noted_signal() == SIGTERM);
+  {
+    const StopSignals signals;
+    CHECK(signals.received() == SIGTERM);
+  }
+  CHECK(noted_signal() == 0);
+}
+
 TEST_CASE("injections strike at the visit, rank and phase that they name") {
   const FaultHook hook = make_fault_hook(parse_injection("solve:1:nan:2"), 1);
   CHECK(hook("solve") == PhaseFault::none);
