@@ -1,0 +1,44 @@
+// The viscous operator beside liquid that may part from solids.
+#include <catch2/catch.hpp>
+
+#include "viscous_case.h"
+
+using namespace seiche;
+using namespace seiche::test;
+
+namespace {
+
+// Liquid below a tilted plane.
+template <int Dim>
+double tilted_surface(const Vec<Dim>& x) {
+  return 0.9 * (x[1] - 0.61) + 0.3 * (x[0] - 0.5);
+}
+
+// The operator with no cell parted and with many: no slip, cut cells, a surface.
+template <int Dim>
+void check_guess_of_parting() {
+  Vec3 center = Vec3::Zero();
+  center.head<Dim>().setConstant(0.51);
+  ViscousCase<Dim> p({.cells = 8, .viscosity = 0.3, .solids = {viscous_ball(center, 0.2)}, .phi = tilted_surface<Dim>});
+  Parting<Dim> parting(p.layout());
+  p.let_part(parting);
+  p.assemble();
+  const Eigen::MatrixXd none = p.dense(true);
+  const std::size_t cells = p.rows.cells.size();
+  for_each_index_in_order(p.layout(), p.layout().cells(), [&](Site c, const IVec<Dim>& i) {
+    const bool at_side = (i.array() == 0).any() || (i.array() == 7).any();
+    parting.parted[c] = p.rows.has_own(c) && (at_side || c % 3 == 0);
+  });
+  p.assemble();
+  CHECK(p.rows.cells.size() < cells);
+  const Eigen::MatrixXd many = p.dense(true);
+  REQUIRE(many.rows() == none.rows());
+  CHECK((many - none).cwiseAbs().maxCoeff() == 0);
+}
+
+}  // namespace
+
+TEST_CASE("masses and stresses do not depend on the guess of which cells part") {
+  check_guess_of_parting<2>();
+  check_guess_of_parting<3>();
+}
