@@ -58,9 +58,10 @@ void add_resume(CLI::App& program, VerbContext& context) {
   const auto options = std::make_shared<ResumeOptions>();
   verb->add_option("directory", options->folder, "Run directory")->required();
   verb->add_option("--end", options->end, "New end time, s");
+  add_set_option(*verb, options->overrides);
   verb->add_flag_callback(
       "--force", [options] { options->edits = EditPolicy::force; },
-      "Accept changes of output, solver and probes in scene.toml");
+      "Accept changes of output and probes, in scene.toml or by --set");
   add_session_options(*verb, options->session);
   verb->callback([options, &context] {
     context.action = [options, &context] { return resume_command(*options, surroundings(context)); };

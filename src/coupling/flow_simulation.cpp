@@ -57,7 +57,7 @@ class FlowSimulation : public Simulation {
     }
     const std::string close = nearest_solids(setup_, state_);
     throw Error(ExitCode::cannot_continue, fmt::format("{} (after {} halvings; {})", failures, most_halvings,
-                                                       close.empty() ? "try a smaller cfl or a looser tolerance" : "all but touching: " + close));
+                                                       close.empty() ? remedy() : "all but touching: " + close));
   }
 
   void load(const CheckpointData& data) override {
@@ -162,6 +162,15 @@ class FlowSimulation : public Simulation {
     for (const std::string& line : a.solve.ladder)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh();
+  }
+
+  // Of a step that failed: keys that a resumed run may change.
+  std::string remedy() const {
+    const TimeSpec& t = setup_.scene.time;
+    const std::string step = t.fixed_step ? fmt::format("time.fixed_step={:.3g}", *t.fixed_step / 2)
+                                          : fmt::format("time.cfl={:.3g}", t.cfl / 2);
+    return fmt::format("try `seiche resume` with --set {} or --set solver.tolerance={:.3g}", step,
+                       std::min(10 * setup_.scene.solver.tolerance, 0.01));
   }
 
   // Once.

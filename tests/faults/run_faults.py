@@ -590,7 +590,7 @@ def other_rank_counts(bench):
 
 
 def edited_scene(bench):
-    """A scene edited between stop and resume: refused with the keys; --force lets output, solver and probes pass."""
+    """A scene edited between stop and resume: refused with the keys; numerical settings pass, --force lets output pass."""
     out = stopped_run(bench)
     scene = out / "scene.toml"
     original = scene.read_text()
@@ -604,8 +604,14 @@ def edited_scene(bench):
     bench.run("resume", "out", "--end", "0.2").needs(2, "density")
     bench.run("resume", "out", "--end", "0.2", "--force").needs(2, "density")
     edit("tolerance", r"^(tolerance *= *).*", r"\g<1>1e-9")
-    bench.run("resume", "out", "--end", "0.2").needs(2, "tolerance", "--force")
-    bench.run("resume", "out", "--end", "0.2", "--force").needs(0)
+    bench.run("resume", "out", "--end", "0.2").needs(0, "solver.tolerance")
+    numerical = ["--set", "solver.tolerance=1e-7", "--set", "time.cfl=0.5", "--set", "solver.preconditioner=boomeramg"]
+    bench.run("resume", "out", "--end", "0.25", *numerical).needs(0, "solver.preconditioner", "time.cfl")
+    expect("cfl = 0.5" in scene.read_text(), "scene.toml does not hold the new cfl")
+    output = ["--set", "output.formats=[\"vtk\"]"]
+    bench.run("resume", "out", "--end", "0.3", *output, "--set", "liquid.density=900").needs(2, "liquid.density")
+    bench.run("resume", "out", "--end", "0.3", *output).needs(2, "output.formats", "--force")
+    bench.run("resume", "out", "--end", "0.3", *output, "--force").needs(0)
     edit("broken", r"^\[domain\]", "[domian]")
     bench.run("resume", "out", "--end", "0.3").needs(2)
 
