@@ -214,6 +214,20 @@ def openmp_environment(bench):
     expect(summary(bench.path("three"))["threads"] == 3, "threads not recorded")
 
 
+def ranks_share_a_processor(bench):
+    """More ranks, or threads, than processors that they may run on: a warning; else none."""
+    allowed = os.sched_getaffinity(0)
+    words = ("2 ranks with 1 thread each on 1 processor", "1 rank with 2 threads each on 1 processor")
+    try:
+        os.sched_setaffinity(0, {min(allowed)})
+        bench.simulate("--frames", "0", out="ranks", ranks=2).needs(0, words[0])
+        bench.simulate("--frames", "0", "--threads", "2", out="threads").needs(0, words[1])
+        bench.simulate("--frames", "0", out="one").needs(0)
+    finally:
+        os.sched_setaffinity(0, allowed)
+    expect("processor" not in (bench.path("one") / "log.txt").read_text(), "a warning on one rank")
+
+
 def openmp_differs_between_ranks(bench):
     """OMP_NUM_THREADS different on two ranks: a warning."""
     scene = bench.scene()
@@ -910,7 +924,7 @@ TABLES = {
                 full_container_with_moving_solid, inflow_without_outlet, inflow_balanced_to_round_off,
                 droplets_and_enclosed_cells, odd_and_thin_grids, nothing_to_do],
     "formulas": [formula_not_finite_at_start, shape_not_finite, formula_not_finite_later, pinned_step_too_long],
-    "ranks": [more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
+    "ranks": [ranks_share_a_processor, more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
               openmp_environment, openmp_differs_between_ranks],
     "output": [output_folder_created, output_is_a_file, output_not_writable, existing_output_refused,
                two_jobs_in_one_folder, file_size_limit, full_device, full_disk, few_file_handles],
