@@ -1,7 +1,7 @@
 // Solids beside periodic sides close the same part of a face at either of its places.
 #include <catch2/catch.hpp>
 
-#include "coupling/state.h"
+#include "coupling/contact_setup.h"
 #include "grid/loops.h"
 #include "rigid_scenes.h"
 #include "scenes.h"
@@ -55,4 +55,10 @@ TEST_CASE("faces on periodic sides are as open at either place") {
     check_sides<2>(kind);
     check_sides<3>(kind);
   }
+}
+
+TEST_CASE("solids that reach a periodic side are named") {
+  const Setup<2> s(beside_sides(2, SolidKind::rigid), Communicator(), {});
+  const std::string names = solids_at_periodic_sides(s, initial_state(s));
+  CHECK(names == "'box' and the periodic side y_upper, which no solid can pass");
 }
