@@ -1,6 +1,7 @@
-// The viscous operator beside liquid that may part from solids.
+// Liquid that may part from solids: the viscous operator beside it, and the search for where it does.
 #include <catch2/catch.hpp>
 
+#include "fluid/parting_search.h"
 #include "viscous_case.h"
 
 using namespace seiche;
@@ -41,4 +42,18 @@ void check_guess_of_parting() {
 TEST_CASE("masses and stresses do not depend on the guess of which cells part") {
   check_guess_of_parting<2>();
   check_guess_of_parting<3>();
+}
+
+TEST_CASE("a search for the cells that part which no guess satisfies ends, and says how wrong it is") {
+  ViscousCase<2> p({.cells = 8, .phi = tilted_surface<2>});
+  Parting<2> parting(p.layout());
+  p.let_part(parting);
+  p.assemble();
+  p.pressure.fill(-1);  // pulls where it has not parted,
+  p.set(p.u_star, [](int a, const Vec<2>& x) { return -10 * (a == 0 ? x[0] : x[1]); });  // is squeezed where it has
+  PartingSearch<2> search(p.projection(), 1e-7, parting);
+  int rounds = 0;
+  while (!search.is_settled_by(p.rows, {}, p.pressure, p.u_star) && rounds < 1000) ++rounds;
+  CHECK(rounds == 50);
+  CHECK(search.error() >= 1);
 }
