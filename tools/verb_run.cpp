@@ -59,9 +59,10 @@ void add_resume(CLI::App& program, VerbContext& context) {
   const auto options = std::make_shared<ResumeOptions>();
   verb->add_option("directory", options->folder, "Run directory, such as out/<scene name>")->required();
   verb->add_option("--end", options->end, "New end time, s");
+  add_set_option(*verb, options->overrides);
   verb->add_flag_callback(
       "--force", [options] { options->edits = EditPolicy::force; },
-      "Accept changes of output, solver and probes in scene.toml, and damaged tables");
+      "Accept changes of output and probes, in scene.toml or by --set, and damaged tables");
   add_session_options(*verb, options->session);
   verb->callback([options, &context] {
     context.stops = Stops::when_safe;

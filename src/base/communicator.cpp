@@ -40,7 +40,10 @@ std::vector<std::string> split(const Pieces& p) {
 
 }  // namespace
 
+// What the environment says already stays.
 MpiSession::MpiSession(int& argc, char**& argv) {
+  // A rank that waits lets others have its core: where anything else is busy, ranks would wait for those that wait.
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   // Without mpirun Open MPI starts a daemon for the one process, which can fail where many start at once.
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int provided = 0;

@@ -1,5 +1,10 @@
 #include "base/emergency_channel.h"
 
+#include <sched.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdlib>
 #include <thread>
 
@@ -31,13 +36,36 @@ void EmergencyChannel::abort(int code) const {
   std::_Exit(code);
 }
 
-int ranks_on_this_machine(const Communicator& ranks) {
+namespace {
+
+// The ranks of this machine; to be freed.
+MPI_Comm split_by_machine(const Communicator& ranks) {
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(ranks.handle(), MPI_COMM_TYPE_SHARED, ranks.rank(), MPI_INFO_NULL, &machine);
+  return machine;
+}
+
+}  // namespace
+
+int ranks_on_this_machine(const Communicator& ranks) {
+  MPI_Comm machine = split_by_machine(ranks);
   int count = 1;
   MPI_Comm_size(machine, &count);
   MPI_Comm_free(&machine);
   return count;
+}
+
+// mpirun may bind each rank to some processors: the masks of all ranks together count.
+int processors_of_this_machine(const Communicator& ranks) {
+  std::array<unsigned long, 1024> mask{};  // room for 65536 processors
+  const int failed = sched_getaffinity(0, sizeof mask, reinterpret_cast<cpu_set_t*>(mask.data()));
+  if (failed) mask.fill(0);
+  MPI_Comm machine = split_by_machine(ranks);
+  MPI_Allreduce(MPI_IN_PLACE, mask.data(), int(mask.size()), MPI_UNSIGNED_LONG, MPI_BOR, machine);
+  MPI_Comm_free(&machine);
+  int count = 0;
+  for (const unsigned long word : mask) count += std::popcount(word);
+  return count > 0 ? count : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
 }  // namespace seiche

@@ -36,4 +36,7 @@ class EmergencyChannel {
 // Ranks that share this rank's machine (its memory and its cores), this one included. Collective.
 int ranks_on_this_machine(const Communicator& ranks);
 
+// Processors of this machine that its ranks may run on, each counted once. Collective.
+int processors_of_this_machine(const Communicator& ranks);
+
 }  // namespace seiche

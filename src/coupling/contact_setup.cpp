@@ -116,10 +116,41 @@ std::string remedy(const Setup<Dim>& s, const Overlap& o) {
   return "move them apart, or let the part that is pinned end at the other's surface";
 }
 
+// Points of the surface of a rigid or elastic body.
+template <int Dim>
+std::vector<Vec<Dim>> surface_of(const Setup<Dim>& s, const State<Dim>& state, std::size_t k) {
+  const Body<Dim>& body = s.bodies[k];
+  if (body.is_elastic()) return surface_points(body.elastic(), state.elastic[k].state.u);
+  const Pose pose = place_bodies(s, state)[k].pose;
+  std::vector<Vec<Dim>> points;
+  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
+  return points;
+}
+
+template <int Dim>
+std::string solids_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
+  constexpr double near = 0.1;  // cells
+  const Geometry<Dim>& g = s.layout.geometry();
+  std::string names;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_rigid() && !s.bodies[k].is_elastic()) continue;
+    const std::vector<Vec<Dim>> points = surface_of(s, state, k);
+    for (int a = 0; a < Dim; ++a)
+      for (int side = 0; side < 2 && g.periodic[a]; ++side) {
+        const double at = g.lower[a] + side * g.h * g.cells[a];
+        const auto reaches = [&](const Vec<Dim>& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
+        if (std::any_of(points.begin(), points.end(), reaches))
+          names += fmt::format("{}'{}' and the periodic side {}_{}, which no solid can pass", names.empty() ? "" : ", ",
+                               s.bodies[k].spec().name, "xyz"[a], side ? "upper" : "lower");
+      }
+  }
+  return names;
+}
+
 template <int Dim>
 std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
-  if (!s.contact) return {};
-  std::string names;
+  std::string names = solids_at_periodic_sides(s, state);
+  if (!s.contact) return names;
   const auto motions = contact_motions(s, state, 0);
   for (const Overlap& o : find_initial_overlaps(*s.contact, motions, 0.1 * reach * s.layout.h()))
     names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", s.bodies[o.body].spec().name, other_name(s, o));
@@ -189,6 +220,7 @@ double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
 
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&, const Tampering&); \
+  template std::string solids_at_periodic_sides<D>(const Setup<D>&, const State<D>&);                          \
   template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                                    \
   template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                                          \
   template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const State<D>&, double);            \

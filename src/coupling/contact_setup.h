@@ -22,7 +22,11 @@ std::vector<ContactMotion> contact_motions(const Setup<Dim>& setup, const State<
 template <int Dim>
 ContactOptions contact_options(const Setup<Dim>& setup);
 
-// Names of the solids that all but touch, for messages.
+// Names of the rigid and elastic solids that reach a periodic side, for messages.
+template <int Dim>
+std::string solids_at_periodic_sides(const Setup<Dim>& setup, const State<Dim>& state);
+
+// Names of the solids that all but touch each other or a side, for messages.
 template <int Dim>
 std::string nearest_solids(const Setup<Dim>& setup, const State<Dim>& state);
 

@@ -1,10 +1,9 @@
 #include "coupling/coupled_solve.h"
 
-#include <fmt/format.h>
-
 #include "coupling/sealed_liquid.h"
 #include "coupling/solve_parts.h"
 #include "coupling/viscous_solve.h"
+#include "fluid/parting_search.h"
 
 namespace seiche {
 namespace {
@@ -80,7 +79,6 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   return r;
 }
 
-constexpr int most_policies = 50;
 // Pressures this many solver tolerances below zero pull.
 constexpr double pull = 10;
 
@@ -92,20 +90,19 @@ void add_up(SolveReport& all, const SolveReport& one) {
 
 }  // namespace
 
-// 0 <= p, 0 <= net flux + missing flux, one of them zero: policy iteration over the set of parted cells.
+// One solve a guess of the cells that part, each from where the step began and the pressure of the last.
 template <int Dim>
 CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   const ProjectionInput<Dim>& in = input.liquid;
   if (!in.parting) return solve_once(input);
   State<Dim>& state = input.state;
-  start_parting(in, state.parting);
+  PartingSearch<Dim> search(in, pull * input.setup.scene.solver.tolerance, state.parting);
   const StepGeometry<Dim> still = input.geometry;
   const std::vector<RigidState> rigid = state.rigid;
   const std::vector<ElasticMotion> elastic = state.elastic;
   CoupledSolution<Dim> r;
   CellField<Dim> from = input.guess;
-  CellField<Dim, char> eligible;
-  for (int k = 0; k < most_policies; ++k) {
+  do {
     input.geometry = still;
     state.rigid = rigid;
     state.elastic = elastic;
@@ -116,12 +113,9 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
     std::swap(trial.report, r.report);
     r = std::move(trial);
     if (!r.failure.empty()) return r;
-    if (k == 0) eligible = cells_that_may_part(in, r.rows, r.closed_component);
     from = r.pressure;
-    const double pulling = pull * input.setup.scene.solver.tolerance;
-    if (!revise_parting(in, r.rows, r.pressure, r.u_star, eligible, pulling, state.parting)) return r;
-  }
-  r.failure = fmt::format("where the liquid parts from the solids is not settled after {} solves", most_policies);
+  } while (!search.is_settled_by(r.rows, r.closed_component, r.pressure, r.u_star));
+  r.parting_error = search.error();
   return r;
 }
 

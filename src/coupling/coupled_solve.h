@@ -30,6 +30,7 @@ struct CoupledSolution {
   Eigen::VectorXd solids;                  // velocities of the bodies' unknowns
   std::vector<ViscousLoad> viscous_loads;  // of each solid; empty where the liquid is inviscid
   double dissipation = 0;                  // by viscosity, W
+  double parting_error = 0;                // PartingSearch::error
   std::string failure;                     // empty: accepted
 };
 

@@ -184,7 +184,7 @@ Eigen::VectorXd missing_buoyancy(const Setup<Dim>& s, const PressureRows<Dim>& r
                                  const Eigen::VectorXd& u, const FacetFluxes<Dim>& fluxes, const Vec<Dim>& gravity) {
   const ElasticSolid<Dim>& solid = s.bodies[std::size_t(k)].elastic();
   const auto center = [&](Site c) { return s.layout.position(s.layout.index(c), cell_offset<Dim>()); };
-  const auto density = [&](Site c) { return !rows.has_own(c) ? 0 : phi[c] < 0 ? s.density() : s.gas_density(); };
+  const auto density = [&](Site c) { return !rows.has_pressure(c) ? 0 : phi[c] < 0 ? s.density() : s.gas_density(); };
   std::vector<double> force(std::size_t(u.size()));
   for (const LoadedPiece<Dim>& p : fluxes.pieces)
     for (std::size_t i = 0; i < p.load.nodes.size(); ++i) {

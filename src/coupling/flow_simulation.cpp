@@ -56,9 +56,8 @@ class FlowSimulation : public Simulation {
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
     const std::string close = nearest_solids(setup_, state_);
-    throw Error(ExitCode::cannot_continue,
-                fmt::format("{} (after {} halvings; {})", failures, most_halvings,
-                            close.empty() ? "try a smaller cfl or a looser tolerance" : "all but touching: " + close));
+    throw Error(ExitCode::cannot_continue, fmt::format("{} (after {} halvings; {})", failures, most_halvings,
+                                                       close.empty() ? remedy() : "all but touching: " + close));
   }
 
   void load(const CheckpointData& data) override {
@@ -158,9 +157,29 @@ class FlowSimulation : public Simulation {
     contacts_ = a.contacts;
     dissipation_ = a.dissipation;
     rheology_iterations_ = a.rheology_iterations;
+    parting_error_ = a.parting_error;
+    warn_of_parting();
     for (const std::string& line : a.solve.ladder)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh();
+  }
+
+  // Of a step that failed: keys that a resumed run may change.
+  std::string remedy() const {
+    const TimeSpec& t = setup_.scene.time;
+    const std::string step = t.fixed_step ? fmt::format("time.fixed_step={:.3g}", *t.fixed_step / 2)
+                                          : fmt::format("time.cfl={:.3g}", t.cfl / 2);
+    return fmt::format("try `seiche resume` with --set {} or --set solver.tolerance={:.3g}", step,
+                       std::min(10 * setup_.scene.solver.tolerance, 0.01));
+  }
+
+  // Once.
+  void warn_of_parting() {
+    if (parting_error_ == 0 || std::exchange(told_of_parting_, true)) return;
+    phases_.warnings.push_back(
+        fmt::format("step {}: which cells part from the solids was not found; going on with the set that is wrong by "
+                    "the least, {:.1e} of the largest pressure (later ones are counted in summary.json)",
+                    state_.step, parting_error_));
   }
 
   // What stats() and solids() answer, of the present state.
@@ -179,6 +198,7 @@ class FlowSimulation : public Simulation {
     stats_.contacts = contacts_;
     stats_.viscous_dissipation = dissipation_;
     stats_.rheology_iterations = rheology_iterations_;
+    stats_.parting_error = parting_error_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
     solids_ = measure_solids(setup_, state_, geometry_);
@@ -213,7 +233,8 @@ class FlowSimulation : public Simulation {
   SolveReport solve_;
   double divergence_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
-  double dissipation_ = 0;
+  double dissipation_ = 0, parting_error_ = 0;
+  bool told_of_parting_ = false;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };

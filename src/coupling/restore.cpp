@@ -169,7 +169,7 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       const Site low = f - s.layout.stride(a);
-      const bool wet = rows.touch_own(low, f) || in.is_parted(f) || in.is_parted(low);
+      const bool wet = rows.touch_pressure(low, f);
       if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
         next.valid.at(a, f) = face_prescribed;

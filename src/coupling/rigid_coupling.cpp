@@ -79,7 +79,7 @@ ColumnBlock make_block(const Setup<Dim>& s, const CellField<Dim>& phi, const Pre
   std::vector<MatrixEntry> of_air;
   for (const auto& [cell, mode] : sums.cells) {
     const double area = mode.template head<Dim>().norm();
-    const bool wet = rows.has_own(cell);
+    const bool wet = rows.has_pressure(cell);
     if (area > rounding) sums.surface += area, sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
     for (int k = 0; k < block.width && rows.row[cell] >= 0; ++k)
       if (wet)

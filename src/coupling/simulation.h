@@ -34,6 +34,9 @@ struct StepStats {
   std::int64_t bubbles = 0;        // enclosed regions of air that keep their volume
   double air_lost = 0;             // of those that became too small for the grid, since the start, m^3
   int rheology_iterations = 0;     // solves with viscosities of the last one's shear rate; 0 for Newtonian liquid
+  // Pull or squeeze, over the largest pressure, of cells that part or not against the rule; 0: all parted as they
+  // should.
+  double parting_error = 0;
 };
 
 // One row of solids.csv.

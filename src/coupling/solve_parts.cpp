@@ -33,7 +33,7 @@ void refuse_impossible_motion(const CoupledInput<Dim>& in, const PressureProblem
 template <int Dim>
 void refuse_unbalanced_chambers(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
                                 const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
-  if (!sensed.empty() && r.report.mismatch > balanced)
+  if (r.failure.empty() && !sensed.empty() && r.report.mismatch > balanced)
     refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, liquid.closed));
 }
 

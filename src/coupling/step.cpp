@@ -237,6 +237,7 @@ struct StepInProgress {
     out.solve.iterations += earlier;
     out.newton_iterations = solution.newton_iterations;
     out.contacts = solution.contacts;
+    out.parting_error = solution.parting_error;
     out.failure = solution.failure;
     out.state.pressure = solution.pressure;
     return out.failure.empty();

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "coupling/periodic_places.h"
 #include "coupling/placed_solid.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -127,8 +128,13 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
 template <int Dim>
 bool SolidGeometry<Dim>::seals(const PlacedSolid<Dim>& solid, double distance, int axis, const IVec<Dim>& face) const {
   if (std::abs(distance) > 2 * layout_.h()) return false;
+  const auto seals_between = [&](const Vec<Dim>& low, const Vec<Dim>& high) {
+    return solid.lies_between(low, high) || solid.distance(low) < 0 || solid.distance(high) < 0;
+  };
   const auto [low, high] = centers_beside(layout_, axis, face);
-  return solid.lies_between(low, high) || solid.distance(low) < 0 || solid.distance(high) < 0;
+  if (seals_between(low, high)) return true;
+  const Vec<Dim> shift = to_other_side(layout_, axis, face) * Vec<Dim>::Unit(axis);
+  return shift[axis] != 0 && seals_between(low + shift, high + shift);
 }
 
 // The static body that seals each face, -1 where none does.
@@ -140,7 +146,8 @@ FaceField<Dim, std::int16_t> SolidGeometry<Dim>::seal_static() const {
     const PlacedSolid<Dim> solid(layout_, bodies_[k], {});
     for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>& i) {
-        const double distance = bodies_[k].distance_at_rest(layout_.position(i, node_offset<Dim>()));
+        const double distance =
+            least_distance(layout_, i, [&](const Vec<Dim>& x) { return bodies_[k].distance_at_rest(x); });
         if (seals(solid, distance, a, i)) seal.at(a, f) = std::int16_t(k);
       });
   }
@@ -154,7 +161,8 @@ void SolidGeometry<Dim>::measure_static() {
     if (bodies_[k].moves()) continue;
     any = true;
     for_each_index_in_order(layout_, layout_.padded(), [&](Site s, const IVec<Dim>& i) {
-      const double d = snapped(bodies_[k].distance_at_rest(layout_.position(i, node_offset<Dim>())), layout_.h());
+      const double d = snapped(
+          least_distance(layout_, i, [&](const Vec<Dim>& x) { return bodies_[k].distance_at_rest(x); }), layout_.h());
       if (d >= still_.psi[s]) return;
       still_.psi[s] = d;
       still_.body[s] = std::int16_t(k);
@@ -191,6 +199,9 @@ Box<Dim> SolidGeometry<Dim>::reach(int body, const Pose& pose) const {
     const double lowest = box.lower[a], highest = box.upper[a];
     box.lower[a] = int(std::clamp(std::floor(x - r), lowest, highest));
     box.upper[a] = int(std::clamp(std::ceil(x + r) + 1, lowest, highest));
+    // What stands at a periodic side is seen from the other one.
+    const bool at_side = x - r <= 0 || x + r >= layout_.geometry().cells[a];
+    if (layout_.geometry().periodic[a] && at_side) box.lower[a] = int(lowest), box.upper[a] = int(highest);
   }
   return box;
 }
@@ -202,7 +213,7 @@ FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, No
   if (bodies_[k].is_elastic()) return measure_elastic(k, placed, scratch, g);
   const Box<Dim> box = reach(k, placed.pose);
   for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>& i) {
-    scratch[s] = bodies_[k].distance_in(placed.pose, layout_.position(i, node_offset<Dim>()));
+    scratch[s] = least_distance(layout_, i, [&](const Vec<Dim>& x) { return bodies_[k].distance_in(placed.pose, x); });
   });
   return take_in(k, box, scratch, g);
 }
@@ -318,41 +329,6 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   return g;
 }
 
-// closed flux += s_k (v_new - v_old)(face centre) . e
-template <int Dim>
-void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeometry<Dim>& g) {
-  Twist& present = g.placed[body].twist;
-  if (present.at_rest() && twist.at_rest()) return;
-  for (const FaceShare& s : *g.shares[body]) {
-    const Vec3 x = extend<Dim>(layout.position(layout.index(s.face), face_offset<Dim>(s.axis)));
-    g.faces.closed_flux.at(s.axis, s.face) += s.closed * (twist.at(x)[s.axis] - present.at(x)[s.axis]);
-  }
-  present = twist;
-}
-
-template <int Dim>
-double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity) {
-  double v = 0;
-  for (const auto& [node, weight] : hung) v += weight * node_velocity[Dim * node + axis];
-  return v;
-}
-
-template <int Dim>
-void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velocity, StepGeometry<Dim>& g) {
-  Eigen::VectorXd& present = g.placed[body].velocity;
-  const FaceShares& shares = *g.shares[body];
-  for (std::size_t n = 0; n < shares.size(); ++n) {
-    const int axis = shares[n].axis;
-    const SurfaceWeights& hung = (*g.attached[body])[n];
-    g.faces.closed_flux.at(axis, shares[n].face) +=
-        shares[n].closed * (velocity_at<Dim>(hung, axis, velocity) - velocity_at<Dim>(hung, axis, present));
-  }
-  if (g.cell_fluxes[body])
-    for (const CellFlux& c : *g.cell_fluxes[body])
-      g.faces.cell_flux[c.cell] += c.value * (velocity[c.column] - present[c.column]);
-  present = velocity;
-}
-
 template <int Dim>
 void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
   for (int a = 0; a < Dim; ++a)
@@ -386,12 +362,6 @@ double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& pl
   return largest;
 }
 
-template double velocity_at<2>(const SurfaceWeights&, int, const Eigen::VectorXd&);
-template double velocity_at<3>(const SurfaceWeights&, int, const Eigen::VectorXd&);
-template void set_node_velocity<2>(const Layout<2>&, int, const Eigen::VectorXd&, StepGeometry<2>&);
-template void set_node_velocity<3>(const Layout<3>&, int, const Eigen::VectorXd&, StepGeometry<3>&);
-template void set_twist<2>(const Layout<2>&, int, const Twist&, StepGeometry<2>&);
-template void set_twist<3>(const Layout<3>&, int, const Twist&, StepGeometry<3>&);
 template struct StepGeometry<2>;
 template struct StepGeometry<3>;
 template class SolidGeometry<2>;

@@ -231,7 +231,8 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double free = hold_back(s, state, dt);
   if (!(free * double(most_steps_a_frame) > remaining))
     throw Error(ExitCode::cannot_continue,
-                too_short(free, remaining, s.layout.h(), free < dt ? nearest_solids(s, state) : ""));
+                too_short(free, remaining, s.layout.h(),
+                          free < dt ? nearest_solids(s, state) : solids_at_periodic_sides(s, state)));
   return free;
 }
 

@@ -31,7 +31,7 @@ Depths wet_depths(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Pressur
   for (std::size_t side = 0; side < 2; ++side) {
     const Site c = cells[side];
     if (!s.layout.cells().contains(s.layout.index(c))) continue;
-    const bool shut = rows.row[c] < 0;
+    const bool shut = rows.row[c] == PressureRows<Dim>::no_row;
     if (shut && !is_shut_in(s, g, phi, c)) continue;
     const double depth = shut ? 0.5 * s.layout.h() : f.gaps[side];
     sum.inert += depth;

@@ -26,7 +26,7 @@ std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H
   report_.converged = r.converged;
   report_.iterations += r.iterations;
   report_.residual = std::max(report_.residual, r.residual);
-  report_.mismatch = r.mismatch;
+  if (H.size() > 0) report_.mismatch = r.mismatch;  // what held bodies do not balance says nothing
   report_.used = r.used;
   report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
   if (r.converged) return {};

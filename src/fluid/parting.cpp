@@ -49,26 +49,28 @@ CellField<Dim, char> cells_that_may_part(const ProjectionInput<Dim>& in, const P
 }
 
 template <int Dim>
-bool revise_parting(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                    const FaceField<Dim>& u_star, const CellField<Dim, char>& eligible, double tolerance,
-                    Parting<Dim>& parting) {
+WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                                const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                                const CellField<Dim, char>& eligible, double tolerance, const Parting<Dim>& parting) {
   const Box<Dim>& cells = in.layout.cells();
-  const double h = in.layout.h();
+  const double h = in.layout.h(), stiffness = in.density * h / in.dt;
   const double largest =
       in.ranks.global_max(local_max(in.layout, cells, 0.0, [&](Site c) { return std::abs(pressure[c]); }));
-  const double least_pull = tolerance * largest, least_squeeze = in.dt / (in.density * h) * least_pull;
-  bool changed = false;
+  WrongGuesses wrong;
+  double worst = 0;
   for_each_index_in_order(in.layout, cells, [&](Site c, const IVec<Dim>&) {
-    if (parting.parted[c] && flux_after(in, rows, pressure, u_star, c) + parting.gap[c] * h / in.dt < -least_squeeze) {
-      parting.parted[c] = 0;
-      changed = true;
-    } else if (!parting.parted[c] && eligible[c] && pressure[c] < -least_pull) {
-      parting.parted[c] = 1;
-      changed = true;
-    }
+    double error = 0;
+    if (parting.parted[c])
+      error = -stiffness * (flux_after(in, rows, pressure, u_star, c) + in.missing_flux(c));
+    else if (eligible[c])
+      error = -pressure[c];
+    if (error <= tolerance * largest) return;
+    wrong.cells.push_back(c);
+    worst = std::max(worst, error);
   });
-  in.halo.fill_ghosts({parting.parted.data()});
-  return in.ranks.any(changed);
+  wrong.count = in.ranks.global_sum(std::int64_t(wrong.cells.size()));
+  if (largest > 0) wrong.worst = in.ranks.global_max(worst) / largest;
+  return wrong;
 }
 
 template <int Dim>
@@ -80,13 +82,14 @@ void advance_gaps(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
   });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template void start_parting<D>(const ProjectionInput<D>&, Parting<D>&);                                 \
-  template bool revise_parting<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, \
-                                  const FaceField<D>&, const CellField<D, char>&, double, Parting<D>&);   \
-  template CellField<D, char> cells_that_may_part<D>(const ProjectionInput<D>&, const PressureRows<D>&,   \
-                                                     const std::vector<int>&);                            \
-  template void advance_gaps<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&,   \
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template void start_parting<D>(const ProjectionInput<D>&, Parting<D>&);                                             \
+  template WrongGuesses find_wrong_guesses<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, \
+                                              const FaceField<D>&, const CellField<D, char>&, double,                 \
+                                              const Parting<D>&);                                                     \
+  template CellField<D, char> cells_that_may_part<D>(const ProjectionInput<D>&, const PressureRows<D>&,               \
+                                                     const std::vector<int>&);                                        \
+  template void advance_gaps<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&,               \
                                 const FaceField<D>&, Parting<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

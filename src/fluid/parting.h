@@ -1,6 +1,6 @@
 #pragma once
 // Liquid that parts from walls and solids instead of hanging on to them: p >= 0 there, and a cell may gain volume where
-// p = 0 (Batty, Bertails, Bridson 2007; solved by policy iteration).
+// p = 0 (Batty, Bertails, Bridson 2007; solved by policy iteration, fluid/parting_search.h).
 #include "grid/fields.h"
 #include "grid/halo.h"
 
@@ -24,13 +24,20 @@ struct Parting {
 template <int Dim>
 void start_parting(const ProjectionInput<Dim>& in, Parting<Dim>& parting);
 
-// What a solution says of its own guess: cells at walls or solids, in components with a given pressure, whose pressure
-// pulls are to part; parted ones that would be squeezed beyond their gap are to close. Changes `parting`; whether any
-// rank changed anything. `eligible` says which owned cells may part. Collective.
+// Cells whose guess a solution contradicts: those that did not part but whose pressure pulls, and those that parted but
+// would be squeezed beyond their gap.
+struct WrongGuesses {
+  std::vector<Site> cells;  // of this rank
+  std::int64_t count = 0;   // over all ranks
+  // Largest pull, or squeeze times rho h/dt, over the largest pressure; over all ranks.
+  double worst = 0;
+};
+
+// `eligible` says which owned cells may part; what is within `tolerance` of the largest pressure is right. Collective.
 template <int Dim>
-bool revise_parting(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                    const FaceField<Dim>& u_star, const CellField<Dim, char>& eligible, double tolerance,
-                    Parting<Dim>& parting);
+WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                                const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                                const CellField<Dim, char>& eligible, double tolerance, const Parting<Dim>& parting);
 
 // Cells that touch a wall or a solid, those of closed components left out, and those that are parted already.
 template <int Dim>

@@ -15,7 +15,6 @@ double liquid_part(double phi_low, double phi_high) {
 
 template <int Dim>
 double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across) {
-  if (in.is_parted(cell) || in.is_parted(across)) return 1;
   const double theta = liquid_part(in.phi[cell], in.phi[across]);
   return 1 / (theta + (1 - theta) * in.gas_density / in.density);
 }
@@ -88,11 +87,13 @@ void number_air(const ProjectionInput<Dim>& in, PressureRows<Dim>& rows) {
 template <int Dim>
 PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
   PressureRows<Dim> rows;
-  rows.row = CellField<Dim, std::int64_t>(in.layout, -1);
+  rows.row = CellField<Dim, std::int64_t>(in.layout, PressureRows<Dim>::no_row);
   std::int64_t isolated = 0;
   for_each_index_in_order(in.layout, in.layout.cells(), [&](Site s, const IVec<Dim>&) {
-    if (!(in.is_liquid(s) || in.has_gas()) || in.is_parted(s)) return;
-    if (touches_unknown(in, s))
+    if (!(in.is_liquid(s) || in.has_gas())) return;
+    if (in.is_parted(s))
+      rows.row[s] = PressureRows<Dim>::parted_row;
+    else if (touches_unknown(in, s))
       rows.cells.push_back(s);
     else if (in.is_liquid(s))
       ++isolated;
@@ -197,12 +198,12 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
   const Site low = face - in.layout.stride(axis), high = face;
   const double scale = 1 / (in.density * in.layout.h());
   const bool has_low = rows.row[low] >= 0, has_high = rows.row[high] >= 0;
-  if (!rows.touch_own(low, high)) return 0;
+  if (!rows.touch_pressure(low, high)) return 0;
   const double p_low = has_low ? pressure[low] : 0, p_high = has_high ? pressure[high] : 0;
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) {
     const double beyond = in.faces.side_pressure.at(axis, face), over = scale / 0.5;
-    return has_low ? over * cell_lightness(in, low) * (beyond - p_low)
-                   : over * cell_lightness(in, high) * (p_high - beyond);
+    return rows.has_pressure(low) ? over * cell_lightness(in, low) * (beyond - p_low)
+                                  : over * cell_lightness(in, high) * (p_high - beyond);
   }
   return scale * link_lightness(in, low, high) * (p_high - p_low + jump_over(in, axis, face));
 }

@@ -37,9 +37,11 @@ struct ProjectionInput {
 // The unknowns: one row a cell of liquid, or gas that flows, that an open face touches and that has not parted.
 template <int Dim>
 struct PressureRows {
-  CellField<Dim, std::int64_t> row;  // global row or -1, filled one cell around; of enclosed air that of its region
-  std::vector<Site> cells;           // owned cells with a row, in row order, and then one cell a region of air
-  std::size_t liquid = 0;            // so many of them are no region's
+  static constexpr std::int64_t no_row = -1, parted_row = -2;
+  // Global row, no_row or parted_row (p = 0), filled one cell around; of enclosed air that of its region.
+  CellField<Dim, std::int64_t> row;
+  std::vector<Site> cells;  // owned cells with a row, in row order, and then one cell a region of air
+  std::size_t liquid = 0;   // so many of them are no region's
   Row first = 0, global = 0;
   std::int64_t isolated = 0;  // liquid cells without an open face, over all ranks
   const AirRegions<Dim>* air = nullptr;
@@ -48,8 +50,11 @@ struct PressureRows {
   // Region of enclosed air a cell belongs to, or -1.
   std::int64_t region(Site cell) const { return air ? std::max<std::int64_t>(air->label[cell], -1) : -1; }
   bool has_own(Site cell) const { return row[cell] >= 0 && region(cell) < 0; }
-  // Whether a face moves what has a pressure of its own.
-  bool touch_own(Site low, Site high) const { return has_own(low) || has_own(high); }
+  bool is_parted(Site cell) const { return row[cell] == parted_row; }
+  // Whether a cell has a pressure of its own, be it solved for or, where the cell has parted, zero. It does not depend
+  // on the guess of which cells part: masses of faces hang on it, and the policy iteration needs one matrix.
+  bool has_pressure(Site cell) const { return has_own(cell) || is_parted(cell); }
+  bool touch_pressure(Site low, Site high) const { return has_pressure(low) || has_pressure(high); }
   bool owns(Row r) const { return r >= first && r < first + Row(cells.size()); }
 };
 

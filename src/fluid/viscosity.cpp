@@ -145,9 +145,9 @@ double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   constexpr double follower = 1e-3;
   const double full = in.density * in.layout.geometry().cell_volume();
   const Site low = f - in.layout.stride(axis);
-  const bool has_low = in.rows.row[low] >= 0;
+  const bool has_low = in.rows.has_pressure(low);
   const double w = in.faces.open.at(axis, f);
-  if (!in.faces.is_unknown(axis, f) || w == 0 || !in.rows.touch_own(low, f)) return follower * full;
+  if (!in.faces.is_unknown(axis, f) || w == 0 || !in.rows.touch_pressure(low, f)) return follower * full;
   if (in.faces.kind_at(axis, f) == FaceKind::outflow)
     return 0.5 * w * full / cell_lightness(in.projection, has_low ? low : f);
   return w * full / link_lightness(in.projection, low, f);
@@ -160,8 +160,8 @@ double given_impulse(const ViscousInput<Dim>& in, int axis, Site f) {
   const double area = in.dt * in.faces.open.at(axis, f) * in.layout.geometry().face_area();
   if (in.faces.kind_at(axis, f) != FaceKind::outflow) return -area * jump_over(in.projection, axis, f);
   const double push = area * in.faces.side_pressure.at(axis, f);
-  if (in.rows.row[f] >= 0) return push;
-  return in.rows.row[f - in.layout.stride(axis)] >= 0 ? -push : 0;
+  if (in.rows.has_pressure(f)) return push;
+  return in.rows.has_pressure(f - in.layout.stride(axis)) ? -push : 0;
 }
 
 // The bodies with unknowns, in the order of these.
@@ -339,7 +339,7 @@ void assemble_gradient(const ViscousInput<Dim>& in, const FaceField<Dim>& drag, 
     const auto [axis, f] = r.rows.faces[n];
     entries.clear();
     const Site below = f - in.layout.stride(axis);
-    const bool counts = in.faces.is_unknown(axis, f) && in.rows.touch_own(below, f);
+    const bool counts = in.faces.is_unknown(axis, f) && in.rows.touch_pressure(below, f);
     const double w = counts ? in.faces.open.at(axis, f) : 0;
     for (const Site cell : {below, f}) {
       if (w == 0 || in.rows.row[cell] < 0) continue;

@@ -88,7 +88,7 @@ class Sampling {
   // A face that the projection opens, though its centre may lie in a solid.
   bool is_projected(int axis, Site f) const {
     return in_.faces.is_unknown(axis, f) && in_.faces.open.at(axis, f) > 0 &&
-           in_.rows.touch_own(f - layout_.stride(axis), f);
+           in_.rows.touch_pressure(f - layout_.stride(axis), f);
   }
 
  private:

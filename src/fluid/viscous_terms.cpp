@@ -194,7 +194,7 @@ void ViscousTerms<Dim>::add_divergence(ViscousTerm<Dim>& t, Site cell, double c)
     const Slot slot = t.slot[n];
     const double sign = n % 2 == 0 ? -1 : 1, w = in_.faces.open.at(slot.axis, slot.face);
     const bool in_solid = kind(slot) == SampleKind::solid;
-    if (!in_.rows.has_own(cell) || s_.solid.at(slot.axis, slot.face) < 0 || (!in_solid && w == 1)) {
+    if (!in_.rows.has_pressure(cell) || s_.solid.at(slot.axis, slot.face) < 0 || (!in_solid && w == 1)) {
       d[n] += sign;
       continue;
     }

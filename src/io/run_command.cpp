@@ -52,14 +52,21 @@ fs::path output_folder(const RunOptions& options) {
   return options.out.value_or(fs::path("out") / options.scene.stem());
 }
 
-void refuse_changed_scene(const Scene& scene, const Scene& before, EditPolicy edits, const fs::path& folder) {
-  const std::vector<std::string> keys = forbidden_changes(changed_keys(before, scene), edits);
-  if (keys.empty()) return;
+// Throws Error(bad_input) where a change stands in the way; the others are told.
+void accept_changed_scene(const Scene& scene, const Scene& before, EditPolicy edits, const fs::path& folder,
+                          RunLog& log) {
+  const std::vector<std::string> changed = changed_keys(before, scene), keys = forbidden_changes(changed, edits);
+  if (keys.empty()) {
+    if (!changed.empty()) log.note(fmt::format("changed since the run was stopped: {}", fmt::join(changed, ", ")));
+    return;
+  }
   const char* remedy = edits == EditPolicy::force ? "start a new run"
-                                                  : "undo that, or give --force where only output, solver or "
-                                                    "probes changed, or start a new run";
-  throw Error(ExitCode::bad_input, fmt::format("{}: changed since the run was stopped: {}; {}",
-                                               (folder / "scene.toml").string(), fmt::join(keys, ", "), remedy));
+                                                  : "undo that, or give --force where only output or probes changed, "
+                                                    "or start a new run";
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: changed since the run was stopped: {}; {} (only time.end, time.cfl, time.max_step, "
+                          "time.fixed_step, output.checkpoint_every and [solver] may change freely)",
+                          (folder / "scene.toml").string(), fmt::join(keys, ", "), remedy));
 }
 
 void apply_new_end(const ResumeOptions& options, Scene& scene) {
@@ -80,7 +87,7 @@ struct Continuation {
 
 Continuation read_run(const ResumeOptions& options, const Communicator& ranks, RunLog& log) {
   const RunPaths paths{options.folder};
-  Continuation run{read_together(paths.scene(), {}, ranks), {}, {}};
+  Continuation run{read_together(paths.scene(), options.overrides, ranks), {}, {}};
   std::vector<std::string> warnings;
   run.checkpoint = find_newest_checkpoint(paths.checkpoints(), ranks, warnings);
   for (const std::string& text : warnings) log.warn(text);
@@ -88,7 +95,7 @@ Continuation read_run(const ResumeOptions& options, const Communicator& ranks, R
     run.state = restore_run_state(run.checkpoint.data);
     const Scene before = parse_scene(run.state.scene_text, "the checkpoint's scene", paths.folder);
     if (run.checkpoint.label.scene_hash != scene_hash(run.scene)) {
-      refuse_changed_scene(run.scene, before, options.edits, paths.folder);
+      accept_changed_scene(run.scene, before, options.edits, paths.folder, log);
     }
   });
   agree_on_root(ranks, "comparing the tables", [&] {

@@ -37,6 +37,7 @@ struct RunOptions {
 struct ResumeOptions {
   std::filesystem::path folder;
   std::optional<double> end;  // s
+  std::vector<Override> overrides;
   EditPolicy edits = EditPolicy::refuse;
   SessionOptions session;
 };

@@ -18,12 +18,18 @@ std::uint64_t fingerprint(const std::string& text) {
   return h;
 }
 
+// What decides how a step is solved, not what is simulated; each step may have its own.
+bool is_numerical(const std::string& key) {
+  static constexpr std::array<const char*, 3> steps{"time.cfl", "time.max_step", "time.fixed_step"};
+  return key.starts_with("solver.") || std::find(steps.begin(), steps.end(), key) != steps.end();
+}
+
 bool always_free(const std::string& key) {
-  return key == "time.end" || key == "output.checkpoint_every";
+  return key == "time.end" || key == "output.checkpoint_every" || is_numerical(key);
 }
 
 bool may_be_forced(const std::string& key) {
-  static constexpr std::array<const char*, 3> tables{"output", "solver", "probe"};
+  static constexpr std::array<const char*, 2> tables{"output", "probe"};
   return key == "title" || std::any_of(tables.begin(), tables.end(), [&](const char* t) { return key.starts_with(t); });
 }
 

@@ -12,7 +12,8 @@ std::string scene_hash(const Scene& scene);
 
 enum class EditPolicy { refuse, force };
 
-// Which of these changed keys stand in the way of resuming; forcing lets time.end, output, solver and probes pass.
+// Which of these changed keys stand in the way of resuming: all but time.end, output.checkpoint_every, [solver],
+// time.cfl, time.max_step and time.fixed_step; forcing lets output and probes pass, too.
 std::vector<std::string> forbidden_changes(const std::vector<std::string>& changed, EditPolicy policy);
 
 }  // namespace seiche

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <thread>
 #include <vector>
 
 #include "base/emergency_channel.h"
@@ -39,13 +38,30 @@ void warn_about_openmp(const std::string& mine, int hardware, const Communicator
   }
 }
 
+std::string counted(int n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+// Tells of the machine where most threads share a processor.
+void warn_about_crowding(int here, int threads, int processors, const Communicator& ranks, RunLog& log) {
+  const double crowding = double(here) * threads / processors, most = ranks.global_max(crowding);
+  if (most <= 1) return;
+  const std::string mine = fmt::format("{} with {} each on {} of a machine", counted(here, "rank"),
+                                       counted(threads, "thread"), counted(processors, "processor"));
+  for (const std::string& text : ranks.all_gather(crowding == most ? mine : std::string())) {
+    if (text.empty()) continue;
+    log.warn(text + ": they wait for each other, fewer are faster");
+    break;
+  }
+}
+
 }  // namespace
 
 Threads choose_threads(std::optional<int> asked, const Communicator& ranks, RunLog& log) {
-  const int hardware = std::max(1, int(std::thread::hardware_concurrency()));
-  const int share = std::max(1, hardware / ranks_on_this_machine(ranks));
-  Threads threads{asked.value_or(share), environment("OMP_NUM_THREADS")};
-  warn_about_openmp(threads.omp_num_threads, hardware, ranks, log);
+  const int processors = processors_of_this_machine(ranks), here = ranks_on_this_machine(ranks);
+  Threads threads{asked.value_or(std::max(1, processors / here)), environment("OMP_NUM_THREADS")};
+  warn_about_openmp(threads.omp_num_threads, processors, ranks, log);
+  warn_about_crowding(here, threads.count, processors, ranks, log);
   threads.omp_num_threads = ranks.broadcast(threads.omp_num_threads);
   return threads;
 }

@@ -111,7 +111,7 @@ bool is_finished_on_root(const fs::path& run, const Communicator& ranks) {
 // not.
 std::optional<ExitCode> run_rest(const fs::path& folder, const Validation& v, const Surroundings& around) {
   try {
-    const ExitCode code = resume_command({folder, {}, EditPolicy::refuse, session_of(v.options)}, around);
+    const ExitCode code = resume_command({folder, {}, {}, EditPolicy::refuse, session_of(v.options)}, around);
     if (code != ExitCode::done || is_finished_on_root(folder, around.ranks)) return code;
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_checkpoint) throw;

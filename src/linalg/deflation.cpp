@@ -16,11 +16,16 @@ constexpr int cut_reach = 4;
 // Columns from which dense factors are worth it.
 constexpr Eigen::Index least_dense = 100;
 
-// Values of v on the rows that lie in a range.
-SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range) {
+enum class Placeless { keep, drop };
+
+// Values of v on the rows that lie in a range, and on those that lie nowhere.
+SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range,
+                 Placeless placeless) {
   SparseVector c;
-  for (std::size_t i = 0; i < v.size(); ++i)
-    if (v[i] != 0 && range.contains(cells[i])) c.row.push_back(int(i)), c.value.push_back(v[i]);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const bool kept = has_place(cells[i]) ? range.contains(cells[i]) : placeless == Placeless::keep;
+    if (v[i] != 0 && kept) c.row.push_back(int(i)), c.value.push_back(v[i]);
+  }
   return c;
 }
 
@@ -31,7 +36,9 @@ void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& ran
     const auto& cell = cells[c.row[n]];
     double weight = 1;
     for (int a = 0; a < 3; ++a) {
-      const double inside = std::min(cell[a] - range.lower[a] + 1, range.upper[a] - cell[a]);
+      if (range.wraps(a)) continue;
+      const int n = range.offset(a, cell[a]);
+      const double inside = std::min(n + 1, range.width(a) - n);
       weight = std::min(weight, inside / (cut_reach + 1));
     }
     c.value[n] *= weight;
@@ -101,11 +108,11 @@ Deflation::Regions Deflation::find_regions() const {
   const BlockColumns& J = S_.columns();
   Regions regions{cells_of_rows(S_.liquid()), {}, {}, {}, J.blocks.size() <= few_bodies};
   constexpr int everywhere = 1 << 28;
-  for (const CellRange& r : ranges_of_blocks(J, regions.cells, S_.ranks())) {
+  for (const CellRange& r : ranges_of_blocks(J, regions.cells, S_.liquid().grid().periodic, S_.ranks())) {
     regions.kept.push_back(r.grown(regions.whole ? everywhere : cut_reach));
     regions.touched.push_back(regions.kept.back().grown(1));  // A reaches one cell further
   }
-  regions.color = color(regions.touched);
+  regions.color = color(regions.touched, reaching_placeless(S_.liquid(), regions.cells, regions.kept));
   return regions;
 }
 
@@ -175,12 +182,12 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
   A.project(z);
   ++applications_;
   for (const std::size_t b : members) {
-    Z_.push_back(cut(z, regions.cells, regions.kept[b]));
+    Z_.push_back(cut(z, regions.cells, regions.kept[b], regions.whole ? Placeless::keep : Placeless::drop));
     if (!regions.whole) fade_out(regions.cells, regions.kept[b], Z_.back());
     for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
   }
   A.multiply(own, az);
-  for (const std::size_t b : members) AZ_.push_back(cut(az, regions.cells, regions.touched[b]));
+  for (const std::size_t b : members) AZ_.push_back(cut(az, regions.cells, regions.touched[b], Placeless::keep));
 }
 
 // A sees no constants on closed components; where bodies feel them, S does.

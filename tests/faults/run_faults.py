@@ -215,6 +215,20 @@ def openmp_environment(bench):
     expect(summary(bench.path("three"))["threads"] == 3, "threads not recorded")
 
 
+def ranks_share_a_processor(bench):
+    """More ranks, or threads, than processors that they may run on: a warning; else none."""
+    allowed = os.sched_getaffinity(0)
+    words = ("2 ranks with 1 thread each on 1 processor", "1 rank with 2 threads each on 1 processor")
+    try:
+        os.sched_setaffinity(0, {min(allowed)})
+        bench.simulate("--frames", "0", out="ranks", ranks=2).needs(0, words[0])
+        bench.simulate("--frames", "0", "--threads", "2", out="threads").needs(0, words[1])
+        bench.simulate("--frames", "0", out="one").needs(0)
+    finally:
+        os.sched_setaffinity(0, allowed)
+    expect("processor" not in (bench.path("one") / "log.txt").read_text(), "a warning on one rank")
+
+
 def openmp_differs_between_ranks(bench):
     """OMP_NUM_THREADS different on two ranks: a warning."""
     scene = bench.scene()
@@ -642,7 +656,7 @@ def other_rank_counts(bench):
 
 
 def edited_scene(bench):
-    """A scene edited between stop and resume: refused with the keys; --force lets output, solver and probes pass."""
+    """A scene edited between stop and resume: refused with the keys; numerical settings pass, --force lets output pass."""
     out = stopped_run(bench)
     scene = out / "scene.toml"
     original = scene.read_text()
@@ -656,8 +670,14 @@ def edited_scene(bench):
     bench.run("resume", "out", "--end", "0.2").needs(2, "density")
     bench.run("resume", "out", "--end", "0.2", "--force").needs(2, "density")
     edit("tolerance", r"^(tolerance *= *).*", r"\g<1>1e-9")
-    bench.run("resume", "out", "--end", "0.2").needs(2, "tolerance", "--force")
-    bench.run("resume", "out", "--end", "0.2", "--force").needs(0)
+    bench.run("resume", "out", "--end", "0.2").needs(0, "solver.tolerance")
+    numerical = ["--set", "solver.tolerance=1e-7", "--set", "time.cfl=0.5", "--set", "solver.preconditioner=boomeramg"]
+    bench.run("resume", "out", "--end", "0.25", *numerical).needs(0, "solver.preconditioner", "time.cfl")
+    expect("cfl = 0.5" in scene.read_text(), "scene.toml does not hold the new cfl")
+    output = ["--set", "output.formats=[\"vtk\"]"]
+    bench.run("resume", "out", "--end", "0.3", *output, "--set", "liquid.density=900").needs(2, "liquid.density")
+    bench.run("resume", "out", "--end", "0.3", *output).needs(2, "output.formats", "--force")
+    bench.run("resume", "out", "--end", "0.3", *output, "--force").needs(0)
     edit("broken", r"^\[domain\]", "[domian]")
     bench.run("resume", "out", "--end", "0.3").needs(2)
 
@@ -994,7 +1014,7 @@ TABLES = {
                 full_container_with_moving_solid, inflow_without_outlet, inflow_balanced_to_round_off,
                 droplets_and_enclosed_cells, odd_and_thin_grids, nothing_to_do],
     "formulas": [formula_not_finite_at_start, shape_not_finite, formula_not_finite_later, pinned_step_too_long],
-    "ranks": [more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
+    "ranks": [ranks_share_a_processor, more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
               openmp_environment, openmp_differs_between_ranks],
     "output": [output_folder_created, output_is_a_file, output_not_writable, existing_output_refused,
                two_jobs_in_one_folder, file_size_limit, full_device, full_disk, few_file_handles],

@@ -101,7 +101,7 @@ TEST_CASE("a run that was stopped is made anew where its rest is not to be had")
     const Communicator ranks;
     const EmergencyChannel emergency(ranks);
     const auto quiet = [](const std::string&) {};
-    CHECK(resume_command({stopped.run, {}, EditPolicy::refuse, {}}, {ranks, emergency, {quiet, quiet, {}}}) ==
+    CHECK(resume_command({stopped.run, {}, {}, EditPolicy::refuse, {}}, {ranks, emergency, {quiet, quiet, {}}}) ==
           ExitCode::done);
   }
   SECTION("it was killed before it could say that it had come to its end") {

@@ -94,3 +94,34 @@ TEST_CASE("pressures of a splash in a lidded box never pull where liquid may par
   CHECK(least >= -2e-7);  // ten solver tolerances, and what single precision of the frame adds
   CHECK(std::abs(sim->stats().liquid_volume / 0.3 - 1) < 0.02);
 }
+
+namespace {
+
+// A block beside a wall that moves along itself, periodic across: viscosity 1 +- 0.5 Pa s, or as much everywhere.
+Scene block_at_moving_wall(const Formula& viscosity) {
+  Scene s = test::box_scene(2, 20);
+  s.domain.cells[1] = 19, s.domain.upper[1] = 0.95;
+  s.gravity = {0, -9.81, 0};
+  s.domain.sides[0][0].type = SideType::moving_wall;
+  s.domain.sides[0][0].velocity[1] = "0.4527";
+  for (SideSpec& side : s.domain.sides[1]) side.type = SideType::periodic;
+  LiquidRegionSpec block;
+  block.shape.kind = "box";
+  block.shape.upper = {0.66147, 0.775594, 0};
+  block.shape.where = "test";
+  s.liquid.regions.push_back(block);
+  s.liquid.separates = true;
+  s.liquid.viscosity = viscosity;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("viscous liquid finds which cells part") {
+  const auto sim = make_simulation(block_at_moving_wall("1+0.5*sin(10*x)"), Communicator());
+  while (sim->time() < 0.2241) {
+    const StepStats s = sim->step(0.2241);
+    CHECK(s.parting_error == 0);
+    CHECK(s.rejected == 0);
+  }
+}

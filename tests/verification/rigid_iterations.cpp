@@ -32,6 +32,18 @@ Scene many_spheres(int cells) {
   return s;
 }
 
+// Eight balls, all within two cells of a side along x and z.
+Scene spheres_at_sides(SideType sides) {
+  Scene s = tank(32);
+  for (const int a : {0, 2})
+    for (SideSpec& side : s.domain.sides[a]) side.type = sides;
+  for (int n = 0; n < 8; ++n) {
+    const Vec3 center(n % 2 ? 0.83 : 0.17, n / 4 ? 0.6 : 0.25, n / 2 % 2 ? 0.83 : 0.17);
+    s.solids.push_back(test::rigid_ball(fmt::format("ball{}", n), 0.12, center, 1));
+  }
+  return s;
+}
+
 struct Effort {
   int coupled = 0;  // iterations of a solve with the bodies free
   int fixed = 0;    // with the bodies held
@@ -71,6 +83,15 @@ TEST_CASE("iterations do not depend on the density of a sphere", "[ranks]") {
 
 TEST_CASE("iterations do not depend on the density of a sphere in 96^3 cells") {
   check_ratios({96});
+}
+
+TEST_CASE("light spheres beside periodic sides cost no more iterations than beside walls", "[ranks]") {
+  const Effort walls = measure(spheres_at_sides(SideType::free_slip));
+  const Effort periodic = measure(spheres_at_sides(SideType::periodic));
+  if (Communicator().is_root())
+    WARN(periodic.coupled << " iterations, beside walls " << walls.coupled << "; held " << periodic.fixed << ", "
+                          << walls.fixed);
+  CHECK(periodic.coupled <= walls.coupled + 5);
 }
 
 TEST_CASE("27 light spheres cost three static solves to set up and thirty iterations", "[ranks]") {

@@ -63,6 +63,9 @@ class ViscousCase {
       });
   }
 
+  // Keeps a reference.
+  void let_part(const Parting<Dim>& parting) { projection_.parting = &parting; }
+
   void assemble() {
     rows = number_rows(projection_);
     system = assemble_viscosity(input());

@@ -1,0 +1,64 @@
+// Solids beside periodic sides close the same part of a face at either of its places.
+#include <catch2/catch.hpp>
+
+#include "coupling/contact_setup.h"
+#include "grid/loops.h"
+#include "rigid_scenes.h"
+#include "scenes.h"
+
+using namespace seiche;
+
+namespace {
+
+// A full periodic box with a plate half as thick as a cell, less than half a cell above the lower side, and a box that
+// stands across the upper one.
+Scene beside_sides(int dim, SolidKind kind) {
+  Scene s = test::box_scene(dim, 12);
+  test::make_periodic(s);
+  test::add_liquid(s, "-1");
+  const double h = s.domain.cell_size, depth = dim == 2 ? 0 : 1;
+  SolidSpec plate = test::rigid_box("plate", {0.4, 0.5 * h, 0.4 * depth}, {0.5, 0.7 * h, 0.5 * depth}, 2000);
+  SolidSpec box = test::rigid_box("box", {0.3, 0.3, 0.3 * depth}, {0.35, 1.02, 0.5 * depth}, 2000);
+  plate.kind = kind, box.kind = kind;
+  s.solids = {plate, box};
+  return s;
+}
+
+template <int Dim>
+double largest_difference(const Setup<Dim>& s, const FaceGeometry<Dim>& faces) {
+  double most = 0;
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site f, const IVec<Dim>& i) {
+      if (i[a] != 0) return;
+      const Site other = f + s.layout.geometry().cells[a] * s.layout.stride(a);
+      most = std::max(most, std::abs(faces.open.at(a, f) - faces.open.at(a, other)));
+      most = std::max(most, double(faces.kind_at(a, f) != faces.kind_at(a, other)));
+    });
+  return most;
+}
+
+template <int Dim>
+void check_sides(SolidKind kind) {
+  const Setup<Dim> s(beside_sides(Dim, kind), Communicator(), {});
+  const State<Dim> state = initial_state(s);
+  const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  double least = 1;
+  for_each_site(s.layout, s.layout.cells(), [&](Site f) { least = std::min(least, g.faces.open.at(1, f)); });
+  CHECK(least == 0);
+  CHECK(largest_difference(s, g.faces) <= 1e-12);
+}
+
+}  // namespace
+
+TEST_CASE("faces on periodic sides are as open at either place") {
+  for (const SolidKind kind : {SolidKind::fixed, SolidKind::kinematic, SolidKind::rigid}) {
+    check_sides<2>(kind);
+    check_sides<3>(kind);
+  }
+}
+
+TEST_CASE("solids that reach a periodic side are named") {
+  const Setup<2> s(beside_sides(2, SolidKind::rigid), Communicator(), {});
+  const std::string names = solids_at_periodic_sides(s, initial_state(s));
+  CHECK(names == "'box' and the periodic side y_upper, which no solid can pass");
+}
