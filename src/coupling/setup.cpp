@@ -6,6 +6,7 @@
 #include "coupling/contact_setup.h"
 #include "coupling/films.h"
 #include "coupling/formula_checks.h"
+#include "coupling/level_in_solids.h"
 #include "coupling/liquid_viscosity.h"
 #include "coupling/prescribed_flow.h"
 #include "coupling/restore.h"
@@ -164,7 +165,8 @@ std::shared_ptr<const Level<Dim>> initial_level(const Setup<Dim>& s, const StepG
 }
 
 template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+CellField<Dim> initial_surface(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+                               const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
   CellField<Dim> phi(s.layout, s.band());
   for (const auto& shape : shapes)
     for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
@@ -172,9 +174,12 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
       phi[c] = std::clamp(std::min(phi[c], d), -s.band(), s.band());
     });
   fill_level_set_ghosts(s.layout, s.halo, phi);
+  const CellField<Dim, char> closed = closed_cells(s, g);
+  continue_level_set(s, closed, phi);
   const auto& regions = s.scene.liquid.regions;
   if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); }))
-    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi);
+    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi, &closed);
+  continue_level_set(s, closed, phi);
   return phi;
 }
 
@@ -257,7 +262,6 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   for (const auto& region : s.scene.liquid.regions)
     shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.layout.h(), nullptr}));
   State<Dim> state;
-  state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
   if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
   if (s.may_seal()) state.sealed = CellField<Dim, char>(s.layout);
@@ -267,6 +271,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   }
   refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  state.phi = initial_surface(s, g, shapes);
   if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);
   state.expected_volume = liquid_volume(s, state.phi, g.psi) - volume_beyond(s, g, state.phi);
   if (s.keeps_air()) state.air = initial_air(s, g, state.phi);
