@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "coupling/air_volume.h"
+#include "coupling/elastic_coupling.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -114,17 +115,29 @@ void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stat
   }
 }
 
-// E = 1/2 v'Mv + Psi(u) and -g'M x with the velocities that led to u; the momentum is that of the velocities the liquid
-// has just been solved with, w.
+// Displacements and velocities as the last solve found them together with the liquid's: u + H w and the velocity that
+// the scheme has there. Those at the state's time are a step older than the liquid's.
+template <int Dim>
+ElasticState elastic_as_solved(const Setup<Dim>& s, const State<Dim>& state, std::size_t k) {
+  if (state.horizon == 0) return state.elastic[k].state;
+  const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+  ElasticMotion m = state.elastic[k];
+  advance(solid.body, s.elastic_scheme(), state.horizon, step_load(s, state, state.dt_now, state.horizon, int(k)),
+          pins_at(solid, state.time + state.horizon), m);
+  return m.state;
+}
+
+// E = 1/2 v'Mv + Psi(u) and -g'M x as solved; the momentum is that of w.
 template <int Dim>
 void measure_elastic(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     if (!s.bodies[k].is_elastic()) continue;
     const ElasticBody<Dim>& body = s.bodies[k].elastic().body;
     const ElasticMotion& m = state.elastic[k];
-    const BodyAverage now = average(body, m.state.u, m.velocity);
-    stats.kinetic_energy += kinetic_energy(body, m.state.v);
-    stats.elastic_energy += elastic_energy(body, m.state.u);
+    const ElasticState solved = elastic_as_solved(s, state, k);
+    const BodyAverage now = average(body, solved.u, m.velocity);
+    stats.kinetic_energy += kinetic_energy(body, solved.v);
+    stats.elastic_energy += elastic_energy(body, solved.u);
     stats.potential_energy -= s.bodies[k].mass().mass * s.gravity.at(state.time).dot(now.center);
     stats.momentum += s.bodies[k].mass().mass * now.velocity;
   }

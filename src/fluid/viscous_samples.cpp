@@ -73,16 +73,20 @@ class Sampling {
  public:
   Sampling(const ViscousInput<Dim>& in, ViscousSamples<Dim>& out) : in_(in), layout_(in.layout), out_(out) {}
 
-  // All but what is left to the rows.
+  // All but what lies beyond sides and what is left to the rows.
   void classify(int axis, Site f, const IVec<Dim>& i) {
     std::tie(out_.psi.at(axis, f), out_.solid.at(axis, f)) = nearest_solid(in_, axis, f);
-    const auto passed = sides_passed(layout_, axis, i);
-    if (std::any_of(passed.begin(), passed.end(), [](int side) { return side >= 0; }))
-      return beyond(axis, f, i, passed);
+    if (is_beyond(sides_passed(layout_, axis, i))) return;
     const FaceKind kind = in_.faces.kind_at(axis, f);
     if (lies_in_solid(axis, f)) return set(axis, f, SampleKind::solid);
     if (kind == FaceKind::prescribed) return give(axis, f, in_.faces.prescribed.at(axis, f));
     set(axis, f, is_viscous(axis, f, i) || is_projected(axis, f) ? SampleKind::unknown : SampleKind::none);
+  }
+
+  // What lies beyond sides. On one thread: their velocities may be formulas.
+  void classify_beyond(int axis, Site f, const IVec<Dim>& i) {
+    const auto passed = sides_passed(layout_, axis, i);
+    if (is_beyond(passed)) beyond(axis, f, i, passed);
   }
 
   // A face that the projection opens, though its centre may lie in a solid.
@@ -92,6 +96,9 @@ class Sampling {
   }
 
  private:
+  static bool is_beyond(const std::array<int, Dim>& passed) {
+    return std::any_of(passed.begin(), passed.end(), [](int side) { return side >= 0; });
+  }
   void set(int axis, Site f, SampleKind kind) { out_.kind.at(axis, f) = char(kind); }
   void give(int axis, Site f, double value) {
     out_.given.at(axis, f) = value;
@@ -194,8 +201,11 @@ ViscousSamples<Dim> sample_faces(const ViscousInput<Dim>& in) {
   s.share = viscous_shares(in);
   Sampling<Dim> sampling(in, s);
   // Rows of faces within the halo are told by their owners.
-  for (int a = 0; a < Dim; ++a)
-    for_each_index(in.layout, sampled(in.layout), [&](Site f, const IVec<Dim>& i) { sampling.classify(a, f, i); });
+  const Box<Dim> box = sampled(in.layout);
+  for (int a = 0; a < Dim; ++a) {
+    for_each_index(in.layout, box, [&](Site f, const IVec<Dim>& i) { sampling.classify(a, f, i); });
+    for_each_index_in_order(in.layout, box, [&](Site f, const IVec<Dim>& i) { sampling.classify_beyond(a, f, i); });
+  }
   s.rows = number(in, [&](int a, Site f) {
     return s.kind_at(a, f) == SampleKind::unknown ||
            (s.kind_at(a, f) == SampleKind::solid && sampling.is_projected(a, f));

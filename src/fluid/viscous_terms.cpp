@@ -81,7 +81,8 @@ void ViscousTerms<Dim>::link_both_sides(ViscousTerm<Dim>& t, int low, int high, 
 
 // What the sides an edge lies in make of its two squares; false: the edge counts for nothing. Walls and inflow are half
 // a cell away from the liquid sample. At outflow half the dual cell is outside and d_n u = 0 beyond; where the products
-// are not null a link to the velocity before the solve keeps V positive.
+// are not null a link to the velocity before the solve keeps V positive. Not where gas flows: of viscous liquid beside
+// light gas the velocity before the solve moves the gas by mu dt/(rho_gas h^2) of itself, more in each step.
 template <int Dim>
 bool ViscousTerms<Dim>::weigh_by_sides(int plane, Site e, std::array<double, 2>& weight) const {
   const auto axes = plane_axes<Dim>(plane);
@@ -93,7 +94,7 @@ bool ViscousTerms<Dim>::weigh_by_sides(int plane, Site e, std::array<double, 2>&
       case SideType::free_slip:
         return false;
       case SideType::outflow:
-        weight[n] *= s_.plain ? 0 : 2;
+        weight[n] *= s_.plain || in_.projection.has_gas() ? 0 : 2;
         weight[1 - n] *= 0.5;
         break;
       default:
@@ -124,7 +125,8 @@ bool ViscousTerms<Dim>::of_edge(int plane, Site e, ViscousTerm<Dim>& t) const {
     parted[n] = kind(t.slot[p]) == SampleKind::unknown && kind(t.slot[p + 1]) == SampleKind::unknown &&
                 kind(t.slot[q]) == SampleKind::solid && kind(t.slot[q + 1]) == SampleKind::solid;
   }
-  if (!parted[0] && !parted[1]) t.add_product(1, 0, 3, 2, c);
+  const bool linked = s_.plain || (weight[0] > 0 && weight[1] > 0);
+  if (!parted[0] && !parted[1] && linked) t.add_product(1, 0, 3, 2, c);
   for (int n = 0; n < 2; ++n) {
     if (parted[n])
       link_both_sides(t, 2 * n, 2 * n + 1, c);
@@ -149,6 +151,7 @@ bool ViscousTerms<Dim>::of_cell(Site cell, ViscousTerm<Dim>& t) const {
   bool inside = true;
   for (int a = 0; a < Dim; ++a)
     inside = inside && (in_.layout.geometry().periodic[a] || (i[a] >= 0 && i[a] < in_.layout.geometry().cells[a]));
+  if (!inside && !s_.plain) return false;  // products without squares: a push of any size by what is known beyond
   for (int a = 0; a < Dim; ++a) {
     if (inside) t.add_square(2 * a, 2 * a + 1, c * link_weight(t.slot[2 * a], t.slot[2 * a + 1]));
     for (int b = a + 1; b < Dim; ++b) t.add_product(2 * a + 1, 2 * a, 2 * b + 1, 2 * b, -c);
