@@ -128,6 +128,16 @@ void hang_on_facets(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Press
   c.buoyancy_correction.segment(body.first, u.size()) = force;
 }
 
+// The highest pressure of the last solve in cells whose faces body k cuts or closes, Pa. Collective.
+template <int Dim>
+double highest_pressure_beside(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
+                               const CellField<Dim>& pressure) {
+  double most = 0;
+  for_each_cell_of_shares(s, shares, rows,
+                          [&](Site cell, double, std::size_t) { most = std::max(most, pressure[cell]); });
+  return s.ranks.global_max(most);
+}
+
 // Those behind the first `known`, by cells.
 template <int Dim>
 std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& entries, std::size_t known,
@@ -275,7 +285,8 @@ void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
       hang_on_facets(s, g, rows, state, open, gravity, dt, entries.back(), c);
     bring_home_air(s, rows, shown.back(), entries.back().entries);
     c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
-    shares.push_back({&solid.body, &e.u, first});
+    const double most = highest_pressure_beside(s, *g.shares[std::size_t(k)], rows, state.pressure);
+    shares.push_back({&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)});
   }
   c.swept = correct_swept_volume(s, g, rows, closed, state.elastic, horizon, entries);
   set_columns(rows, shown, std::move(entries), c);

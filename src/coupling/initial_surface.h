@@ -1,5 +1,6 @@
 #pragma once
 // The level set that a run begins with.
+#include "coupling/state.h"
 #include "coupling/step_geometry.h"
 
 namespace seiche {

@@ -26,7 +26,7 @@ enum class Role { quadrature, node };
 
 template <int Dim>
 struct Point {
-  int element;
+  int element, number;  // number: of all quadrature points, of all nodes of elements
   Role role;
   double weight;  // volume that the point stands for, m^3
   const ShapeGradients<Dim>& g;
@@ -34,6 +34,7 @@ struct Point {
   Gradient<Dim> deformation(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) const {
     return Gradient<Dim>::Identity() + gradient_of(body, element, g, u);
   }
+  bool is_held(const HeldPressure<Dim>& held) const { return role == Role::quadrature && held.acts(number); }
 };
 
 // Visits f(point) over the points of an element.
@@ -41,12 +42,12 @@ template <int Dim, class Visit>
 void over_points(const ElasticBody<Dim>& body, int e, Visit visit) {
   double volume = 0;
   for (int q = e * body.points_per_element; q < (e + 1) * body.points_per_element; ++q) {
-    visit(Point<Dim>{e, Role::quadrature, body.weights[q], body.gradients[q]});
+    visit(Point<Dim>{e, q, Role::quadrature, body.weights[q], body.gradients[q]});
     volume += body.weights[q];
   }
   const int count = body.node_gradients.empty() ? 0 : body.mesh.nodes_per_element();
   for (int a = e * count; a < (e + 1) * count; ++a) {
-    visit(Point<Dim>{e, Role::node, volume / count, body.node_gradients[a]});
+    visit(Point<Dim>{e, a, Role::node, volume / count, body.node_gradients[a]});
   }
 }
 
@@ -115,12 +116,18 @@ double step_until_kept(const std::array<double, 4>& c, double limit) {
 }  // namespace
 
 template <int Dim>
-double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::VectorXd& u) {
+  return Gradient<Dim>::Identity() + gradient_of(body, q / body.points_per_element, body.gradients[std::size_t(q)], u);
+}
+
+template <int Dim>
+double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held) {
   const Lame& lame = body.properties.lame;
   double Psi = 0;
   over_points(body, [&](const Point<Dim>& p) {
     const Gradient<Dim> F = p.deformation(body, u);
-    const double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
+    double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
+    if (p.is_held(held)) density += held.energy(p.number, F);
     Psi += p.weight * (density + elastic::volume_guard(lame, F.determinant()).value);
   });
   return Psi;
@@ -128,7 +135,8 @@ double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
 
 // dPsi/du_a = integral of P g_a, the guard's part of P being b' dJ/dF
 template <int Dim>
-Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
+                                 const HeldPressure<Dim>& held) {
   const Lame& lame = body.properties.lame;
   Eigen::VectorXd r = Eigen::VectorXd::Zero(body.size());
   over_points(body, [&](const Point<Dim>& p) {
@@ -137,6 +145,7 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
     if (p.role == Role::node && guard == 0) return;
     Gradient<Dim> P = Gradient<Dim>::Zero();
     if (p.role == Role::quadrature) P = body.material.stress(lame, F);
+    if (p.is_held(held)) P += held.stress(p.number, F);
     if (guard != 0) P += guard * elastic::cofactor<Dim>(F);
     const int* n = body.mesh.element(p.element);
     for (int a = 0; a < p.g.rows(); ++a) {
@@ -148,7 +157,8 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
 
 // K = integral of B' H B, H = d2Psi/dF2 and the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2
 template <int Dim>
-void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K) {
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K,
+                   const HeldPressure<Dim>& held) {
   constexpr int most = Dim * (Dim + 1) * (Dim + 2) / 2;
   const Lame& lame = body.properties.lame;
   const int size = Dim * body.mesh.nodes_per_element();
@@ -161,6 +171,7 @@ void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curva
       if (p.role == Role::node && guard.slope == 0) return;
       Hessian<Dim> H = Hessian<Dim>::Zero();
       if (p.role == Role::quadrature) H = body.material.stiffness(lame, F);
+      if (p.is_held(held)) H += held.stiffness(p.number, F);
       const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
       if (guard.slope != 0)
         H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
@@ -190,12 +201,14 @@ double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, c
   return bound;
 }
 
-#define SEICHE_INSTANTIATE(Dim)                                                                                \
-  template double elastic_energy<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&);                        \
-  template Eigen::VectorXd elastic_gradient<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&);             \
-  template void add_stiffness<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&, Curvature, SparseMatrix&); \
-  template double least_volume_ratio<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&);                    \
-  template double inversion_bound<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template Gradient<D> deformation_at<D>(const ElasticBody<D>&, int, const Eigen::VectorXd&);                          \
+  template double elastic_energy<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&);            \
+  template Eigen::VectorXd elastic_gradient<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&); \
+  template void add_stiffness<D>(const ElasticBody<D>&, const Eigen::VectorXd&, Curvature, SparseMatrix&,              \
+                                 const HeldPressure<D>&);                                                              \
+  template double least_volume_ratio<D>(const ElasticBody<D>&, const Eigen::VectorXd&);                                \
+  template double inversion_bound<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

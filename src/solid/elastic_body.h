@@ -7,6 +7,7 @@
 #include "solid/curvature.h"
 #include "solid/elastic_material.h"
 #include "solid/elastic_mesh.h"
+#include "solid/held_pressure.h"
 
 namespace seiche {
 
@@ -43,18 +44,25 @@ template <int Dim>
 ElasticBody<Dim> make_elastic_body(ElasticMesh<Dim> mesh, const ElasticMaterial<Dim>& material,
                                    const ElasticProperties& properties);
 
-// Psi(u), J, with the guard of elastic_guard.h below a tenth of the volume at rest; infinite where det F <= 0.
+// F at quadrature point q.
 template <int Dim>
-double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u);
+Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::VectorXd& u);
+
+// Psi(u), J, with the guard of elastic_guard.h below a tenth of the volume at rest; infinite where det F <= 0. With the
+// work against the held pressure, if any.
+template <int Dim>
+double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held = {});
 
 // dPsi/du, N: minus the elastic force.
 template <int Dim>
-Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u);
+Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
+                                 const HeldPressure<Dim>& held = {});
 
 // Adds d2Psi/du2 (N/m) to a matrix of the body's pattern; convex: that of each quadrature point made positive
 // semi-definite.
 template <int Dim>
-void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K);
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K,
+                   const HeldPressure<Dim>& held = {});
 
 // integral of f . N_a over the body at rest; f in N/m^3 at points at rest. Constant f: body_force(...).
 template <int Dim>

@@ -20,7 +20,7 @@ template <int Dim>
 double ElasticPotential<Dim>::energy(const Eigen::VectorXd& v) const {
   assert(v.size() == size_);
   double sum = 0;
-  for (const auto& share : bodies_) sum += elastic_energy(*share.body, displacement(share, v));
+  for (const auto& share : bodies_) sum += elastic_energy(*share.body, displacement(share, v), share.held);
   return dt_ / horizon_ * sum;
 }
 
@@ -30,9 +30,9 @@ void ElasticPotential<Dim>::add_terms(const Eigen::VectorXd& v, Curvature curvat
   assert(v.size() == size_ && gradient.size() == size_);
   for (const auto& share : bodies_) {
     const Eigen::VectorXd u = displacement(share, v);
-    gradient.segment(share.first_dof, u.size()) += dt_ * elastic_gradient(*share.body, u);
+    gradient.segment(share.first_dof, u.size()) += dt_ * elastic_gradient(*share.body, u, share.held);
     SparseMatrix K = share.body->pattern;
-    add_stiffness(*share.body, u, curvature, K);
+    add_stiffness(*share.body, u, curvature, K, share.held);
     hessian.reserve(hessian.size() + size_t(K.nonZeros()));
     for (int c = 0; c < K.outerSize(); ++c) {
       for (SparseMatrix::InnerIterator entry(K, c); entry; ++entry) {

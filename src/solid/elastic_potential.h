@@ -11,9 +11,11 @@ struct ElasticShare {
   const ElasticBody<Dim>* body;
   const Eigen::VectorXd* displacement;  // m
   int first_dof;
+  HeldPressure<Dim> held = {};
 };
 
-// P(v) = dt/H sum Psi(u_n + H w), w the velocities of a body's nodes over the interval H. Its gradient is dt Psi', the
+// P(v) = dt/H sum Psi(u_n + H w), w the velocities of a body's nodes over the interval H, Psi with the work against the
+// held pressure. Its gradient is dt Psi', the
 // impulse of the elastic forces at the end of the interval; its Hessian is dt H Psi''.
 template <int Dim>
 class ElasticPotential : public VelocityPotential {
