@@ -45,7 +45,7 @@ TEST_CASE("masses and stresses do not depend on the guess of which cells part") 
 }
 
 TEST_CASE("a search for the cells that part which no guess satisfies ends, and says how wrong it is") {
-  ViscousCase<2> p({.cells = 8, .phi = tilted_surface<2>});
+  ViscousCase<2> p({.cells = 8, .solids = {}, .phi = tilted_surface<2>});
   Parting<2> parting(p.layout());
   p.let_part(parting);
   p.assemble();
