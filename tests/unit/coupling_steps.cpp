@@ -209,3 +209,18 @@ TEST_CASE("the first step strains elastic bodies little by the velocities that t
     CHECK(stats.kinetic_energy + stats.elastic_energy < 1.01 * kinetic);
   }
 }
+
+TEST_CASE("steps that do not resolve the eddies of a full viscous domain are told of at the start") {
+  Scene s = test::box_scene(2, 16);
+  test::add_liquid(s, "-1");
+  s.liquid.viscosity = "1e-3";
+  const auto warnings = [](const Scene& scene) { return make_simulation(scene, Communicator())->take_warnings(); };
+  s.time.cfl = 2;
+  CHECK(warnings(s).empty());
+  s.time.cfl = 4;
+  const std::vector<std::string> told = warnings(s);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].find("time.cfl = 4: steps over more than 2 cells") == 0);
+  s.liquid.viscosity = "0";
+  CHECK(warnings(s).empty());
+}
