@@ -1,5 +1,6 @@
 #include "coupling/transport.h"
 
+#include "coupling/features.h"
 #include "coupling/formula_checks.h"
 #include "coupling/restore.h"
 #include "coupling/shear_jump.h"
@@ -294,8 +295,8 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   CellField<Dim> joined = phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, t, joined);
   LevelSetTransport how;
-  if (s.has_prescribed_flow()) how.trace = Trace::third_order;  // nothing else errs there
-  how.one_sided_at_kinks = !s.has_gas();                        // docs/decisions/0023-kinks.md
+  if (s.has_prescribed_flow()) how.trace = Trace::third_order;         // nothing else errs there
+  how.one_sided_at_kinks = causes_against(s, Feature::kinks).empty();  // docs/decisions/0023-kinks.md
   advect_level_set(s.layout, u, s.tampering.surface_advection * dt, s.band(), joined, phi, how);
   fill_level_set_ghosts(s.layout, s.halo, phi);
   return add_sources(s, state, t, t + dt, phi);
