@@ -825,7 +825,7 @@ def body_thinner_than_a_cell(bench):
         plate = rigid("plate", box((0.2, 0.22), (0.6, 0.22 + share * 0.0625)))
         bench.simulate("--overwrite", text=box_scene([16, 16], POOL, plate)).needs(0)
         log = bench.path("out/log.txt").read_text()
-        expect(log.count("thinner than a cell") == 1 and "'plate'" in log, f"{share} cells: not told once")
+        expect(log.count("thinner than a cell of ") == 1 and "'plate'" in log, f"{share} cells: not told once")
     bench.simulate("--overwrite", text=box_scene([16, 16], POOL, rigid("block", box((0.2, 0.2), (0.4, 0.4))))).needs(0)
     expect("thinner" not in bench.path("out/log.txt").read_text(), "a block of three cells counts as thin")
     for share in (0.01, 0.1, 0.5, 0.9):
