@@ -1,5 +1,6 @@
 #include "coupling/coupled_solve.h"
 
+#include "coupling/features.h"
 #include "coupling/sealed_liquid.h"
 #include "coupling/solve_parts.h"
 #include "coupling/viscous_solve.h"
@@ -24,7 +25,7 @@ bool iterates_on_bodies(const Setup<Dim>& s) {
 template <int Dim>
 std::string preconditioner(const Setup<Dim>& s) {
   const std::string& choice = s.scene.solver.preconditioner;
-  return s.has_gas() && choice == "auto" ? "boomeramg" : choice;
+  return choice == "auto" && !causes_against(s, Feature::multigrid).empty() ? "boomeramg" : choice;
 }
 
 // Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.

@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "coupling/checkpoint_state.h"
 #include "coupling/contact_setup.h"
+#include "coupling/features.h"
 #include "coupling/measures.h"
+#include "coupling/scene_account.h"
 #include "coupling/thin_weight.h"
 #include "coupling/viscous_transport.h"
 #include "solid/elastic_output.h"
@@ -38,6 +40,8 @@ class FlowSimulation : public Simulation {
     phases_.warnings = setup_.notes;
     const std::string note = note_on_long_steps(setup_, state_);
     if (!note.empty()) phases_.warnings.push_back(note);
+    account_ = account_scene(setup_, state_, geometry_.psi);
+    phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
     refresh();
   }
 
@@ -100,8 +104,10 @@ class FlowSimulation : public Simulation {
     return volume_frame(solid.body, solid.surface, state_.elastic[k].state.u, state_.elastic[k].velocity);
   }
 
-  std::vector<std::string> describe_solids() const override {
-    std::vector<std::string> lines;
+  std::vector<std::string> describe_start() const override {
+    std::vector<std::string> lines = account_.lines;
+    const std::vector<std::string> features = describe_features(setup_);
+    lines.insert(lines.end(), features.begin(), features.end());
     for (const Body<Dim>& body : setup_.bodies)
       if (body.is_elastic()) lines.push_back(describe_mesh(body.spec().name, body.elastic().body.mesh));
     return lines;
@@ -244,6 +250,7 @@ class FlowSimulation : public Simulation {
   Setup<Dim> setup_;
   State<Dim> state_;
   StepGeometry<Dim> geometry_;
+  SceneAccount account_;
   Phases phases_;
   std::vector<SurfaceMesh> surfaces_;
   SolveReport solve_;

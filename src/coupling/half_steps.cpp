@@ -1,6 +1,7 @@
 #include "coupling/half_steps.h"
 
 #include "coupling/contact_setup.h"
+#include "coupling/features.h"
 #include "coupling/sources.h"
 
 namespace seiche {
@@ -21,11 +22,7 @@ bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
 
 template <int Dim>
 bool may_go_by_halves(const Setup<Dim>& s) {
-  if (s.scene.time.scheme == TimeScheme::first_order || s.has_prescribed_flow() || s.keeps_air() || s.has_gas())
-    return false;
-  const auto& b = s.bodies;
-  if (s.has_rigid() && std::any_of(b.begin(), b.end(), is_kinematic<Dim>)) return false;
-  return std::none_of(b.begin(), b.end(), [](const Body<Dim>& x) { return x.is_elastic() || x.is_thin(); });
+  return causes_against(s, Feature::steps_by_halves).empty();
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #include "coupling/sealed_liquid.h"
 
+#include "coupling/features.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "solid/enclosed_volume.h"
@@ -66,7 +67,8 @@ void fill_marked(const Setup<Dim>& s, const CellField<Dim, char>& sealed, const 
 template <int Dim>
 void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State<Dim>& after,
                       const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (s.has_gas()) return;  // which may be sealed in with it: phi alone tells them apart
+  if (!causes_against(s, Feature::sealed_cavities).empty())
+    return;  // gas may be sealed in with it: phi alone tells them apart
   bool any = s.may_seal();
   if (any) fill_marked(s, before.sealed, g.faces, phi);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {

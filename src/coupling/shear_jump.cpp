@@ -1,5 +1,6 @@
 #include "coupling/shear_jump.h"
 
+#include "coupling/features.h"
 #include "coupling/restore.h"
 #include "fluid/pressure.h"
 #include "grid/loops.h"
@@ -81,10 +82,8 @@ struct BothFluids {
 template <int Dim>
 void add_shear_jump(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                     FaceField<Dim>& u) {
-  const Expression mu(s.scene.liquid.viscosity);
-  if (!s.has_gas() || !s.is_viscous() || !s.scene.liquid.rheology.model.empty() || !mu.is_constant()) return;
-  const double liquid = mu(Vec3::Zero(), 0), gas = s.scene.gas.viscosity;
-  if (liquid == 0 || gas == 0) return;
+  if (!s.has_gas() || !s.is_viscous() || !causes_against(s, Feature::shear_jump).empty()) return;
+  const double liquid = Expression(s.scene.liquid.viscosity)(Vec3::Zero(), 0), gas = s.scene.gas.viscosity;
   const BothFluids<Dim> both{s.layout, phi, make_fluid(s, *state.now, s.density(), liquid),
                              make_fluid(s, *state.gas.now, s.gas_density(), gas)};
   for (int a = 0; a < Dim; ++a)

@@ -42,7 +42,7 @@ struct StepStats {
 // One row of solids.csv.
 struct SolidState {
   std::string name;
-  Vec3 position{0, 0, 0};                         // displaced shape reference point, m
+  Vec3 position{0, 0, 0};                         // centre of mass (Body::reference_point), m
   std::array<double, 4> orientation{1, 0, 0, 0};  // quaternion w, x, y, z
   Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
   Vec3 force{0, 0, 0}, torque{0, 0, 0};  // from the fluid, N and N m about position
@@ -94,8 +94,9 @@ class Simulation {
   // The elements of an elastic solid at the present time, with their fields; empty for other solids. Not collective:
   // called on rank 0 alone. Its surface_nodes are the points of solid_surface(index).
   virtual VolumeFrame solid_volume(std::size_t /*index*/) const { return {}; }
-  virtual std::vector<std::string> describe_solids() const { return {}; }  // for the log: a line a mesh
-  virtual ProbeSample probe(std::size_t index) const = 0;                  // collective; equal on all ranks
+  // For the log: liquid and solids as the scene began, features that others switch off, meshes of elastic solids.
+  virtual std::vector<std::string> describe_start() const { return {}; }
+  virtual ProbeSample probe(std::size_t index) const = 0;  // collective; equal on all ranks
   virtual FrameField frame_field(const std::string& name) const = 0;
   virtual double expected_volume() const = 0;  // initial + sources + net inflow, m^3
   virtual CheckpointData save() const = 0;

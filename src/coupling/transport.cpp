@@ -1,5 +1,6 @@
 #include "coupling/transport.h"
 
+#include "coupling/features.h"
 #include "coupling/formula_checks.h"
 #include "coupling/level_in_solids.h"
 #include "coupling/path_origins.h"
@@ -276,8 +277,8 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   CellField<Dim> joined = phi;
   if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, t, joined);
   LevelSetTransport how;
-  if (s.has_prescribed_flow()) how.trace = Trace::third_order;  // nothing else errs there
-  how.one_sided_at_kinks = !s.has_gas();                        // docs/decisions/0023-kinks.md
+  if (s.has_prescribed_flow()) how.trace = Trace::third_order;         // nothing else errs there
+  how.one_sided_at_kinks = causes_against(s, Feature::kinks).empty();  // docs/decisions/0023-kinks.md
   FaceField<Dim> path = u;
   if (!s.has_prescribed_flow()) {
     continue_beyond_inflows(s.layout, s.sides, t, path);

@@ -1,6 +1,7 @@
 #include "coupling/viscous_transport.h"
 
 #include "base/expression.h"
+#include "coupling/features.h"
 #include "fluid/inflow.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
@@ -35,7 +36,7 @@ ViscousPlan plan_viscosity(const Setup<Dim>& s, const State<Dim>& state, const C
   if (!s.is_viscous() || s.has_gas() || s.scene.time.scheme == TimeScheme::first_order) return plan;
   plan.full = !has_surface(s, phi);
   const bool known = state.before && dt <= 2 * state.dt_now && dt * state.viscous_rate <= stiff;
-  if (plan.full && known && s.bodies.empty()) plan.implicit = 9.0 / 16;
+  if (plan.full && known && causes_against(s, Feature::shared_viscosity).empty()) plan.implicit = 9.0 / 16;
   return plan;
 }
 

@@ -24,7 +24,7 @@ constexpr std::int64_t most_cells_set_up = 2'000'000;
 
 // What the solids of a scene turned out to be.
 struct Verified {
-  std::vector<std::string> notes, meshes;
+  std::vector<std::string> notes, meshes, factors;
 };
 
 std::vector<const ShapeSpec*> shapes_of(const Scene& scene) {
@@ -46,8 +46,9 @@ void verify_elastic(const Scene& scene, const SolidSpec& solid, const ShapeOptio
     if (probe.kind == ProbeKind::displacement && probe.solid == solid.name)
       point_of_probe<Dim>(elastic.body.mesh, probe);
   }
-  found.meshes.push_back(fmt::format("{}; its factors take about {}", describe_mesh<Dim>(solid.name, elastic.body.mesh),
-                                     readable_bytes(factor_bytes(Dim, elastic.body.size()))));
+  found.meshes.push_back(describe_mesh<Dim>(solid.name, elastic.body.mesh));
+  found.factors.push_back(fmt::format("the factors of '{}' take about {}", solid.name,
+                                      readable_bytes(factor_bytes(Dim, elastic.body.size()))));
 }
 
 template <int Dim>
@@ -96,6 +97,24 @@ std::string report(const Scene& scene, const Cost& cost, int ranks) {
                             ranks == 1 ? "" : "s");
 }
 
+// What is told of the initial state.
+struct Start {
+  std::vector<std::string> lines, warnings;
+};
+
+// The initial state evaluates the formulas wherever a run would, and tells what liquid and solids there are.
+Start look_at_start(const Scene& scene, const Cost& cost, const Verified& found, const Communicator& ranks) {
+  if (cost.cells <= most_cells_set_up) {
+    const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);
+    return {simulation->describe_start(), simulation->take_warnings()};
+  }
+  Start start{found.meshes, found.notes};
+  start.lines.push_back(
+      "note: formulas are evaluated, and liquid and solids measured, as the run begins; the grid is too large for that "
+      "here");
+  return start;
+}
+
 }  // namespace
 
 ExitCode check_command(const CheckOptions& options, const Surroundings& around) {
@@ -107,15 +126,14 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
     check_memory(estimate_cost(scene, around.ranks.size()), 1, 1, machine_memory());
     found = verify_solids(scene);
   });
-  for (const std::string& text : found.notes) log.warn(text);
   const Cost cost = estimate_cost(scene, around.ranks.size());
-  // The initial state evaluates the formulas wherever a run would.
-  const bool small = cost.cells <= most_cells_set_up;
-  if (small) make_simulation(scene, around.ranks);
+  const Start start = look_at_start(scene, cost, found, around.ranks);
+  for (const std::string& text : start.warnings) log.warn(text);
   log.note(fmt::format("{}: no errors", options.scene.string()));
-  if (!small) log.note("note: formulas are evaluated as the run begins; the grid is too large to try them here");
+  if (const std::string note = note_of_end(scene); !note.empty()) log.note(note);
   if (const std::string text = describe_rheology(scene.liquid.rheology); !text.empty()) log.note(text);
-  for (const std::string& text : found.meshes) log.note(text);
+  for (const std::string& text : start.lines) log.note(text);
+  for (const std::string& text : found.factors) log.note(text);
   log.note(report(scene, cost, around.ranks.size()));
   if (!found.meshes.empty()) log.note("note: the time is that of the liquid; elastic solids take theirs on top");
   return ExitCode::done;

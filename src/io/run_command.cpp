@@ -107,6 +107,11 @@ Continuation read_run(const ResumeOptions& options, const Communicator& ranks, R
 
 }  // namespace
 
+std::string note_of_end(const Scene& scene) {
+  if (scene.time.end > 0) return {};
+  return "note: the end time (time.end) is not after the start, 0 s: nothing is simulated";
+}
+
 ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   const Communicator& ranks = around.ranks;
   RunLog log(ranks, around.console, options.session.verbosity);
@@ -118,8 +123,7 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   const fs::path folder = output_folder(options);
   const auto directory = open_directory(folder, options.existing, ranks);
   if (directory) tell_removed(directory->removed(), folder, log);
-  if (scene.time.end <= 0)
-    log.note(fmt::format("note: the end time {:g} s leaves nothing to simulate", scene.time.end));
+  if (const std::string note = note_of_end(scene); !note.empty()) log.note(note);
   return run_session({scene, around, options.session, log, RunPaths{fs::absolute(folder).lexically_normal()}}, {});
 }
 

@@ -54,6 +54,9 @@ struct Surroundings {
   Console console;
 };
 
+// A note where the end time leaves nothing to simulate, else "".
+std::string note_of_end(const Scene& scene);
+
 // All are collective, return ExitCode::done or ExitCode::stopped and throw Error otherwise.
 ExitCode run_command(const RunOptions& options, const Surroundings& around);
 ExitCode resume_command(const ResumeOptions& options, const Surroundings& around);

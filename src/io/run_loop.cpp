@@ -90,7 +90,6 @@ void RunLoop::save_after(const Error& error) {
 
 RunEnd RunLoop::advance() {
   begin();
-  if (context_.ranks.any(context_.signals.received() != 0)) return {ExitCode::stopped, "stopped: " + stop_request()};
   const TimeSpec& time = context_.scene.time;
   while (state_.frame < last_frame(time)) {
     const std::string stop = advance_to(frame_time(state_.frame + 1));

@@ -11,13 +11,28 @@ double radians(double degrees) {
   return degrees * 3.14159265358979323846 / 180;
 }
 
-// A representative point of the shape before its transform.
+bool is_simple(const std::string& kind) {
+  return kind == "box" || kind == "sphere" || kind == "cylinder" || kind == "capsule" || kind == "plane";
+}
+
+// The centre of a simple shape, a plane's point, before its transform; else the origin.
 Vec3 shape_center(const ShapeSpec& s) {
   if (s.kind == "box") return 0.5 * (s.lower + s.upper);
   if (s.kind == "sphere") return s.center;
   if (s.kind == "cylinder" || s.kind == "capsule") return 0.5 * (s.from + s.to);
   if (s.kind == "plane") return s.point;
   return Vec3::Zero();
+}
+
+// Of a solid that is neither rigid nor elastic: the centre of mass of what its surface encloses.
+template <int Dim>
+Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
+  const TransformSpec& t = spec.transform;
+  const Vec3 center = t.translate + Eigen::AngleAxisd(radians(t.rotate.degrees), t.rotate.axis.normalized()) *
+                                        Vec3(t.scale * shape_center(spec));
+  if (is_simple(spec.kind) || surface.points.empty()) return center;
+  const Vec3 enclosed = mass_of_surface<Dim>(surface, 1).center;
+  return enclosed.allFinite() ? enclosed : center;
 }
 
 }  // namespace
@@ -35,6 +50,7 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
     mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
     for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
   }
+  reference_ = is_rigid() ? mass_.center : center_of<Dim>(spec.shape, surface_);
   thin_ = is_thinner_than(*this, options.cell_size, lower, upper);
   if (thin_) thin_surface_ = std::make_shared<const ThinSurface<Dim>>(surface_);
   if (spec.kind != SolidKind::kinematic) return;
@@ -57,6 +73,7 @@ void Body<Dim>::make_elastic(const ShapeOptions& options, const Vec<Dim>& lower,
   }
   mass_.center /= mass_.mass;
   mass_.volume = mass_.mass / spec_.rigid.density;
+  reference_ = mass_.center;
 }
 
 template <int Dim>
@@ -92,14 +109,6 @@ double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
 template <int Dim>
 bool Body<Dim>::lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const {
   return thin_surface_->meets(truncate<Dim>(pose.to_rest(extend<Dim>(x))), truncate<Dim>(pose.to_rest(extend<Dim>(y))));
-}
-
-template <int Dim>
-Vec3 Body<Dim>::reference_point() const {
-  if (is_elastic()) return mass_.center;
-  const TransformSpec& t = spec_.shape.transform;
-  const Vec3 axis = t.rotate.axis.normalized();
-  return t.translate + Eigen::AngleAxisd(radians(t.rotate.degrees), axis) * Vec3(t.scale * shape_center(spec_.shape));
 }
 
 template class Body<2>;

@@ -58,8 +58,9 @@ class Body {
   // Signed distance, negative inside (m); not of an elastic one.
   double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
   double distance_in(const Pose& pose, const Vec<Dim>& x) const;
-  // The point that solids.csv reports and torques are taken about, at rest.
-  Vec3 reference_point() const;
+  // The point that solids.csv reports and torques are taken about, at rest: the centre of mass, of the hole where the
+  // solid is the outside of a shape, the point of a plane.
+  const Vec3& reference_point() const { return reference_; }
 
  private:
   struct Motion {
@@ -75,6 +76,7 @@ class Body {
   std::optional<Motion> motion_;
   MassProperties mass_;
   SurfaceMesh surface_;
+  Vec3 reference_{0, 0, 0};
   double radius_ = 0;
   bool thin_ = false;
   std::shared_ptr<const ThinSurface<Dim>> thin_surface_;  // of a thin one that is not elastic

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 using namespace seiche;
 
@@ -42,4 +45,21 @@ TEST_CASE("the first number that is not finite is named") {
   SolidState solid;
   solid.force[2] = std::numeric_limits<double>::infinity();
   CHECK(not_finite(solid) == "fz");
+}
+
+TEST_CASE("docs/outputs.md lists every column of the tables") {
+  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../../docs/outputs.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::pair<const char*, std::string> tables[] = {
+      {"## stats.csv", stats_header()}, {"## solids.csv", solids_header()}, {"## probes.csv", probes_header()}};
+  for (const auto& [title, header] : tables) {
+    const std::size_t from = page.find(title);
+    REQUIRE(from != std::string::npos);
+    const std::string section = page.substr(from, page.find("\n## ", from) - from);
+    std::istringstream names(header.substr(0, header.size() - 1));
+    for (std::string name; std::getline(names, name, ',');) {
+      INFO(title << " " << name);
+      CHECK(section.find("`" + name + "`") < section.rfind("|"));
+    }
+  }
 }
