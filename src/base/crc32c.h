@@ -1,5 +1,5 @@
 #pragma once
-// CRC-32C (Castagnoli), the checksum of checkpoints.
+// CRC-32C (Castagnoli), the checksum of checkpoints and frames.
 #include <cstdint>
 #include <string_view>
 
