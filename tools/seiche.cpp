@@ -42,10 +42,22 @@ int end_with(const Failure& failure, const Communicator& ranks, const EmergencyC
   return codes->front();
 }
 
+// No option means anything by an empty text, such as that of a shell variable without a value.
+void require_words(const CLI::App& program) {
+  for (const CLI::App* verb : program.get_subcommands()) {
+    for (const CLI::Option* option : verb->get_options()) {
+      for (const std::string& word : option->results()) {
+        if (word.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
+      }
+    }
+  }
+}
+
 // The exit code when the command line alone decides it (help, version, mistakes), else -1.
 int parse(CLI::App& program, int argc, char** argv, const Communicator& ranks) {
   try {
     program.parse(argc, argv);
+    require_words(program);
     return -1;
   } catch (const CLI::ParseError& outcome) {
     if (outcome.get_exit_code() == 0) {
