@@ -1,6 +1,9 @@
+#include <sys/resource.h>
+
 #include <clocale>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "base/emergency_channel.h"
 #include "base/version.h"
@@ -24,6 +27,9 @@ Failure current_failure(int rank) {
     return {error.code(), error.what()};
   } catch (const std::bad_alloc&) {
     return {ExitCode::machine, fmt::format("rank {}: out of memory", rank)};
+  } catch (const std::system_error& error) {
+    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;  // of a thread, say
+    return {scarce ? ExitCode::machine : ExitCode::bug, fmt::format("rank {}: {}", rank, error.what())};
   } catch (const std::exception& error) {
     return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): {}", version(), rank, error.what())};
   } catch (...) {
@@ -84,11 +90,22 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
   }
 }
 
+// Libraries of MPI and threads end without a word, or crash, where the limit of address space (ulimit -v) stops them.
+bool has_room_to_begin() {
+  constexpr rlim_t least = rlim_t(250) << 20;  // a scene of 100 cells takes so much, most of it libraries
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least) return true;
+  print_error(fmt::format("the limit of address space is {} MiB (ulimit -v); Seiche takes {} MiB to begin with",
+                          limit.rlim_cur >> 20, least >> 20));
+  return false;
+}
+
 }  // namespace
 }  // namespace seiche
 
 int main(int argc, char** argv) {
   std::setlocale(LC_ALL, "C");
+  if (!seiche::has_room_to_begin()) return int(seiche::ExitCode::machine);
   const seiche::MpiSession mpi(argc, argv);
   const seiche::Communicator ranks;
   const seiche::EmergencyChannel emergency(ranks);

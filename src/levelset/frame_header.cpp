@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/crc32c.h"
 #include "levelset/frame_checks.h"
@@ -24,6 +26,7 @@ class Cursor {
  public:
   Cursor(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
 
+  std::size_t place() const { return at_; }
   std::size_t left() const { return bytes_.size() - at_; }
 
   std::string_view take(std::size_t count, const char* what) {
@@ -78,7 +81,8 @@ void check_metadata(const std::filesystem::path& file, Cursor& cursor) {
   }
 }
 
-void check_grid(const std::filesystem::path& file, Cursor& cursor) {
+// Gives the place of the numbers of its transform.
+std::size_t check_grid(const std::filesystem::path& file, Cursor& cursor) {
   cursor.text("the name of a grid");
   cursor.text("the type of a grid");
   cursor.text("the parent of a grid");
@@ -89,14 +93,14 @@ void check_grid(const std::filesystem::path& file, Cursor& cursor) {
   cursor.number<std::uint32_t>("the compression of a grid");
   check_metadata(file, cursor);
   cursor.text("the type of a transform");
+  const std::size_t transform = cursor.place();
   cursor.take(transform_bytes, "a transform");
   cursor.move_to(blocks, "the values of a grid");
   cursor.move_to(end, "the end of a grid");
+  return transform;
 }
 
-}  // namespace
-
-void require_sound_header(const std::filesystem::path& file, const std::string& bytes) {
+std::vector<std::size_t> check_header(const std::filesystem::path& file, const std::string& bytes) {
   Cursor cursor(file, bytes);
   if (bytes.compare(0, magic.size(), magic) != 0) cursor.fail("is not a .vdb file");
   cursor.take(magic.size(), "the magic number");
@@ -110,7 +114,25 @@ void require_sound_header(const std::filesystem::path& file, const std::string& 
   cursor.take(identifier_bytes, "the identifier");
   check_metadata(file, cursor);
   const auto grids = cursor.number<std::uint32_t>("the number of grids");
-  for (std::uint32_t i = 0; i < grids; ++i) check_grid(file, cursor);
+  std::vector<std::size_t> transforms;
+  for (std::uint32_t i = 0; i < grids; ++i) transforms.push_back(check_grid(file, cursor));
+  return transforms;
+}
+
+}  // namespace
+
+void require_sound_header(const std::filesystem::path& file, const std::string& bytes) {
+  check_header(file, bytes);
+}
+
+std::string with_transforms(std::string bytes, const Vec3& first, double h) {
+  std::array<double, 18> numbers{first[0], first[1], first[2]};
+  const std::array<double, 5> scales{h, h, 1 / h, 1 / h * (1 / h), 1 / h / 2};
+  for (std::size_t i = 3; i < numbers.size(); ++i) numbers[i] = scales[i / 3 - 1];
+  static_assert(sizeof numbers == transform_bytes);
+  for (const std::size_t place : check_header("the frame", bytes))
+    std::memcpy(bytes.data() + place, numbers.data(), sizeof numbers);
+  return bytes;
 }
 
 std::string with_checksum(std::string bytes) {

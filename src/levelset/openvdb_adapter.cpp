@@ -131,17 +131,10 @@ openvdb::GridBase::Ptr to_openvdb(const Grid& grid) {
   }
 }
 
-// Voxel (i, j, k) lies at lower + (i + 1/2) h. OpenVDB refuses to construct a map whose h^3 is below 3e-15, but a map
-// reads one: the translation, h, |h|, 1/h, 1/h^2 and 1/(2h), each along all axes.
-openvdb::math::Transform::Ptr cell_centre_transform(const Frame& frame) {
-  const double h = frame.cell_size;
-  const Vec3 first = frame.lower + Vec3::Constant(h / 2);
-  std::stringstream bytes(std::ios::in | std::ios::out | std::ios::binary);
-  openvdb::Vec3d(first[0], first[1], first[2]).write(bytes);
-  for (const double value : {h, h, 1 / h, 1 / h * (1 / h), 1 / h / 2}) openvdb::Vec3d(value).write(bytes);
+// Of the type that cell-centred grids have; its numbers are written later (with_transforms).
+openvdb::math::Transform::Ptr scale_and_translation() {
   auto transform = openvdb::math::Transform::createLinearTransform(2);
-  transform->postTranslate(openvdb::Vec3d(1));  // a map of the type that has both
-  transform->baseMap()->read(bytes);
+  transform->postTranslate(openvdb::Vec3d(1));
   return transform;
 }
 
@@ -352,11 +345,13 @@ std::string encode(const Frame& frame) {
     const openvdb::GridBase::Ptr result = to_openvdb(grid);
     result->insertMeta(meta);
     result->setName(grid.name);
-    result->setTransform(cell_centre_transform(frame));
+    result->setTransform(scale_and_translation());
     result->addStatsMetadata();
     grids.push_back(result);
   }
-  return with_checksum(StringArchive().bytes(grids, meta));
+  // Voxel (i, j, k) lies at lower + (i + 1/2) h.
+  const Vec3 first = frame.lower + Vec3::Constant(frame.cell_size / 2);
+  return with_checksum(with_transforms(StringArchive().bytes(grids, meta), first, frame.cell_size));
 }
 
 Frame decode(const std::filesystem::path& file) {
