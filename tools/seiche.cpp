@@ -92,7 +92,7 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
 
 // Libraries of MPI and threads end without a word, or crash, where the limit of address space (ulimit -v) stops them.
 bool has_room_to_begin() {
-  constexpr rlim_t least = rlim_t(250) << 20;  // a scene of 100 cells takes so much, most of it libraries
+  constexpr rlim_t least = rlim_t(300) << 20;  // a scene of 100 cells takes 260, most of it libraries and threads
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least) return true;
   print_error(fmt::format("the limit of address space is {} MiB (ulimit -v); Seiche takes {} MiB to begin with",
