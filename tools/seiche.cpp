@@ -1,6 +1,9 @@
+#include <sys/resource.h>
+
 #include <clocale>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "base/emergency_channel.h"
 #include "base/version.h"
@@ -26,6 +29,9 @@ Failure current_failure(int rank) {
     return {error.code(), error.what()};
   } catch (const std::bad_alloc&) {
     return {ExitCode::machine, fmt::format("rank {}: out of memory", rank)};
+  } catch (const std::system_error& error) {
+    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;  // of a thread, say
+    return {scarce ? ExitCode::machine : ExitCode::bug, fmt::format("rank {}: {}", rank, error.what())};
   } catch (const std::exception& error) {
     return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): {}", version(), rank, error.what())};
   } catch (...) {
@@ -44,10 +50,22 @@ int end_with(const Failure& failure, const Communicator& ranks, const EmergencyC
   return codes->front();
 }
 
+// No option means anything by an empty text, such as that of a shell variable without a value.
+void require_words(const CLI::App& program) {
+  for (const CLI::App* verb : program.get_subcommands()) {
+    for (const CLI::Option* option : verb->get_options()) {
+      for (const std::string& word : option->results()) {
+        if (word.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
+      }
+    }
+  }
+}
+
 // The exit code when the command line alone decides it (help, version, mistakes), else -1.
 int parse(CLI::App& program, int argc, char** argv, const Communicator& ranks) {
   try {
     program.parse(argc, argv);
+    require_words(program);
     return -1;
   } catch (const CLI::ParseError& outcome) {
     if (outcome.get_exit_code() == 0) {
@@ -75,12 +93,23 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
   }
 }
 
+// Libraries of MPI and threads end without a word, or crash, where the limit of address space (ulimit -v) stops them.
+bool has_room_to_begin() {
+  constexpr rlim_t least = rlim_t(300) << 20;  // a scene of 100 cells takes 260, most of it libraries and threads
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least) return true;
+  print_error(fmt::format("the limit of address space is {} MiB (ulimit -v); Seiche takes {} MiB to begin with",
+                          limit.rlim_cur >> 20, least >> 20));
+  return false;
+}
+
 }  // namespace
 }  // namespace seiche
 
 int main(int argc, char** argv) {
   seiche::note_stop_signals();
   std::setlocale(LC_ALL, "C");
+  if (!seiche::has_room_to_begin()) return int(seiche::ExitCode::machine);
   const seiche::MpiSession mpi(argc, argv);
   const seiche::Communicator ranks;
   const seiche::EmergencyChannel emergency(ranks);

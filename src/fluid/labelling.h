@@ -2,29 +2,12 @@
 // Labels of connected rows across ranks: each piece has the smallest row it is known to reach.
 #include <cstring>
 #include <map>
-#include <numeric>
 #include <string>
 
+#include "base/disjoint_sets.h"
 #include "fluid/pressure.h"
 
 namespace seiche {
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The smaller index becomes the root, so that roots do not depend on the order of joining.
-  void join(int i, int j) {
-    i = root(i), j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // Rows of cells are joined by open faces. A region of air is one more node, the same on all ranks, behind this rank's
 // rows: what touches it anywhere is joined.

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "base/crc32c.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "io/checked_file.h"
 #include "io/checkpoint_boxes.h"
 #include "io/checkpoint_commit.h"
-#include "io/checkpoint_crc.h"
 #include "io/checkpoint_file.h"
 #include "io/checkpoint_folders.h"
 #include "io/run_agree.h"

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "io/checkpoint_crc.h"
+#include "base/crc32c.h"
 
 namespace seiche {
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "base/crc32c.h"
 #include "base/error.h"
-#include "io/checkpoint_crc.h"
 
 namespace seiche {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/crc32c.h"
 #include "base/error.h"
 #include "io/checked_file.h"
 #include "io/checkpoint.h"
 #include "io/checkpoint_boxes.h"
 #include "io/checkpoint_commit.h"
-#include "io/checkpoint_crc.h"
 #include "io/checkpoint_file.h"
 #include "io/checkpoint_folders.h"
 #include "io/run_agree.h"

@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
+#include "base/crc32c.h"
 #include "base/error.h"
 #include "io/checked_file.h"
 #include "io/checkpoint_commit.h"
-#include "io/checkpoint_crc.h"
 #include "io/checkpoint_file.h"
 #include "io/point_cache.h"
 #include "io/render_frame.h"
@@ -37,11 +39,44 @@ double volume_below(const vdb::Grid& grid, const vdb::Frame& frame) {
   return cells * std::pow(frame.cell_size, frame.dimension);
 }
 
-std::string describe_values(const vdb::Grid& grid, const vdb::Frame& frame) {
-  if (grid.kind == vdb::GridKind::level_set) {
-    return fmt::format("liquid volume about {:.6g} {}", volume_below(grid, frame),
-                       frame.dimension == 3 ? "m^3" : "m^3 per metre of depth");
+std::vector<std::string> cells_of(const std::string& row) {
+  std::vector<std::string> cells;
+  std::istringstream in(row);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+// The liquid's volume in the row of stats.csv at time t; empty where there is none.
+std::optional<double> volume_in_stats(const fs::path& file, double t) {
+  constexpr double same_time = 1e-12;  // relative
+  std::ifstream in(file);
+  std::string row;
+  std::getline(in, row);
+  const Lines names = cells_of(row);
+  const auto column = [&](const char* name) {
+    return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::size_t time = column("time"), volume = column("liquid_volume");
+  std::optional<double> found;
+  while (std::getline(in, row)) {
+    const Lines cells = cells_of(row);
+    if (cells.size() <= std::max(time, volume)) continue;
+    if (std::abs(std::atof(cells[time].c_str()) - t) <= same_time * std::abs(t))
+      found = std::atof(cells[volume].c_str());
   }
+  return found;
+}
+
+// A frame's surface goes on within solids, where there is no liquid: the run's own table knows how much there is.
+std::string describe_volume(const fs::path& file, const vdb::Grid& grid, const vdb::Frame& frame) {
+  const char* unit = frame.dimension == 3 ? "m^3" : "m^3 per metre of depth";
+  const auto known = volume_in_stats(fs::absolute(file).parent_path().parent_path() / "stats.csv", frame.time);
+  if (known) return fmt::format("liquid volume {:.6g} {} (stats.csv)", *known, unit);
+  return fmt::format("about {:.6g} {} below the surface, that within solids counted", volume_below(grid, frame), unit);
+}
+
+std::string describe_values(const fs::path& file, const vdb::Grid& grid, const vdb::Frame& frame) {
+  if (grid.kind == vdb::GridKind::level_set) return describe_volume(file, grid, frame);
   const bool vectors = grid.kind == vdb::GridKind::staggered_vector;
   const auto values = vectors ? render::quantity_of(frame, grid.name).values : grid.blocks.at(0).values;
   if (values.empty()) return "no values";
@@ -211,7 +246,7 @@ Lines describe_frame(const fs::path& file) {
     const auto& upper = grid.blocks.at(0).upper;
     lines.push_back(fmt::format("  {} ({}): {} x {} x {} cells of {:g} m from ({:g}, {:g}, {:g}); {}", grid.name,
                                 kind_name(grid.kind), upper[0], upper[1], upper[2], frame.cell_size, frame.lower[0],
-                                frame.lower[1], frame.lower[2], describe_values(grid, frame)));
+                                frame.lower[1], frame.lower[2], describe_values(file, grid, frame)));
   }
   return lines;
 }

@@ -103,6 +103,22 @@ void close_along_border(std::vector<Polygon> open, const Box& box, std::vector<P
   }
 }
 
+// Twice the area that lies to the left of closed polygons; negative where all beyond them does.
+float left_area(const std::vector<Polygon>& polygons) {
+  float sum = 0;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2f a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+      sum += a.x() * b.y() - a.y() * b.x();
+    }
+  }
+  return sum;
+}
+
+Polygon border_of(const Box& box) {
+  return {corner(box, 0), corner(box, 1), corner(box, 2), corner(box, 3)};
+}
+
 }  // namespace
 
 std::vector<Polygon> close_outlines(const SolidMesh& solids, int solid, const Box& box) {
@@ -111,6 +127,8 @@ std::vector<Polygon> close_outlines(const SolidMesh& solids, int solid, const Bo
     const Box border = enlarge(box, chains.open);
     // a closed hole of an outline without open chains needs none; with them the rule stays even-odd
     close_along_border(std::move(chains.open), border, chains.closed);
+  } else if (left_area(chains.closed) < 0) {
+    chains.closed.push_back(border_of(enlarge(box, chains.closed)));  // what is left of them fills the domain
   }
   return std::move(chains.closed);
 }

@@ -5,6 +5,7 @@
 
 #include "base/gravity.h"
 #include "fluid/rheology.h"
+#include "io/mesh_extents.h"
 #include "io/run_agree.h"
 #include "io/run_command.h"
 #include "io/run_loop.h"
@@ -124,7 +125,9 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
   agree(around.ranks, "checking the scene", [&] {
     scene = read_scene(options.scene, options.overrides);
     check_memory(estimate_cost(scene, around.ranks.size()), 1, 1, machine_memory());
+    std::vector<std::string> notes = check_mesh_extents(scene);
     found = verify_solids(scene);
+    found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
   });
   const Cost cost = estimate_cost(scene, around.ranks.size());
   const Start start = look_at_start(scene, cost, found, around.ranks);

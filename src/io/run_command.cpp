@@ -6,6 +6,7 @@
 
 #include "coupling/tampering.h"
 #include "io/checkpoint.h"
+#include "io/mesh_extents.h"
 #include "io/run_agree.h"
 #include "io/run_fault.h"
 #include "io/run_loop.h"
@@ -119,6 +120,9 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   Scene scene = read_together(options.scene, options.overrides, ranks);
   if (options.session.frames) scene.time.end = std::min(scene.time.end, end_of_frames(*options.session.frames, scene));
   check_machine(scene, ranks);
+  std::vector<std::string> wide;
+  agree(ranks, "reading meshes", [&] { wide = check_mesh_extents(scene); });
+  for (const std::string& text : wide) log.warn(text);
   if (stopped_early(ranks, log)) return ExitCode::stopped;
   const fs::path folder = output_folder(options);
   const auto directory = open_directory(folder, options.existing, ranks);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/crc32c.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "io/checked_file.h"
-#include "io/checkpoint_crc.h"
 #include "io/info.h"
 #include "io/run_directory.h"
 #include "io/scene_writer.h"

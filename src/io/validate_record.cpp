@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/crc32c.h"
 #include "base/error.h"
 #include "io/checked_file.h"
-#include "io/checkpoint_crc.h"
 #include "io/scene_writer.h"
 #include "io/validate_cache.h"
 #include "io/validate_files.h"

@@ -92,6 +92,8 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                        third[1] * (size[2] * other[0] + size[0] * other[2]) +
                        third[2] * (size[0] * other[1] + size[1] * other[0]);
   if (std::abs(det) > error_in_space * scale) return sign(det);
+  for (int k = 0; k < 3; ++k)
+    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;  // in a plane across an axis; differences of equals are exact
   const Column U = difference(b, a), V = difference(c, a), W = difference(d, a);
   return sign(W[0] * (U[1] * V[2] - U[2] * V[1]) + W[1] * (U[2] * V[0] - U[0] * V[2]) +
               W[2] * (U[0] * V[1] - U[1] * V[0]));

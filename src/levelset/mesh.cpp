@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "levelset/mesh_extent.h"
 #include "levelset/mesh_formats.h"
 #include "levelset/mesh_intersections.h"
 #include "levelset/mesh_topology.h"
@@ -135,6 +136,18 @@ SurfaceMesh read_closed_mesh(const std::filesystem::path& file, std::vector<std:
   } catch (const Error& e) {
     throw Error(e.code(), file.string() + ": " + e.what());
   }
+}
+
+Vec3 mesh_extent(const std::filesystem::path& file) {
+  const SurfaceMesh mesh = mesh::parse(file);
+  Vec3 lower = mesh.points[mesh.triangles[0][0]], upper = lower;
+  for (const auto& t : mesh.triangles) {
+    for (const int corner : t) {
+      lower = lower.cwiseMin(mesh.points[corner]);
+      upper = upper.cwiseMax(mesh.points[corner]);
+    }
+  }
+  return upper - lower;
 }
 
 }  // namespace seiche

@@ -44,11 +44,6 @@ double squared_distance(const Vec3& x, const std::array<Vec3, 3>& t) {
                    squared_distance_to_segment(x, t[2], t[0])});
 }
 
-std::array<Vec3, 3> corners_of(const SurfaceMesh& mesh, int triangle) {
-  const auto& t = mesh.triangles[triangle];
-  return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
-}
-
 }  // namespace
 
 double distance_to_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -60,8 +55,8 @@ NearestTriangle::NearestTriangle(const SurfaceMesh& mesh) : mesh_(mesh), order_(
   std::vector<Vec3> centers;
   centers.reserve(order_.size());
   for (const int t : order_) {
-    const auto corners = corners_of(mesh, t);
-    centers.push_back((corners[0] + corners[1] + corners[2]) / 3);
+    const auto x = corners(t);
+    centers.push_back((x[0] + x[1] + x[2]) / 3);
   }
   nodes_.push_back(enclose(0, int(order_.size())));
   for (std::size_t node = 0; node < nodes_.size(); ++node) split(int(node), centers);
@@ -71,7 +66,7 @@ NearestTriangle::Node NearestTriangle::enclose(int first, int last) const {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Node node{Vec3::Constant(inf), Vec3::Constant(-inf), first, last, 0};
   for (int i = first; i < last; ++i) {
-    for (const Vec3& p : corners_of(mesh_, order_[i])) {
+    for (const Vec3& p : corners(order_[i])) {
       node.lower = node.lower.cwiseMin(p);
       node.upper = node.upper.cwiseMax(p);
     }
@@ -95,15 +90,14 @@ void NearestTriangle::split(int index, const std::vector<Vec3>& centers) {
 
 double NearestTriangle::distance(const Vec3& x, double bound) const {
   double least = bound * bound;
-  std::array<int, 128> stack;  // halving 2^31 triangles goes 31 deep, two entries a level
+  std::array<int, most_depth> stack;
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
     if (squared_distance_to_box(x, node.lower, node.upper) >= least) continue;
     if (node.low == 0) {
-      for (int i = node.first; i < node.last; ++i)
-        least = std::min(least, squared_distance(x, corners_of(mesh_, order_[i])));
+      for (int i = node.first; i < node.last; ++i) least = std::min(least, squared_distance(x, corners(order_[i])));
       continue;
     }
     const Node &low = nodes_[node.low], &high = nodes_[node.low + 1];

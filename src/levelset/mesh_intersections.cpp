@@ -2,15 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "levelset/exact_orientation.h"
+#include "levelset/mesh_pairs.h"
 
 namespace seiche::mesh {
 namespace {
 
 using Triangle = std::array<int, 3>;
-using Box = Eigen::AlignedBox3d;
 
 // An axis along which the triangle can be seen at all, if possible the one along which it is widest; -1: none.
 int view(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -79,11 +81,6 @@ bool any_side_meets(const SurfaceMesh& mesh, const Triangle& s, const Triangle& 
   return false;
 }
 
-Box box_of(const SurfaceMesh& mesh, const Triangle& t) {
-  Box box(mesh.points[t[0]]);
-  return box.extend(mesh.points[t[1]]).extend(mesh.points[t[2]]);
-}
-
 bool has_area(const SurfaceMesh& mesh, const Triangle& t) {
   return view(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) >= 0 &&
          (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm() > 0;
@@ -91,17 +88,16 @@ bool has_area(const SurfaceMesh& mesh, const Triangle& t) {
 
 // A number for each point: the same for the corners of triangles without area that hang together, -1 for all others.
 std::vector<int> sliver_points(const SurfaceMesh& mesh) {
+  DisjointSets sets(mesh.points.size());
   std::vector<int> group(mesh.points.size(), -1);
-  int count = 0;
   for (const Triangle& t : mesh.triangles) {
     if (has_area(mesh, t)) continue;
-    const Triangle known{group[t[0]], group[t[1]], group[t[2]]};
-    for (const int p : t) group[p] = count;
-    if (*std::max_element(known.begin(), known.end()) >= 0)
-      for (int& g : group)
-        if (g >= 0 && std::find(known.begin(), known.end(), g) != known.end()) g = count;
-    ++count;
+    sets.join(t[0], t[1]);
+    sets.join(t[0], t[2]);
+    for (const int p : t) group[p] = 0;
   }
+  for (std::size_t p = 0; p < group.size(); ++p)
+    if (group[p] == 0) group[p] = sets.root(int(p));
   return group;
 }
 
@@ -112,69 +108,39 @@ bool share_sliver(const std::vector<int>& group, const Triangle& s, const Triang
   return false;
 }
 
-// A tree of boxes over the triangles, split at the median of their middles along the longest side.
-class BoxTree {
- public:
-  BoxTree(std::vector<Box> boxes, std::vector<int> members) : boxes_(std::move(boxes)), order_(std::move(members)) {
-    if (!order_.empty()) grow(0, int(order_.size()));
-  }
-
-  // Visits all pairs of triangles whose boxes meet, lower index first.
-  template <class Visit>
-  void pairs(const Visit& visit) const {
-    std::vector<std::pair<int, int>> todo;
-    if (!nodes_.empty()) todo.emplace_back(0, 0);
-    while (!todo.empty()) {
-      const auto [n, m] = todo.back();
-      todo.pop_back();
-      const Node &a = nodes_[n], &b = nodes_[m];
-      if (!a.box.intersects(b.box)) continue;
-      if (a.high < 0 && b.high < 0)
-        leaves(a, b, n == m, visit);
-      else if (n == m)
-        todo.insert(todo.end(), {{a.low, a.low}, {a.low, a.high}, {a.high, a.high}});
-      else if (b.high < 0 || (a.high >= 0 && a.last - a.first >= b.last - b.first))
-        todo.insert(todo.end(), {{a.low, m}, {a.high, m}});
-      else
-        todo.insert(todo.end(), {{n, b.low}, {n, b.high}});
+// The triangles at each edge of those with area.
+std::map<Edge, std::vector<int>> triangles_at_edges(const SurfaceMesh& mesh) {
+  std::map<Edge, std::vector<int>> result;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& c = mesh.triangles[t];
+    if (!has_area(mesh, c)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
+      result[{low, high}].push_back(int(t));
     }
   }
+  return result;
+}
 
- private:
-  struct Node {
-    Box box;
-    int first, last, low = -1, high = -1;
-  };
-
-  int grow(int first, int last) {
-    constexpr int leaf_size = 4;
-    Box box, middles;
-    for (int i = first; i < last; ++i) box.extend(boxes_[order_[i]]), middles.extend(boxes_[order_[i]].center());
-    const int node = int(nodes_.size());
-    nodes_.push_back({box, first, last});
-    if (last - first <= leaf_size) return node;
-    int axis = 0;
-    middles.sizes().maxCoeff(&axis);
-    const int half = (first + last) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
-                     [&](int s, int t) { return boxes_[s].center()[axis] < boxes_[t].center()[axis]; });
-    const int low = grow(first, half), high = grow(half, last);
-    nodes_[node].low = low, nodes_[node].high = high;
-    return node;
+// Pairs of triangles that share an edge, or of which one's edge comes close to the other: all that may intersect, for
+// where triangles meet, an edge of one meets the other. Lower index first, each once.
+std::vector<std::array<int, 2>> candidates(const SurfaceMesh& mesh) {
+  const auto owners = triangles_at_edges(mesh);
+  std::vector<Edge> edges;
+  std::vector<const std::vector<int>*> at;
+  std::vector<std::array<int, 2>> pairs;
+  for (const auto& [edge, triangles] : owners) {
+    edges.push_back(edge);
+    at.push_back(&triangles);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (std::size_t j = i + 1; j < triangles.size(); ++j) pairs.push_back({triangles[i], triangles[j]});
   }
-
-  template <class Visit>
-  void leaves(const Node& a, const Node& b, bool same, const Visit& visit) const {
-    for (int i = a.first; i < a.last; ++i)
-      for (int j = same ? i + 1 : b.first; j < b.last; ++j)
-        if (boxes_[order_[i]].intersects(boxes_[order_[j]]))
-          visit(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
-  }
-
-  std::vector<Box> boxes_;
-  std::vector<int> order_;
-  std::vector<Node> nodes_;
-};
+  for (const auto& [edge, t] : close_pairs(mesh.points, edges, mesh.triangles))
+    for (const int s : *at[edge]) pairs.push_back({std::min(s, t), std::max(s, t)});
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
 
 }  // namespace
 
@@ -191,19 +157,14 @@ bool intersect(const SurfaceMesh& mesh, const Triangle& one, const Triangle& two
 }
 
 std::vector<std::array<int, 2>> self_intersections(const SurfaceMesh& mesh) {
-  std::vector<Box> boxes;
-  std::vector<int> members;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    boxes.push_back(box_of(mesh, mesh.triangles[t]));
-    if (has_area(mesh, mesh.triangles[t])) members.push_back(int(t));
-  }
+  std::vector<char> counts;
+  for (const Triangle& t : mesh.triangles) counts.push_back(has_area(mesh, t));
   const std::vector<int> group = sliver_points(mesh);
   std::vector<std::array<int, 2>> found;
-  BoxTree(std::move(boxes), std::move(members)).pairs([&](int s, int t) {
+  for (const auto& [s, t] : candidates(mesh)) {
     const Triangle &one = mesh.triangles[s], &two = mesh.triangles[t];
-    if (!share_sliver(group, one, two) && intersect(mesh, one, two)) found.push_back({s, t});
-  });
-  std::sort(found.begin(), found.end());
+    if (counts[s] && counts[t] && !share_sliver(group, one, two) && intersect(mesh, one, two)) found.push_back({s, t});
+  }
   return found;
 }
 

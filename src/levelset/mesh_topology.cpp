@@ -170,27 +170,6 @@ int depth(const SurfaceMesh& mesh, const std::vector<Piece>& all, const Piece& p
   return result;
 }
 
-// The piece of each triangle, where pieces are joined by common points.
-std::vector<int> pieces_by_point(const SurfaceMesh& mesh) {
-  std::vector<int> root(mesh.points.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const Triangle& t : mesh.triangles) {
-    for (const int corner : {t[1], t[2]}) root[find(corner)] = find(t[0]);
-  }
-  std::vector<int> number(mesh.points.size(), -1), result;
-  int count = 0;
-  for (const Triangle& t : mesh.triangles) {
-    int& n = number[find(t[0])];
-    if (n < 0) n = count++;
-    result.push_back(n);
-  }
-  return result;
-}
-
 void require_volume(const SurfaceMesh& mesh, const Piece& piece) {
   const double extent = (piece.upper - piece.lower).maxCoeff();
   if (std::abs(piece.volume) > 1e-14 * extent * extent * extent) return;
@@ -313,17 +292,6 @@ void orient(SurfaceMesh& mesh, std::vector<std::string>& notes) {
 void drop_slivers(SurfaceMesh& mesh, std::vector<std::string>& notes) {
   drop_triangles(
       mesh, [&](const Triangle& t) { return doubled_area(mesh, t) == 0; }, "triangles without area", notes);
-}
-
-std::vector<SurfaceMesh> nesting_levels(const SurfaceMesh& mesh) {
-  std::vector<SurfaceMesh> levels;
-  const std::vector<Piece> all = collect(mesh, pieces_by_point(mesh));
-  for (const Piece& piece : all) {
-    const std::size_t level = std::size_t(depth(mesh, all, piece));
-    if (level >= levels.size()) levels.resize(level + 1, SurfaceMesh{mesh.points, {}, {}});
-    for (const int t : piece.triangles) levels[level].triangles.push_back(mesh.triangles[t]);
-  }
-  return levels;
 }
 
 }  // namespace seiche::mesh

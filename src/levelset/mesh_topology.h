@@ -23,8 +23,4 @@ void orient(SurfaceMesh& mesh, std::vector<std::string>& notes);
 // Triangles whose corners are distinct but lie on a line; after the checks, as their neighbours meet along it.
 void drop_slivers(SurfaceMesh& mesh, std::vector<std::string>& notes);
 
-// The surface taken apart by how many other pieces enclose a piece: solids, their cavities, solids in cavities, ...
-// For meshes that orient() has passed.
-std::vector<SurfaceMesh> nesting_levels(const SurfaceMesh& mesh);
-
 }  // namespace seiche::mesh

@@ -2,22 +2,23 @@
 #include "levelset/openvdb_adapter.h"
 
 #include <fmt/format.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
-#include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ios>
+#include <new>
 #include <sstream>
 
 #include "base/error.h"
-#include "grid/parallel_range.h"
 #include "grid/serial.h"
 #include "levelset/frame_checks.h"
-#include "levelset/mesh_distance.h"
-#include "levelset/mesh_topology.h"
+#include "levelset/frame_header.h"
+#include "levelset/mesh_formats.h"
 #include "levelset/sampled_distance.h"
 
 namespace seiche::vdb {
@@ -31,18 +32,6 @@ void initialize() {
   static const bool once = (openvdb::initialize(), true);
   (void)once;
 }
-
-struct MeshInIndexSpace {
-  const SurfaceMesh& mesh;
-  double voxel;
-  std::size_t polygonCount() const { return mesh.triangles.size(); }
-  std::size_t pointCount() const { return mesh.points.size(); }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t polygon, std::size_t vertex, openvdb::Vec3d& p) const {
-    const Vec3 x = mesh.points[mesh.triangles[polygon][vertex]] / voxel;
-    p = {x[0], x[1], x[2]};
-  }
-};
 
 // Samples a grid whose voxel i lies at origin + i * spacing, trilinearly, values limited to +-band.
 class GridDistance : public SampledDistance {
@@ -72,36 +61,6 @@ class GridDistance : public SampledDistance {
   Vec3 origin_;
   double spacing_, band_;
 };
-
-// Away from the surface OpenVDB's distances are to a triangle near the nearest one; they are replaced by the least.
-void refine(FloatGrid& grid, const SurfaceMesh& mesh, double voxel) {
-  using Leaf = openvdb::FloatTree::LeafNodeType;
-  const mesh::NearestTriangle nearest(mesh);
-  std::vector<Leaf*> leaves;
-  grid.tree().getNodes(leaves);
-  parallel_range(0, int(leaves.size()), [&](int i) {
-    for (auto value = leaves[i]->beginValueOn(); value; ++value) {
-      const Coord ijk = value.getCoord();
-      const double bound = std::abs(*value) * (1 + 1e-5) + 1e-6 * voxel;  // a float of what is found
-      const double distance = nearest.distance(voxel * Vec3(ijk[0], ijk[1], ijk[2]), bound);
-      value.setValue(float(*value < 0 ? -distance : distance));
-    }
-  });
-}
-
-// OpenVDB decides inside from outside by what the far field reaches, which fills cavities. On one thread: where
-// triangles are equally near, its choice of one depends on how its work is split.
-std::unique_ptr<SampledDistance> sample_piece(const SurfaceMesh& mesh, double voxel, double half_width) {
-  const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-  const float band = float(half_width + 1);  // OpenVDB's band is ragged at its ends
-  FloatGrid::Ptr grid;
-  run_serially([&] {
-    grid = openvdb::tools::meshToVolume<FloatGrid>(MeshInIndexSpace{mesh, voxel}, *transform, band, band,
-                                                   openvdb::tools::DISABLE_RENORMALIZATION);
-  });
-  refine(*grid, mesh, voxel);
-  return std::make_unique<GridDistance>(grid, Vec3::Zero(), voxel, half_width * voxel);
-}
 
 // Calls visit(voxel, values) for each voxel of a block, in its order.
 template <class Visit>
@@ -172,11 +131,10 @@ openvdb::GridBase::Ptr to_openvdb(const Grid& grid) {
   }
 }
 
-// Voxel (i, j, k) lies at lower + (i + 1/2) h.
-openvdb::math::Transform::Ptr cell_centre_transform(const Frame& frame) {
-  auto transform = openvdb::math::Transform::createLinearTransform(frame.cell_size);
-  const Vec3 first = frame.lower + Vec3::Constant(frame.cell_size / 2);
-  transform->postTranslate({first[0], first[1], first[2]});
+// Of the type that cell-centred grids have; its numbers are written later (with_transforms).
+openvdb::math::Transform::Ptr scale_and_translation() {
+  auto transform = openvdb::math::Transform::createLinearTransform(2);
+  transform->postTranslate(openvdb::Vec3d(1));
   return transform;
 }
 
@@ -227,9 +185,14 @@ void read_frame_metadata(const openvdb::MetaMap& meta, OpenFrame& open) {
   }
 }
 
+// From memory and with exceptions: OpenVDB itself goes on where a file ends too early.
 OpenFrame read_archive(const std::filesystem::path& file) {
-  openvdb::io::File archive(file.string());
-  archive.open(false);  // no delayed loading: errors show here
+  std::string bytes = mesh::read_bytes(file);
+  require_checksum(file, bytes);
+  require_sound_header(file, bytes);
+  std::istringstream in(std::move(bytes), std::ios::binary);
+  in.exceptions(std::ios::failbit | std::ios::badbit);
+  openvdb::io::Stream archive(in, false);
   OpenFrame open;
   read_frame_metadata(*archive.getMetadata(), open);
   require_sane(file, open.frame, open.cells);
@@ -237,15 +200,31 @@ OpenFrame read_archive(const std::filesystem::path& file) {
   return open;
 }
 
+// Each grid tells the domain, too: a count that changed on the disk is not believed.
+void require_one_domain(const std::filesystem::path& file, const OpenFrame& open) {
+  for (const auto& grid : *open.grids) {
+    OpenFrame other;
+    read_frame_metadata(*grid, other);
+    if (other.cells == open.cells && other.frame.cell_size == open.frame.cell_size) continue;
+    refuse(file, "is damaged: grid '" + readable_start(grid->getName()) + "' has another domain than the frame");
+  }
+}
+
 OpenFrame open_frame(const std::filesystem::path& file) {
   initialize();
   require_readable(file);
   try {
-    return read_archive(file);
+    OpenFrame open = read_archive(file);
+    require_one_domain(file, open);
+    return open;
   } catch (const Error&) {
     throw;
+  } catch (const std::ios::failure&) {
+    refuse(file, "is damaged or cut off: it ends within a grid");
+  } catch (const std::bad_alloc&) {
+    refuse(file, "is damaged, or too large for the memory left: its grids ask for more than there is");
   } catch (const std::exception& e) {
-    refuse(file, std::string("cannot be read as a frame of Seiche: ") + e.what());
+    refuse(file, "cannot be read as a frame of Seiche: " + readable_start(e.what()));
   }
 }
 
@@ -324,14 +303,6 @@ std::vector<char> points_beyond(const std::vector<openvdb::Vec3s>& points, const
 
 }  // namespace
 
-std::unique_ptr<SampledDistance> mesh_to_distance(const SurfaceMesh& mesh, double voxel, double half_width) {
-  initialize();
-  require_sampleable(mesh, voxel, half_width);
-  std::vector<std::unique_ptr<SampledDistance>> levels;
-  for (const SurfaceMesh& level : mesh::nesting_levels(mesh)) levels.push_back(sample_piece(level, voxel, half_width));
-  return nest(std::move(levels));
-}
-
 std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file, int dimension) {
   const OpenFrame open = open_frame(file);
   if (open.frame.dimension != dimension) {
@@ -374,11 +345,13 @@ std::string encode(const Frame& frame) {
     const openvdb::GridBase::Ptr result = to_openvdb(grid);
     result->insertMeta(meta);
     result->setName(grid.name);
-    result->setTransform(cell_centre_transform(frame));
+    result->setTransform(scale_and_translation());
     result->addStatsMetadata();
     grids.push_back(result);
   }
-  return StringArchive().bytes(grids, meta);
+  // Voxel (i, j, k) lies at lower + (i + 1/2) h.
+  const Vec3 first = frame.lower + Vec3::Constant(frame.cell_size / 2);
+  return with_checksum(with_transforms(StringArchive().bytes(grids, meta), first, frame.cell_size));
 }
 
 Frame decode(const std::filesystem::path& file) {

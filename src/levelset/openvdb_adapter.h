@@ -1,5 +1,5 @@
 #pragma once
-// The only door to OpenVDB: signed distances of meshes, contouring, frames written and read.
+// The only door to OpenVDB: contouring, frames written and read.
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -7,18 +7,9 @@
 #include <vector>
 
 #include "levelset/mesh.h"
+#include "levelset/sampled_distance.h"
 
 namespace seiche::vdb {
-
-// A sampled signed distance (trilinear between voxels), constant +-band outside the narrow band.
-class SampledDistance {
- public:
-  virtual ~SampledDistance() = default;
-  virtual double operator()(const Vec3& x) const = 0;
-};
-
-// Signed distance of a closed triangle mesh on voxels of the given size, half_width voxels to each side.
-std::unique_ptr<SampledDistance> mesh_to_distance(const SurfaceMesh& mesh, double voxel, double half_width);
 
 // The level set of one of our own frames, "surface" if it holds several; outside the frame's domain it is at least the
 // distance to the domain. 2D frames ignore z. Throws Error(bad_input) if the file is no such frame or of another

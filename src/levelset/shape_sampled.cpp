@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/expression.h"
 #include "levelset/openvdb_adapter.h"
+#include "levelset/sampled_mesh.h"
 #include "levelset/shape_makers.h"
 
 namespace seiche::shape {
@@ -102,7 +103,7 @@ Field<3> make_mesh<3>(const ShapeSpec& spec, const ShapeOptions& options) {
   ShapeSpec upright = spec;
   upright.invert = false;  // make_shape() inverts the distance
   auto field = std::make_unique<SampledShape<3>>();
-  field->distance = vdb::mesh_to_distance(read_shape_mesh(upright, options), options.cell_size, mesh_band);
+  field->distance = std::make_unique<SampledMesh>(read_shape_mesh(upright, options), options.cell_size, mesh_band);
   return field;
 }
 

@@ -123,8 +123,14 @@ ElasticMesh<3> elements_of(const Complex& complex) {
 ElasticMesh<2> triangulate(const SurfaceMesh& outline, double size) {
   constexpr double least_sine_squared = 0.125;  // of an angle, 20.7 degrees: below it refinement is sure to end
   plane::Triangulation t;
-  for (const auto& [i, j] : outline.segments)
-    t.insert_constraint(plane::point(outline.points[std::size_t(i)]), plane::point(outline.points[std::size_t(j)]));
+  try {
+    for (const auto& [i, j] : outline.segments)
+      t.insert_constraint(plane::point(outline.points[std::size_t(i)]), plane::point(outline.points[std::size_t(j)]));
+  } catch (const plane::Triangulation::Intersection_of_constraints_exception&) {
+    fail(
+        "its outline crosses itself when drawn with the edges of elements, for it has parts, gaps or notches narrower "
+        "than those; lower element_size or leave such detail out");
+  }
   if (t.dimension() < 2) fail("its outline has no area");
   plane::mark_inside(t);
   plane::Mesher mesher(t, plane::Criteria(least_sine_squared, size));

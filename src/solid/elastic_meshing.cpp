@@ -87,6 +87,29 @@ double measure(const SurfaceMesh& surface) {
   return volume;
 }
 
+double boundary_measure(const SurfaceMesh& surface) {
+  double sum = 0;
+  for (const auto& [a, b] : surface.segments)
+    sum += (surface.points[std::size_t(b)] - surface.points[std::size_t(a)]).norm();
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Vec3& p = surface.points[std::size_t(a)];
+    sum += (surface.points[std::size_t(b)] - p).cross(surface.points[std::size_t(c)] - p).norm() / 2;
+  }
+  return sum;
+}
+
+// Elements with good angles are no larger than the solid is thick, which is 2 V/A where it is thin.
+template <int Dim>
+void check_thickness(const SolidSpec& spec, const SurfaceMesh& surface) {
+  const double volume = measure<Dim>(surface), thickness = 2 * volume / boundary_measure(surface);
+  if (thickness >= spec.elastic.element_size) return;
+  const double count = volume * (Dim == 2 ? 2.3 : 8.5) / std::pow(thickness, Dim);
+  if (count <= most_elements) return;
+  fail(spec, fmt::format("it is about {:.2g} m thick, and elements as small would be about {:.2g}; at most {:.0g} are "
+                         "possible: make it thicker, or write a plate as a box, whose elements may be flat",
+                         thickness, count, most_elements));
+}
+
 // A contour has its edges cut into notches of a sample's size, which are not to be kept.
 bool is_sampled(const ShapeSpec& s) {
   return s.kind == "expression" || s.kind == "level_set";
@@ -116,6 +139,7 @@ SurfaceMesh surface_to_mesh(const SolidSpec& spec, ShapeOptions options, const V
     high = high.cwiseMax(x);
   }
   check_size<Dim>(spec, truncate<Dim>(high - low), measure<Dim>(surface));
+  check_thickness<Dim>(spec, surface);
   return surface;
 }
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
+#include "base/crc32c.h"
 #include "base/error.h"
 #include "io/checkpoint_boxes.h"
 #include "io/checkpoint_commit.h"
-#include "io/checkpoint_crc.h"
 #include "io/checkpoint_file.h"
 #include "io_scratch.h"
 

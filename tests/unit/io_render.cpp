@@ -262,6 +262,12 @@ TEST_CASE("outlines are filled: closed ones, holes, and those that the border of
     chain({{0, 70, 0}, {100, 70, 0}}, false);
     CHECK(area(box) == Approx(4000 + 3000).epsilon(1e-3));
   }
+  SECTION("all but what two outlines turned inside out enclose") {
+    chain({{10, 10, 0}, {10, 50, 0}, {50, 50, 0}, {50, 10, 0}}, true);
+    CHECK(area(box) == Approx(10000 - 1600).epsilon(1e-3));
+    chain({{60, 60, 0}, {60, 90, 0}, {90, 60, 0}}, true);
+    CHECK(area(box) == Approx(10000 - 1600 - 450).epsilon(1e-3));
+  }
   SECTION("a corner cut off beyond the region") {
     chain({{30, -2, 0}, {-2, 30, 0}}, false);
     CHECK(area(box) == Approx(28 * 28 / 2).epsilon(1e-3));

@@ -169,8 +169,15 @@ TEST_CASE("info tells a frame's fields, time and liquid volume") {
   for (const std::string& line : describe_path(scratch.folder / "frames" / "frame.0002.vdb")) text += line + "\n";
   CHECK_THAT(text, Catch::Contains("frame 2 at t = 0.2 s, 3D"));
   CHECK_THAT(text, Catch::Contains("surface (level set, m): 20 x 20 x 20 cells of 0.05 m"));
-  CHECK_THAT(text, Catch::Contains("liquid volume about 0.5 m^3"));
+  CHECK_THAT(text, Catch::Contains("about 0.5 m^3 below the surface"));
   CHECK_THAT(text, Catch::Contains("vel (staggered vectors)") && Catch::Contains("5 to 5"));
+  text.clear();
+  // Liquid is not counted within solids: the table of the run knows.
+  write_file(scratch.folder / "stats.csv",
+             "step,time,dt,liquid_volume\n1,0.1,0.1,0.4\n2,0.2,0.1,0.375\n3,0.3,0.1,0.3\n");
+  for (const std::string& line : describe_path(scratch.folder / "frames" / "frame.0002.vdb")) text += line + "\n";
+  CHECK_THAT(text, Catch::Contains("liquid volume 0.375 m^3 (stats.csv)"));
+  fs::remove(scratch.folder / "stats.csv");
   text.clear();
   for (const std::string& line : describe_path(scratch.folder)) text += line + "\n";
   CHECK_THAT(text, Catch::Contains("1 frame, 2 to 2") && Catch::Contains("no checkpoints"));

@@ -125,13 +125,6 @@ TEST_CASE("a shell keeps its cavity, and a solid in the cavity is solid") {
   }
 }
 
-TEST_CASE("a mesh too large for its cells is refused before it is sampled") {
-  const TemporaryFolder folder;
-  const auto file = folder.write("cube.obj", obj(cube(Vec3(0, 0, 0), 1e4)));
-  CHECK_THROWS_WITH(make_shape<3>(mesh_spec(file), {0.01, nullptr}),
-                    Catch::StartsWith("scene.toml:3: ") && Catch::Contains("scale"));
-}
-
 TEST_CASE("an error in a mesh names the scene's line and the mesh's line") {
   const TemporaryFolder folder;
   const auto file = folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");

@@ -230,6 +230,13 @@ TEST_CASE("Elements that cannot be made are refused in words", "[elastic][meshin
   SolidSpec two = solid_of("expression", 0.05);
   two.shape.phi = "min(sqrt(x*x+y*y)-0.2, sqrt((x-1)*(x-1)+y*y)-0.2)";
   CHECK_THAT(fault<2>(two), Contains("do not hang together"));
+  SolidSpec comb = solid_of("expression", 0.05);  // as wide as two elements, in parts of half an element
+  comb.shape.phi = "max(sqrt((x-0.5)^2+(y-0.6)^2)-0.2,sin(100*x)*sin(100*y))";
+  CHECK_THAT(fault<2>(comb), Contains("lower element_size"));
+  SolidSpec sheet = solid_of("cylinder", 0.1);
+  sheet.shape.to = {0, 3e-7, 0};
+  sheet.shape.radius = 0.3;
+  CHECK_THAT(fault<3>(sheet), Contains("it is about 3e-07 m thick") && Contains("make it thicker"));
   SolidSpec none = solid_of("expression", 0.05);
   none.shape.phi = "1";
   CHECK_THAT(fault<2>(none), Contains("empty within the domain"));

@@ -1,4 +1,4 @@
-#include "io/checkpoint_crc.h"
+#include "base/crc32c.h"
 
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
 #pragma once
-// CRC-32C (Castagnoli), the checksum of checkpoints and tables.
+// CRC-32C (Castagnoli), the checksum of checkpoints, tables and frames.
 #include <cstdint>
 #include <string_view>
 
