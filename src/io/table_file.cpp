@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/checkpoint_crc.h"
+#include "base/crc32c.h"
 
 namespace seiche {
 namespace fs = std::filesystem;

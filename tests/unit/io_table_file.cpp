@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "base/crc32c.h"
 #include "base/error.h"
-#include "io/checkpoint_crc.h"
 #include "io/run_tables.h"
 #include "io_scratch.h"
 
