@@ -11,7 +11,7 @@ struct ElasticShare {
   const ElasticBody<Dim>* body;
   const Eigen::VectorXd* displacement;  // m
   int first_dof;
-  HeldPressure<Dim> held = {};
+  HeldPressure<Dim> held;
 };
 
 // P(v) = dt/H sum Psi(u_n + H w), w the velocities of a body's nodes over the interval H, Psi with the work against the

@@ -26,7 +26,11 @@ struct TwoBlocks {
     v = Eigen::VectorXd::NullaryExpr(2 * body.size() + 5, [&] { return range(random); });
   }
   ElasticPotential<Dim> potential() const {
-    return {{{&body, &one, 3}, {&body, &other, 5 + body.size()}}, int(v.size()), dt, horizon};
+    constexpr double most = 3e3;  // Pa, less than the stress of some points, more than that of others
+    return {{{&body, &one, 3, {}}, {&body, &other, 5 + body.size(), hold_pressure(body, other, most)}},
+            int(v.size()),
+            dt,
+            horizon};
   }
 };
 
@@ -59,6 +63,32 @@ TEMPLATE_TEST_CASE_SIG("the energy of elastic bodies by velocities has the deriv
     CHECK((difference - K * p).norm() < 1e-7 * (K * p).norm());
   }
   CHECK(g.head(3).isZero(0));
+}
+
+TEMPLATE_TEST_CASE_SIG("held pressure adds neither energy nor force where it is held, and takes all stiffness from it",
+                       "[elastic]", ((int Dim), Dim), 2, 3) {
+  const auto body = elastic_body<Dim>(box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Ones(), 2),
+                                      "st_venant_kirchhoff", 1000, 1e4, 0.3);
+  Eigen::VectorXd u(body.size()), turned(body.size());
+  constexpr double squeeze = 0.05, angle = 0.02;
+  for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+    const Vec<Dim> X = body.mesh.nodes[n];
+    u.template segment<Dim>(Dim * Eigen::Index(n)) = -squeeze * X;
+    Vec<Dim> x = (1 - squeeze) * X;
+    x.template head<2>() = Eigen::Rotation2Dd(angle) * Vec<2>(x.template head<2>());
+    turned.template segment<Dim>(Dim * Eigen::Index(n)) = x - X;
+  }
+  const HeldPressure<Dim> held = hold_pressure<Dim>(body, u, 1e9);
+  CHECK(held.pressure.size() == body.weights.size());
+  CHECK(elastic_energy(body, u, held) == elastic_energy(body, u));
+  const double size = elastic_gradient(body, u).norm();
+  CHECK((elastic_gradient(body, u, held) - elastic_gradient(body, u)).norm() < 1e-14 * size);
+  // The force of a uniform pressure turns with the body; without that the stress on a turned body pulls on.
+  const Eigen::VectorXd dead = elastic_gradient(body, turned) - elastic_gradient(body, u),
+                        follows = elastic_gradient(body, turned, held) - elastic_gradient(body, u, held);
+  CHECK(dead.norm() > 0.5 * angle * size);
+  CHECK(follows.norm() < 1e-12 * size);
+  CHECK(hold_pressure<Dim>(body, -u, 1e9).pressure == std::vector<double>(body.weights.size()));  // stretched: none
 }
 
 TEST_CASE("a step of elastic bodies is bounded where one of them would turn inside out", "[elastic]") {

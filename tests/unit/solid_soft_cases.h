@@ -112,7 +112,7 @@ struct SoftWorld {
 
   ElasticPotential<Dim> potential(double dt, int size) const {
     std::vector<ElasticShare<Dim>> shares;
-    for (size_t k = 0; k < soft.size(); ++k) shares.push_back({&soft[k].body, &soft[k].state.u, first_dof(int(k))});
+    for (size_t k = 0; k < soft.size(); ++k) shares.push_back({&soft[k].body, &soft[k].state.u, first_dof(int(k)), {}});
     return {shares, size, dt, dt};
   }
   int first_dof(int soft_body) const {
