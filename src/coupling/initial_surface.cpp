@@ -67,7 +67,8 @@ void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, Site 
     }
 }
 
-// Whether a formula jumps, or bends so much, that its values at cell centres misplace its zero. Collective.
+// Whether a formula jumps and its values at cell centres misplace its zero. Distances change by a cell from one to the
+// next; what changes by more than two has jumped. Collective.
 template <int Dim>
 bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim>& phi) {
   bool misplaced = false;
@@ -75,7 +76,8 @@ bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const Cell
     if (misplaced) return;
     const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
     for_each_across(s.layout, phi, c, i, [&](int, Site other, const Vec<Dim>& step) {
-      misplaced = misplaced || !regions.is_straight(x, step, phi[c], phi[other]);
+      const bool jumps = std::abs(phi[c] - phi[other]) > 2 * s.layout.h();
+      misplaced = misplaced || (jumps && !regions.is_straight(x, step, phi[c], phi[other]));
     });
   });
   return s.ranks.any(misplaced);
