@@ -1,6 +1,5 @@
 #include "coupling/initial_surface.h"
 
-#include "coupling/level_in_solids.h"
 #include "coupling/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -103,29 +102,22 @@ void place_zero(const Setup<Dim>& s, const Regions<Dim>& regions, CellField<Dim>
 }  // namespace
 
 template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& s, const StepGeometry<Dim>& g,
-                               const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
   CellField<Dim> phi(s.layout, s.band());
   const Regions<Dim> distance(s, shapes);
   for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     phi[c] = distance(s.layout.position(i, cell_offset<Dim>()));
   });
   fill_level_set_ghosts(s.layout, s.halo, phi);
-  const CellField<Dim, char> closed = closed_cells(s, g);
   const auto& regions = s.scene.liquid.regions;
   if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); })) {
     if (misplaces_zero(s, distance, phi)) place_zero(s, distance, phi);
-    continue_level_set(s, closed, phi);
-    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi, &closed);
+    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi);
   }
-  continue_level_set(s, closed, phi);
   return phi;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                       \
-  template CellField<D> initial_surface<D>(const Setup<D>&, const StepGeometry<D>&, \
-                                           const std::vector<std::unique_ptr<ShapeField<D>>>&);
-SEICHE_INSTANTIATE(2)
-SEICHE_INSTANTIATE(3)
+template CellField<2> initial_surface<2>(const Setup<2>&, const std::vector<std::unique_ptr<ShapeField<2>>>&);
+template CellField<3> initial_surface<3>(const Setup<3>&, const std::vector<std::unique_ptr<ShapeField<3>>>&);
 
 }  // namespace seiche

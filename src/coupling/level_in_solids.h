@@ -4,17 +4,6 @@
 
 namespace seiche {
 
-// 1 in the cells that unmoved solids fill wholly: no face is open, no corner outside. Ghosts filled. Unmoved are static
-// solids, and prescribed ones until they first move. In others phi goes along with the body: continued from air that
-// stays behind it would bring out liquid that the body hides.
-template <int Dim>
-CellField<Dim, char> closed_cells(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry);
-
-// Continues phi straight into the closed cells, four layers deep. A surface redistanced within a solid bends where it
-// meets the one outside, and sets liquid at rest beside a slanted wall in motion. Fills ghosts. Collective.
-template <int Dim>
-void continue_level_set(const Setup<Dim>& setup, const CellField<Dim, char>& closed, CellField<Dim>& phi);
-
 // In elastic bodies phi is carried with the body's velocity next to its surface alone; farther in it stays behind when
 // they move, and liquid of one side of a thick wall would come out at the other. From the depth of 1.5 cells on, for
 // four layers, phi whose sign is not that of the nearest cells less deep (the mean of the neighbours a layer nearer to

@@ -1,4 +1,4 @@
-// One time step, as the algorithm reads: move bodies, measure geometry, transport, solve, restore.
+// One time step, as the algorithm reads: transport, measure geometry, solve, restore.
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -150,6 +150,19 @@ struct StepInProgress {
     }
   }
 
+  void transport_surface() {
+    const PhaseFault fault = phases.enter("transport");
+    const auto timed = phases.timers.measure("surface");
+    const FaceField<Dim> u =
+        s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
+    CellField<Dim>& phi = out.state.phi;
+    // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
+    if (!by_halves && may_go_by_halves(s) && s.scene.time.cfl > 2) make_distance(s, phi);
+    out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
+    make_distance(s, phi);
+    inject(s, fault, out.state.phi.data());
+  }
+
   void measure_geometry() {
     const PhaseFault fault = phases.enter("geometry");
     const auto timed = phases.timers.measure("geometry");
@@ -157,24 +170,6 @@ struct StepInProgress {
         s.solids.measure(by_halves ? place_halfway(s, out.state, dt) : place_bodies(s, out.state), out.state.time);
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
-  }
-
-  void transport_surface() {
-    const PhaseFault fault = phases.enter("transport");
-    const auto timed = phases.timers.measure("surface");
-    const FaceField<Dim> u =
-        s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
-    CellField<Dim>& phi = out.state.phi;
-    const CellField<Dim, char> closed = closed_cells(s, out.geometry);
-    // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
-    if (!by_halves && may_go_by_halves(s) && s.scene.time.cfl > 2) make_distance(s, closed, phi);
-    out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
-    make_distance(s, closed, phi);
-    inject(s, fault, out.state.phi.data());
-  }
-
-  void keep_volumes() {
-    const auto timed = phases.timers.measure("surface");
     out.state.expected_volume += lead * net_inflow(s, out.geometry, before.phi, before.now->u);
     keep_sides_of_walls(s, out.geometry, out.state.phi);
     keep_sealed_full(s, before, out.state, out.geometry, out.state.phi);
@@ -350,7 +345,6 @@ struct StepInProgress {
     for (std::size_t k = 0; k < s.bodies.size(); ++k)
       if (s.bodies[k].is_rigid()) next.rigid[k] = go_on(s.bodies[k], next.rigid[k], leading.rigid[k], lead);
     if (any_moves(s)) out.geometry = stand_at_end(s, next, std::move(out.geometry));
-    continue_level_set(s, closed_cells(s, out.geometry), next.phi);
     const double expected = next.expected_volume + gap_volume(s, next.parting);
     next.corrected_volume += control_volume(s, out.geometry.psi, expected, volume_shift(), next.phi);
   }
@@ -375,9 +369,8 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double d
   if (s.has_prescribed_flow()) step.out.failure = fault_of_prescribed(s, state, dt);
   if (!step.out.failure.empty()) return std::move(step.out);
   step.move_bodies();
-  step.measure_geometry();
   step.transport_surface();
-  step.keep_volumes();
+  step.measure_geometry();
   if (s.has_prescribed_flow())
     step.prescribe_velocity();
   else if (step.transport_velocity())

@@ -41,42 +41,16 @@ struct Predictor {
   }
 };
 
-// Continues straight lines alone.
+}  // namespace
+
 template <int Dim>
-struct StraightPredictor {
-  const Layout<Dim>& layout;
-  const std::vector<double>& f;
-  const std::vector<char>& known;
-
-  bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
-
-  double along(Site s, Site d, char layer) const {
-    const double slope = f[s] - f[s + d];
-    if (earlier(s + 2 * d, layer)) return f[s] + minmod(slope, f[s + d] - f[s + 2 * d]);
-    return f[s] + std::clamp(slope, -layout.h(), layout.h());
-  }
-
-  // Mean over the lines.
-  bool predict(Site s, char layer, double& value) const {
-    double sum = 0;
-    int count = 0;
-    for (int a = 0; a < Dim; ++a)
-      for (const Site d : {-layout.stride(a), layout.stride(a)}) {
-        if (!earlier(s + d, layer) || !earlier(s + 2 * d, layer)) continue;
-        sum += along(s + d, d, layer);
-        ++count;
-      }
-    if (count > 0) value = sum / count;
-    return count > 0;
-  }
-};
-
-// Layer by layer what the predictor says.
-template <int Dim, class Predictor>
-void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
-                 const Predictor& predictor, std::vector<double>& f, std::vector<char>& known) {
+void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
+                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known) {
+  halo.fill_ghosts({f.data()});
+  halo.fill_ghosts({known.data()});
+  const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
   std::vector<char> next = known;  // neighbours still read `known` while this is written
-  for (int n = 0; n < layers; ++n) {
+  for (int n = 0; n < options.layers; ++n) {
     const char layer = char(n + 2);
     for_each_site(layout, box, [&](Site s) {
       double value;
@@ -91,33 +65,9 @@ void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
   }
 }
 
-}  // namespace
-
-template <int Dim>
-void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
-                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known) {
-  halo.fill_ghosts({f.data()});
-  halo.fill_ghosts({known.data()});
-  const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
-  fill_layers(layout, halo, box, options.layers, predictor, f, known);
-}
-
-template <int Dim>
-void extrapolate_straight(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
-                          std::vector<double>& f, std::vector<char>& known) {
-  halo.fill_ghosts({f.data()});
-  halo.fill_ghosts({known.data()});
-  const StraightPredictor<Dim> predictor{layout, f, known};
-  fill_layers(layout, halo, box, layers, predictor, f, known);
-}
-
 template void extrapolate<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, const ExtrapolateOptions&,
                              std::vector<double>&, std::vector<char>&);
 template void extrapolate<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, const ExtrapolateOptions&,
                              std::vector<double>&, std::vector<char>&);
-template void extrapolate_straight<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, int, std::vector<double>&,
-                                      std::vector<char>&);
-template void extrapolate_straight<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, int, std::vector<double>&,
-                                      std::vector<char>&);
 
 }  // namespace seiche

@@ -45,13 +45,14 @@ double smooth_norm(const Layout<Dim>& layout, const double* f) {
 }
 
 // phi <- phi + w (d - phi), d the distance of the nearest point of the zero, w from 0 to 1 as phi or its slope there is
-// off; marks what relaxation is to leave alone. Leaves alone what is marked. phi in cells, ghosts filled.
+// off; marks what relaxation is to leave alone. phi in cells, ghosts filled.
 template <int Dim>
-void settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi, CellField<Dim, char>& fixed) {
+CellField<Dim, char> settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi) {
   constexpr double none = 0.02, all = 0.1;
+  CellField<Dim, char> fixed(layout, 0);
   const CellField<Dim> start = phi;
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
-    if (fixed[s] || std::abs(start[s]) >= reach) return;
+    if (std::abs(start[s]) >= reach) return;
     const auto foot = foot_on_zero(layout, start, i, reach);
     if (!foot) {
       fixed[s] = std::abs(smooth_norm(layout, start.data() + s) - 1) < all;
@@ -62,6 +63,7 @@ void settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& p
     const double off = std::max(std::abs(foot->slope - 1), std::abs(start[s] - d) / std::max(1.0, std::abs(d)));
     phi[s] += std::clamp((off - none) / (all - none), 0.0, 1.0) * (d - start[s]);
   });
+  return fixed;
 }
 
 // What the relaxation needs of a band cell's initial values: for each neighbour, the distance in cells to the zero
@@ -71,7 +73,7 @@ struct BandCell {
   Site site;
   double sign;
   double step;
-  unsigned sides;  // bit 2 axis + side: beyond are no cells, or closed ones
+  unsigned sides;  // bit 2 axis + side: no cell of the domain beyond
   std::array<std::array<double, 2>, Dim> reach;
 };
 
@@ -79,12 +81,11 @@ template <int Dim>
 class Relaxation {
  public:
   Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
-             const CellField<Dim, char>& fixed, const CellField<Dim, char>* closed, CellField<Dim>& phi)
+             const CellField<Dim, char>& fixed, CellField<Dim>& phi)
       : layout_(layout),
         halo_(halo),
         limit_(options.band),
         entering_(std::min(options.entering, layout.halo())),
-        closed_(closed),
         phi_(phi),
         start_(phi) {
     collect(fixed);
@@ -123,12 +124,9 @@ class Relaxation {
     return false;
   }
 
-  // Beyond a side of the domain, or of what is closed, there is no interface to stop at, whatever sign the continued
-  // values take.
+  // Beyond a side of the domain there is no interface to stop at, whatever sign the continued values take.
   bool at_side(Site s, int axis, int side) const {
     const Geometry<Dim>& g = layout_.geometry();
-    const Site d = layout_.stride(axis);
-    if (closed_ && (*closed_)[side == 0 ? s - d : s + d]) return true;
     return !g.periodic[axis] && layout_.index(s)[axis] == (side == 0 ? 0 : g.cells[axis] - 1);
   }
 
@@ -195,7 +193,6 @@ class Relaxation {
   const Halo<Dim>& halo_;
   double limit_;
   int entering_;
-  const CellField<Dim, char>* closed_;
   CellField<Dim>& phi_;
   CellField<Dim> start_;
   std::vector<BandCell<Dim>> cells_;
@@ -210,24 +207,22 @@ void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, Cel
 }
 
 template <int Dim>
-void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
-                const CellField<Dim, char>* closed) {
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
+                CellField<Dim>& phi) {
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  CellField<Dim, char> fixed = closed ? *closed : CellField<Dim, char>(layout, 0);
+  CellField<Dim, char> fixed(layout, 0);
   if (options.settled > 0) {
-    settle_near_zero(layout, options.settled, phi, fixed);
+    fixed = settle_near_zero(layout, options.settled, phi);
     fill_ghosts(layout, halo, 1.0, phi);
   }
-  Relaxation<Dim>(layout, halo, options, fixed, closed, phi).run(options.iterations);
+  Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }
 
-template void redistance<2>(const Layout<2>&, const Halo<2>&, const RedistanceOptions&, CellField<2>&,
-                            const CellField<2, char>*);
-template void redistance<3>(const Layout<3>&, const Halo<3>&, const RedistanceOptions&, CellField<3>&,
-                            const CellField<3, char>*);
+template void redistance<2>(const Layout<2>&, const Halo<2>&, const RedistanceOptions&, CellField<2>&);
+template void redistance<3>(const Layout<3>&, const Halo<3>&, const RedistanceOptions&, CellField<3>&);
 template void fill_level_set_ghosts<2>(const Layout<2>&, const Halo<2>&, CellField<2>&);
 template void fill_level_set_ghosts<3>(const Layout<3>&, const Halo<3>&, CellField<3>&);
 

@@ -18,11 +18,9 @@ struct RedistanceOptions {
 // over to its distance from the nearest point of the zero of its cubic interpolant instead (levelset/closest_point.h),
 // none of the way where it is 2 % off, all of it from 10 % on: what strains phi sets how much of it is done, not the
 // number of calls. Where that finds no foot, phi stays if |grad phi| is within a tenth of 1 and is relaxed otherwise.
-// Cells marked in `closed` (ghosts filled; may be null) keep their phi, which continues what is around them: to their
-// neighbours they are the same as what lies beyond a side of the domain.
 template <int Dim>
-void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
-                const CellField<Dim, char>* closed = nullptr);
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
+                CellField<Dim>& phi);
 
 // Halo exchange and straight continuation beyond the sides, as level sets need it.
 template <int Dim>

@@ -63,8 +63,9 @@ void check_block(int cells) {
       const int n = first_step(immersed_block(cells, E, ratio)).iterations;
       if (Communicator().is_root())
         WARN(cells << "^3, ratio " << ratio << ", E " << E << ": " << n << " iterations (bar " << bar << ")");
-      const bool known_miss = cells == 64 && ratio == 0.01 && E == 1e3;  // docs/decisions/0027
-      CHECK(n <= (known_miss ? 31 : bar));
+      // docs/decisions/0027: 31 in 64^3 cells, 25 in 48^3 cells on several ranks.
+      const bool known_miss = ratio == 0.01 && E == 1e3;
+      CHECK(n <= (!known_miss ? bar : cells == 64 ? 31 : 25));
     }
 }
 
