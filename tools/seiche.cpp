@@ -29,10 +29,10 @@ Failure current_failure(int rank) {
     return {error.code(), error.what()};
   } catch (const std::bad_alloc&) {
     return {ExitCode::machine, fmt::format("rank {}: out of memory", rank)};
-  } catch (const std::system_error& error) {
-    const bool scarce = error.code() == std::errc::resource_unavailable_try_again;  // of a thread, say
-    return {scarce ? ExitCode::machine : ExitCode::bug, fmt::format("rank {}: {}", rank, error.what())};
   } catch (const std::exception& error) {
+    const auto* system = dynamic_cast<const std::system_error*>(&error);
+    if (system && system->code() == std::errc::resource_unavailable_try_again)  // of a thread, say
+      return {ExitCode::machine, fmt::format("rank {}: {}", rank, error.what())};
     return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): {}", version(), rank, error.what())};
   } catch (...) {
     return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): an unknown exception", version(), rank)};

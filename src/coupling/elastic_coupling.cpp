@@ -128,7 +128,7 @@ void hang_on_facets(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Press
   c.buoyancy_correction.segment(body.first, u.size()) = force;
 }
 
-// The highest pressure of the last solve in cells whose faces body k cuts or closes, Pa. Collective.
+// The highest pressure of the last step in cells whose faces body k cuts or closes, Pa. Collective.
 template <int Dim>
 double highest_pressure_beside(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure) {

@@ -116,6 +116,7 @@ struct StepInProgress {
   FaceField<Dim> u_star;
   ViscousPlan plan;
   ViscosityField<Dim> shared;
+  std::optional<CellField<Dim>> guess;  // of the pressure, by an earlier solve of the step
   std::optional<SurfaceTension<Dim>> tension;
   CoupledSolution<Dim> solution;
 
@@ -231,8 +232,8 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("solve");
     const int earlier = out.solve.iterations;
     const FaceField<Dim> slope = of_both(s, before, &Level<Dim>::q), flow = of_both(s, before, &Level<Dim>::u);
-    solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, out.state.pressure, slope, flow,
-                                               u_star, out.state.horizon, viscosity, fault});
+    solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, guess ? *guess : out.state.pressure,
+                                               slope, flow, u_star, out.state.horizon, viscosity, fault});
     out.solve = solution.report;
     out.solve.iterations += earlier;
     out.newton_iterations = solution.newton_iterations;
@@ -310,7 +311,8 @@ struct StepInProgress {
   // and the flow will be. Where these turn out too fast a shorter one is solved for: cut short, it would go straight
   // towards where the longer one leads, and stretch what turns. Once: light bodies that crumple get to where forces
   // balance in any step, the faster the shorter it is, and are not caught up with (a sheet with E = 100 Pa blew up).
-  // Where bodies in contact find no state for the longer one, likewise: half of it, twice at most.
+  // Where the solve for the longer one fails, as where bodies in contact find no state, likewise: half of it, twice at
+  // most.
   void solve_for_a_step_to_come() {
     constexpr int most_plans = 2, most_failures = 2;
     out.state.horizon = choose_horizon(s, out.state, dt);
@@ -352,11 +354,11 @@ struct StepInProgress {
   // The most that the volume control moves the surface by, m.
   double volume_shift() const { return 0.05 * s.layout.h(); }
 
-  // But for the pressure, the first guess of the next solve.
+  // The pressure found is the first guess of the next solve. That of a solve that failed is not: it may be anything.
+  // The state keeps that of the last step, which elastic bodies are held by, whatever was tried in between.
   void start_again(const State<Dim>& moved, const StepGeometry<Dim>& measured) {
-    CellField<Dim> guess = std::move(out.state.pressure);
+    if (out.failure.empty()) guess = std::move(out.state.pressure);
     out.state = moved;
-    out.state.pressure = std::move(guess);
     out.geometry = measured;
   }
 };

@@ -1,6 +1,7 @@
 // `seiche check`: everything that can be known about a scene without running it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/gravity.h"
@@ -107,7 +108,11 @@ struct Start {
 Start look_at_start(const Scene& scene, const Cost& cost, const Verified& found, const Communicator& ranks) {
   if (cost.cells <= most_cells_set_up) {
     const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);
-    return {simulation->describe_start(), simulation->take_warnings()};
+    Start start{simulation->describe_start(), found.notes};
+    for (std::string& text : simulation->take_warnings())
+      if (std::find(start.warnings.begin(), start.warnings.end(), text) == start.warnings.end())
+        start.warnings.push_back(std::move(text));
+    return start;
   }
   Start start{found.meshes, found.notes};
   start.lines.push_back(

@@ -134,7 +134,7 @@ bool stopped_early(const Communicator& ranks, RunLog& log) {
   std::string name;
   for (const std::string& got : ranks.all_gather(number != 0 ? signal_name(number) : ""))
     if (name.empty()) name = got;
-  log.warn(fmt::format("stopped: {} before the first step; nothing was written", name));
+  log.warn(fmt::format("stopped: {} before the first step; there is nothing to resume", name));
   return true;
 }
 

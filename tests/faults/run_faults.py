@@ -822,6 +822,20 @@ def body_far_outside(bench):
     expect("thinner than a cell" not in result.output + result.errors, "a container is called thin")
 
 
+def mesh_in_millimetres(bench):
+    """A static mesh far wider than the domain is told of by `check` as by `run`, with the scale that would fit."""
+    corners = [(9, 5, 5), (1, 5, 5), (5, 9, 5), (5, 1, 5), (5, 5, 9), (5, 5, 1)]
+    lines = ["v {} {} {}".format(*(20 * x for x in c)) for c in corners]
+    lines += [f"f {a} {b} {c}" for a, b, c in ((1, 3, 5), (3, 2, 5), (2, 4, 5), (4, 1, 5), (3, 1, 6), (2, 3, 6), (4, 2, 6), (1, 4, 6))]
+    bench.path("wide.obj").write_text("\n".join(lines) + "\n")
+    solid = '[[solid]]\nname = "wide"\nkind = "static"\nshape = "mesh"\nfile = "wide.obj"\n'
+    scene = bench.scene(box_scene([8, 8, 8], solid))
+    for arguments in (("check", scene), ("run", scene, "--out", "out", "--frames", "0")):
+        result = bench.run(*arguments).needs(0)
+        text = result.output + result.errors
+        expect(text.count("'wide' is 160 m wide") == 1, f"{arguments[0]} says: {text}")
+
+
 def body_leaves_the_domain(bench):
     """Row 23: through an open side, slowly or at 500 m/s: flies on by itself, and no longer shortens the steps."""
     for speed in (5.0, 500.0):
@@ -1056,7 +1070,7 @@ TABLES = {
                     foreign_checkpoints, other_rank_counts, edited_scene],
     "frames": [frames_open_elsewhere],
     "command_line": [command_line, misspelt_words, pictures_and_overwriting],
-    "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_far_outside, body_leaves_the_domain, body_thinner_than_a_cell,
+    "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_far_outside, mesh_in_millimetres, body_leaves_the_domain, body_thinner_than_a_cell,
               body_smaller_than_a_cell, too_many_bodies, fast_body_and_thin_wall, body_squeezed_between_solids,
               piston_in_a_full_tank, density_ratios, no_gravity_and_too_much, gravity_flips, prescribed_motion_jumps],
     "elastic": [elastic_out_of_range, elastic_meshes_at_fault],
