@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "coupling/checkpoint_state.h"
 #include "coupling/contact_setup.h"
+#include "coupling/energy_budget.h"
 #include "coupling/features.h"
 #include "coupling/measures.h"
 #include "coupling/scene_account.h"
@@ -117,13 +118,22 @@ class FlowSimulation : public Simulation {
   // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
   Attempt<Dim> attempt(double dt) {
     const bool solved = !setup_.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
-    if (state_.step > 0 || !solved) return attempt_step(setup_, state_, dt, phases_);
-    Attempt<Dim> trial = attempt_step(setup_, state_, dt, phases_);
+    if (state_.step > 0 || !solved) return budgeted_step(state_, dt);
+    Attempt<Dim> trial = budgeted_step(state_, dt);
     if (!trial.failure.empty()) return trial;
-    Attempt<Dim> informed = attempt_step(setup_, inform(trial.state, dt), dt, phases_);
+    Attempt<Dim> informed = budgeted_step(inform(trial.state, dt), dt);
     informed.state.earlier = informed.state.gas.earlier = nullptr;
     informed.state.dt_before = 0;
     return informed;
+  }
+
+  // Fails where kinetic energy comes from nowhere. `start` is the present state or it as informed by a trial.
+  Attempt<Dim> budgeted_step(const State<Dim>& start, double dt) {
+    Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
+    if (!a.failure.empty() || setup_.has_prescribed_flow()) return a;
+    const StepStats end = measure(a.state, a.geometry);
+    a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a, end);
+    return a;
   }
 
   StepGeometry<Dim> measure_geometry() const {
@@ -204,17 +214,23 @@ class FlowSimulation : public Simulation {
                     state_.step, parting_error_));
   }
 
+  // Volumes, energies, momentum and speed of a state.
+  StepStats measure(const State<Dim>& state, const StepGeometry<Dim>& geometry) const {
+    StepStats stats;
+    stats.step = state.step;
+    stats.time = state.time;
+    stats.dt = state.dt_now;
+    measure_fluids(setup_, state, geometry.psi, stats);
+    measure_air(setup_, state, geometry.psi, stats);
+    stats.liquid_volume -= volume_beyond(setup_, geometry, state.phi);
+    measure_rigid(setup_, state, stats);
+    measure_elastic(setup_, state, stats);
+    return stats;
+  }
+
   // What stats() and solids() answer, of the present state.
   void refresh() {
-    stats_ = {};
-    stats_.step = state_.step;
-    stats_.time = state_.time;
-    stats_.dt = state_.dt_now;
-    measure_fluids(setup_, state_, geometry_.psi, stats_);
-    measure_air(setup_, state_, geometry_.psi, stats_);
-    stats_.liquid_volume -= volume_beyond(setup_, geometry_, state_.phi);
-    measure_rigid(setup_, state_, stats_);
-    measure_elastic(setup_, state_, stats_);
+    stats_ = measure(state_, geometry_);
     stats_.max_divergence = divergence_;
     stats_.newton_iterations = newton_iterations_;
     stats_.contacts = contacts_;

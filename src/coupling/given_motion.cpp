@@ -6,16 +6,6 @@
 namespace seiche {
 namespace {
 
-// Faces of a side that this rank owns.
-template <int Dim>
-Box<Dim> faces_of_side(const Layout<Dim>& layout, int axis, int side) {
-  Box<Dim> box = layout.faces(axis);
-  const int at = side == 0 ? 0 : layout.geometry().cells[axis];
-  box.lower[axis] = std::max(box.lower[axis], at);
-  box.upper[axis] = std::min(box.upper[axis], at + 1);
-  return box;
-}
-
 // Along a side only what it drags or brings counts.
 template <int Dim>
 double fastest_of_side(const Setup<Dim>& s, int axis, int side, double t) {
@@ -58,15 +48,30 @@ double fastest_given(const Setup<Dim>& s, double t0, double t1, double t) {
 
 }  // namespace
 
+template <int Dim>
+Box<Dim> faces_of_side(const Layout<Dim>& layout, int axis, int side) {
+  Box<Dim> box = layout.faces(axis);
+  const int at = side == 0 ? 0 : layout.geometry().cells[axis];
+  box.lower[axis] = std::max(box.lower[axis], at);
+  box.upper[axis] = std::min(box.upper[axis], at + 1);
+  return box;
+}
+
 // Looked at where no motion of whole or half periods is zero by chance.
+template <int Dim>
+double fastest_given_flow(const Setup<Dim>& s, double t, double dt) {
+  double fastest = 0;
+  for (const double part : {0.0, 0.29, 0.5, 1.0})
+    fastest = std::max(fastest, fastest_given(s, t, t + dt, t + part * dt));
+  return fastest;
+}
+
 template <int Dim>
 double limit_of_given_flow(const Setup<Dim>& s, double t, double dt) {
   constexpr int most_looks = 20;
   const double reach = s.scene.time.cfl * s.layout.h();
   for (int n = 0; n < most_looks; ++n) {
-    double fastest = 0;
-    for (const double part : {0.0, 0.29, 0.5, 1.0})
-      fastest = std::max(fastest, fastest_given(s, t, t + dt, t + part * dt));
+    const double fastest = fastest_given_flow(s, t, dt);
     if (fastest * dt <= reach) break;
     dt = reach / fastest;
   }
@@ -89,6 +94,8 @@ double limit_of_given_velocity(const Setup<Dim>& s, const State<Dim>& start, dou
 }
 
 #define SEICHE_INSTANTIATE(D)                                              \
+  template double fastest_given_flow<D>(const Setup<D>&, double, double);  \
+  template Box<D> faces_of_side<D>(const Layout<D>&, int, int);            \
   template double limit_of_given_flow<D>(const Setup<D>&, double, double); \
   template double limit_of_given_velocity<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)

@@ -91,6 +91,16 @@ void measure_fluids(const Setup<Dim>& s, const State<Dim>& state, const NodeFiel
 }
 
 template <int Dim>
+double kinetic_energy_of_fluids_before(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
+  if (!state.before) return 0;
+  const Vec<Dim> g = Vec<Dim>::Zero();
+  double sum = sum_fluid(s, *state.before, state.phi, psi, s.density(), g).sums[1];
+  if (s.has_gas() && state.gas.before)
+    sum += sum_fluid(s, *state.gas.before, negated(s.layout, state.phi), psi, s.gas_density(), g).sums[1];
+  return s.ranks.global_sum(sum);
+}
+
+template <int Dim>
 void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
   if (!s.keeps_air()) return;
   const std::vector<double> volumes = air_volumes(s, state.air, psi, state.phi);
@@ -209,11 +219,12 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
   return solids;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                         \
-  template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&); \
-  template void measure_air<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);    \
-  template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                       \
-  template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                     \
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);        \
+  template double kinetic_energy_of_fluids_before<D>(const Setup<D>&, const State<D>&, const NodeField<D>&); \
+  template void measure_air<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);           \
+  template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                              \
+  template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                            \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -8,6 +8,11 @@ namespace seiche {
 template <int Dim>
 void measure_fluids(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
 
+// Kinetic energy of liquid and gas, where they are now, with the velocities of one step before, J; 0 at the start.
+// Collective.
+template <int Dim>
+double kinetic_energy_of_fluids_before(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi);
+
 // Counts enclosed air. Collective.
 template <int Dim>
 void measure_air(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
