@@ -119,8 +119,7 @@ double pull_of_forces(const Setup<Dim>& s, double t) {
     if (!body.is_elastic()) continue;
     const Eigen::VectorXd f = applied_force_at(body.elastic(), t);
     const Eigen::VectorXd& m = body.elastic().body.lumped_mass;
-    const int components = m.size() > 0 ? int(f.size() / m.size()) : 1;  // a mass may be that of a node
-    for (int n = 0; n < f.size(); ++n) sum += f[n] * f[n] / m[n / components];
+    for (int n = 0; n < f.size(); ++n) sum += f[n] * f[n] / m[n];
   }
   return std::sqrt(sum);
 }
@@ -136,13 +135,13 @@ double most_kinetic_energy(const EnergyBudget& b) {
 // Velocities of solids are those at the end of the horizon, so forces act until then.
 template <int Dim>
 EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
-                           const NodeField<Dim>& psi, const Attempt<Dim>& attempt, const StepStats& end) {
+                           const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
   const double t = before.time, dt = attempt.state.time - t, span = dt + attempt.state.horizon;
   EnergyBudget b;
   b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s, before, psi));
   b.elastic = start.elastic_energy;
   b.surface = std::max(surface_energy(s, before.phi), surface_energy(s, attempt.state.phi));
-  b.mass = std::max(total_mass(s, start), total_mass(s, end));
+  b.mass = std::max(total_mass(s, start), total_mass(s, attempt.stats));
   b.gain = span * (s.gravity.of_step(t + dt, dt).norm() + s.gravity.of_step(t, before.dt_now).norm());
   b.given = still * s.layout.h() / dt + fastest_led(s, attempt, t, span) +
             std::sqrt(double(Dim)) * fastest_given_flow(s, t, dt);
@@ -153,21 +152,21 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
 
 template <int Dim>
 std::string fault_of_energy(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
-                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt, const StepStats& end) {
-  const EnergyBudget budget = energy_budget(s, before, start, psi, attempt, end);
+                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
+  const EnergyBudget budget = energy_budget(s, before, start, psi, attempt);
   const double most = most_kinetic_energy(budget);
-  if (end.kinetic_energy <= most) return {};
+  if (attempt.stats.kinetic_energy <= most) return {};
   return fmt::format(
       "kinetic energy grows from {:.4g} to {:.4g} {}, while all that it could draw on comes to {:.4g}: the solve blew "
       "up",
-      start.kinetic_energy, end.kinetic_energy, Dim == 2 ? "J/m" : "J", most);
+      start.kinetic_energy, attempt.stats.kinetic_energy, Dim == 2 ? "J/m" : "J", most);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template EnergyBudget energy_budget<D>(const Setup<D>&, const State<D>&, const StepStats&, const NodeField<D>&,  \
-                                         const Attempt<D>&, const StepStats&);                                     \
+                                         const Attempt<D>&);                                                       \
   template std::string fault_of_energy<D>(const Setup<D>&, const State<D>&, const StepStats&, const NodeField<D>&, \
-                                          const Attempt<D>&, const StepStats&);
+                                          const Attempt<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -28,11 +28,11 @@ double most_kinetic_energy(const EnergyBudget& budget);
 // Collective.
 template <int Dim>
 EnergyBudget energy_budget(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
-                           const NodeField<Dim>& psi, const Attempt<Dim>& attempt, const StepStats& end);
+                           const NodeField<Dim>& psi, const Attempt<Dim>& attempt);
 
 // Empty, or by how much the attempt's kinetic energy is more than the step can have given. Collective.
 template <int Dim>
 std::string fault_of_energy(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
-                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt, const StepStats& end);
+                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt);
 
 }  // namespace seiche

@@ -43,7 +43,7 @@ class FlowSimulation : public Simulation {
     if (!note.empty()) phases_.warnings.push_back(note);
     account_ = account_scene(setup_, state_, geometry_.psi);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
-    refresh();
+    refresh(measure(state_, geometry_));
   }
 
   void set_fault_hook(FaultHook hook) override { phases_.hook = std::move(hook); }
@@ -84,7 +84,7 @@ class FlowSimulation : public Simulation {
   void load(const CheckpointData& data) override {
     state_ = load_state(setup_, data);
     geometry_ = measure_geometry();
-    refresh();
+    refresh(measure(state_, geometry_));
   }
 
   SurfaceMesh solid_surface(std::size_t k) const override {
@@ -130,9 +130,9 @@ class FlowSimulation : public Simulation {
   // Fails where kinetic energy comes from nowhere. `start` is the present state or it as informed by a trial.
   Attempt<Dim> budgeted_step(const State<Dim>& start, double dt) {
     Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
-    if (!a.failure.empty() || setup_.has_prescribed_flow()) return a;
-    const StepStats end = measure(a.state, a.geometry);
-    a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a, end);
+    if (!a.failure.empty()) return a;
+    a.stats = measure(a.state, a.geometry);
+    if (!setup_.has_prescribed_flow()) a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a);
     return a;
   }
 
@@ -193,7 +193,7 @@ class FlowSimulation : public Simulation {
     warn_of_parting();
     for (const std::string& line : a.solve.ladder)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
-    refresh();
+    refresh(a.stats);
   }
 
   // Of a step that failed: keys that a resumed run may change.
@@ -229,8 +229,8 @@ class FlowSimulation : public Simulation {
   }
 
   // What stats() and solids() answer, of the present state.
-  void refresh() {
-    stats_ = measure(state_, geometry_);
+  void refresh(const StepStats& measured) {
+    stats_ = measured;
     stats_.max_divergence = divergence_;
     stats_.newton_iterations = newton_iterations_;
     stats_.contacts = contacts_;

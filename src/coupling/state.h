@@ -121,6 +121,7 @@ struct Attempt {
   std::string failure;  // empty: accepted
   State<Dim> state;
   StepGeometry<Dim> geometry;
+  StepStats stats;  // volumes, energies, momentum and speed at its end
   SolveReport solve;
   double divergence = 0;
   int newton_iterations = 0, contacts = 0;

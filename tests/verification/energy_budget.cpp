@@ -41,7 +41,8 @@ void check_blown_up() {
   Attempt<Dim> a = attempt_step(setup, start, 0.05, phases);
   REQUIRE(a.failure.empty());
   const auto fault = [&] {
-    return fault_of_energy(setup, start, measured(setup, start, psi), psi, a, measured(setup, a.state, a.geometry.psi));
+    a.stats = measured(setup, a.state, a.geometry.psi);
+    return fault_of_energy(setup, start, measured(setup, start, psi), psi, a);
   };
   CHECK(fault().empty());
   Level<Dim> blown = *a.state.now;
