@@ -274,7 +274,7 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
                          CellField<Dim>& phi) {
   check_forces_of_step(s, t, t + dt);
   CellField<Dim> joined = phi;
-  if (s.sides.any_inflow()) join_inflow(s.layout, s.sides, t, joined);
+  if (s.sides.any_inflow()) join_inflow(s.layout, s.halo, s.ranks, s.sides, t, joined);
   LevelSetTransport how;
   if (s.has_prescribed_flow()) how.trace = Trace::third_order;         // nothing else errs there
   how.one_sided_at_kinks = causes_against(s, Feature::kinks).empty();  // docs/decisions/0023-kinks.md

@@ -112,7 +112,7 @@ void let_air_follow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t
       const Site inward = (side == 0 ? 1 : -1) * layout.stride(axis);
       Box<Dim> box = layout.padded();
       const int layers = side == 0 ? edge - box.lower[axis] : box.upper[axis] - 1 - edge;
-      if (layers <= 0) continue;
+      if (layers < 0) continue;
       box.lower[axis] = edge, box.upper[axis] = edge + 1;
       for_each_index_in_order(layout, box, [&](Site s, const IVec<Dim>& i) {
         if (valid.at(axis, s)) return;

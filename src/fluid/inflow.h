@@ -39,8 +39,9 @@ void let_air_follow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t
                     FaceField<Dim>& u);
 
 // Makes the level set know the liquid that comes through inflow sides at time t. Ghosts of phi must be filled; fills
-// some of them.
+// them. Collective.
 template <int Dim>
-void join_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, CellField<Dim>& phi);
+void join_inflow(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks, const Sides<Dim>& sides,
+                 double t, CellField<Dim>& phi);
 
 }  // namespace seiche

@@ -1,4 +1,7 @@
 // The level set behind inflow sides.
+#include <cstring>
+#include <set>
+
 #include "fluid/inflow.h"
 #include "fluid/inflow_places.h"
 #include "grid/loops.h"
@@ -6,27 +9,66 @@
 namespace seiche {
 namespace {
 
+using FaceNumbers = std::set<std::int64_t>;
+
+// Number of the face of a side at a cell: brought around periodic sides, the outermost one beyond others.
+template <int Dim>
+std::int64_t number_of_face(const Geometry<Dim>& g, int axis, const IVec<Dim>& cell) {
+  std::int64_t n = 0;
+  for (int b = Dim - 1; b >= 0; --b) {
+    if (b == axis) continue;
+    const int length = g.cells[b], around = (cell[b] % length + length) % length;
+    n = n * length + (g.periodic[b] ? around : std::clamp(cell[b], 0, length - 1));
+  }
+  return n;
+}
+
+// Those of all ranks. Collective.
+FaceNumbers gather(const Communicator& ranks, const std::vector<std::int64_t>& mine) {
+  const std::string sent(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(std::int64_t));
+  FaceNumbers all;
+  for (const std::string& bytes : ranks.all_gather(sent)) {
+    std::vector<std::int64_t> theirs(bytes.size() / sizeof(std::int64_t));
+    if (!theirs.empty()) std::memcpy(theirs.data(), bytes.data(), bytes.size());
+    all.insert(theirs.begin(), theirs.end());
+  }
+  return all;
+}
+
 // The streams that enter through a side at one time: faces that let liquid in, and the drift of the liquid beyond along
 // the side as it comes nearer by one. A stream's rim is where dry faces begin; liquid beside it goes on into it. Walls
 // around the side continue its outermost faces. Lengths are cells.
 template <int Dim>
 class Streams {
  public:
-  Streams(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, const CellField<Dim>& phi)
+  Streams(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t)
       : axis_(axis), reach_(layout.halo()), box_(layout.padded().grown(2 * layout.halo())) {
+    if (layout.cells().empty()) box_ = layout.cells();
     box_.lower[axis] = 0, box_.upper[axis] = 1;
     const std::size_t size = std::size_t(box_.size());
     drift_.resize(size);
     dry_.resize(size);
     for (std::size_t n = 0; n < size; ++n) {
-      IVec<Dim> cell = index(n);
-      Vec<Dim> x = layout.position(cell, cell_offset<Dim>());
+      Vec<Dim> x = layout.position(index(n), cell_offset<Dim>());
       x[axis] = side_position(layout, axis, side);
       drift_[n] = drift_at(sides, side, center_of_face(layout, axis, bring_inside(layout, axis, x)), t);
-      cell[axis] = side == 0 ? 0 : layout.geometry().cells[axis] - 1;
-      dry_[n] = !drift_[n] && layout.padded().contains(cell) && phi[layout.site(cell)] >= 0;
       any_ = any_ || drift_[n];
     }
+  }
+
+  // The owned faces where a rim may be: dry ones next to others; `cells` are those before the side.
+  std::vector<std::int64_t> rims(const Layout<Dim>& layout, const Box<Dim>& cells, const CellField<Dim>& phi) const {
+    std::vector<std::int64_t> mine;
+    const auto is_dry = [&](Site s, const IVec<Dim>& i) { return phi[s] >= 0 && !feeds(i); };
+    for_each_index_in_order(layout, any_ ? cells : Box<Dim>(), [&](Site s, const IVec<Dim>& i) {
+      bool alone = is_dry(s, i);
+      around(i, 1, [&](const IVec<Dim>& j) { alone = alone && is_dry(layout.site(j), j); });
+      if (is_dry(s, i) && !alone) mine.push_back(number_of_face(layout.geometry(), axis_, i));
+    });
+    return mine;
+  }
+  void set_rims(const Geometry<Dim>& g, const FaceNumbers& rims) {
+    for (std::size_t n = 0; n < dry_.size(); ++n) dry_[n] = rims.contains(number_of_face(g, axis_, index(n)));
   }
 
   bool any() const { return any_; }
@@ -36,8 +78,9 @@ class Streams {
   std::optional<double> distance(const IVec<Dim>& i, double depth) const {
     const auto near = nearest_drift(i, int(std::ceil(depth)));
     if (!near) return {};
-    const auto ahead = nearest_drift(nearest(i.template cast<double>() + depth * *near), 1).value_or(*near);
-    const Vec<Dim> there = i.template cast<double>() + depth * ahead;
+    const Vec<Dim> x = i.template cast<double>();
+    const auto ahead = nearest_drift(nearest(x + within_reach(depth * *near)), 1).value_or(*near);
+    const Vec<Dim> there = x + within_reach(depth * ahead);
     const double slant = std::sqrt(1 + ahead.squaredNorm());
     return (feeds(nearest(there)) ? -distance_to_rim(there) : distance_along(there)) / slant;
   }
@@ -58,6 +101,11 @@ class Streams {
     return r;
   }
 
+  // What the box holds around owned cells, less the way to a rim there.
+  Vec<Dim> within_reach(const Vec<Dim>& drifted) const {
+    const double most = 2 * reach_;
+    return drifted.norm() > most ? Vec<Dim>(drifted * (most / drifted.norm())) : drifted;
+  }
   IVec<Dim> nearest(const Vec<Dim>& x) const { return x.array().round().template cast<int>(); }
   IVec<Dim> index(std::size_t n) const {
     IVec<Dim> i = box_.lower;
@@ -129,47 +177,55 @@ double join_behind(double straight, double first, double d, double depth, double
   return std::max(std::min(straight, std::max(d, -depth)), d);
 }
 
-// Cells up to `reach` layers on both sides of a domain side, in the padded box.
+// Cells up to `reach` layers on both sides of a domain side, in `within`.
 template <int Dim>
-Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach) {
-  Box<Dim> box = layout.padded();
+Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach, Box<Dim> within) {
   const int edge = side == 0 ? 0 : layout.geometry().cells[axis];
-  box.lower[axis] = std::max(box.lower[axis], edge - reach);
-  box.upper[axis] = std::min(box.upper[axis], edge + reach);
-  return box;
+  within.lower[axis] = std::max(within.lower[axis], edge - reach);
+  within.upper[axis] = std::min(within.upper[axis], edge + reach);
+  return within;
+}
+
+// Of one side. Before it phi is at most the distance to its faces that let liquid in.
+template <int Dim>
+void join_streams(const Layout<Dim>& layout, const Streams<Dim>& streams, int axis, int side, CellField<Dim>& phi) {
+  const int reach = layout.halo(), edge = side == 0 ? 0 : layout.geometry().cells[axis] - 1;
+  const double h = layout.h();
+  const CellField<Dim> before = phi;
+  const Site inward = (side == 0 ? 1 : -1) * layout.stride(axis);
+  for_each_index(layout, side_layers(layout, axis, side, reach, layout.padded()), [&](Site s, const IVec<Dim>& i) {
+    const int k = (side == 0 ? 1 : -1) * (i[axis] - edge);  // cells from the first inside
+    IVec<Dim> along = i;
+    along[axis] = 0;
+    if (k >= 0) {
+      const double beside = streams.distance_along(along.template cast<double>());
+      if (beside < reach) phi[s] = std::min(phi[s], std::hypot(k + 0.5, beside) * h);
+    } else if (const auto d = streams.distance(along, -k - 0.5)) {
+      phi[s] = join_behind(phi[s], before[s - k * inward], *d * h, (-k - 0.5) * h, h);
+    }
+  });
 }
 
 }  // namespace
 
-// Before the side phi is at most the distance to its faces that let liquid in.
+// Ghosts take what the ranks found that own the cells: only these know all that a stream's distance hangs on.
 template <int Dim>
-void join_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, CellField<Dim>& phi) {
-  const int reach = layout.halo();
-  const double h = layout.h();
+void join_inflow(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks, const Sides<Dim>& sides,
+                 double t, CellField<Dim>& phi) {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
-      const Box<Dim> layers = side_layers(layout, a, side, reach);
-      if (sides.type(a, side) != SideType::inflow || layers.empty()) continue;
-      const Streams<Dim> streams(layout, sides, a, side, t, phi);
-      if (!streams.any()) continue;
-      const CellField<Dim> before = phi;
-      const Site inward = (side == 0 ? 1 : -1) * layout.stride(a);
-      const int edge = side == 0 ? 0 : layout.geometry().cells[a] - 1;
-      for_each_index(layout, layers, [&](Site s, const IVec<Dim>& i) {
-        const int k = (side == 0 ? 1 : -1) * (i[a] - edge);  // cells from the first inside
-        IVec<Dim> along = i;
-        along[a] = 0;
-        if (k >= 0) {
-          const double beside = streams.distance_along(along.template cast<double>());
-          if (beside < reach) phi[s] = std::min(phi[s], std::hypot(k + 0.5, beside) * h);
-        } else if (const auto d = streams.distance(along, -k - 0.5)) {
-          phi[s] = join_behind(phi[s], before[s - k * inward], *d * h, (-k - 0.5) * h, h);
-        }
-      });
+      if (sides.type(a, side) != SideType::inflow) continue;
+      Streams<Dim> streams(layout, sides, a, side, t);
+      Box<Dim> first = side_layers(layout, a, side, 1, layout.cells());
+      streams.set_rims(layout.geometry(), gather(ranks, streams.rims(layout, first, phi)));
+      if (streams.any()) join_streams(layout, streams, a, side, phi);
     }
+  halo.fill_ghosts(phi);
 }
 
-template void join_inflow<2>(const Layout<2>&, const Sides<2>&, double, CellField<2>&);
-template void join_inflow<3>(const Layout<3>&, const Sides<3>&, double, CellField<3>&);
+template void join_inflow<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const Sides<2>&, double,
+                             CellField<2>&);
+template void join_inflow<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const Sides<3>&, double,
+                             CellField<3>&);
 
 }  // namespace seiche

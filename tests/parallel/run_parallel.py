@@ -123,6 +123,30 @@ radius = 0.15
 checkpoint_every = 1
 """
 
+# A slanted jet whose upper rim lies between one and two halos beyond the cells of the lowest of three ranks.
+JET = f"""\
+dimension = 2
+[domain]
+lower = [0.0, 0.0]
+upper = [0.4, 1.2]
+cell_size = 0.025
+[domain.boundary]
+x_lower = {{ type = "inflow", velocity = ["(y > 0.2 && y < 0.5) ? 2 : 0", "(y > 0.2 && y < 0.5) ? 1.9 : 0"] }}
+x_upper = {{ type = "outflow", pressure = 0.0 }}
+y_lower = {{ type = "outflow", pressure = 0.0 }}
+[time]
+end = 0.1
+fixed_step = 0.005
+frame_rate = 10.0
+[liquid]
+density = 1000.0
+viscosity = 0.0
+[solver]
+tolerance = {TOLERANCE}
+[output]
+frames = ["surface", "velocity"]
+"""
+
 # Pressure and viscosity in one solve, bodies dragged along; mud that stands up to a stress.
 THICK = viscous(SOFT, 20.0)
 MUD = TWENTY_STEPS.replace("viscosity = 0.0",
@@ -252,6 +276,11 @@ def prescribed_ranks_agree(bench):
     ranks_agree(bench, SWIRL)
 
 
+def jet_ranks_agree(bench):
+    """A slanted jet, its rim beyond the halo of a rank that it blows into, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, JET, (2, 3))
+
+
 def same_bits_twice(bench, text):
     for out in ("one", "two"):
         bench.simulate(text=text, out=out, ranks=3).needs(0)
@@ -345,7 +374,7 @@ def air_killed_at_random(bench):
 
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
-                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, prescribed_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, prescribed_ranks_agree, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
                       gas_killed_at_random, air_killed_at_random]}
