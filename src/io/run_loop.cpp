@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "io/checkpoint.h"
 #include "io/run_agree.h"
 #include "io/run_scene.h"
 #include "io/scene_writer.h"
+#include "io/summary.h"
 
 namespace seiche {
 namespace {
@@ -171,6 +173,9 @@ void RunLoop::account(const StepStats& stats) {
 
 void RunLoop::pass_on_warnings() {
   for (const std::string& text : simulation_.take_warnings()) context_.log.warn(text);
+  const DomainSpec& domain = context_.scene.domain;
+  const std::string volume = volume_warning(state_, std::pow(domain.cell_size, context_.scene.dimension));
+  if (!volume.empty() && !std::exchange(told_of_volume_, true)) context_.log.warn(volume);
 }
 
 void RunLoop::write_frame() {

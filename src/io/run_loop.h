@@ -82,6 +82,7 @@ class RunLoop {
   double earlier_seconds_ = 0;  // of wall time, in earlier sessions
   std::map<std::string, double> earlier_phases_;
   Timers own_timers_;
+  bool told_of_volume_ = false;
   double longest_step_ = 0, longest_checkpoint_ = 0;  // s of wall time, to stop in good time
 };
 

@@ -30,6 +30,16 @@ double volume_drift(const RunState& state) {
   return scale > 0 ? (state.liquid_volume - state.expected_volume) / scale : 0;
 }
 
+std::string volume_warning(const RunState& state, double cell) {
+  constexpr double drift_told = 0.05, cells_told = 3;
+  const double amiss = std::abs(state.liquid_volume - state.expected_volume);
+  if (std::abs(volume_drift(state)) <= drift_told || amiss <= cells_told * cell) return {};
+  return fmt::format(
+      "step {}: the liquid's volume is {:.6g} where {:.6g} is expected of what was there, sources, inflow and outflow, "
+      "{:+.3g} %: shorter steps (time.cfl, time.max_step) or smaller cells keep it (told once a session)",
+      state.step, state.liquid_volume, state.expected_volume, 100 * volume_drift(state));
+}
+
 std::string json_string(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -7,6 +7,7 @@ import random
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy
 
@@ -84,6 +85,23 @@ class Results(unittest.TestCase):
                     self.assertRaisesRegex(tables.Fault, "volume", oracle.check_volume, SCENE, folder)
                 else:
                     oracle.check_volume(SCENE, folder)
+            (folder / "log.txt").write_text("warning: step 3: the liquid's volume is 0.4 where 0.5 is expected\n")
+            oracle.check_volume(SCENE, folder)
+
+    def test_frames_without_fields(self):
+        """Only where solids are all that is asked for a frame may be without grids."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "frames").mkdir()
+            (folder / "frames" / "frame.0000.vdb").write_bytes(b"")
+            for asked, faults, wrong in ((["solids"], ["file: no grids"], False), (["solids"], ["file: no time"], True),
+                                         (["surface"], ["file: no grids"], True), (None, ["file: no grids"], True)):
+                scene = {**SCENE, "output": {"frames": asked}} if asked else SCENE
+                with unittest.mock.patch.object(oracle, "frame_faults", return_value=faults):
+                    if wrong:
+                        self.assertRaisesRegex(tables.Fault, "frame", oracle.check_frames, scene, folder)
+                    else:
+                        oracle.check_frames(scene, folder)
 
 
 class Inputs(unittest.TestCase):

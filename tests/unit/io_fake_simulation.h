@@ -13,6 +13,7 @@ class FakeSimulation : public Simulation {
  public:
   std::int64_t fails_at = -1;  // this step cannot be done
   double largest_step = 0.03;  // s
+  double expected = 1;         // m^2 of liquid
 
   void set_fault_hook(FaultHook hook) override { hook_ = std::move(hook); }
   double time() const override { return time_; }
@@ -46,7 +47,7 @@ class FakeSimulation : public Simulation {
     f.values.assign(12, float(x_));
     return f;
   }
-  double expected_volume() const override { return 1; }
+  double expected_volume() const override { return expected; }
   CheckpointData save() const override {
     CheckpointData data;
     data.scalars = {{"time", time_}, {"step", double(step_)}};

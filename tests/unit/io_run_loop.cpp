@@ -72,11 +72,12 @@ class Bench {
   std::optional<double> walltime;
   FaultHook hook;
   RunState state;
-  std::string message, said;
+  std::string message, said, warned;
 
  private:
   RunEnd go(RunState start) {
-    RunLog log(ranks, {[&](const std::string& t) { said += t + "\n"; }, [](const std::string&) {}, {}},
+    RunLog log(ranks,
+               {[&](const std::string& t) { said += t + "\n"; }, [&](const std::string& t) { warned += t + "\n"; }, {}},
                Verbosity::normal);
     Watchdog watchdog(std::chrono::seconds(600), [](const std::string&) {});
     const StopSignals signals;
@@ -239,6 +240,30 @@ TEST_CASE("summaries are JSON with the drift relative to the expected volume") {
   RunSummary summary;
   summary.state.worst_residual = std::nan("");
   CHECK(format_summary(summary).find("\"worst_residual\": null") != std::string::npos);
+}
+
+TEST_CASE("a run whose liquid is far from its booked volume says so once") {
+  for (const double expected : {1.0, 3.0}) {
+    Bench bench(0.2);
+    bench.simulation.expected = expected;  // the liquid has 1 to 1.01, a cell 0.25
+    bench.run();
+    const std::size_t first = bench.warned.find("the liquid's volume is 1");
+    CHECK((first != std::string::npos) == (expected > 1));
+    CHECK(bench.warned.find("the liquid's volume", first + 1) == std::string::npos);
+  }
+}
+
+TEST_CASE("drift of the volume is told beyond a twentieth and three cells") {
+  RunState state;
+  state.initial_volume = state.expected_volume = 100;
+  state.liquid_volume = 106;
+  CHECK(volume_warning(state, 1).find("+6 %") != std::string::npos);
+  CHECK(volume_warning(state, 2.1).empty());
+  state.liquid_volume = 95.1;
+  CHECK(volume_warning(state, 1).empty());
+  state.liquid_volume = 94;
+  CHECK(volume_warning(state, 1).find("-6 %") != std::string::npos);
+  CHECK(volume_warning(RunState{}, 1).empty());
 }
 
 TEST_CASE("the run's own state goes through a checkpoint unchanged") {
