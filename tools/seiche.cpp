@@ -1,6 +1,9 @@
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <array>
 #include <clocale>
+#include <cstdio>
 #include <iostream>
 #include <new>
 #include <system_error>
@@ -94,14 +97,22 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
 }
 
 // Libraries of MPI and threads end without a word, or crash, where the limit of address space (ulimit -v) stops them.
-bool has_room_to_begin() {
+// Called before any library sets itself up: with what the C library has by then.
+void require_room_to_begin() {
   constexpr rlim_t least = rlim_t(300) << 20;  // a scene of 100 cells takes 260, most of it libraries and threads
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least) return true;
-  print_error(fmt::format("the limit of address space is {} MiB (ulimit -v); Seiche takes {} MiB to begin with",
-                          limit.rlim_cur >> 20, least >> 20));
-  return false;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least) return;
+  std::array<char, 160> text{};
+  const int length =
+      std::snprintf(text.data(), text.size(),
+                    "seiche: the limit of address space is %llu MiB (ulimit -v); Seiche takes %llu MiB to begin with\n",
+                    (unsigned long long)(limit.rlim_cur >> 20), (unsigned long long)(least >> 20));
+  (void)!write(STDERR_FILENO, text.data(), std::size_t(length));
+  _exit(int(ExitCode::machine));
 }
+
+// The dynamic linker calls what stands here before the libraries' own initialisers, some of which start threads.
+[[gnu::section(".preinit_array"), gnu::used]] void (*before_libraries)() = require_room_to_begin;
 
 }  // namespace
 }  // namespace seiche
@@ -109,7 +120,6 @@ bool has_room_to_begin() {
 int main(int argc, char** argv) {
   seiche::note_stop_signals();
   std::setlocale(LC_ALL, "C");
-  if (!seiche::has_room_to_begin()) return int(seiche::ExitCode::machine);
   const seiche::MpiSession mpi(argc, argv);
   const seiche::Communicator ranks;
   const seiche::EmergencyChannel emergency(ranks);

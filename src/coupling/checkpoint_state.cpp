@@ -142,6 +142,7 @@ void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
   visit("elastic." + body + ".cavity", m.cavity);
   visit("elastic." + body + ".kept_volume", m.kept_volume);
   visit("elastic." + body + ".extra_load", m.extra_load);
+  visit("elastic." + body + ".reaction", m.reaction);
 }
 
 // Vectors as texts: their bytes.

@@ -127,23 +127,31 @@ std::vector<Vec<Dim>> surface_of(const Setup<Dim>& s, const State<Dim>& state, s
   return points;
 }
 
+// Names of the periodic sides that a rigid or elastic body reaches beyond, or is nearer to than `near` cells.
+template <int Dim>
+std::vector<std::string> periodic_sides_at(const Setup<Dim>& s, const State<Dim>& state, std::size_t k, double near) {
+  const Geometry<Dim>& g = s.layout.geometry();
+  std::vector<std::string> sides;
+  if (!s.bodies[k].is_rigid() && !s.bodies[k].is_elastic()) return sides;
+  const std::vector<Vec<Dim>> points = surface_of(s, state, k);
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2 && g.periodic[a]; ++side) {
+      const double at = g.lower[a] + side * g.h * g.cells[a];
+      const auto reaches = [&](const Vec<Dim>& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
+      if (std::any_of(points.begin(), points.end(), reaches))
+        sides.push_back(fmt::format("{}_{}", "xyz"[a], side ? "upper" : "lower"));
+    }
+  return sides;
+}
+
 template <int Dim>
 std::string solids_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
   constexpr double near = 0.1;  // cells
-  const Geometry<Dim>& g = s.layout.geometry();
   std::string names;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_rigid() && !s.bodies[k].is_elastic()) continue;
-    const std::vector<Vec<Dim>> points = surface_of(s, state, k);
-    for (int a = 0; a < Dim; ++a)
-      for (int side = 0; side < 2 && g.periodic[a]; ++side) {
-        const double at = g.lower[a] + side * g.h * g.cells[a];
-        const auto reaches = [&](const Vec<Dim>& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
-        if (std::any_of(points.begin(), points.end(), reaches))
-          names += fmt::format("{}'{}' and the periodic side {}_{}, which no solid can pass", names.empty() ? "" : ", ",
-                               s.bodies[k].spec().name, "xyz"[a], side ? "upper" : "lower");
-      }
-  }
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    for (const std::string& side : periodic_sides_at(s, state, k, near))
+      names += fmt::format("{}'{}' and the periodic side {}, which no solid can pass", names.empty() ? "" : ", ",
+                           s.bodies[k].spec().name, side);
   return names;
 }
 
@@ -196,10 +204,27 @@ std::string fault_of_overlap(const Setup<Dim>& s, const Overlap& o, double least
   return fmt::format("solid '{}' and {} {} at the start; {}", name, other_name(s, o), how, remedy(s, o));
 }
 
+// The liquid does not see what of an elastic body lies beyond a periodic side. Its surface may end at the side.
+template <int Dim>
+std::vector<std::string> faults_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
+  constexpr double rounding = 1e-6;  // cells
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    const SolidSpec& spec = s.bodies[k].spec();
+    for (const std::string& side : periodic_sides_at(s, state, k, -rounding))
+      lines.push_back(
+          fmt::format("{}: elastic solid '{}' reaches beyond the periodic side {}, which no part of it can pass; "
+                      "let it end within the domain, or close these sides",
+                      spec.shape.where, spec.name, side));
+  }
+  return lines;
+}
+
 template <int Dim>
 void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
   if (!s.contact) return;
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = faults_at_periodic_sides(s, state);
   const double least = clearance * reach * s.layout.h();
   for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, state, 0), least)) {
     const Body<Dim>& body = s.bodies[o.body];

@@ -9,8 +9,8 @@ template <int Dim>
 ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies,
                                      const Tampering& tampering);
 
-// Refuses rigid and elastic bodies that touch or overlap something at the start: Error(bad_input) naming the pairs and
-// depths.
+// Refuses rigid and elastic bodies that touch or overlap something at the start, and elastic ones that reach beyond a
+// periodic side: Error(bad_input) naming the pairs and depths.
 template <int Dim>
 void refuse_overlaps(const Setup<Dim>& setup, const State<Dim>& state);
 

@@ -12,8 +12,7 @@ InertiaResponse indefinite_response() {
 
 template <int Dim>
 SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatrix& H, Eigen::VectorXd& r) {
-  if (std::none_of(coupling.freedom.begin(), coupling.freedom.end(), [](Freedom f) { return f == Freedom::fixed; }))
-    return H;
+  if (!coupling.any_held()) return H;
   r -= H * coupling.held;
   SparseMatrix kept = H;
   kept.prune(

@@ -74,6 +74,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   }
   if (r.failure.empty()) {
     set_velocities(s, coupling, r.solids, input.geometry, input.state);
+    set_reactions(s, coupling, r.reactions, input.state);
     mark_sealed(s, r.rows, coupling.swept, input.state);
   }
   for (RigidState& body : input.state.rigid) body.horizon = input.horizon;

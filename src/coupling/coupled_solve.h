@@ -28,6 +28,7 @@ struct CoupledSolution {
   SolveReport report;                 // iterations of all solves, the worst residual
   int newton_iterations = 0, contacts = 0;
   Eigen::VectorXd solids;                  // velocities of the bodies' unknowns
+  Eigen::VectorXd reactions;               // N: the forces that hold them, zero where they are free
   std::vector<ViscousLoad> viscous_loads;  // of each solid; empty where the liquid is inviscid
   double dissipation = 0;                  // by viscosity, W
   double parting_error = 0;                // PartingSearch::error

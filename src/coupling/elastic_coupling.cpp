@@ -148,20 +148,24 @@ std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& ent
   return std::make_shared<const CellFluxes>(std::move(added));
 }
 
-// Columns of held unknowns are left empty.
-ColumnBlock make_block(std::vector<FluxEntry> entries, const std::vector<Freedom>& freedom, int first, int width) {
-  std::stable_sort(entries.begin(), entries.end(), [](const FluxEntry& a, const FluxEntry& b) {
-    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
-  });
+// Columns of unknowns of the other kind are left empty. Entries are sorted by rows.
+ColumnBlock make_block(const std::vector<FluxEntry>& entries, const std::vector<Freedom>& freedom, Freedom kind,
+                       int first, int width) {
   ColumnBlock block;
   block.width = width;
   for (std::size_t n = 0; n < entries.size();) {
     double sum = 0;
     const FluxEntry& e = entries[n];
     for (; n < entries.size() && entries[n].row == e.row && entries[n].column == e.column; ++n) sum += entries[n].value;
-    if (sum != 0 && freedom[std::size_t(first + e.column)] == Freedom::free) block.add(e.row, e.column, sum);
+    if (sum != 0 && freedom[std::size_t(first + e.column)] == kind) block.add(e.row, e.column, sum);
   }
   return block;
+}
+
+void sort_by_rows(std::vector<FluxEntry>& entries) {
+  std::stable_sort(entries.begin(), entries.end(), [](const FluxEntry& a, const FluxEntry& b) {
+    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+  });
 }
 
 template <int Dim>
@@ -236,7 +240,10 @@ void set_columns(const PressureRows<Dim>& rows, const std::vector<std::size_t>& 
     const std::size_t b = std::size_t(std::find(c.bodies.begin(), c.bodies.end(), bodies[n].body) - c.bodies.begin());
     c.cell_fluxes[b] = added_fluxes(bodies[n].entries, shown[n], rows);
     Eigen::MatrixXd loads = std::move(c.J.blocks[b].loads);
-    c.J.blocks[b] = make_block(std::move(bodies[n].entries), c.freedom, c.first[b], c.first[b + 1] - c.first[b]);
+    const int first = c.first[b], width = c.first[b + 1] - first;
+    sort_by_rows(bodies[n].entries);
+    c.J.blocks[b] = make_block(bodies[n].entries, c.freedom, Freedom::free, first, width);
+    c.J_held.blocks[b] = make_block(bodies[n].entries, c.freedom, Freedom::fixed, first, width);
     c.J.blocks[b].loads = std::move(loads);
   }
 }

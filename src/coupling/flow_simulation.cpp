@@ -21,10 +21,10 @@ constexpr int most_halvings = 7;
 // Where viscous liquid fills its domain, steps over more than two cells feed eddies that they do not resolve: a cavity
 // at Re = 5000 swung by 0.2 of the lid's speed at Courant number 4. Empty, or what is said of that. Collective.
 template <int Dim>
-std::string note_on_long_steps(const Setup<Dim>& s, const State<Dim>& start) {
+std::string note_on_long_steps(const Setup<Dim>& s, const State<Dim>& state) {
   constexpr double resolved = 2;
   const double cfl = s.scene.time.cfl;
-  if (cfl <= resolved || !s.is_viscous() || s.has_prescribed_flow() || has_surface(s, start.phi)) return {};
+  if (cfl <= resolved || !s.is_viscous() || s.has_prescribed_flow() || has_surface(s, state.phi)) return {};
   return fmt::format(
       "time.cfl = {:g}: steps over more than {:g} cells do not resolve eddies of viscous liquid that fills its domain; "
       "the flow may come out wrong and unsteady where viscosity is low; lower cfl to {:g}",
@@ -39,8 +39,7 @@ class FlowSimulation : public Simulation {
     geometry_ = measure_geometry();
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_.notes;
-    const std::string note = note_on_long_steps(setup_, state_);
-    if (!note.empty()) phases_.warnings.push_back(note);
+    warn_of_long_steps();
     account_ = account_scene(setup_, state_, geometry_.psi);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
     refresh(measure(state_, geometry_));
@@ -81,8 +80,11 @@ class FlowSimulation : public Simulation {
                                                        close.empty() ? remedy() : "all but touching: " + close));
   }
 
+  // What is told of the start was told when the run began; the length of steps may have been changed since.
   void load(const CheckpointData& data) override {
     state_ = load_state(setup_, data);
+    phases_.warnings.clear();
+    warn_of_long_steps();
     geometry_ = measure_geometry();
     refresh(measure(state_, geometry_));
   }
@@ -203,6 +205,11 @@ class FlowSimulation : public Simulation {
                                           : fmt::format("time.cfl={:.3g}", t.cfl / 2);
     return fmt::format("try `seiche resume` with --set {} or --set solver.tolerance={:.3g}", step,
                        std::min(10 * setup_.scene.solver.tolerance, 0.01));
+  }
+
+  void warn_of_long_steps() {
+    const std::string note = note_on_long_steps(setup_, state_);
+    if (!note.empty()) phases_.warnings.push_back(note);
   }
 
   // Once.

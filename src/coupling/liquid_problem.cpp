@@ -97,10 +97,20 @@ Eigen::VectorXd LiquidProblem<Dim>::impulse_of_means() const {
   return impulse_of(means);
 }
 
+// c2 J_held'p
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_on_held() const {
+  if (!coupling_.any_held()) return Eigen::VectorXd::Zero(coupling_.size());
+  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J_held, pressure_, ranks_);
+  make_identical(impulse, ranks_);
+  return impulse;
+}
+
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
                                                           const Eigen::VectorXd& force) const {
-  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - force, -impulse_of_means()};
+  const Eigen::VectorXd gradient = coupling_.mass * v - coupling_.push - force - impulse_on_held();
+  return {{}, Shape::convex, v, gradient, -impulse_of_means()};
 }
 
 template <int Dim>

@@ -31,6 +31,7 @@ class LiquidProblem : public CoupledProblem<Dim> {
   InertiaResponse minimise_together(const SparseMatrix& K, Eigen::VectorXd push);
   void add_up(const SolveReport& one);
   Eigen::VectorXd impulse_of(const Vector& pressure) const;
+  Eigen::VectorXd impulse_on_held() const;
   Eigen::VectorXd impulse_of_means() const;
   InertiaResponse respond_with_pressure(const Eigen::VectorXd& v, const Eigen::VectorXd& force) const;
 

@@ -179,6 +179,13 @@ void add_pressure_loads(const Setup<Dim>& s, const State<Dim>& state, const Step
   }
 }
 
+// Adds loads about the origin to force and torque about a point.
+void add_load(const Eigen::VectorXd& load, const Vec3& about, Vec3& force, Vec3& torque) {
+  const Vec3 f = load.head(3), t = load.tail(3);
+  force += f;
+  torque += t - about.cross(f);
+}
+
 // F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
@@ -211,10 +218,8 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]) + r.extra_torque +
                        (r.center - solids[k].position).cross(r.extra_force);
     if (!s.bodies[k].is_elastic()) continue;
-    const Eigen::VectorXd& extra = state.elastic[k].extra_load;
-    const Vec3 force = extra.head(3), torque = extra.tail(3);
-    solids[k].force += force;
-    solids[k].torque += torque - solids[k].position.cross(force);
+    add_load(state.elastic[k].extra_load, solids[k].position, solids[k].force, solids[k].torque);
+    add_load(state.elastic[k].reaction, solids[k].position, solids[k].pin_force, solids[k].pin_torque);
   }
   return solids;
 }

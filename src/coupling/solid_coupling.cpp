@@ -23,6 +23,7 @@ SolidCoupling<Dim> number_unknowns(const Setup<Dim>& s) {
     c.first.push_back(c.first.back() + n);
   }
   c.J.blocks.resize(c.bodies.size());
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) c.J_held.blocks.emplace_back().width = c.first[b + 1] - c.first[b];
   c.cell_fluxes.resize(c.bodies.size());
   c.freedom.assign(std::size_t(c.size()), Freedom::free);
   for (Eigen::VectorXd* v :
@@ -53,8 +54,9 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g
   CouplingParts<Dim> parts{c, {}};
   couple_rigid_bodies(s, g, rows, state, dt, horizon, parts);
   couple_elastic_bodies(s, g, rows, closed, state, dt, horizon, parts);
-  for (ColumnBlock& block : c.J.blocks)
-    for (double& flux : block.value) flux *= s.tampering.solid_flux;
+  for (BlockColumns* J : {&c.J, &c.J_held})
+    for (ColumnBlock& block : J->blocks)
+      for (double& flux : block.value) flux *= s.tampering.solid_flux;
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
   make_identical(c.buoyancy_correction, s.ranks);
@@ -88,6 +90,17 @@ void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eige
 }
 
 template <int Dim>
+void set_reactions(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eigen::VectorXd& reactions,
+                   State<Dim>& state) {
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    const int k = c.bodies[b], first = c.first[b];
+    if (!s.bodies[k].is_elastic()) continue;
+    const Eigen::VectorXd forces = reactions.segment(first, c.first[b + 1] - first);
+    state.elastic[k].reaction = total_load(s.bodies[k].elastic(), state.elastic[k].state.u, forces);
+  }
+}
+
+template <int Dim>
 void set_held_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, StepGeometry<Dim>& g) {
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
     if (!s.bodies[c.bodies[b]].is_elastic()) continue;
@@ -116,6 +129,7 @@ Eigen::VectorXd velocities_over(const Setup<Dim>& s, const State<Dim>& state, do
                                              const NullSpace&, const State<D>&, double, double);                      \
   template void set_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, StepGeometry<D>&, \
                                   State<D>&);                                                                         \
+  template void set_reactions<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, State<D>&);        \
   template void set_held_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, StepGeometry<D>&);                   \
   template Eigen::VectorXd velocities_over<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)

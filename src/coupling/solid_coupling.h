@@ -1,5 +1,7 @@
 #pragma once
 // How rigid and elastic bodies and liquid act on each other through the faces that the bodies close.
+#include <algorithm>
+
 #include "coupling/swept_volume.h"
 #include "solid/rigid_problem.h"
 #include "solid/velocity_potential.h"
@@ -15,6 +17,7 @@ struct SolidCoupling {
   // (J v)_c = sum_f +- s_f v(x_f).e_f: volume that the bodies' motion takes out of cell c, per face area. A_f J' p is
   // what the pressure p does to each unknown. Columns of what is held are zero.
   BlockColumns J;
+  BlockColumns J_held;   // the columns of J of elastic bodies' nodes that are held, alone
   SparseMatrix mass;     // M; of elastic bodies dt H (M/gamma^2 + C/gamma), see IncrementalPotential
   Eigen::VectorXd push;  // M v*, v* the velocities without liquid, contact and elastic forces
   Eigen::VectorXd free;  // velocities that the bodies would have about, for scale
@@ -35,6 +38,7 @@ struct SolidCoupling {
 
   int size() const { return first.back(); }
   bool is_held(Eigen::Index i) const { return freedom[std::size_t(i)] == Freedom::fixed; }
+  bool any_held() const { return std::find(freedom.begin(), freedom.end(), Freedom::fixed) != freedom.end(); }
 };
 
 // What the parts of a coupling are gathered in.
@@ -54,6 +58,11 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& setup, const StepGeometry<Dim
 template <int Dim>
 void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v,
                     StepGeometry<Dim>& geometry, State<Dim>& state);
+
+// What the pins of elastic bodies do, from the forces that hold the unknowns (N; zero where they are free).
+template <int Dim>
+void set_reactions(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& reactions,
+                   State<Dim>& state);
 
 // What is held moves the liquid whatever the solve finds: into the geometry before the solve, together with the fluxes
 // that faces do not show.

@@ -59,6 +59,16 @@ ContactInLiquid solve_modelled(const Setup<Dim>& s, const std::vector<ContactMot
                                  unit_speeds(s, coupling), s.scene.solver.tolerance, options);
 }
 
+// What is held moves as given with the impulse
+//   R dt = M v - push - (pressure, viscosity) + contact + dt Psi',
+// the gradient of all energies there: what Newton's equations have left over where they are not solved.
+template <int Dim>
+Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd residual) {
+  for (Eigen::Index i = 0; i < residual.size(); ++i)
+    if (!coupling.is_held(i)) residual[i] = 0;
+  return residual;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -66,7 +76,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
                               const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
                               const InviscidLiquid<Dim>& liquid) {
   SolidsMinimum r;
-  r.velocity = Eigen::VectorXd::Zero(problem.size());
+  r.velocity = r.reaction = Eigen::VectorXd::Zero(problem.size());
   if (!s.contact) {
     InertiaResponse response = problem.minimise(SparseMatrix(0, 0), r.velocity);
     r.failure = response.failure;
@@ -83,6 +93,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;
   r.velocity = std::move(contact.velocity);
+  if (coupling.potential && r.failure.empty()) r.reaction = held_part(coupling, std::move(contact.residual));
   return r;
 }
 

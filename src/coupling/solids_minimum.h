@@ -7,6 +7,7 @@ namespace seiche {
 
 struct SolidsMinimum {
   Eigen::VectorXd velocity;
+  Eigen::VectorXd reaction;  // N s: the impulse that holds each unknown, zero where it is free
   int newton_iterations = 0, contacts = 0;
   std::string failure;  // empty: found
 };

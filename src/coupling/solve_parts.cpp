@@ -52,6 +52,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.failure = m.failure;
   r.newton_iterations = m.newton_iterations;
   r.contacts = m.contacts;
+  r.reactions = m.reaction / in.liquid.dt;
   const int earlier = r.report.iterations;
   r.report = problem.report();
   r.report.iterations += earlier;

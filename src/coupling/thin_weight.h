@@ -30,7 +30,7 @@ double volume_beyond(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
 template <int Dim>
 bool has_thin_elastic(const Setup<Dim>& setup);
 
-// Force and torque about the origin that forces on the nodes of body k add up to (ElasticMotion::extra_load).
+// Force and torque about the origin that forces on the nodes add up to (ElasticMotion::extra_load, reaction).
 template <int Dim>
 Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, const Eigen::VectorXd& forces);
 

@@ -163,7 +163,8 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
              .rows = rows,
              .edge_viscosity = mu.edge ? &*mu.edge : nullptr},
       system_(assemble_viscosity(input_)),
-      J_(scaled(coupling.J, s.layout.geometry().face_area())) {
+      J_(scaled(coupling.J, s.layout.geometry().face_area())),
+      J_held_(scaled(coupling.J_held, s.layout.geometry().face_area())) {
   separate_held();
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     const RigidState& r = state.rigid[k];
@@ -183,23 +184,23 @@ void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>&
   for (std::size_t n = 0; n < net.size(); ++n) system_.q[n] -= net[n] * layout.geometry().face_area();
 }
 
-// What is held is known: f - G v_h, and its columns are left out of G.
+// What is held is known: f - G v_h, and its columns are taken out of G.
 template <int Dim>
 void ViscousStep<Dim>::separate_held() {
   int first = 0;
   for (ColumnBlock& block : system_.G.blocks) {
-    ColumnBlock free;
-    free.width = block.width;
+    ColumnBlock free, held;
+    free.width = held.width = block.width;
     free.loads = block.loads;
     block.for_each([&](int row, int column, double value) {
       const auto i = std::size_t(first + column);
-      if (coupling_.freedom[i] == Freedom::fixed)
-        system_.f[std::size_t(row)] -= value * coupling_.held[Eigen::Index(i)];
-      else
-        free.add(row, column, value);
+      const bool is_held = coupling_.freedom[i] == Freedom::fixed;
+      if (is_held) system_.f[std::size_t(row)] -= value * coupling_.held[Eigen::Index(i)];
+      (is_held ? held : free).add(row, column, value);
     });
     first += block.width;
     block = std::move(free);
+    G_held_.blocks.push_back(std::move(held));
   }
 }
 

@@ -38,6 +38,9 @@ class ViscousStep {
 
   const ViscousSystem<Dim>& system() const { return system_; }
   const BlockColumns& J() const { return J_; }  // volume a unit of time, not a unit of face area
+  // The columns of what is held alone, which are not part of system().G and J().
+  const BlockColumns& G_held() const { return G_held_; }
+  const BlockColumns& J_held() const { return J_held_; }
   // Volume fluxes through cut faces to second order, from velocities of an earlier time, into q and `closed_flux`.
   void add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux);
   // Between a field on faces and the rows of the system.
@@ -59,7 +62,7 @@ class ViscousStep {
   std::vector<RigidField> motion_;  // of each solid about when the step began
   ViscousInput<Dim> input_;
   ViscousSystem<Dim> system_;
-  BlockColumns J_;
+  BlockColumns J_, G_held_, J_held_;
 };
 
 }  // namespace seiche

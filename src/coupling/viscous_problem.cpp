@@ -39,6 +39,7 @@ template <int Dim>
 InertiaResponse ViscousProblem<Dim>::response_at(const Eigen::VectorXd& v) const {
   const ViscousSystem<Dim>& system = viscous_.system();
   Eigen::VectorXd reaction = local_transposed(system.G, u_) + local_transposed(viscous_.J(), p_);
+  reaction += local_transposed(viscous_.G_held(), u_) + local_transposed(viscous_.J_held(), p_);
   ranks_.global_sum(std::span<double>(reaction.data(), std::size_t(reaction.size())));
   make_identical(reaction, ranks_);
   return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - system.g + system.Hvv * v + reaction};

@@ -94,6 +94,7 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
     return;
   }
   Eigen::VectorXd drag = multiply_transposed(system.G, u, in.setup.ranks);
+  drag += multiply_transposed(viscous.G_held(), u, in.setup.ranks);
   make_identical(drag, in.setup.ranks);
   coupling.push += system.g - system.Hvv * v - drag;
   FaceField<Dim> moved = pressed;

@@ -14,6 +14,7 @@ template <int Dim>
 PartingSearch<Dim>::PartingSearch(const ProjectionInput<Dim>& in, double tolerance, Parting<Dim>& parting)
     : in_(in), tolerance_(tolerance), parting_(parting) {
   start_parting(in, parting);
+  best_ = parting.parted;
 }
 
 template <int Dim>

@@ -65,7 +65,13 @@ std::vector<Column> columns(const SolidState& s) {
           {"fz", s.force[2]},
           {"tx", s.torque[0]},
           {"ty", s.torque[1]},
-          {"tz", s.torque[2]}};
+          {"tz", s.torque[2]},
+          {"pin_fx", s.pin_force[0]},
+          {"pin_fy", s.pin_force[1]},
+          {"pin_fz", s.pin_force[2]},
+          {"pin_tx", s.pin_torque[0]},
+          {"pin_ty", s.pin_torque[1]},
+          {"pin_tz", s.pin_torque[2]}};
 }
 
 std::string text_of(const Number& value) {

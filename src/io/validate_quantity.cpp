@@ -104,7 +104,7 @@ constexpr UnitRow stats_units[] = {{"time", {"s", "s"}},
                                    {"max_speed", {"m/s", "m/s"}},
                                    {"max_divergence", {"1/s", "1/s"}}};
 
-// By the first letter of a column of solids.csv.
+// By the first letter of a column of solids.csv, behind "pin_" where it begins so.
 constexpr UnitRow solids_units[] = {
     {"xyz", {"m", "m"}}, {"v", {"m/s", "m/s"}}, {"w", {"1/s", "1/s"}}, {"f", {"N/m", "N"}}, {"t", {"N", "N m"}}};
 
@@ -121,8 +121,9 @@ std::string unit_of_column(const MeasureSpec& m, const Scene& scene, MeasureSour
     const auto row = std::ranges::find_if(stats_units, [&](const UnitRow& one) { return m.column == one.column; });
     return row == std::end(stats_units) ? "" : row->unit[dimension];
   }
+  const std::string column = m.column.starts_with("pin_") ? m.column.substr(4) : m.column;
   const auto row = std::ranges::find_if(solids_units, [&](const UnitRow& one) {
-    return !m.column.empty() && std::string(one.column).find(m.column[0]) != std::string::npos;
+    return !column.empty() && std::string(one.column).find(column[0]) != std::string::npos;
   });
   return row == std::end(solids_units) ? "" : row->unit[dimension];
 }

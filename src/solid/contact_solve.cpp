@@ -94,7 +94,7 @@ class Solver {
     if (way.share < 1) return false;
     if (contact_energy<Dim>(scene_, interval_, way.end, way.near, {}, weights_) > 0) return false;
     report_.velocity = e_.velocity;
-    report_.gradient = e_.gradient;
+    report_.gradient = report_.residual = e_.gradient;
     report_.smallest_gap = weights_.reach;
     report_.stiffness = weights_.stiffness;
     report_.impulses.resize(scene_.surfaces.size());
@@ -261,6 +261,8 @@ class Solver {
     const Velocities<Dim> still = velocities(Eigen::VectorXd::Zero(inertia_.size()), 0);
     report_.straight_share =
         walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.velocities, 0).share;
+    report_.residual = e_.gradient + terms_.gradient;  // with the friction that the velocities are a minimum with
+    if (potential_) potential_->add_gradient(e_.velocity, report_.residual);
     friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
     terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
     report_.velocity = e_.velocity;

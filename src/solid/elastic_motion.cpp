@@ -21,6 +21,7 @@ ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   m.kept_volume.setConstant(Eigen::Index(solid.patches.size()), std::numeric_limits<double>::quiet_NaN());
   m.cavity = m.kept_volume;
   m.extra_load.setZero(6);
+  m.reaction.setZero(6);
   return m;
 }
 

@@ -13,6 +13,7 @@ struct ElasticMotion {
   Eigen::VectorXd cavity, kept_volume;
   // Force and torque about the origin from the liquid beyond its pressure on the faces, stacked (N, N m).
   Eigen::VectorXd extra_load;
+  Eigen::VectorXd reaction;  // likewise, from the pins as the last solve found them
 };
 
 // The rest shape, moving as the scene says.

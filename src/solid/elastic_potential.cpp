@@ -25,12 +25,19 @@ double ElasticPotential<Dim>::energy(const Eigen::VectorXd& v) const {
 }
 
 template <int Dim>
+void ElasticPotential<Dim>::add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const {
+  assert(v.size() == size_ && gradient.size() == size_);
+  for (const auto& share : bodies_)
+    gradient.segment(share.first_dof, share.body->size()) +=
+        dt_ * elastic_gradient(*share.body, displacement(share, v), share.held);
+}
+
+template <int Dim>
 void ElasticPotential<Dim>::add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
                                       std::vector<Eigen::Triplet<double>>& hessian) const {
-  assert(v.size() == size_ && gradient.size() == size_);
+  add_gradient(v, gradient);
   for (const auto& share : bodies_) {
     const Eigen::VectorXd u = displacement(share, v);
-    gradient.segment(share.first_dof, u.size()) += dt_ * elastic_gradient(*share.body, u, share.held);
     SparseMatrix K = share.body->pattern;
     add_stiffness(*share.body, u, curvature, K, share.held);
     hessian.reserve(hessian.size() + size_t(K.nonZeros()));

@@ -14,7 +14,9 @@ class VelocityPotential {
   virtual ~VelocityPotential();
   // J; infinite where it is not defined (inverted elements).
   virtual double energy(const Eigen::VectorXd& v) const = 0;
-  // Adds the gradient (N s, of the size of v) and the entries of the Hessian (kg) at v.
+  // Adds the gradient (N s, of the size of v) at v.
+  virtual void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const = 0;
+  // Adds the gradient and the entries of the Hessian (kg).
   virtual void add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
                          std::vector<Eigen::Triplet<double>>& hessian) const = 0;
   // The largest share of the step dv, at most 1, without inversion.

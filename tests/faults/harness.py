@@ -153,10 +153,15 @@ def rank_processes(mpirun):
     return sorted({int(child) for child in children})
 
 
+def table(folder, name):
+    """Rows of a table as dictionaries of texts."""
+    with open(pathlib.Path(folder) / name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def stats(folder, without=("wall_seconds",)):
     """Rows of stats.csv as dictionaries of texts, without the columns that no two runs share."""
-    with open(pathlib.Path(folder) / "stats.csv", newline="") as file:
-        return [{k: v for k, v in row.items() if k not in without} for row in csv.DictReader(file)]
+    return [{k: v for k, v in row.items() if k not in without} for row in table(folder, "stats.csv")]
 
 
 def summary(folder):

@@ -392,6 +392,8 @@ def address_space_limit(bench):
     text = DAM.replace("cell_size = 0.03125", "cell_size = 0.00048828125")   # 2 M cells, 2 GB or so
     limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
     bench.simulate("--frames", "1", text=text, limits=limit).needs(5, "out of memory")
+    little = lambda: resource.setrlimit(resource.RLIMIT_AS, (150 << 20, 150 << 20))   # libraries would abort (134)
+    bench.simulate("--frames", "1", text=text, limits=little).needs(5, "limit of address space")
 
 
 def allocation_fails_on_one_rank(bench):

@@ -14,7 +14,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "faults"))
 from harness import (DAM, expect, frame_files, frame_voxels, frames_are_good, rank_processes,  # noqa: E402
-                     run_table, same_frames, same_tables, stats)
+                     run_table, same_frames, same_tables, stats, table)
 
 TOLERANCE = 1e-10   # of each solve
 # Twenty steps, each of which may pass on and enlarge the difference that two solves leave: a factor of 1e3.
@@ -183,6 +183,16 @@ def same_to_tolerance(one, other, what):
             expect(worst <= (AFTER_TWENTY_STEPS + 2e-7) * top, f"{what}, {file.name}: {name} differs by {worst} of {top}")
 
 
+def pins_agree(one, other, what):
+    """Forces and moments of the pins in solids.csv."""
+    a, b = table(one, "solids.csv"), table(other, "solids.csv")
+    for columns in (("pin_fx", "pin_fy", "pin_fz"), ("pin_tx", "pin_ty", "pin_tz")):
+        top = max(largest(a, column) for column in columns)
+        for column in columns:
+            worst = max(abs(float(x[column]) - float(y[column])) for x, y in zip(a, b, strict=True))
+            expect(worst <= AFTER_TWENTY_STEPS * top, f"{what}: {column} differs by {worst} of {top}")
+
+
 def ranks_agree(bench, text, counts=(2, 3, 4)):
     bench.simulate(text=text, out="one").needs(0)
     frames_are_good(bench.path("one"), 2)
@@ -190,6 +200,8 @@ def ranks_agree(bench, text, counts=(2, 3, 4)):
         out = f"ranks{ranks}"
         bench.simulate(text=text, out=out, ranks=ranks).needs(0)
         same_to_tolerance(bench.path("one"), bench.path(out), f"{ranks} ranks")
+        if "[[solid]]" in text:
+            pins_agree(bench.path("one"), bench.path(out), f"{ranks} ranks")
 
 
 def ranks_agree_2d(bench):
@@ -217,6 +229,7 @@ def rigid_ranks_agree_3d(bench):
 def elastic_ranks_agree_2d(bench):
     """A gate, a soft box on the floor and a floating ball on 1, 2 and 3 ranks."""
     ranks_agree(bench, SOFT, (2, 3))
+    expect(largest(table(bench.path("one"), "solids.csv"), "pin_fx") > 0, "pins do nothing")
     expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
 
 

@@ -224,3 +224,18 @@ TEST_CASE("steps that do not resolve the eddies of a full viscous domain are tol
   s.liquid.viscosity = "0";
   CHECK(warnings(s).empty());
 }
+
+TEST_CASE("what is told of the start is not told again where a run goes on") {
+  Scene s = test::box_scene(2, 16);
+  test::add_liquid(s, "-1");
+  test::add_liquid(s, "(x - 5)^2 + y^2 - 0.1");  // outside of the domain: a warning
+  s.liquid.viscosity = "1e-3";
+  s.time.cfl = 4;
+  const auto sim = make_simulation(s, Communicator());
+  CHECK(sim->take_warnings().size() == 2);
+  const auto other = make_simulation(s, Communicator());
+  other->load(sim->save());
+  const std::vector<std::string> told = other->take_warnings();
+  REQUIRE(told.size() == 1);  // a resumed run may have changed it
+  CHECK(told[0].find("time.cfl = 4") == 0);
+}

@@ -16,7 +16,9 @@ TEST_CASE("stats.csv has the contract's columns first, in its order") {
       "speed,"
       "max_divergence,solver_iterations,solver_residual,newton_iterations,contacts,cells_liquid,wall_seconds";
   CHECK(stats_header().rfind(contract, 0) == 0);
-  CHECK(solids_header() == "time,name,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,fx,fy,fz,tx,ty,tz\n");
+  CHECK(solids_header() ==
+        "time,name,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,fx,fy,fz,tx,ty,tz,pin_fx,pin_fy,pin_fz,pin_tx,pin_"
+        "ty,pin_tz\n");
   CHECK(probes_header() == "time,name,value,x,y,z\n");
 }
 

@@ -1,7 +1,9 @@
 // Solids beside periodic sides close the same part of a face at either of its places.
 #include <catch2/catch.hpp>
 
+#include "base/error.h"
 #include "coupling/contact_setup.h"
+#include "elastic_scenes.h"
 #include "grid/loops.h"
 #include "rigid_scenes.h"
 #include "scenes.h"
@@ -61,4 +63,25 @@ TEST_CASE("solids that reach a periodic side are named") {
   const Setup<2> s(beside_sides(2, SolidKind::rigid), Communicator(), {});
   const std::string names = solids_at_periodic_sides(s, initial_state(s));
   CHECK(names == "'box' and the periodic side y_upper, which no solid can pass");
+}
+
+TEST_CASE("elastic solids may end at a periodic side but not reach beyond it", "[elastic]") {
+  for (int dim : {2, 3}) {
+    const auto ending_at = [&](double x) {
+      Scene s = test::box_scene(dim, 8);
+      test::make_periodic(s);
+      const double z = dim == 3 ? 0.2 : 0;
+      s.solids.push_back(test::elastic_box("bed", {0.3, 0.3, z}, {x, 0.5, 3 * z}, 1000, {1e6, 0.3}, 0.2));
+      test::pin(s.solids.back(), {0, 0, -1}, {2, 0.301, 2});
+      return s;
+    };
+    (void)make_simulation(ending_at(1), Communicator());
+    try {
+      (void)make_simulation(ending_at(1.1), Communicator());
+      FAIL("was taken");
+    } catch (const Error& e) {
+      CHECK(e.code() == ExitCode::bad_input);
+      CHECK(std::string(e.what()).find("'bed' reaches beyond the periodic side x_upper") != std::string::npos);
+    }
+  }
 }
