@@ -36,24 +36,17 @@ double beyond(double q, double low, double high, const Bend& b, double h) {
   return q + std::clamp((std::abs(k) / h - corner) / corner, 0.0, 1.0) * (k - q);
 }
 
-// Near the lesser of two second differences that are not both 0.
-double limited(double d1, double d2) {
-  return d1 * d2 * (d1 + d2) / (d1 * d1 + d2 * d2);
-}
-
 // Between p1 and p2, at the share t of the way, the cubic through all four is
 //   c = l + t (t - 1)/6 ((2 - t) d1 + (1 + t) d2),  l = p1 + t (p2 - p1).
 // Across a kink it is too low in the middle of threads, too high in that of gaps, by up to h/8 at their surface. With
-//   q = l + t (t - 1)/2 m,  m = d1 d2 (d1 + d2)/(d1^2 + d2^2) (van Albada, van Leer, Roberts 1982),
-// m is about the lesser of d1, d2, as of ENO schemes, but depends on them continuously: where they are opposite and
-// equal but for rounding, the lesser of them is a toss-up, which ranks and mirror images settle differently. phi is q
-// where the kink lies outside [p1, p2] and where the lines from both sides meet inside (subcell resolution, Harten
-// 1989) otherwise. Goes over from c to that by the share of a kink.
+//   q = l + t (t - 1)/2 m,  m the lesser of d1, d2 (ENO, Harten et al. 1987),
+// phi is q where the kink lies outside [p1, p2] and where the lines from both sides meet inside (subcell resolution,
+// Harten 1989) otherwise. Goes over from c to that by the share of a kink.
 double interpolate_with_kinks(const std::array<double, 4>& p, double t, double h) {
   const Bend b = bend(p[0], p[1], p[2], p[3], h);
   const double line = p[1] + t * (p[2] - p[1]), cubic = line + t * (t - 1) / 6 * ((2 - t) * b.d1 + (1 + t) * b.d2);
   if (b.share == 0) return cubic;
-  const double one_sided = line + t * (t - 1) / 2 * limited(b.d1, b.d2);
+  const double one_sided = line + t * (t - 1) / 2 * (std::abs(b.d1) < std::abs(b.d2) ? b.d1 : b.d2);
   const double low = p[1] + t * (p[1] - p[0]), high = p[2] + (1 - t) * (p[2] - p[3]);
   return cubic + b.share * (beyond(one_sided, low, high, b, h) - cubic);
 }
