@@ -204,7 +204,7 @@ std::string fault_of_overlap(const Setup<Dim>& s, const Overlap& o, double least
   return fmt::format("solid '{}' and {} {} at the start; {}", name, other_name(s, o), how, remedy(s, o));
 }
 
-// The liquid does not see what of an elastic body lies beyond a periodic side. Its surface may end at the side.
+// The liquid does not see the part of an elastic body beyond a periodic side. The body's surface may end at the side.
 template <int Dim>
 std::vector<std::string> faults_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
   constexpr double rounding = 1e-6;  // cells

@@ -4,8 +4,8 @@
 
 namespace seiche {
 
-// What a step of a mass M can draw on. With |v|^2 = v'Mv = 2 E, the power of a force f is f.v <= |M^-1 f| |v|, so that
-// |v| grows by |M^-1 f| dt at most, whatever the flow. Pressure does work on what is given alone: the solve u = u* -
+// Sources of kinetic energy in a step of a mass M. |v|^2 = v'Mv = 2 E. A force f has the power f.v <= |M^-1 f| |v|, so
+// |v| grows by |M^-1 f| dt at most, whatever the flow. Pressure does work on given motion alone: the solve u = u* -
 // dt/rho grad p with the volume rate b pushed in has |u|^2 = u.u* + dt p.b, so |u| <= |u*| + sqrt(dt p.b).
 struct EnergyBudget {
   double kinetic = 0;   // the larger one of the last two time levels, J
@@ -24,8 +24,8 @@ constexpr double speed_margin = 2;
 // E <= margin^2/2 (sqrt(2 (E_kin + E_el + E_surf)) + sqrt(M) (gain + given) + |M^-1 f| dt + sqrt(dt p.b))^2, J.
 double most_kinetic_energy(const EnergyBudget& budget);
 
-// What the attempt had at hand that led from `before`, which `start` was measured of, with psi of its solids (m).
-// Collective.
+// Budget of the attempt that led from the state `before`. `start` was measured of that state, psi (m) is that of its
+// solids. Collective.
 template <int Dim>
 EnergyBudget energy_budget(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt);

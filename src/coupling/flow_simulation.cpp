@@ -80,7 +80,7 @@ class FlowSimulation : public Simulation {
                                                        close.empty() ? remedy() : "all but touching: " + close));
   }
 
-  // What is told of the start was told when the run began; the length of steps may have been changed since.
+  // The run told of its start when it began. The note on long steps is repeated: `resume --set` may change cfl.
   void load(const CheckpointData& data) override {
     state_ = load_state(setup_, data);
     phases_.warnings.clear();

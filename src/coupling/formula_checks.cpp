@@ -5,19 +5,11 @@
 #include "base/error.h"
 #include "coupling/liquid_viscosity.h"
 #include "coupling/sources.h"
+#include "grid/domain_faces.h"
 #include "grid/loops.h"
 
 namespace seiche {
 namespace {
-
-// This rank's faces on a side of the domain; none where another rank holds the side.
-template <int Dim>
-Box<Dim> faces_of_side(const Layout<Dim>& layout, int axis, int side) {
-  Box<Dim> box = layout.faces(axis);
-  if (box.empty() || !(side == 0 ? layout.at_lower(axis) : layout.at_upper(axis))) return Box<Dim>{};
-  (side == 0 ? box.upper[axis] : box.lower[axis]) = side == 0 ? box.lower[axis] + 1 : box.upper[axis] - 1;
-  return box;
-}
 
 // Empty, or what is not finite at a face of a side at time t: all components, also those that the flow does not feel.
 template <int Dim>

@@ -1,6 +1,7 @@
 #include "coupling/given_motion.h"
 
 #include "coupling/sources.h"
+#include "grid/domain_faces.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -48,15 +49,6 @@ double fastest_given(const Setup<Dim>& s, double t0, double t1, double t) {
 
 }  // namespace
 
-template <int Dim>
-Box<Dim> faces_of_side(const Layout<Dim>& layout, int axis, int side) {
-  Box<Dim> box = layout.faces(axis);
-  const int at = side == 0 ? 0 : layout.geometry().cells[axis];
-  box.lower[axis] = std::max(box.lower[axis], at);
-  box.upper[axis] = std::min(box.upper[axis], at + 1);
-  return box;
-}
-
 // Looked at where no motion of whole or half periods is zero by chance.
 template <int Dim>
 double fastest_given_flow(const Setup<Dim>& s, double t, double dt) {
@@ -95,7 +87,6 @@ double limit_of_given_velocity(const Setup<Dim>& s, const State<Dim>& start, dou
 
 #define SEICHE_INSTANTIATE(D)                                              \
   template double fastest_given_flow<D>(const Setup<D>&, double, double);  \
-  template Box<D> faces_of_side<D>(const Layout<D>&, int, int);            \
   template double limit_of_given_flow<D>(const Setup<D>&, double, double); \
   template double limit_of_given_velocity<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)

@@ -13,10 +13,6 @@ double limit_of_given_flow(const Setup<Dim>& setup, double t, double dt);
 template <int Dim>
 double fastest_given_flow(const Setup<Dim>& setup, double t, double dt);
 
-// Faces of a side that this rank owns.
-template <int Dim>
-Box<Dim> faces_of_side(const Layout<Dim>& layout, int axis, int side);
-
 // The longest first step up to dt in which the velocities that elastic bodies begin with strain them by no more than
 // 1e-3 of their kinetic energy.
 template <int Dim>

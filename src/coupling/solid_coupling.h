@@ -59,7 +59,8 @@ template <int Dim>
 void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v,
                     StepGeometry<Dim>& geometry, State<Dim>& state);
 
-// What the pins of elastic bodies do, from the forces that hold the unknowns (N; zero where they are free).
+// Stores force and torque of the pins of elastic bodies. `reactions`: forces that hold the unknowns, N; zero where they
+// are free.
 template <int Dim>
 void set_reactions(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& reactions,
                    State<Dim>& state);

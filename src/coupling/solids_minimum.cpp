@@ -59,9 +59,9 @@ ContactInLiquid solve_modelled(const Setup<Dim>& s, const std::vector<ContactMot
                                  unit_speeds(s, coupling), s.scene.solver.tolerance, options);
 }
 
-// What is held moves as given with the impulse
+// Held unknowns move as given. The impulse that makes them is the gradient of all energies,
 //   R dt = M v - push - (pressure, viscosity) + contact + dt Psi',
-// the gradient of all energies there: what Newton's equations have left over where they are not solved.
+// which the solve makes zero for the free unknowns alone.
 template <int Dim>
 Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd residual) {
   for (Eigen::Index i = 0; i < residual.size(); ++i)

@@ -311,8 +311,8 @@ struct StepInProgress {
   // and the flow will be. Where these turn out too fast a shorter one is solved for: cut short, it would go straight
   // towards where the longer one leads, and stretch what turns. Once: light bodies that crumple get to where forces
   // balance in any step, the faster the shorter it is, and are not caught up with (a sheet with E = 100 Pa blew up).
-  // Where the solve for the longer one fails, as where bodies in contact find no state, likewise: half of it, twice at
-  // most.
+  // A solve for the longer one that fails, as of bodies in contact that find no state, is taken for half of it, twice
+  // at most.
   void solve_for_a_step_to_come() {
     constexpr int most_plans = 2, most_failures = 2;
     out.state.horizon = choose_horizon(s, out.state, dt);

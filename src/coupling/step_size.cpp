@@ -7,6 +7,7 @@
 #include "coupling/prescribed_flow.h"
 #include "coupling/surface_tension.h"
 #include "coupling/viscous_transport.h"
+#include "grid/domain_faces.h"
 #include "grid/loops.h"
 #include "solid/enclosed_volume.h"
 
@@ -21,9 +22,7 @@ double fastest_inflow(const Setup<Dim>& s, const Level<Dim>& level) {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       if (s.sides.type(a, side) != SideType::inflow) continue;
-      Box<Dim> box = s.layout.faces(a);
-      box.lower[a] = std::max(box.lower[a], side == 0 ? 0 : s.layout.geometry().cells[a]);
-      box.upper[a] = std::min(box.upper[a], side == 0 ? 1 : s.layout.geometry().cells[a] + 1);
+      const Box<Dim> box = faces_of_side(s.layout, a, side);
       fastest = std::max(fastest, local_max(s.layout, box, 0.0, [&](Site f) { return std::abs(level.u.at(a, f)); }));
     }
   return fastest;

@@ -184,7 +184,7 @@ void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>&
   for (std::size_t n = 0; n < net.size(); ++n) system_.q[n] -= net[n] * layout.geometry().face_area();
 }
 
-// What is held is known: f - G v_h, and its columns are taken out of G.
+// Held velocities v_h are known: f <- f - G v_h. Their columns move from G to G_held.
 template <int Dim>
 void ViscousStep<Dim>::separate_held() {
   int first = 0;

@@ -23,7 +23,7 @@ std::int64_t number_of_face(const Geometry<Dim>& g, int axis, const IVec<Dim>& c
   return n;
 }
 
-// Those of all ranks. Collective.
+// The union of all ranks' numbers. Collective.
 FaceNumbers gather(const Communicator& ranks, const std::vector<std::int64_t>& mine) {
   const std::string sent(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(std::int64_t));
   FaceNumbers all;
@@ -101,7 +101,7 @@ class Streams {
     return r;
   }
 
-  // What the box holds around owned cells, less the way to a rim there.
+  // Drift cut to two halos: the box holds three around owned cells, the third is the way to a rim.
   Vec<Dim> within_reach(const Vec<Dim>& drifted) const {
     const double most = 2 * reach_;
     return drifted.norm() > most ? Vec<Dim>(drifted * (most / drifted.norm())) : drifted;
@@ -186,7 +186,7 @@ Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach, B
   return within;
 }
 
-// Of one side. Before it phi is at most the distance to its faces that let liquid in.
+// Joins the streams of one side. Before it phi is at most the distance to the faces that let liquid in.
 template <int Dim>
 void join_streams(const Layout<Dim>& layout, const Streams<Dim>& streams, int axis, int side, CellField<Dim>& phi) {
   const int reach = layout.halo(), edge = side == 0 ? 0 : layout.geometry().cells[axis] - 1;

@@ -28,7 +28,10 @@ void set_mark(const TableMark& mark, const std::string& name, std::uint64_t& byt
 std::string verify_table(const std::filesystem::path& path, const std::string& name, RunState& state,
                          std::uint64_t& bytes) {
   const std::string fault = fault_of_table(path, mark_of(state, name, bytes));
-  if (!fault.empty()) bytes = whole_lines(path, bytes), state.table_checksums.erase(name);
+  if (!fault.empty()) {
+    bytes = whole_lines(path, bytes);
+    state.table_checksums.erase(name);
+  }
   return fault;
 }
 

@@ -21,8 +21,8 @@ struct RunSummary {
 // Volume drift relative to what sources and in- and outflow make expected; zero for a run without liquid.
 double volume_drift(const RunState& state);
 
-// What to say of a drift that anyone would want to know of: beyond a twentieth, and three cells, which a tiny scene is
-// off by as its surface passes; "" for less. `cell` is a cell's volume.
+// The warning of a drift beyond a twentieth and beyond three cells, else "". Tiny scenes are off by three cells as
+// their surface passes. `cell` is a cell's volume.
 std::string volume_warning(const RunState& state, double cell);
 
 std::string format_summary(const RunSummary& summary);

@@ -60,7 +60,7 @@ enum class FrictionState { none, settled, unsettled };
 struct ContactReport {
   std::string failure;                 // empty if the velocities are an intersection-free minimum
   Eigen::VectorXd velocity, gradient;  // of e, stacked
-  // That of e, contact, friction and potential: zero where v is free, else the impulse that holds it.
+  // Gradient of e, contact, friction and potential: zero where v is free, else the impulse that holds it.
   Eigen::VectorXd residual;
   int active = 0;  // pairs within reach
   int newton_iterations = 0, solves = 0, friction_updates = 0;
