@@ -10,7 +10,7 @@
 
 #include "fluid/rheology/rheology.h"
 #include "geometry/shapes/shapes.h"
-#include "linalg/spd/solve.h"
+#include "linalg/precond/preconditioners.h"
 #include "scene/docs.h"
 #include "scene/options.h"
 #include "unit/scene/common.h"
