@@ -202,9 +202,8 @@ FaceField<Dim> assemble_rows(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r)
   FaceField<Dim> drag(in.layout);
   const RowAssembly<Dim> row_of(in, *r.samples);
   std::vector<RowParts> parts(r.rows.faces.size());
-  parallel_range_in_tasks(parts.size(), 512, [&](std::size_t n) {
-    parts[n] = row_of(r.rows.faces[n].first, r.rows.faces[n].second);
-  });
+  parallel_range_in_tasks(parts.size(), 512,
+                          [&](std::size_t n) { parts[n] = row_of(r.rows.faces[n].first, r.rows.faces[n].second); });
   r.F.first_row = r.rows.first;
   r.F.global_rows = r.rows.global;
   const std::vector<int> bodies = free_bodies(in);
