@@ -51,12 +51,12 @@ Section<S> material_section() {
       value_key<S>({.key = "damping",
                     .unit = "s",
                     .range = not_negative,
-                    .doc = "Rayleigh damping in proportion to stiffness: what deforms faster is damped more"},
+                    .doc = "Rayleigh damping in proportion to stiffness: faster deformation is damped more"},
                    &S::damping),
       value_key<S>({.key = "mass_damping",
                     .unit = "1/s",
                     .range = not_negative,
-                    .doc = "Rayleigh damping in proportion to mass: brakes all motion, also that of the whole solid"},
+                    .doc = "Rayleigh damping in proportion to mass: slows all motion, also that of the whole solid"},
                    &S::mass_damping),
   };
   return s;
@@ -198,7 +198,7 @@ Section<S> elastic_section() {
       inline_key<S>({.key = "material",
                      .only_for = elastic,
                      .presence = Presence::required,
-                     .doc = "what it is made of (youngs_modulus, poisson_ratio)"},
+                     .doc = "its elastic law (youngs_modulus, poisson_ratio)"},
                     itself, material_section()),
       element_size_key(),
       value_key<S>({.key = "element_order",

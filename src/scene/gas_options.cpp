@@ -27,7 +27,7 @@ Section<GasSpec> gas_section() {
 
 Key<Scene> gas_key() {
   Key<Scene> key = block_key<Scene>(
-      {.key = "gas", .unset = "a free surface at pressure 0", .doc = "what is beyond the liquid's surface"},
+      {.key = "gas", .unset = "a free surface at pressure 0", .doc = "the gas beyond the liquid's surface"},
       &Scene::gas, gas_section());
   const auto write = key.write;
   key.write = [write](const Scene& s, int dimension, const std::string& path, SceneLines& lines) {

@@ -78,8 +78,8 @@ Key<LiquidSpec> prescribed_velocity_key() {
        .unit = "m/s",
        .variables = "xyzt",
        .unset = "the flow is solved for",
-       .doc = "the flow at all times, which should be free of divergence: nothing is solved, the surface "
-              "alone moves with it, through sides of the domain too; for scenes of liquid alone"},
+       .doc = "the flow at all times, which should be free of divergence: nothing is solved, only the "
+              "surface moves with it, also through sides of the domain; for scenes of liquid alone"},
       &LiquidSpec::prescribed_velocity);
 }
 
@@ -105,8 +105,8 @@ Section<LiquidSpec> liquid_section() {
       value_key<S>(density_option(), &S::density),
       value_key<S>({.key = "separates",
                     .type = T::boolean,
-                    .doc = "true: liquid may part from walls and solids, whose pressure on it stays at or above zero; "
-                           "false: it clings to them"},
+                    .doc = "true: liquid separates from walls and solids where its pressure would fall below zero; "
+                           "false: they exert suction"},
                    &S::separates),
       viscosity_key(),
       surface_tension_key(),

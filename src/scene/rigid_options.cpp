@@ -70,8 +70,8 @@ Key<RigidSpec> fixed_key() {
                       .only_for = {"kind", {"rigid"}},
                       .unset = "free to move",
                       .doc =
-                          "what stays as it is: the centre of mass along an axis, rotation about all axes or one; "
-                          "all but one rotation make a hinge; 2D: x, y, rotation"};
+                          "degrees of freedom that do not move: the centre of mass along an axis, rotation about all "
+                          "axes or one; all but one rotation make a hinge; 2D: x, y, rotation"};
   Key<RigidSpec> key{option, {}, {}};
   key.read = [option](SceneContext& c, const Place& p, RigidSpec& rigid) { read_fixed(c, p, option, rigid); };
   key.write = [option](const RigidSpec& rigid, int dimension, const std::string& path, SceneLines& lines) {

@@ -60,7 +60,7 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
                    {.key = "file",
                     .type = T::file,
                     .doc = "mesh: closed triangles (.obj, .ply, .stl), for elastic solids also elements (.msh, .vtu, "
-                           ".mesh); level_set: a frame of ours (.vdb)"},
+                           ".mesh); level_set: a frame of Seiche (.vdb)"},
                    &S::file),
       geometry_key(
           {"expression"},

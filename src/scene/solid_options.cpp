@@ -67,7 +67,7 @@ Section<SolidSpec> solid_section() {
       kind_key()};
   for (Key<SolidSpec>& key : lift<SolidSpec>(shape_section(), &SolidSpec::shape)) s.keys.push_back(std::move(key));
   s.keys.push_back(choice_key<SolidSpec, Slip SolidSpec::*, Slip>(
-      {.key = "slip", .doc = "what the liquid feels at the surface"}, &SolidSpec::slip,
+      {.key = "slip", .doc = "whether liquid slips along the surface or sticks to it"}, &SolidSpec::slip,
       {{"free_slip", Slip::free_slip}, {"no_slip", Slip::no_slip}}));
   s.keys.push_back(inline_key<SolidSpec>({.key = "motion",
                                           .only_for = {"kind", {"kinematic"}},

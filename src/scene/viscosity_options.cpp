@@ -133,7 +133,7 @@ std::vector<Key<SolverSpec>> viscous_solver_keys() {
   return {
       choice_key<S, ViscousSolve S::*, ViscousSolve>(
           {.key = "viscosity",
-           .doc = "how viscosity is solved for: \"coupled\" in one system with the pressure, \"split\" after it, "
+           .doc = "how viscosity is solved for: \"coupled\" in one system with the pressure, \"split\" before it, "
                   "\"auto\" by viscosity times step over density and cell size squared"},
           &S::viscosity,
           {{"auto", ViscousSolve::automatic}, {"split", ViscousSolve::split}, {"coupled", ViscousSolve::coupled}}),

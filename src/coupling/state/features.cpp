@@ -30,7 +30,7 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
   using S = const Setup<Dim>&;
   static const std::vector<FeatureText<Dim>> table{
       {F::steps_by_halves, "steps by halves",
-       "surface and bodies move at once, after the solve; places are of first order in the step where its length "
+       "surface and bodies move at once, before the solve; positions are of first order in the step where its length "
        "changes",
        [](S s) { return is_second_order(s); }},
       {F::shared_viscosity, "viscous stress shared between start and end of a step",
@@ -38,8 +38,8 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
        [](S s) { return is_second_order(s) && s.is_viscous(); }},
       {F::shear_jump, "jump of shear across the surface between fluids",
        "shear beside the surface is smeared over a cell", [](S s) { return s.has_gas() && s.is_viscous(); }},
-      {F::kinks, "one-sided interpolation at kinks of the surface's distance",
-       "the surface is interpolated across kinks of its distance, and thin films are carried less sharply",
+      {F::kinks, "one-sided interpolation at the medial axis of the surface's distance",
+       "the surface is interpolated across its medial axis, and thin films are transported less sharply",
        [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
        "the surface alone tells what a sealed cavity holds", [](S s) { return s.has_elastic(); }},
@@ -71,12 +71,12 @@ bool one_is_inviscid(const Setup<Dim>& s) {
 
 const char* const introduction = R"doc(# Features that others switch off
 
-Some features do not go together. The log of a run and `seiche check` name, once and at the start, each feature that a
-scene would have and that something else in it switches off. This page is made from the same table.
+Some features do not go together. At its start, the log of a run names each feature that a scene would have and that
+something else in it switches off; so does `seiche check`. This page is made from the same table.
 
-Two things change from step to step and are not told: near contact, and where a source opens or closes, a step moves all
-at once even in scenes that go by halves; and viscous stress is shared only where liquid fills the domain and is not
-stiff (dt μ/(ρ h²) ≤ ½, see [viscosity.md](viscosity.md)).
+Two things change from step to step and are not reported. Near contact, and where a source opens or closes, a step moves
+everything at once even in scenes with steps by halves. Viscous stress is shared only where liquid fills the domain and
+is not stiff (dt μ/(ρ h²) ≤ ½, see [viscosity.md](viscosity.md)).
 
 )doc";
 

@@ -1,14 +1,24 @@
 #pragma once
-// The report as a page of the documentation.
+// The report as pages of the documentation: a summary and a page for each case.
 #include <string_view>
 
 #include "validate/report/report.h"
 
 namespace seiche {
 
-constexpr std::string_view page_title = "# What was validated\n";  // its first line
+// First lines, by which these pages are known.
+constexpr std::string_view page_title = "# What was validated\n";
+constexpr std::string_view case_page_title = "<!-- Written by seiche validate --write-docs -->\n";
 
-std::string format_markdown(const Report& report);
+struct CasePage {
+  std::string file, text;  // "fsi3.md"
+};
+
+// The summary. Pages of cases lie in `folder`, such as "validation", beside it.
+std::string format_markdown(const Report& report, const std::string& folder);
+
+// The cases' pages, which link to the summary, such as "validation.md", in the folder above.
+std::vector<CasePage> case_pages(const Report& report, const std::string& summary);
 
 // What it takes to run a case again, at the report's level.
 std::string command_of(const Report& report, const CaseSpec& one);

@@ -27,7 +27,7 @@ std::string with_links(const std::string& line, const std::string& folder) {
 }  // namespace
 
 std::string link_from_page(const std::string& folder, const std::string& file) {
-  return (std::filesystem::path("..") / (std::filesystem::path(folder) / file).lexically_normal()).generic_string();
+  return (std::filesystem::path("../..") / (std::filesystem::path(folder) / file).lexically_normal()).generic_string();
 }
 
 std::string embed_readme(const std::string& text, const std::string& folder) {
@@ -42,7 +42,7 @@ std::string embed_readme(const std::string& text, const std::string& folder) {
     if (fence) code = !code;
     if (fence && code) code_begin = line.substr(0, 3);
     const bool plain = code || fence || line.starts_with("    ");
-    page += plain ? line : (line.starts_with('#') ? "##" : "") + with_links(line, folder);
+    page += plain ? line : (line.starts_with('#') ? "#" : "") + with_links(line, folder);
     page += '\n';
   }
   while (page.ends_with("\n\n")) page.pop_back();

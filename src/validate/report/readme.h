@@ -4,11 +4,11 @@
 
 namespace seiche {
 
-// Headings two levels deeper, and links to files as seen from a page in a folder beside that of the cases: those of
-// `folder`, such as "validation/fsi3", become "../validation/fsi3/...". Blocks of code stay as they are.
+// Headings one level deeper, and links to files as seen from a page such as "docs/validation/fsi3.md": those of
+// `folder`, such as "validation/fsi3", become "../../validation/fsi3/...". Blocks of code stay as they are.
 std::string embed_readme(const std::string& text, const std::string& folder);
 
-// "../validation/fsi1/scene.toml" from "validation/fsi3" and "../fsi1/scene.toml".
+// "../../validation/fsi1/scene.toml" from "validation/fsi3" and "../fsi1/scene.toml".
 std::string link_from_page(const std::string& folder, const std::string& file);
 
 }  // namespace seiche

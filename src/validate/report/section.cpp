@@ -27,7 +27,7 @@ std::string folder_name(const CaseSpec& one) {
   return (whole_path(one.folder).parent_path().filename() / one.name).generic_string();
 }
 
-// "[scene.toml](../validation/fsi3/scene.toml)"
+// "[scene.toml](../../validation/fsi3/scene.toml)"
 std::string link_to(const CaseSpec& one, const fs::path& file) {
   const std::string below = whole_path(file).lexically_relative(whole_path(one.folder)).generic_string();
   return fmt::format("[{}]({})", file.filename().string(), link_from_page(folder_name(one), below));
@@ -177,7 +177,7 @@ std::string list_of_failures(const Rows& rows) {
 
 std::string markdown_section(const PageContext& page, const Rows& rows) {
   const CaseSpec& one = rows[0].one;
-  std::string text = fmt::format("<a id=\"{0}\"></a>\n\n## {0}: {1}\n\n", one.name, one.title);
+  std::string text = fmt::format("# {}: {}\n\n", one.name, one.title);
   text += readme_of(one);
   text +=
       fmt::format("{} {}\n\n    {}\n\n", words_on_measure(rows), words_on_scenes(rows), command_of(page.report, one));
@@ -186,7 +186,7 @@ std::string markdown_section(const PageContext& page, const Rows& rows) {
   text += list_of_origins(page, rows) + list_of_others(rows) + list_of_failures(rows);
   if (const std::string why = words_on_misses(rows); !why.empty())
     text += "- " + why + (why.ends_with('.') ? "\n" : ".\n");
-  return text + "\n";
+  return text;
 }
 
 }  // namespace seiche

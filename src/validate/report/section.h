@@ -1,5 +1,5 @@
 #pragma once
-// A case's section of the page of the documentation.
+// A case's page of the documentation.
 #include <string>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// What all sections share.
+// What the pages of all cases share.
 struct PageContext {
   const Report& report;
   std::vector<std::string> machines;  // of all rows, in the order of their numbers from 1
@@ -15,7 +15,7 @@ struct PageContext {
 
 constexpr std::size_t short_digest = 8;  // of a build's digest: enough to tell builds apart
 
-// The case's own page, what is measured, the command, its results, and what each run sets and was made by.
+// The case's README, what is measured, the command, its results, and what each run sets and was made by.
 std::string markdown_section(const PageContext& page, const std::vector<ReportedResult>& rows);
 
 }  // namespace seiche

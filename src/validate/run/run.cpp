@@ -11,7 +11,7 @@
 #include "validate/record/files.h"
 #include "validate/record/machine.h"
 #include "validate/report/html.h"
-#include "validate/report/markdown.h"
+#include "validate/report/pages.h"
 #include "validate/report/report.h"
 #include "validate/run/judge.h"
 #include "validate/run/obtain.h"
@@ -58,7 +58,7 @@ Report whole_of(const std::vector<Planned>& runs, const Report& report, const st
   return whole;
 }
 
-// The whole level as Markdown. The page has what other validations have put on the record meanwhile.
+// The whole level as Markdown. The pages have what other validations have put on the record meanwhile.
 void write_docs(const std::vector<Planned>& runs, const Report& report, const ValidateOptions& options) {
   std::optional<FolderLock> lock;
   std::optional<ValidationRecord> record;
@@ -66,7 +66,7 @@ void write_docs(const std::vector<Planned>& runs, const Report& report, const Va
     lock.emplace(folder_of(*options.record));
     record.emplace(*options.record, read_record(*options.record));
   }
-  replace_file(*options.docs, format_markdown(whole_of(runs, report, record)));
+  write_pages(*options.docs, whole_of(runs, report, record));
 }
 
 TableWidths widths_of(const std::vector<Planned>& runs) {
@@ -112,18 +112,15 @@ void refuse_shared_targets(const ValidateOptions& options) {
   }
 }
 
-// What is there and was not written by a validation stays. Throws Error(bad_input).
-void refuse_other_texts(const std::filesystem::path& docs) {
-  if (!std::filesystem::is_regular_file(docs)) return;
-  const std::string there = read_whole_file(docs);
-  if (!there.empty() && !there.starts_with(page_title))
-    throw Error(ExitCode::bad_input, fmt::format("{} is there and is no page of seiche validate: name another file for "
-                                                 "--write-docs, or remove it",
-                                                 docs.string()));
+std::vector<std::string> names_of(const std::vector<Planned>& runs) {
+  std::vector<std::string> names;
+  for (const Planned& run : runs) names.push_back(run.one->name);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
 }
 
 // What would be found only after hours of runs. Throws Error(bad_input, output_failed). Collective.
-void check_options(const ValidateOptions& options, const Communicator& ranks) {
+void check_options(const ValidateOptions& options, const std::vector<Planned>& runs, const Communicator& ranks) {
   agree(ranks, "reading the options", [&] {
     parse_tampering(options.tampering);
     if (!options.tampering.empty() && (options.record || options.docs))
@@ -136,7 +133,7 @@ void check_options(const ValidateOptions& options, const Communicator& ranks) {
       if (file) check_writable(*file);
     for (const char* report : {"validation.json", "report.html"})
       if (std::filesystem::exists(options.out / report)) check_writable(options.out / report);
-    if (options.docs) refuse_other_texts(*options.docs);
+    if (options.docs) check_pages(*options.docs, names_of(runs));
   });
 }
 
@@ -173,7 +170,7 @@ ExitCode list_cases(const ValidateOptions& options, const Surroundings& around) 
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around) {
   const std::vector<CaseSpec> all = read_all_cases(options, around);
   const std::vector<Planned> runs = plan(all, options, around.ranks);
-  check_options(options, around.ranks);
+  check_options(options, runs, around.ranks);
   Validation v = start(options, around);
   Report report = begin_report(options, around.ranks, std::size_t(std::ranges::count(runs, true, &Planned::chosen)));
   const Table table{v, widths_of(runs)};

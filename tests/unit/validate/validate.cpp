@@ -225,12 +225,12 @@ TEST_CASE("a report alone runs nothing and says what is missing") {
   CHECK(outcome.code == ExitCode::cannot_continue);
   CHECK(outcome.table.find("1 pass, 1 not run") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out" / "one" / "16"));
-  const std::string page = contents(folder / "page.md");
+  const std::string page = contents(folder / "page" / "one.md");
   CHECK(page.find("seiche validate one --level full") != std::string::npos);
   CHECK(page.find("**not run**") != std::string::npos);
 }
 
-TEST_CASE("a record keeps figures of other builds, and the page has all cases") {
+TEST_CASE("a record keeps figures of other builds, and the pages have all cases") {
   const ScratchFolder folder;
   put_case(folder, "first", case_text("max_speed", 1.5));
   put_case(folder, "second", case_text("max_speed", 1.5));
@@ -248,7 +248,8 @@ TEST_CASE("a record keeps figures of other builds, and the page has all cases") 
   CHECK(validate(folder, {"second"}, "full", options).code == ExitCode::done);
   const std::string page = contents(folder / "page.md");
   CHECK(page.find("4 pass; 2 of them made by other builds") != std::string::npos);
-  CHECK(page.find("- Made by build abcdef01, 20") != std::string::npos);
+  CHECK(page.find("Of 2 cases 2 meet all their bars, 0 some of them, 0 none.") != std::string::npos);
+  CHECK(contents(folder / "page" / "first.md").find("- Made by build abcdef01, 20") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out" / "first"));
 
   // Figures of a case that has changed since are none of it.
@@ -271,7 +272,7 @@ TEST_CASE("the pages show misses with their cause, plots and a picture") {
   ValidateOptions options;
   options.docs = folder / "page.md";
   CHECK(validate(folder, {"one"}, "full", options).code == ExitCode::bug);
-  const std::string html = contents(folder / "out" / "report.html"), page = contents(folder / "page.md");
+  const std::string html = contents(folder / "out" / "report.html"), page = contents(folder / "page" / "one.md");
   CHECK(html.find("# A &amp; B") != std::string::npos);
   CHECK(html.find("the sun &lt;was&gt; in its eyes") != std::string::npos);
   CHECK(html.find("<polyline") != std::string::npos);
@@ -282,25 +283,26 @@ TEST_CASE("the pages show misses with their cause, plots and a picture") {
   options.making = Making::report;
   fs::remove_all(folder / "out");
   validate(folder, {"one"}, "full", options);
-  CHECK(contents(folder / "page.md").find("Not run in full; known: the sun") != std::string::npos);
+  CHECK(contents(folder / "page" / "one.md").find("Not run in full; known: the sun") != std::string::npos);
 }
 
-TEST_CASE("a section of the page has what it takes to make its figures again") {
+TEST_CASE("the page of a case has what it takes to make its figures again") {
   const ScratchFolder folder;
   put_case(folder, "one", case_text("max_speed", 2));
   put(folder / "cases" / "one" / "README.md", "# Moving\n\nAs [two](../two/README.md).\n");
   ValidateOptions options;
   options.docs = folder / "page.md", options.record = folder / "record.csv";
   CHECK(validate(folder, {}, "full", options).code == ExitCode::done);
-  const std::string page = contents(folder / "page.md");
-  for (const char* part :
-       {"## one: t\n", "### Moving\n", "[two](../cases/two/README.md)", "(`max_of_column`, column `max_speed`), in m/s",
-        "[case.toml](../cases/one/case.toml)", "[scene.toml](../cases/one/scene.toml)", "one --level full",
-        "| 16 | 0.0625 | 1 |", "  - 16: `domain.cell_size=0.0625`\n", "- Made by this build, 20",
-        ", 1 thread, machine 1.", "- machine 1, of 2 runs: "}) {
+  const std::string page = contents(folder / "page" / "one.md"), summary = contents(folder / "page.md");
+  for (const char* part : {"# one: t\n", "## Moving\n", "[two](../../cases/two/README.md)",
+                           "(`max_of_column`, column `max_speed`), in m/s", "[case.toml](../../cases/one/case.toml)",
+                           "[scene.toml](../../cases/one/scene.toml)", "one --level full", "| 16 | 0.0625 | 1 |",
+                           "  - 16: `domain.cell_size=0.0625`\n", "- Made by this build, 20", ", 1 thread, machine 1.",
+                           "[All cases](../page.md)"}) {
     INFO(part);
     CHECK(page.find(part) != std::string::npos);
   }
+  CHECK(summary.find("- machine 1, of 2 runs: ") != std::string::npos);
   CHECK(page.find(folder.path().string()) == std::string::npos);
   // The machine is that of the run, also where the run is found later.
   const std::string record = contents(folder / "record.csv");
@@ -311,14 +313,54 @@ TEST_CASE("a section of the page has what it takes to make its figures again") {
   CHECK(line(record).find("; g++ ") != std::string::npos);
 }
 
-TEST_CASE("a case's page stands in another with its headings deeper and its links right") {
+TEST_CASE("the summary opens with a row a case, its finest run and its misses") {
+  const ScratchFolder folder;
+  put_case(folder, "good", case_text("max_speed", 1.5));
+  put_case(folder, "bad", case_text("max_speed", 0.5));
+  ValidateOptions options;
+  options.docs = folder / "page.md";
+  validate(folder, {}, "full", options);
+  const std::string page = contents(folder / "page.md");
+  const std::size_t table = page.find("| case | compared | error | bar | runs |"),
+                    list = page.find("## Runs that miss");
+  CHECK(table < list);
+  for (const char* part : {"Of 2 cases 1 meet all their bars, 0 some of them, 1 none.",
+                           "| [good](page/good.md) | t | 1 | 1.5 | 2 pass |\n",
+                           "| [bad](page/bad.md) | t | 1 | 0.5 | **0 pass, 2 MISS** |\n",
+                           "- [bad 16](page/bad.md): MISS, error 1 where 0.5 passes\n"}) {
+    INFO(part);
+    CHECK(page.find(part) != std::string::npos);
+  }
+}
+
+TEST_CASE("pages of cases that are no more go, other texts stay") {
+  const ScratchFolder folder;
+  put_case(folder, "one", case_text("max_speed", 1.5));
+  put_case(folder, "two", case_text("max_speed", 1.5));
+  ValidateOptions options;
+  options.docs = folder / "page.md";
+  validate(folder, {}, "quick", options);
+  put(folder / "page" / "notes.md", "mine\n");
+  fs::remove_all(folder / "cases" / "two");
+  validate(folder, {}, "quick", options);
+  CHECK(fs::exists(folder / "page" / "one.md"));
+  CHECK_FALSE(fs::exists(folder / "page" / "two.md"));
+  CHECK(contents(folder / "page" / "notes.md") == "mine\n");
+  put(folder / "page" / "one.md", "mine\n");
+  CHECK_THROWS_WITH(validate(folder, {}, "quick", options), Catch::Contains("no page of seiche validate"));
+  options.docs = folder / "page";
+  fs::remove_all(folder / "page");
+  CHECK_THROWS_WITH(validate(folder, {}, "quick", options), Catch::Contains("no extension"));
+}
+
+TEST_CASE("a case's README stands in its page with its headings deeper and its links right") {
   CHECK(embed_readme("# A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n## B\n", "v/one") ==
-        "### A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n#### B\n");
+        "## A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n### B\n");
   CHECK(embed_readme("[a](b.csv), [c](../d/e.md#f), [g](#h), [i](https://j.k)\n\n", "v/one") ==
-        "[a](../v/one/b.csv), [c](../v/d/e.md#f), [g](#h), [i](https://j.k)\n");
+        "[a](../../v/one/b.csv), [c](../../v/d/e.md#f), [g](#h), [i](https://j.k)\n");
   CHECK(embed_readme("~~~\n# code\n```\n", "v/one") == "~~~\n# code\n```\n~~~\n");  // closed for what follows
   CHECK(embed_readme("<!-- a -->\n<!-- b\n", "v/one") == "<!-- a -->\n<!-- b\n-->\n");
-  CHECK(link_from_page("v/one", "../../scenes/s.toml") == "../scenes/s.toml");
+  CHECK(link_from_page("v/one", "../../scenes/s.toml") == "../../scenes/s.toml");
 }
 
 TEST_CASE("the parts of plots") {
