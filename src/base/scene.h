@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/solid_kind.h"
 #include "base/vec.h"
 
 namespace seiche {
@@ -125,7 +126,6 @@ struct GasSpec {
   bool flows() const { return present && bubbles == Bubbles::resolved; }
 };
 
-enum class SolidKind { fixed, kinematic, rigid, elastic };  // "static", "kinematic", "rigid", "elastic"
 enum class Slip { free_slip, no_slip };
 
 // Displacement of a kinematic solid from its rest pose: first rotate about center, then translate.

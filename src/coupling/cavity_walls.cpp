@@ -200,7 +200,7 @@ bool is_fed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<
   fed = s.ranks.any(fed);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     const Body<Dim>& body = s.bodies[k];
-    if (!body.moves() || body.is_rigid() || body.is_elastic()) continue;
+    if (!body.kind().is_prescribed()) continue;
     fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(s, g, component, cavity.components, k));
   }
   return fed;

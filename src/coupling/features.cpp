@@ -55,7 +55,7 @@ bool any_body(const Setup<Dim>& s, bool (*holds)(const Body<Dim>&)) {
 
 template <int Dim>
 bool has_kinematic(const Setup<Dim>& s) {
-  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.spec().kind == SolidKind::kinematic; });
+  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.kind().is_prescribed(); });
 }
 
 template <int Dim>

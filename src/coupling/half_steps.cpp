@@ -9,7 +9,7 @@ namespace {
 
 template <int Dim>
 bool is_kinematic(const Body<Dim>& body) {
-  return body.spec().kind == SolidKind::kinematic;
+  return body.kind().is_prescribed();
 }
 
 // What a source brings first has no velocity yet that the other half of the step could go on with.
@@ -79,13 +79,12 @@ RigidState go_on(const Body<Dim>& body, const RigidState& halfway, const RigidSt
 
 template <int Dim>
 StepGeometry<Dim> stand_at_end(const Setup<Dim>& s, const State<Dim>& end, StepGeometry<Dim> solved) {
-  StepGeometry<Dim> g = s.solids.measure(place_bodies(s, end), end.time);
+  const std::vector<Placement> placed = place_bodies(s, end);
+  StepGeometry<Dim> g = s.solids.measure(placed, end.time);
   solved.psi = std::move(g.psi);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    Twist& twist = solved.placed[k].twist;
-    const Pose& pose = solved.placed[k].pose = g.placed[k].pose;
-    if (s.bodies[k].is_rigid()) twist.about = end.rigid[k].center;
-    if (is_kinematic(s.bodies[k])) twist.about = pose.pivot + pose.displacement;
+    solved.placed[k].pose = g.placed[k].pose;
+    solved.placed[k].twist.about = placed[k].twist.about;
   }
   return solved;
 }

@@ -39,7 +39,7 @@ RigidState go_on(const Body<Dim>& body, const RigidState& halfway, const RigidSt
 // Whether solids move.
 template <int Dim>
 bool any_moves(const Setup<Dim>& setup) {
-  return std::any_of(setup.bodies.begin(), setup.bodies.end(), [](const Body<Dim>& b) { return b.moves(); });
+  return std::any_of(setup.bodies.begin(), setup.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); });
 }
 
 // Of the geometry that was solved with, distances and poses as at the end of the step.

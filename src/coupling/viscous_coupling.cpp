@@ -97,7 +97,7 @@ void take_in_gas(const Setup<Dim>& s, const CellField<Dim>& phi, ViscosityField<
 template <int Dim>
 bool sticks_to_what_it_moves(const Setup<Dim>& s) {
   return std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body<Dim>& b) {
-    return (b.is_elastic() || b.is_rigid()) && b.spec().slip == Slip::no_slip;
+    return b.kind().is_free() && b.spec().slip == Slip::no_slip;
   });
 }
 

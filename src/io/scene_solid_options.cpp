@@ -85,10 +85,10 @@ Section<SolidSpec> solid_section() {
   s.keys.push_back(value_key<SolidSpec>(angle, &SolidSpec::contact_angle));
   for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
-    const bool is_elastic = solid.kind == SolidKind::elastic;
-    finish_shape(c, p, solid.shape, is_elastic ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
-    if (solid.kind == SolidKind::rigid && c.clean(p.path)) finish_rigid(c, p, solid);
-    if (is_elastic && c.clean(p.path)) finish_elastic(c, p, solid);
+    const bool has_elements = solid.kind.has_elements;
+    finish_shape(c, p, solid.shape, has_elements ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
+    if (!solid.kind.is_free() || !c.clean(p.path)) return;
+    has_elements ? finish_elastic(c, p, solid) : finish_rigid(c, p, solid);
   };
   return s;
 }

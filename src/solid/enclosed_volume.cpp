@@ -191,7 +191,7 @@ std::vector<CavityWalls<Dim>> kept_cavities(const std::vector<Body<Dim>>& bodies
                                             const std::vector<ElasticMotion>& motions) {
   std::map<double, CavityWalls<Dim>> cavities;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies[k].is_elastic()) continue;
+    if (!bodies[k].elements()) continue;
     const Eigen::VectorXd& cavity = motions[k].cavity;
     for (Eigen::Index p = 0; p < cavity.size(); ++p)
       if (cavity[p] >= 0) cavities[cavity[p]].push_back({&bodies[k].elastic(), int(k), int(p)});
@@ -233,7 +233,7 @@ std::vector<Eigen::VectorXd> elastic_velocities_over(const std::vector<Body<Dim>
   if (dt == horizon) return planned;
   w = planned;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies[k].is_elastic()) continue;
+    if (!bodies[k].elements()) continue;
     const Pins pins = pins_at(bodies[k].elastic(), t + dt);
     for (std::size_t n = 0; n < pins.dofs.size(); ++n)
       w[k][pins.dofs[n]] = (pins.targets[n] - motions[k].state.u[pins.dofs[n]]) / dt;
