@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "io/run_log.h"
+#include "run/log.h"
 
 namespace seiche {
 

@@ -12,7 +12,7 @@
 #include "base/version.h"
 #include "command_line.h"
 #include "console.h"
-#include "io/signals.h"
+#include "run/signals.h"
 #include "verbs.h"
 
 namespace seiche {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "io/info.h"
-#include "io/run_agree.h"
+#include "base/agree.h"
+#include "info/info.h"
 #include "verbs.h"
 
 namespace seiche {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "io/render_run.h"
-#include "io/run_agree.h"
+#include "base/agree.h"
+#include "render/run.h"
 #include "verbs.h"
 
 namespace seiche {

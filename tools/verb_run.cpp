@@ -1,5 +1,5 @@
 #include "console.h"
-#include "io/run_command.h"
+#include "run/command.h"
 #include "verbs.h"
 
 namespace seiche {

@@ -1,5 +1,5 @@
 #include "console.h"
-#include "io/validate_run.h"
+#include "validate/run/run.h"
 #include "verbs.h"
 
 namespace seiche {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <string>
 
-#include "../../tests/unit/linalg_cases.h"
-#include "linalg/hypre_adapter.h"
-#include "linalg/krylov.h"
+#include "linalg/krylov/krylov.h"
+#include "linalg/precond/hypre_adapter.h"
+#include "unit/linalg/cases.h"
 
 using namespace seiche;
 

@@ -1,6 +1,6 @@
 #pragma once
 // What a scene file says, as plain data in SI units. Scene vectors always have three components; in 2D the third is
-// zero. Filled by src/io/scene_reader, which has checked every value; the other layers read it.
+// zero. Filled by src/scene/reader, which has checked every value; the other layers read it.
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -30,7 +30,7 @@ struct TransformSpec {
 };
 
 struct ShapeSpec {
-  std::string kind;  // a name of the table in levelset/shapes.h
+  std::string kind;  // a name of the table in geometry/shapes/shapes.h
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};
   Vec3 center{0, 0, 0};
   Vec3 from{0, 0, 0}, to{0, 0, 0};
@@ -80,7 +80,7 @@ struct LiquidSourceSpec {
   double until = std::numeric_limits<double>::infinity();
 };
 
-// Viscosity by shear rate; which of the numbers a model has, the table in fluid/rheology.h says.
+// Viscosity by shear rate; which of the numbers a model has, the table in fluid/rheology/rheology.h says.
 struct RheologySpec {
   std::string model;                     // a name of that table; empty: the liquid is Newtonian
   double viscosity = 0;                  // Pa s
@@ -90,7 +90,7 @@ struct RheologySpec {
   double viscosity_zero = 0;             // Pa s, at rest
   double viscosity_infinity = 0;         // Pa s, at any large shear rate
   double time = 0;                       // s
-  std::optional<double> regularisation;  // shear rate below which stiffness is bounded, 1/s; unset: fluid/rheology.h
+  std::optional<double> regularisation;  // shear rate below which stiffness is bounded, 1/s; unset: see fluid/rheology
 };
 
 // What holds the surface back: its tension as it is, in steps short enough for the shortest capillary waves, or as
@@ -156,7 +156,7 @@ struct TractionSpec {
 
 // What an elastic solid is made of; its density and initial velocities are those of RigidSpec.
 struct ElasticSpec {
-  std::string model = "stable_neo_hookean";  // a name of the table in solid/elastic_material.h
+  std::string model = "stable_neo_hookean";  // a name of the table in solid/material/material.h
   double youngs_modulus = 0;                 // Pa
   double poisson_ratio = 0;
   double damping = 0;                       // Rayleigh's beta (stiffness), s

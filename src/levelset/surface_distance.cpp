@@ -5,8 +5,8 @@
 #include <deque>
 #include <map>
 
+#include "geometry/mesh/segment_crossing.h"
 #include "grid/loops.h"
-#include "levelset/segment_crossing.h"
 
 namespace seiche {
 namespace {

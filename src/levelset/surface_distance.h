@@ -3,8 +3,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/mesh/mesh.h"
 #include "grid/fields.h"
-#include "levelset/mesh.h"
 
 namespace seiche {
 

@@ -2,7 +2,7 @@
 #include <random>
 
 #include "exact_intersections.h"
-#include "solid_contact_cases.h"
+#include "unit/solid/contact_cases.h"
 
 using namespace seiche;
 using namespace seiche::contact_cases;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/scene.h"
-#include "levelset/mesh.h"
+#include "geometry/mesh/mesh.h"
 
 namespace seiche::exact {
 

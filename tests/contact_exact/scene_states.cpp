@@ -8,9 +8,9 @@
 
 #include "elastic_scenes.h"
 #include "exact_intersections.h"
-#include "io/scene_reader.h"
 #include "rigid_scenes.h"
-#include "solid/body.h"
+#include "scene/reader.h"
+#include "solid/body/body.h"
 
 using namespace seiche;
 using exact::Mobility;

@@ -1,6 +1,6 @@
 // No state of soft bodies in violent motion has surfaces that intersect themselves or each other.
 #include "exact_intersections.h"
-#include "solid_soft_motions.h"
+#include "unit/solid/soft_motions.h"
 
 using namespace seiche;
 using namespace seiche::testing;

@@ -3,8 +3,8 @@
 #include <numeric>
 #include <random>
 
-#include "coupling/step_geometry.h"
-#include "fluid/pressure.h"
+#include "coupling/geometry/step_geometry.h"
+#include "fluid/pressure/pressure.h"
 #include "levelset/redistance.h"
 #include "rigid_scenes.h"
 

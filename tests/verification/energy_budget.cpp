@@ -1,12 +1,12 @@
 // Solves that blow up are rejected and told: operators made wrong on purpose, on any number of ranks.
-#include "coupling/energy_budget.h"
+#include "coupling/report/energy_budget.h"
 
 #include <catch2/catch.hpp>
 
-#include "../unit/coupling_end.h"
-#include "coupling/measures.h"
-#include "coupling/tampering.h"
+#include "coupling/report/measures.h"
+#include "coupling/state/tampering.h"
 #include "scenes.h"
+#include "unit/coupling/end.h"
 
 using namespace seiche;
 using Catch::Matchers::Contains;

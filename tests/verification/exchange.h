@@ -4,9 +4,9 @@
 #include <functional>
 #include <random>
 
-#include "coupling/coupled_solve.h"
-#include "coupling/measures.h"
-#include "coupling/rigid_coupling.h"
+#include "coupling/report/measures.h"
+#include "coupling/solids/rigid_coupling.h"
+#include "coupling/solve/coupled_solve.h"
 #include "grid/loops.h"
 #include "scenes.h"
 

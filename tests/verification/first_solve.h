@@ -1,7 +1,7 @@
 #pragma once
 // The solve of a first step of 1 ms, from zero pressure, taken apart: what it costs can be looked at.
-#include "coupling/liquid_problem.h"
-#include "coupling/transport.h"
+#include "coupling/solve/liquid_problem.h"
+#include "coupling/transport/transport.h"
 #include "scenes.h"
 
 namespace seiche::test {

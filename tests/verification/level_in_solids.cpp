@@ -1,9 +1,9 @@
 // Liquid on one side of a thick wall does not come out at the other when the wall moves.
-#include "coupling/level_in_solids.h"
+#include "coupling/transport/level_in_solids.h"
 
 #include <catch2/catch.hpp>
 
-#include "coupling/placed_solid.h"
+#include "coupling/geometry/placed_solid.h"
 #include "elastic_scenes.h"
 #include "grid/loops.h"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
-#include "coupling/contact_setup.h"
+#include "coupling/solids/contact_setup.h"
 #include "elastic_scenes.h"
 #include "grid/loops.h"
 #include "rigid_scenes.h"

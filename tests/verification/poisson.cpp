@@ -2,8 +2,8 @@
 // solids.
 #include <catch2/catch.hpp>
 
-#include "coupling/step_geometry.h"
-#include "fluid/pressure.h"
+#include "coupling/geometry/step_geometry.h"
+#include "fluid/pressure/pressure.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "scenes.h"

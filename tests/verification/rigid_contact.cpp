@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "coupling/state.h"
+#include "coupling/state/state.h"
 #include "rigid_scenes.h"
-#include "solid/rigid_motion.h"
+#include "solid/rigid/motion.h"
 
 using namespace seiche;
 

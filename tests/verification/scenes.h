@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/communicator.h"
-#include "coupling/simulation.h"
+#include "coupling/state/simulation.h"
 
 namespace seiche::test {
 

@@ -7,8 +7,8 @@
 
 #include "elastic_scenes.h"
 #include "exchange.h"
-#include "solid/elastic_mesh.h"
-#include "solid/enclosed_volume.h"
+#include "solid/body/enclosed_volume.h"
+#include "solid/mesh/mesh.h"
 
 using namespace seiche;
 using namespace seiche::test;

@@ -3,7 +3,7 @@
 
 #include "elastic_scenes.h"
 #include "exchange.h"
-#include "levelset/segment_crossing.h"
+#include "geometry/mesh/segment_crossing.h"
 
 using namespace seiche;
 using namespace seiche::test;

@@ -2,8 +2,8 @@
 // The viscous operator on one grid, and its whole saddle-point system solved by a direct method.
 #include <Eigen/SparseLU>
 
-#include "coupling/step_geometry.h"
-#include "fluid/no_slip_flux.h"
+#include "coupling/geometry/step_geometry.h"
+#include "fluid/viscosity/no_slip_flux.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "scenes.h"

@@ -1,7 +1,7 @@
 // Liquid that may part from solids: the viscous operator beside it, and the search for where it does.
 #include <catch2/catch.hpp>
 
-#include "fluid/parting_search.h"
+#include "fluid/pressure/parting_search.h"
 #include "viscous_case.h"
 
 using namespace seiche;

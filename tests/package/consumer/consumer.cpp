@@ -2,7 +2,7 @@
 // did. Exit code 1 where the volume is not that of the column.
 #include <base/communicator.h>
 #include <base/scene.h>
-#include <coupling/simulation.h>
+#include <coupling/state/simulation.h>
 
 #include <cmath>
 #include <cstdio>

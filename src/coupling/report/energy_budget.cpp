@@ -1,0 +1,176 @@
+#include "coupling/report/energy_budget.h"
+
+#include <fmt/format.h>
+
+#include "coupling/report/measures.h"
+#include "coupling/tension/surface_tension.h"
+#include "coupling/transport/given_motion.h"
+#include "grid/domain_faces.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// A step that moves liquid by this share of a cell at most is no blow-up: there is rounding and the solver's tolerance.
+constexpr double still = 1e-3;
+
+template <int Dim>
+double body_mass(const Setup<Dim>& s) {
+  double sum = 0;
+  for (const Body<Dim>& body : s.bodies)
+    if (body.is_rigid() || body.is_elastic()) sum += body.mass().mass;
+  return sum;
+}
+
+template <int Dim>
+double total_mass(const Setup<Dim>& s, const StepStats& stats) {
+  return s.density() * stats.liquid_volume + s.gas_density() * stats.gas_volume + body_mass(s);
+}
+
+// Faces that the surface crosses times their area: at least the surface's own one, twice for what wets walls.
+template <int Dim>
+double surface_energy(const Setup<Dim>& s, const CellField<Dim>& phi) {
+  if (!has_surface_tension(s)) return 0;
+  double faces = 0;
+  for (int a = 0; a < Dim; ++a)
+    faces += local_sum(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      return (phi[f] < 0) != (phi[f - s.layout.stride(a)] < 0) ? 1.0 : 0.0;
+    });
+  return 2 * s.scene.liquid.surface_tension * s.ranks.global_sum(faces) * s.layout.geometry().face_area();
+}
+
+// The fastest node that pins lead from t to t + dt, m/s.
+template <int Dim>
+double fastest_pin(const ElasticSolid<Dim>& solid, double t, double dt) {
+  const Pins from = pins_at(solid, t), to = pins_at(solid, t + dt);
+  double fastest = 0;
+  for (std::size_t n = 0; n < to.targets.size(); ++n)
+    fastest = std::max(fastest, std::abs(to.targets[n] - from.targets[n]) / dt);
+  return std::sqrt(double(Dim)) * fastest;
+}
+
+// The fastest that prescribed bodies and pins move, m/s.
+template <int Dim>
+double fastest_led(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double span) {
+  std::vector<Placement> placed = attempt.geometry.placed;
+  double fastest = 0;
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    if (s.bodies[k].spec().kind == SolidKind::kinematic) continue;
+    placed[k].twist = {};
+    placed[k].velocity = Eigen::VectorXd::Zero(placed[k].velocity.size());
+    if (s.bodies[k].is_elastic()) fastest = std::max(fastest, fastest_pin(s.bodies[k].elastic(), t, span));
+  }
+  return std::max(fastest, s.solids.largest_displacement(placed, 1));
+}
+
+// p.b/A of the sides, of this rank: volume let in times the pressure it is let in against.
+template <int Dim>
+double pushed_by_sides(const Setup<Dim>& s, const Attempt<Dim>& attempt) {
+  const FaceGeometry<Dim>& faces = attempt.geometry.faces;
+  double sum = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side)
+      for_each_index_in_order(s.layout, faces_of_side(s.layout, a, side), [&](Site f, const IVec<Dim>&) {
+        const Site inside = side == 0 ? f : f - s.layout.stride(a);
+        const double inward = (side == 0 ? 1 : -1) * faces.open.at(a, f);
+        const FaceKind kind = faces.kind_at(a, f);
+        if (kind == FaceKind::prescribed) sum += inward * faces.prescribed.at(a, f) * attempt.state.pressure[inside];
+        if (kind == FaceKind::outflow) sum += inward * attempt.state.now->u.at(a, f) * faces.side_pressure.at(a, f);
+      });
+  return sum;
+}
+
+// p.b/A of a prescribed body, of this rank; of an elastic one that pins lead at most, all of its surface at their
+// speed.
+template <int Dim>
+double pushed_by_body(const Setup<Dim>& s, const Attempt<Dim>& attempt, std::size_t k, double pinned) {
+  double sum = 0;
+  for (const FaceShare& share : *attempt.geometry.shares[k]) {
+    const IVec<Dim> i = s.layout.index(share.face);
+    if (!s.layout.faces(share.axis).contains(i)) continue;
+    const CellField<Dim>& p = attempt.state.pressure;
+    const double jump = p[share.face] - p[share.face - s.layout.stride(share.axis)];
+    if (pinned > 0)
+      sum += share.closed * std::abs(jump) * pinned;
+    else
+      sum += share.closed * jump *
+             attempt.geometry.placed[k].twist.at(
+                 extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))))[share.axis];
+  }
+  return sum;
+}
+
+// dt p.b, J.
+template <int Dim>
+double pushed(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double dt) {
+  double sum = pushed_by_sides(s, attempt);
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const bool elastic = s.bodies[k].is_elastic();
+    const double pinned = elastic ? fastest_pin(s.bodies[k].elastic(), t, dt) : 0;
+    if (pinned > 0 || s.bodies[k].spec().kind == SolidKind::kinematic) sum += pushed_by_body(s, attempt, k, pinned);
+  }
+  return std::max(0.0, dt * s.ranks.global_sum(sum) * s.layout.geometry().face_area());
+}
+
+// sqrt(f.M^-1 f), M lumped, of tractions and body forces.
+template <int Dim>
+double pull_of_forces(const Setup<Dim>& s, double t) {
+  double sum = 0;
+  for (const Body<Dim>& body : s.bodies) {
+    if (!body.is_elastic()) continue;
+    const Eigen::VectorXd f = applied_force_at(body.elastic(), t);
+    const Eigen::VectorXd& m = body.elastic().body.lumped_mass;
+    for (int n = 0; n < f.size(); ++n) sum += f[n] * f[n] / m[n];
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+double most_kinetic_energy(const EnergyBudget& b) {
+  const double speed = std::sqrt(2 * (b.kinetic + b.elastic + b.surface)) + std::sqrt(b.mass) * (b.gain + b.given) +
+                       b.momentum + std::sqrt(b.pushed);
+  return 0.5 * std::pow(speed_margin * speed, 2);
+}
+
+// Velocities of solids are those at the end of the horizon, so forces act until then.
+template <int Dim>
+EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
+                           const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
+  const double t = before.time, dt = attempt.state.time - t, span = dt + attempt.state.horizon;
+  EnergyBudget b;
+  b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s, before, psi));
+  b.elastic = start.elastic_energy;
+  b.surface = std::max(surface_energy(s, before.phi), surface_energy(s, attempt.state.phi));
+  b.mass = std::max(total_mass(s, start), total_mass(s, attempt.stats));
+  b.gain = span * (s.gravity.of_step(t + dt, dt).norm() + s.gravity.of_step(t, before.dt_now).norm());
+  b.given = still * s.layout.h() / dt + fastest_led(s, attempt, t, span) +
+            std::sqrt(double(Dim)) * fastest_given_flow(s, t, dt);
+  b.momentum = span * std::max(pull_of_forces(s, t), pull_of_forces(s, t + span));
+  b.pushed = pushed(s, attempt, t, dt);
+  return b;
+}
+
+template <int Dim>
+std::string fault_of_energy(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
+                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
+  const double found = attempt.stats.kinetic_energy;
+  if (found <= most_kinetic_energy({.kinetic = start.kinetic_energy})) return {};  // within its own energy's margin
+  const EnergyBudget budget = energy_budget(s, before, start, psi, attempt);
+  const double most = most_kinetic_energy(budget);
+  if (found <= most) return {};
+  return fmt::format(
+      "kinetic energy grows from {:.4g} to {:.4g} {}, while all that it could draw on comes to {:.4g}: the solve blew "
+      "up",
+      start.kinetic_energy, found, Dim == 2 ? "J/m" : "J", most);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template EnergyBudget energy_budget<D>(const Setup<D>&, const State<D>&, const StepStats&, const NodeField<D>&,  \
+                                         const Attempt<D>&);                                                       \
+  template std::string fault_of_energy<D>(const Setup<D>&, const State<D>&, const StepStats&, const NodeField<D>&, \
+                                          const Attempt<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,76 @@
+// Fields for frames, from the owned cells.
+#include "base/error.h"
+#include "coupling/report/measures.h"
+#include "coupling/transport/liquid_viscosity.h"
+#include "coupling/transport/two_fluids.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// du_b/dx_a at cell centres by central differences of face means.
+template <int Dim>
+double cell_gradient(const Layout<Dim>& layout, const std::vector<double>& u, int b, int a, Site c) {
+  const Site da = layout.stride(a), db = layout.stride(b);
+  if (a == b) return (u[c + da] - u[c]) / layout.h();
+  return (u[c + da] + u[c + da + db] - u[c - da] - u[c - da + db]) / (4 * layout.h());
+}
+
+// |curl u| in 3D, curl u in 2D, where there is fluid; 0 elsewhere. 1/s.
+template <int Dim>
+double vorticity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim>& u, Site c) {
+  if (state.phi[c] >= 0 && !s.has_gas()) return 0;
+  const auto part = [&](int a, int b) {
+    return cell_gradient(s.layout, u[b], b, a, c) - cell_gradient(s.layout, u[a], a, b, c);
+  };
+  if constexpr (Dim == 2) return part(0, 1);
+  if constexpr (Dim == 3) return Vec3(part(1, 2), part(2, 0), part(0, 1)).norm();
+}
+
+}  // namespace
+
+// Pa s, that of the gas, or 0, outside the liquid.
+template <int Dim>
+CellField<Dim> viscosity(const Setup<Dim>& s, const State<Dim>& state) {
+  CellField<Dim> mu(s.layout);
+  const std::string fault = set_liquid_viscosity(s, state.now->u, state.now->valid, state.time, mu);
+  if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    if (state.phi[c] >= 0) mu[c] = s.has_gas() ? s.scene.gas.viscosity : 0;
+  });
+  return mu;
+}
+
+template <int Dim>
+FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const std::string& name) {
+  FrameField out;
+  out.name = name;
+  for (int a = 0; a < Dim; ++a) out.lower[a] = s.layout.cells().lower[a], out.upper[a] = s.layout.cells().upper[a];
+  if (Dim == 2) out.upper[2] = 1;
+  const auto fill = [&](FrameField::Kind kind, auto value) {
+    out.kind = kind;
+    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) { value(c); });
+  };
+  if (name == "surface")
+    fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
+  else if (name == "vel")
+    fill(FrameField::Kind::staggered_vector, [&, u = of_both(s, state, &Level<Dim>::u)](Site c) {
+      for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(u.at(std::min(a, Dim - 1), c)) : 0.0f);
+    });
+  else if (name == "pressure")
+    fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
+  else if (name == "viscosity")
+    fill(FrameField::Kind::scalar, [&, mu = viscosity(s, state)](Site c) { out.values.push_back(float(mu[c])); });
+  else if (name == "vorticity")
+    fill(FrameField::Kind::scalar, [&, u = of_both(s, state, &Level<Dim>::u)](Site c) {
+      out.values.push_back(float(vorticity(s, state, u, c)));
+    });
+  else
+    throw Error(ExitCode::bug, "no field named '" + name + "'");
+  return out;
+}
+
+template FrameField make_frame_field<2>(const Setup<2>&, const State<2>&, const std::string&);
+template FrameField make_frame_field<3>(const Setup<3>&, const State<3>&, const std::string&);
+
+}  // namespace seiche

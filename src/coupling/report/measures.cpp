@@ -1,0 +1,237 @@
+#include "coupling/report/measures.h"
+
+#include <numeric>
+
+#include "coupling/solids/elastic_coupling.h"
+#include "coupling/transport/air_volume.h"
+#include "coupling/transport/transport.h"
+#include "grid/loops.h"
+#include "levelset/fractions.h"
+#include "solid/rigid/motion.h"
+
+namespace seiche {
+namespace {
+
+// Velocities on the two faces of a cell along an axis; beside a face that the fluid does not touch it moves as on the
+// other one, where it touches neither as continued.
+struct FacePair {
+  double low = 0, high = 0;
+};
+
+template <int Dim>
+FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
+  const Site up = cell + s.layout.stride(axis);
+  const bool low = l.valid.at(axis, cell), high = l.valid.at(axis, up);
+  return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
+}
+
+// The larger speed of a cell's faces along an axis that the fluid touches.
+template <int Dim>
+double fastest_solved(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
+  double fastest = 0;
+  for (const Site f : {cell, cell + s.layout.stride(axis)})
+    if (l.valid.at(axis, f)) fastest = std::max(fastest, std::abs(l.u.at(axis, f)));
+  return fastest;
+}
+
+// Of one fluid, over this rank's cells.
+struct FluidSums {
+  std::array<double, 7> sums{};  // volume, kinetic and potential energy, momentum, cells
+  double fastest_squared = 0;
+};
+
+// E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
+// g.x with gravity at that time; the fluid is where phi < 0.
+template <int Dim>
+FluidSums sum_fluid(const Setup<Dim>& s, const Level<Dim>& level, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                    double density, const Vec<Dim>& g) {
+  FluidSums r;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (phi[c] > 2 * s.layout.h()) return;
+    const double volume = s.layout.geometry().cell_volume() * liquid_share(s.layout, phi, psi, c);
+    const double mass = density * volume;
+    double speed2 = 0;
+    for (int a = 0; a < Dim; ++a) {
+      const FacePair u = solved_faces(s, level, a, c);
+      r.sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
+      r.sums[3 + a] += 0.5 * mass * (u.low + u.high);
+      speed2 += std::pow(fastest_solved(s, level, a, c), 2);
+    }
+    r.sums[0] += volume;
+    r.sums[2] -= mass * g.dot(s.layout.position(i, cell_offset<Dim>()));
+    if (phi[c] < 0) r.fastest_squared = std::max(r.fastest_squared, speed2), r.sums[6] += 1;
+  });
+  return r;
+}
+
+template <int Dim>
+CellField<Dim> negated(const Layout<Dim>& layout, const CellField<Dim>& f) {
+  CellField<Dim> r(layout);
+  for_each_site(layout, layout.padded(), [&](Site c) { r[c] = -f[c]; });
+  return r;
+}
+
+}  // namespace
+
+template <int Dim>
+void measure_fluids(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
+  const Vec<Dim> g = truncate<Dim>(s.gravity.at(state.time));
+  FluidSums liquid = sum_fluid(s, *state.now, state.phi, psi, s.density(), g), gas;
+  if (s.has_gas()) gas = sum_fluid(s, *state.gas.now, negated(s.layout, state.phi), psi, s.gas_density(), g);
+  s.ranks.global_sum(liquid.sums);
+  s.ranks.global_sum(gas.sums);
+  stats.liquid_volume = liquid.sums[0];
+  stats.gas_volume = gas.sums[0];
+  stats.kinetic_energy = liquid.sums[1] + gas.sums[1];
+  stats.potential_energy = liquid.sums[2] + gas.sums[2];
+  for (int a = 0; a < 3; ++a) stats.momentum[a] = liquid.sums[3 + a] + gas.sums[3 + a];
+  stats.max_speed = std::sqrt(s.ranks.global_max(std::max(liquid.fastest_squared, gas.fastest_squared)));
+  stats.cells_liquid = std::int64_t(liquid.sums[6]);
+  stats.volume_corrected = state.corrected_volume;
+}
+
+template <int Dim>
+double kinetic_energy_of_fluids_before(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
+  if (!state.before) return 0;
+  const Vec<Dim> g = Vec<Dim>::Zero();
+  double sum = sum_fluid(s, *state.before, state.phi, psi, s.density(), g).sums[1];
+  if (s.has_gas() && state.gas.before)
+    sum += sum_fluid(s, *state.gas.before, negated(s.layout, state.phi), psi, s.gas_density(), g).sums[1];
+  return s.ranks.global_sum(sum);
+}
+
+template <int Dim>
+void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
+  if (!s.keeps_air()) return;
+  const std::vector<double> volumes = air_volumes(s, state.air, psi, state.phi);
+  // Cut cells of solids may hold air by their centres and none outside the solid.
+  stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
+  stats.gas_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
+  stats.air_lost = state.lost_air;
+}
+
+// E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x
+// with gravity at that time.
+template <int Dim>
+void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_rigid()) continue;
+    const RigidState& r = state.rigid[k];
+    const double mass = s.bodies[k].mass().mass;
+    const Vec3 w = angular_velocity(principal_inertia(s.bodies[k].mass().inertia), r.rotation, r.angular_momentum);
+    stats.kinetic_energy += 0.5 * mass * r.velocity.squaredNorm() + 0.5 * w.dot(r.angular_momentum);
+    stats.potential_energy -= mass * s.gravity.at(state.time).dot(r.center);
+    stats.momentum += mass * r.velocity;
+  }
+}
+
+// Displacements and velocities as the last solve found them together with the liquid's: u + H w and the velocity that
+// the scheme has there. Those at the state's time are a step older than the liquid's.
+template <int Dim>
+ElasticState elastic_as_solved(const Setup<Dim>& s, const State<Dim>& state, std::size_t k) {
+  if (state.horizon == 0) return state.elastic[k].state;
+  const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+  ElasticMotion m = state.elastic[k];
+  advance(solid.body, s.elastic_scheme(), state.horizon, step_load(s, state, state.dt_now, state.horizon, int(k)),
+          pins_at(solid, state.time + state.horizon), m);
+  return m.state;
+}
+
+// E = 1/2 v'Mv + Psi(u) and -g'M x as solved; the momentum is that of w.
+template <int Dim>
+void measure_elastic(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    const ElasticBody<Dim>& body = s.bodies[k].elastic().body;
+    const ElasticMotion& m = state.elastic[k];
+    const ElasticState solved = elastic_as_solved(s, state, k);
+    const BodyAverage now = average(body, solved.u, m.velocity);
+    stats.kinetic_energy += kinetic_energy(body, solved.v);
+    stats.elastic_energy += elastic_energy(body, solved.u);
+    stats.potential_energy -= s.bodies[k].mass().mass * s.gravity.at(state.time).dot(now.center);
+    stats.momentum += s.bodies[k].mass().mass * now.velocity;
+  }
+}
+
+// How an elastic body stands and moves on the average.
+template <int Dim>
+void describe_elastic(const Body<Dim>& body, const ElasticMotion& m, SolidState& out) {
+  const BodyAverage now = average(body.elastic().body, m.state.u, m.velocity);
+  const Eigen::Quaterniond q(now.rotation);
+  out.position = now.center;
+  out.orientation = {q.w(), q.x(), q.y(), q.z()};
+  out.velocity = now.velocity;
+  out.angular_velocity = now.angular_velocity;
+}
+
+// Adds force and torque of the pressure on each solid's shares to `loads`, six numbers a solid, of this rank's faces.
+template <int Dim>
+void add_pressure_loads(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, std::size_t k,
+                        const Vec3& about, std::vector<double>& loads) {
+  for (const FaceShare& share : *g.shares[k]) {
+    const double jump = state.pressure[share.face - s.layout.stride(share.axis)] - state.pressure[share.face];
+    const IVec<Dim> i = s.layout.index(share.face);
+    if (jump == 0 || !s.layout.faces(share.axis).contains(i)) continue;
+    Vec3 force = Vec3::Zero();
+    force[share.axis] = share.closed * s.layout.geometry().face_area() * jump;
+    const Vec3 torque = (extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))) - about).cross(force);
+    for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
+  }
+}
+
+// Adds loads about the origin to force and torque about a point.
+void add_load(const Eigen::VectorXd& load, const Vec3& about, Vec3& force, Vec3& torque) {
+  const Vec3 f = load.head(3), t = load.tail(3);
+  force += f;
+  torque += t - about.cross(f);
+}
+
+// F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
+template <int Dim>
+std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
+  std::vector<SolidState> solids;
+  std::vector<double> loads(6 * s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const Pose& pose = g.placed[k].pose;
+    const Eigen::Quaterniond q(pose.rotation);
+    SolidState& out = solids.emplace_back();
+    out.name = s.bodies[k].spec().name;
+    out.position = pose.apply(s.bodies[k].reference_point());
+    out.orientation = {q.w(), q.x(), q.y(), q.z()};
+    // Before the first step there is no mean over a step; the share of a frame bounds error and cancellation by 1e-8.
+    const bool prescribed = state.step == 0 && s.bodies[k].spec().kind == SolidKind::kinematic;
+    const Twist v = prescribed ? s.bodies[k].velocity(state.time, 1e-4 / s.scene.time.frame_rate) : g.placed[k].twist;
+    out.velocity = v.at(out.position);
+    out.angular_velocity = v.angular;
+    if (s.bodies[k].is_elastic()) describe_elastic(s.bodies[k], state.elastic[k], out);
+    add_pressure_loads(s, state, g, k, s.bodies[k].is_elastic() ? out.position : g.pivots[k], loads);
+  }
+  if (!loads.empty()) s.ranks.global_sum(loads);
+  for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      loads[6 * k + c] += state.viscous_loads[k].force[c];
+      loads[6 * k + 3 + c] += state.viscous_loads[k].torque[c];
+    }
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    const RigidState& r = state.rigid[k];
+    solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]) + r.extra_force;
+    solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]) + r.extra_torque +
+                       (r.center - solids[k].position).cross(r.extra_force);
+    if (!s.bodies[k].is_elastic()) continue;
+    add_load(state.elastic[k].extra_load, solids[k].position, solids[k].force, solids[k].torque);
+    add_load(state.elastic[k].reaction, solids[k].position, solids[k].pin_force, solids[k].pin_torque);
+  }
+  return solids;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);        \
+  template double kinetic_energy_of_fluids_before<D>(const Setup<D>&, const State<D>&, const NodeField<D>&); \
+  template void measure_air<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);           \
+  template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                              \
+  template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                            \
+  template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,126 @@
+#include "coupling/report/scene_account.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "coupling/transport/transport.h"
+#include "geometry/mesh/clipped_volume.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+constexpr std::size_t most_lines = 20;        // of solids
+constexpr double nothing = 1e-6, all = 1e-3;  // shares of a volume that count as none, as lost
+
+template <int Dim>
+std::string place_text(const Vec3& x) {
+  const Vec<Dim> v = truncate<Dim>(x);
+  return fmt::format("({:.4g})", fmt::join(v.begin(), v.end(), ", "));
+}
+
+template <int Dim>
+std::string volume_text(double volume) {
+  return fmt::format("{:.5g} m^{}", volume, Dim);
+}
+
+template <int Dim>
+NodeField<Dim> no_solids(const Setup<Dim>& s) {
+  return NodeField<Dim>(s.layout, 1e30);
+}
+
+// The level set of one region, clamped to the band.
+template <int Dim>
+CellField<Dim> level_set_of(const Setup<Dim>& s, const ShapeSpec& spec) {
+  const auto shape = make_shape<Dim>(spec, {s.layout.h(), nullptr});
+  CellField<Dim> phi(s.layout, s.band());
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    phi[c] = std::clamp((*shape)(s.layout.position(i, cell_offset<Dim>())), -s.band(), s.band());
+  });
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  return phi;
+}
+
+template <int Dim>
+void account_region(const Setup<Dim>& s, std::size_t k, const NodeField<Dim>& psi, SceneAccount& account) {
+  const ShapeSpec& spec = s.scene.liquid.regions[k].shape;
+  const CellField<Dim> phi = level_set_of(s, spec);
+  const double whole = liquid_volume(s, phi, no_solids(s)), wet = liquid_volume(s, phi, psi);
+  if (whole <= nothing * s.layout.geometry().cell_volume())
+    account.warnings.push_back(
+        fmt::format("{}: liquid.region.{} holds no liquid: it lies outside of the domain or is far smaller than a cell",
+                    spec.where, k));
+  else if (wet < all * whole)
+    account.warnings.push_back(fmt::format(
+        "{}: liquid.region.{} holds no liquid: all of its {} lies inside solids (a container is a solid with "
+        "invert = true)",
+        spec.where, k, volume_text<Dim>(whole)));
+}
+
+template <int Dim>
+void account_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, SceneAccount& account) {
+  const double wet = liquid_volume(s, state.phi, psi), whole = liquid_volume(s, state.phi, no_solids(s));
+  std::string line =
+      fmt::format("liquid  {}, {:.5g} kg{}", volume_text<Dim>(wet), wet * s.density(), Dim == 2 ? "/m" : "");
+  if (whole - wet > all * whole)
+    line += fmt::format("; {} of its regions lies inside solids", volume_text<Dim>(whole - wet));
+  account.lines.push_back(line);
+  constexpr std::size_t most_regions = 20;  // each takes a look at the whole grid
+  for (std::size_t k = 0; k < std::min(most_regions, s.scene.liquid.regions.size()); ++k)
+    account_region(s, k, psi, account);
+}
+
+// The surface of a solid at the start.
+template <int Dim>
+SurfaceMesh surface_at_start(const Body<Dim>& body) {
+  SurfaceMesh mesh = body.contact_surface();
+  const Pose pose = body.pose(0);
+  for (Vec3& x : mesh.points) x = pose.apply(x);
+  return mesh;
+}
+
+template <int Dim>
+void account_solid(const Setup<Dim>& s, const Body<Dim>& body, SceneAccount& account) {
+  const SolidSpec& spec = body.spec();
+  const std::string name = fmt::format("solid   '{}', {}", spec.name, spec.kind.name);
+  if (spec.shape.invert || spec.shape.kind == "plane") {
+    account.lines.push_back(name + (spec.shape.invert ? ": all but a hole" : ": a half-space"));
+    return;
+  }
+  const SurfaceMesh mesh = surface_at_start(body);
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : mesh.points) box.extend(x);
+  if (box.isEmpty()) return;
+  const double volume = mass_of_surface<Dim>(mesh, 1).volume;
+  const double share = volume > 0 ? clipped_volume<Dim>(mesh, s.scene.domain.lower, s.scene.domain.upper) / volume : 1;
+  std::string line = fmt::format("{}: {}", name, volume_text<Dim>(volume));
+  if (body.kind().is_free())
+    line += fmt::format(", {:.5g} kg{}, centre of mass {}", body.mass().mass, Dim == 2 ? "/m" : "",
+                        place_text<Dim>(body.mass().center));
+  line += fmt::format(", from {} to {} m", place_text<Dim>(box.min()), place_text<Dim>(box.max()));
+  if (share < 1 - all) line += fmt::format("; {:.3g} % of it lies outside of the domain", 100 * (1 - share));
+  account.lines.push_back(line);
+  if (share < nothing && !spec.kind.is_prescribed())
+    account.warnings.push_back(fmt::format("{}: solid '{}' lies outside of the domain, from {} to {} m",
+                                           spec.shape.where, spec.name, place_text<Dim>(box.min()),
+                                           place_text<Dim>(box.max())));
+}
+
+}  // namespace
+
+template <int Dim>
+SceneAccount account_scene(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
+  SceneAccount account;
+  account_liquid(s, state, psi, account);
+  const std::size_t count = s.bodies.size();
+  for (std::size_t k = 0; k < std::min(count, most_lines); ++k) account_solid(s, s.bodies[k], account);
+  if (count > most_lines) account.lines.push_back(fmt::format("        and {} more solids", count - most_lines));
+  return account;
+}
+
+template SceneAccount account_scene<2>(const Setup<2>&, const State<2>&, const NodeField<2>&);
+template SceneAccount account_scene<3>(const Setup<3>&, const State<3>&, const NodeField<3>&);
+
+}  // namespace seiche

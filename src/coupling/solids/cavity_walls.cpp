@@ -1,0 +1,266 @@
+#include "coupling/solids/cavity_walls.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+#include "grid/loops.h"
+#include "solid/elastic/surface_patches.h"
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+using Components = CellField<Dim, std::int64_t>;
+
+// Of the rows' cells and of those of air, -1: none or open; one cell around too. Collective.
+template <int Dim>
+Components<Dim> components_of_cells(const Setup<Dim>& s, const PressureRows<Dim>& rows, const NullSpace& closed) {
+  Components<Dim> component(s.layout, -1);
+  for (std::size_t n = 0; n < rows.cells.size(); ++n) component[rows.cells[n]] = closed.component[n];
+  std::vector<double> of_region(rows.air_row.size());
+  for (std::size_t n = rows.liquid; n < rows.cells.size(); ++n)
+    of_region[std::size_t(rows.region(rows.cells[n]))] = closed.component[n];
+  if (!of_region.empty()) {
+    s.ranks.global_sum(of_region);
+    for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+      if (const std::int64_t k = rows.region(c); k >= 0) component[c] = std::int64_t(of_region[std::size_t(k)]);
+    });
+  }
+  s.halo.fill_ghosts({component.data()});
+  return component;
+}
+
+// What a patch touches.
+struct Touched {
+  bool open = false;         // liquid with a given pressure, or a free surface
+  std::set<int> components;  // closed ones
+  std::set<Link> links;      // of this rank
+  double link_count = 0;     // over all ranks, those counted twice that two have
+};
+
+// The patches of one body while they are looked at.
+template <int Dim>
+struct TouchedBody {
+  const Setup<Dim>& s;
+  const PressureRows<Dim>& rows;
+  const NullSpace& closed;
+  const Components<Dim>& component;
+  const ElasticSolid<Dim>& solid;
+  std::vector<int> patch_of_node = {};
+  std::vector<char> held = {};  // of each node of the mesh
+  std::vector<Touched> patches = {};
+
+  void start() {
+    patch_of_node = patches_of_nodes(solid);
+    held.resize(patch_of_node.size());
+    for (const PinnedNodes& pin : solid.pins)
+      for (const int n : pin.nodes) held[std::size_t(n)] = 1;
+    patches.resize(solid.patches.size());
+  }
+
+  // What is held sweeps as prescribed, but on closed patches all that is swept adds up.
+  void link(int patch, std::int64_t row, int node) {
+    if (held[std::size_t(node)] && !solid.patches[std::size_t(patch)].is_closed()) return;
+    patches[std::size_t(patch)].links.insert({row, node});
+  }
+
+  // Entries that were taken back do not count.
+  void add_entries(const std::vector<FluxEntry>& entries) {
+    std::map<std::pair<int, int>, std::pair<double, double>> sums;  // of values, and of their absolute values
+    for (const FluxEntry& e : entries) {
+      auto& [sum, size] = sums[{e.row, e.column}];
+      sum += e.value, size += std::abs(e.value);
+    }
+    for (const FluxEntry& e : entries) {
+      const auto& [sum, size] = sums[{e.row, e.column}];
+      const int patch = patch_of_node[std::size_t(e.column / Dim)];
+      if (patch < 0 || std::abs(sum) <= 1e-12 * size) continue;
+      const int component = closed.component[std::size_t(e.row)];
+      if (component < 0)
+        patches[std::size_t(patch)].open = true;
+      else
+        patches[std::size_t(patch)].components.insert(component);
+      link(patch, rows.first + e.row, e.column / Dim);
+    }
+  }
+
+  // The row of the patch's liquid that is nearest to a point on it, of its cell and those around, not behind it; -1:
+  // none.
+  std::int64_t row_before(const Touched& patch, const Vec<Dim>& x, const Vec<Dim>& outward,
+                          const IVec<Dim>& cell) const {
+    constexpr int neighbours = Dim == 2 ? 9 : 27;
+    constexpr double deepest = 0.75;  // cells behind the surface that the centre of a cut cell may lie, or less
+    std::int64_t best = -1;
+    double least = 1e300;
+    for (int n = 0; n < neighbours; ++n) {
+      IVec<Dim> i = cell;
+      for (int a = 0, left = n; a < Dim; ++a, left /= 3) i[a] += left % 3 - 1;
+      const Vec<Dim> away = s.layout.position(i, cell_offset<Dim>()) - x;
+      const Site c = s.layout.site(i);
+      if (rows.row[c] < 0 || !patch.components.contains(int(component[c]))) continue;
+      if (away.dot(outward) < -deepest * s.layout.h() || away.norm() >= least) continue;
+      best = rows.row[c], least = away.norm();
+    }
+    return best;
+  }
+
+  // Facets that no face share hangs on push liquid as well.
+  void add_facet(int patch, const std::array<int, Dim>& corners, const std::vector<Vec<Dim>>& points) {
+    const auto node = [&](int p) { return solid.surface.nodes[std::size_t(p)]; };
+    const Touched& touched = patches[std::size_t(patch)];
+    if (touched.open || std::all_of(corners.begin(), corners.end(), [&](int p) { return held[std::size_t(node(p))]; }))
+      return;
+    Vec<Dim> x = Vec<Dim>::Zero();
+    for (const int c : corners) x += points[std::size_t(c)] / Dim;
+    IVec<Dim> cell;
+    for (int a = 0; a < Dim; ++a) cell[a] = int(std::floor((x[a] - s.layout.geometry().lower[a]) / s.layout.h()));
+    if (!s.layout.cells().contains(cell)) return;
+    const std::int64_t row = row_before(touched, x, outward_normal(corners, points), cell);
+    if (row < 0) return;
+    for (const int c : corners) link(patch, row, node(c));
+  }
+
+  static Vec<Dim> outward_normal(const std::array<int, Dim>& c, const std::vector<Vec<Dim>>& points) {
+    const auto p = [&](int i) { return points[std::size_t(c[std::size_t(i)])]; };
+    if constexpr (Dim == 2) {
+      const Vec<2> along = p(1) - p(0);
+      return Vec<2>(along[1], -along[0]).normalized();
+    } else {
+      return Vec3((p(1) - p(0)).cross(p(2) - p(0))).normalized();
+    }
+  }
+
+  // What the ranks know of a patch. Collective.
+  void agree(Touched& patch) const {
+    std::vector<double> facts(2 + std::size_t(closed.count));
+    facts[0] = patch.open;
+    facts[1] = double(patch.links.size());
+    for (const int c : patch.components) facts[2 + std::size_t(c)] = 1;
+    s.ranks.global_sum(facts);
+    patch.open = facts[0] > 0;
+    patch.link_count = facts[1];
+    for (int c = 0; c < closed.count; ++c)
+      if (facts[2 + std::size_t(c)] > 0) patch.components.insert(c);
+  }
+
+  void look(const std::vector<FluxEntry>& entries, const Eigen::VectorXd& u) {
+    start();
+    add_entries(entries);
+    for (Touched& patch : patches) agree(patch);
+    const std::vector<Vec<Dim>> points = surface_points(solid, u);
+    for (std::size_t p = 0; p < patches.size(); ++p)
+      for (const auto& facet : solid.patches[p].facets) add_facet(int(p), facet, points);
+  }
+};
+
+// Whether the body k, which moves as prescribed, pushes liquid of these components on the whole. Collective.
+template <int Dim>
+bool feeds(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Components<Dim>& component,
+           const std::set<int>& components, std::size_t k) {
+  constexpr double rounding = 1e-9;
+  std::array<double, 2> sums{};  // net, and of absolute values
+  const auto add = [&](Site cell, const IVec<Dim>& i, double flux) {
+    if (!s.layout.cells().contains(i) || !components.contains(int(component[cell]))) return;
+    sums[0] += flux, sums[1] += std::abs(flux);
+  };
+  for (const FaceShare& share : *g.shares[k]) {
+    const IVec<Dim> i = s.layout.index(share.face);
+    IVec<Dim> low = i;
+    low[share.axis] -= 1;
+    const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis)));
+    const double flux = share.closed * g.placed[k].twist.at(x)[share.axis];
+    add(share.face, i, -flux);
+    add(share.face - s.layout.stride(share.axis), low, flux);
+  }
+  s.ranks.global_sum(sums);
+  return std::abs(sums[0]) > rounding * sums[1];
+}
+
+template <int Dim>
+bool ends_at(const CavityWalls<Dim>& walls, const MotionSpec& motion) {
+  for (const WallPatch<Dim>& wall : walls)
+    for (const auto& closing : wall.solid->patches[std::size_t(wall.patch)].closings)
+      if (same_motion(wall.solid->pins[std::size_t(closing.pin)].motion, motion)) return true;
+  return false;
+}
+
+// Whether anything but the walls changes the volume of the liquid, or there is air in it. Collective.
+template <int Dim>
+bool is_fed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+            const Components<Dim>& component, const FoundCavity<Dim>& cavity) {
+  bool fed = false;
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    if (!cavity.components.contains(int(component[c]))) return;
+    fed = fed || rows.region(c) >= 0;
+    for (int a = 0; a < Dim; ++a)
+      for (const Site f : {c, c + s.layout.stride(a)})
+        fed = fed || (g.faces.kind_at(a, f) == FaceKind::prescribed && g.faces.prescribed.at(a, f) != 0);
+  });
+  fed = s.ranks.any(fed);
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const Body<Dim>& body = s.bodies[k];
+    if (!body.kind().is_prescribed()) continue;
+    fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(s, g, component, cavity.components, k));
+  }
+  return fed;
+}
+
+// Joins `found` with those of the list that share liquid with it.
+template <int Dim>
+void join(FoundCavity<Dim> found, std::vector<FoundCavity<Dim>>& list) {
+  for (std::size_t n = 0; n < list.size();) {
+    FoundCavity<Dim>& other = list[n];
+    const bool shared = std::any_of(other.components.begin(), other.components.end(),
+                                    [&](int c) { return found.components.contains(c); });
+    if (!shared) {
+      ++n;
+      continue;
+    }
+    other.walls.insert(other.walls.end(), found.walls.begin(), found.walls.end());
+    other.links.insert(other.links.end(), found.links.begin(), found.links.end());
+    other.components.insert(found.components.begin(), found.components.end());
+    found = std::move(other);
+    list.erase(list.begin() + std::ptrdiff_t(n));
+  }
+  list.push_back(std::move(found));
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+                                            const PressureRows<Dim>& rows, const NullSpace& closed,
+                                            const std::vector<ElasticMotion>& motions,
+                                            const std::vector<BodyEntries>& bodies) {
+  std::vector<FoundCavity<Dim>> cavities, joined;
+  if (closed.count == 0 || bodies.empty()) return cavities;
+  const Components<Dim> component = components_of_cells(s, rows, closed);
+  for (const BodyEntries& b : bodies) {
+    const ElasticSolid<Dim>& solid = s.bodies[std::size_t(b.body)].elastic();
+    const Eigen::VectorXd& u = motions[std::size_t(b.body)].state.u;
+    TouchedBody<Dim> body{s, rows, closed, component, solid};
+    body.look(b.entries, u);
+    for (std::size_t p = 0; p < body.patches.size(); ++p) {
+      Touched& patch = body.patches[p];
+      if (patch.open || patch.components.empty() || patch.link_count == 0) continue;
+      FoundCavity<Dim> found{{{&solid, b.body, int(p)}}, {std::move(patch.links)}, patch.components};
+      if (!solid.patches[p].is_closed())
+        join(std::move(found), joined);
+      else if (enclosed_volume(found.walls, {u}) < 0)
+        cavities.push_back(std::move(found));
+    }
+  }
+  for (FoundCavity<Dim>& found : joined)
+    if (can_be_closed(found.walls) && !is_fed(s, g, rows, component, found)) cavities.push_back(std::move(found));
+  return cavities;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                            \
+  template std::vector<FoundCavity<D>> find_cavities<D>(                                 \
+      const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, const NullSpace&, \
+      const std::vector<ElasticMotion>&, const std::vector<BodyEntries>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

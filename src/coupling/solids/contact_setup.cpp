@@ -1,0 +1,257 @@
+#include "coupling/solids/contact_setup.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "base/error.h"
+#include "coupling/solids/solid_coupling.h"
+
+namespace seiche {
+namespace {
+
+// Bodies push each other when nearer than this, in cells: far below what the grid resolves, far above rounding.
+constexpr double reach = 0.05;
+// Bodies must start at least this share of the reach apart: films that narrow still are liquid to the grid, which
+// closes those below 1e-3 cells.
+constexpr double clearance = 0.05;
+
+template <int Dim>
+std::vector<ContactWall> closed_sides(const DomainSpec& d) {
+  std::vector<ContactWall> walls;
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side) {
+      const SideType type = d.sides[a][side].type;
+      if (type == SideType::periodic || type == SideType::outflow) continue;
+      ContactWall wall{side == 0 ? d.lower : d.upper, Vec3::Zero()};
+      wall.normal[a] = side == 0 ? 1 : -1;
+      walls.push_back(wall);
+    }
+  return walls;
+}
+
+// Whether each point of the surface is pinned.
+template <int Dim>
+std::vector<char> pinned_points(const ElasticSolid<Dim>& solid) {
+  std::vector<char> node(solid.body.mesh.nodes.size(), 0), point;
+  for (const int dof : pins_at(solid, 0).dofs) node[std::size_t(dof / Dim)] = 1;
+  for (const int n : solid.surface.nodes) point.push_back(node[std::size_t(n)]);
+  return point;
+}
+
+}  // namespace
+
+template <int Dim>
+ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies,
+                                     const Tampering& tampering) {
+  std::vector<ContactBody> contact;
+  for (const Body<Dim>& body : bodies) {
+    ContactBody& c = contact.emplace_back();
+    c.surface = body.contact_surface();
+    c.control = body.is_elastic() ? BodyControl::deformable
+                : body.is_rigid() ? BodyControl::free
+                                  : BodyControl::prescribed;
+    c.mass = body.is_rigid() || body.is_elastic() ? body.mass().mass : 0;
+    if (body.is_elastic()) {
+      c.nodes = body.elastic().surface.nodes;
+      c.node_count = int(body.elastic().body.mesh.nodes.size());
+      c.pinned = pinned_points(body.elastic());
+    }
+    c.friction = body.spec().friction;
+    if (c.friction) *c.friction *= tampering.friction;
+    c.name = body.spec().name;
+  }
+  return {contact, closed_sides<Dim>(scene.domain)};
+}
+
+template <int Dim>
+std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const State<Dim>& state, double horizon) {
+  std::vector<ContactMotion> motions;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const Body<Dim>& body = s.bodies[k];
+    if (body.is_elastic())
+      motions.push_back({{}, {}, state.elastic[k].state.u});
+    else if (body.is_rigid())
+      motions.push_back({rigid_pose(body, state.rigid[k]), {}, {}});
+    else
+      motions.push_back({body.pose(state.time), body.pose(state.time + horizon), {}});
+  }
+  return motions;
+}
+
+// The stiffness is set by weights under the largest gravity of the run and speeds by that of a fall through a cell,
+// whatever the step: bodies at rest are thrown up where the stiffness grows under them. Without gravity what crosses
+// the domain in ten frames serves as one.
+template <int Dim>
+ContactOptions contact_options(const Setup<Dim>& s) {
+  const Scene& scene = s.scene;
+  const double length = (scene.domain.upper - scene.domain.lower).norm(), rate = 0.1 * scene.time.frame_rate;
+  const double h = s.layout.h(), weight = s.gravity.largest(0, scene.time.end),
+               g = weight > 0 ? weight : length * rate * rate;
+  ContactOptions o;
+  o.reach = reach * h;
+  o.acceleration = s.tampering.contact * g;
+  o.usual_speed = std::sqrt(g * h);
+  o.creep_speed = 1e-4 * o.usual_speed;
+  o.speed_tolerance = 0.01 * o.creep_speed;
+  return o;
+}
+
+template <int Dim>
+std::string other_name(const Setup<Dim>& s, const Overlap& o) {
+  if (o.with == Overlap::With::body) return "'" + s.bodies[o.other].spec().name + "'";
+  const Vec3 normal = closed_sides<Dim>(s.scene.domain)[std::size_t(o.other)].normal;
+  int axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return fmt::format("the side {}_{}", "xyz"[axis], normal[axis] > 0 ? "lower" : "upper");
+}
+
+// Pinned solids are often meant to stand on something.
+template <int Dim>
+std::string remedy(const Setup<Dim>& s, const Overlap& o) {
+  const Body<Dim>& body = s.bodies[o.body];
+  const bool moves = o.with == Overlap::With::body && (s.bodies[o.other].is_rigid() || s.bodies[o.other].is_elastic());
+  if (!body.is_elastic() || body.elastic().pins.empty() || moves) return "move them apart";
+  return "move them apart, or let the part that is pinned end at the other's surface";
+}
+
+// Points of the surface of a rigid or elastic body.
+template <int Dim>
+std::vector<Vec<Dim>> surface_of(const Setup<Dim>& s, const State<Dim>& state, std::size_t k) {
+  const Body<Dim>& body = s.bodies[k];
+  if (body.is_elastic()) return surface_points(body.elastic(), state.elastic[k].state.u);
+  const Pose pose = place_bodies(s, state)[k].pose;
+  std::vector<Vec<Dim>> points;
+  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
+  return points;
+}
+
+// Names of the periodic sides that a rigid or elastic body reaches beyond, or is nearer to than `near` cells.
+template <int Dim>
+std::vector<std::string> periodic_sides_at(const Setup<Dim>& s, const State<Dim>& state, std::size_t k, double near) {
+  const Geometry<Dim>& g = s.layout.geometry();
+  std::vector<std::string> sides;
+  if (!s.bodies[k].is_rigid() && !s.bodies[k].is_elastic()) return sides;
+  const std::vector<Vec<Dim>> points = surface_of(s, state, k);
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2 && g.periodic[a]; ++side) {
+      const double at = g.lower[a] + side * g.h * g.cells[a];
+      const auto reaches = [&](const Vec<Dim>& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
+      if (std::any_of(points.begin(), points.end(), reaches))
+        sides.push_back(fmt::format("{}_{}", "xyz"[a], side ? "upper" : "lower"));
+    }
+  return sides;
+}
+
+template <int Dim>
+std::string solids_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
+  constexpr double near = 0.1;  // cells
+  std::string names;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    for (const std::string& side : periodic_sides_at(s, state, k, near))
+      names += fmt::format("{}'{}' and the periodic side {}, which no solid can pass", names.empty() ? "" : ", ",
+                           s.bodies[k].spec().name, side);
+  return names;
+}
+
+template <int Dim>
+std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
+  std::string names = solids_at_periodic_sides(s, state);
+  if (!s.contact) return names;
+  const auto motions = contact_motions(s, state, 0);
+  for (const Overlap& o : find_initial_overlaps(*s.contact, motions, 0.1 * reach * s.layout.h()))
+    names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", s.bodies[o.body].spec().name, other_name(s, o));
+  return names;
+}
+
+template <int Dim>
+std::string corners_text(const Vec3& lower, const Vec3& upper) {
+  const Vec<Dim> a = truncate<Dim>(lower), b = truncate<Dim>(upper);
+  return fmt::format("[{:.4g}] to [{:.4g}] m", fmt::join(a.begin(), a.end(), ", "),
+                     fmt::join(b.begin(), b.end(), ", "));
+}
+
+// Why a body that crosses a side cannot be meant so: it lies wholly outside of the domain, or is far larger. Else
+// empty.
+template <int Dim>
+std::string misplacement(const Setup<Dim>& s, const Body<Dim>& body) {
+  const Vec3 lower = s.scene.domain.lower, upper = s.scene.domain.upper;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& x : body.contact_surface().points) box.extend(x);
+  constexpr double far_larger = 10;
+  bool outside = false, larger = false;
+  for (int a = 0; a < Dim; ++a) {
+    outside |= box.max()[a] <= lower[a] || box.min()[a] >= upper[a];
+    larger |= box.sizes()[a] > far_larger * (upper[a] - lower[a]);
+  }
+  if (!outside && !larger) return {};
+  return fmt::format("{}: it spans {}, the domain {}; {}",
+                     larger ? "is far larger than the domain" : "lies outside of the domain",
+                     corners_text<Dim>(box.min(), box.max()), corners_text<Dim>(lower, upper),
+                     larger ? "lengths are in metres (from millimetres: scale = 0.001)" : "move it inside");
+}
+
+template <int Dim>
+std::string fault_of_overlap(const Setup<Dim>& s, const Overlap& o, double least) {
+  const std::string name = s.bodies[o.body].spec().name;
+  if (o.with == Overlap::With::body && o.other == o.body)
+    return fmt::format(
+        "the surface of the elements of solid '{}' crosses itself; take another element_size, or round its edges",
+        name);
+  const std::string how = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
+                                      : fmt::format("touch or are closer than {:.3g} m", least);
+  return fmt::format("solid '{}' and {} {} at the start; {}", name, other_name(s, o), how, remedy(s, o));
+}
+
+// The liquid does not see the part of an elastic body beyond a periodic side. The body's surface may end at the side.
+template <int Dim>
+std::vector<std::string> faults_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
+  constexpr double rounding = 1e-6;  // cells
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    const SolidSpec& spec = s.bodies[k].spec();
+    for (const std::string& side : periodic_sides_at(s, state, k, -rounding))
+      lines.push_back(
+          fmt::format("{}: elastic solid '{}' reaches beyond the periodic side {}, which no part of it can pass; "
+                      "let it end within the domain, or close these sides",
+                      spec.shape.where, spec.name, side));
+  }
+  return lines;
+}
+
+template <int Dim>
+void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
+  if (!s.contact) return;
+  std::vector<std::string> lines = faults_at_periodic_sides(s, state);
+  const double least = clearance * reach * s.layout.h();
+  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, state, 0), least)) {
+    const Body<Dim>& body = s.bodies[o.body];
+    const std::string misplaced = o.with == Overlap::With::wall ? misplacement(s, body) : "";
+    const std::string fault =
+        misplaced.empty() ? fault_of_overlap(s, o, least) : fmt::format("solid '{}' {}", body.spec().name, misplaced);
+    const std::string line = body.spec().shape.where + ": " + fault;
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  }
+  if (!lines.empty()) throw Error(ExitCode::bad_input, fmt::format("{}", fmt::join(lines, "\n")));
+}
+
+template <int Dim>
+double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  if (!s.contact) return 1;
+  return largest_safe_fraction(*s.contact, contact_motions(s, state, dt), dt, velocities_over(s, state, dt));
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&, const Tampering&); \
+  template std::string solids_at_periodic_sides<D>(const Setup<D>&, const State<D>&);                          \
+  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                                    \
+  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                                          \
+  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const State<D>&, double);            \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                                 \
+  template double safe_share<D>(const Setup<D>&, const State<D>&, double);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,311 @@
+#include "coupling/solids/elastic_coupling.h"
+
+#include <algorithm>
+#include <map>
+
+#include "coupling/solids/facet_fluxes.h"
+#include "coupling/thin/thin_weight.h"
+#include "linalg/core/matrix_entries.h"
+#include "solid/elastic/potential.h"
+#include "solid/elastic/surface_patches.h"
+
+namespace seiche {
+namespace {
+
+// visit(cell, sign, n) of the cells with a row on both sides of each share n.
+template <int Dim, class Visit>
+void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
+                             const Visit& visit) {
+  const Layout<Dim>& l = s.layout;
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    const IVec<Dim> i = l.index(shares[n].face);
+    IVec<Dim> low = i;
+    low[shares[n].axis] -= 1;
+    const Site behind = shares[n].face - l.stride(shares[n].axis);
+    if (l.cells().contains(i) && rows.row[shares[n].face] >= 0) visit(shares[n].face, -1, n);
+    if (l.cells().contains(low) && rows.row[behind] >= 0) visit(behind, 1, n);
+  }
+}
+
+template <int Dim>
+void add_entries(int row, double value, int axis, const SurfaceWeights& hung, std::vector<FluxEntry>& entries) {
+  for (const auto& [node, weight] : hung) entries.push_back({row, Dim * node + axis, value * weight});
+}
+
+// Shares spread to the nodes that they hang on.
+template <int Dim>
+std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments& attached,
+                                     const PressureRows<Dim>& rows) {
+  std::vector<FluxEntry> entries;
+  for_each_cell_of_shares(s, shares, rows, [&](Site cell, double sign, std::size_t n) {
+    add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
+  });
+  return entries;
+}
+
+// Entries from `known` on that belong to regions of air, which may be rows of other ranks, go where their rows are, one
+// a row and column. Collective.
+template <int Dim>
+void bring_home_air(const Setup<Dim>& s, const PressureRows<Dim>& rows, std::size_t known,
+                    std::vector<FluxEntry>& entries) {
+  if (!rows.air) return;
+  const auto of_air = [&](const FluxEntry& e) { return e.row < 0 || e.row >= int(rows.liquid); };
+  std::vector<MatrixEntry> moved;
+  for (std::size_t n = known; n < entries.size(); ++n)
+    if (of_air(entries[n])) moved.push_back({rows.first + entries[n].row, entries[n].column, entries[n].value});
+  entries.erase(std::remove_if(entries.begin() + std::ptrdiff_t(known), entries.end(), of_air), entries.end());
+  for (const MatrixEntry& e : bring_home_sums(moved, rows.first, rows.cells.size(), s.ranks))
+    entries.push_back({int(e.row - rows.first), int(e.column), e.value});
+}
+
+// The shares of one cell.
+struct CellShares {
+  std::vector<std::pair<std::size_t, double>> shares;  // and signs
+};
+
+// In a wall of a cavity a cell or two thick the nearest point to a face may be on the other side. All shares of a cell
+// are to hang on the side that cuts its faces: the others move to where its nearest share hangs. What hangs on pinned
+// facets between the sides stays.
+template <int Dim>
+void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const FaceShares& shares,
+                      const Attachments& attached, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
+  if (solid.patches.size() == 1) return;
+  const std::vector<int> patch_of_node = patches_of_nodes(solid);
+  std::map<Site, CellShares> cells;
+  for_each_cell_of_shares(s, shares, rows,
+                          [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
+  const auto patch = [&](std::size_t n) {
+    int of = -1;
+    for (const auto& [node, weight] : attached[n]) of = std::max(of, patch_of_node[std::size_t(node)]);
+    return of;
+  };
+  const auto hangs = [&](std::size_t n) { return !attached[n].empty() && patch(n) >= 0; };
+  const auto center = [&](std::size_t n) {
+    return s.layout.position(s.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
+  };
+  for (const auto& [cell, of] : cells) {
+    std::vector<double> cut(solid.patches.size());
+    constexpr double whole = 1e-3;  // what a face that is closed altogether counts for
+    for (const auto& [n, sign] : of.shares)
+      if (hangs(n)) cut[std::size_t(patch(n))] += shares[n].closed * (1 - shares[n].closed + whole);
+    const int own = int(std::max_element(cut.begin(), cut.end()) - cut.begin());
+    const int row = int(rows.row[cell] - rows.first);
+    for (const auto& [n, sign] : of.shares) {
+      if (!hangs(n) || patch(n) == own) continue;
+      std::size_t best = n;
+      for (const auto& [m, ignored] : of.shares) {
+        if (!hangs(m) || patch(m) != own) continue;
+        if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
+      }
+      add_entries<Dim>(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
+      add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
+    }
+  }
+}
+
+// Pins divide a surface of the body that walls in liquid together with what the pins stand on.
+template <int Dim>
+bool is_divided(const ElasticSolid<Dim>& solid) {
+  return std::any_of(solid.patches.begin(), solid.patches.end(), [](const auto& patch) { return !patch.is_closed(); });
+}
+
+// Pressure acts on the facets in each cell: what the shares show is taken back. Liquid at rest is to act as it does on
+// the mesh.
+template <int Dim>
+void hang_on_facets(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                    const State<Dim>& state, const CellField<Dim, char>& open, const Vec<Dim>& gravity, double dt,
+                    BodyEntries& body, SolidCoupling<Dim>& c) {
+  const Eigen::VectorXd& u = state.elastic[std::size_t(body.body)].state.u;
+  const FacetFluxes<Dim> fluxes = facet_fluxes(s, g, open, body.body, u);
+  for (FluxEntry e : spread_shares(s, *g.shares[std::size_t(body.body)], *g.attached[std::size_t(body.body)], rows)) {
+    e.value = -e.value;
+    body.entries.push_back(e);
+  }
+  const std::vector<FluxEntry> own = entries_of(s, rows, fluxes);
+  body.entries.insert(body.entries.end(), own.begin(), own.end());
+  const Eigen::VectorXd force = missing_buoyancy(s, rows, state.phi, body.body, u, fluxes, gravity);
+  c.push.segment(body.first, u.size()) += dt * force;
+  c.buoyancy_correction.segment(body.first, u.size()) = force;
+}
+
+// The highest pressure of the last step in cells whose faces body k cuts or closes, Pa. Collective.
+template <int Dim>
+double highest_pressure_beside(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
+                               const CellField<Dim>& pressure) {
+  double most = 0;
+  for_each_cell_of_shares(s, shares, rows,
+                          [&](Site cell, double, std::size_t) { most = std::max(most, pressure[cell]); });
+  return s.ranks.global_max(most);
+}
+
+// Those behind the first `known`, by cells.
+template <int Dim>
+std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& entries, std::size_t known,
+                                               const PressureRows<Dim>& rows) {
+  CellFluxes added;
+  for (std::size_t n = known; n < entries.size(); ++n)
+    added.push_back({rows.cells[std::size_t(entries[n].row)], entries[n].column, entries[n].value});
+  return std::make_shared<const CellFluxes>(std::move(added));
+}
+
+// Columns of unknowns of the other kind are left empty. Entries are sorted by rows.
+ColumnBlock make_block(const std::vector<FluxEntry>& entries, const std::vector<Freedom>& freedom, Freedom kind,
+                       int first, int width) {
+  ColumnBlock block;
+  block.width = width;
+  for (std::size_t n = 0; n < entries.size();) {
+    double sum = 0;
+    const FluxEntry& e = entries[n];
+    for (; n < entries.size() && entries[n].row == e.row && entries[n].column == e.column; ++n) sum += entries[n].value;
+    if (sum != 0 && freedom[std::size_t(first + e.column)] == kind) block.add(e.row, e.column, sum);
+  }
+  return block;
+}
+
+void sort_by_rows(std::vector<FluxEntry>& entries) {
+  std::stable_sort(entries.begin(), entries.end(), [](const FluxEntry& a, const FluxEntry& b) {
+    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+  });
+}
+
+template <int Dim>
+void hold_pins(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, double end, double horizon, int first,
+               SolidCoupling<Dim>& c) {
+  const Pins pins = pins_at(solid, end);
+  for (std::size_t n = 0; n < pins.dofs.size(); ++n) {
+    c.freedom[std::size_t(first + pins.dofs[n])] = Freedom::fixed;
+    c.held[first + pins.dofs[n]] = (pins.targets[n] - u[pins.dofs[n]]) / horizon;
+  }
+}
+
+void add_matrix(const SparseMatrix& Q, double factor, int first, std::vector<Eigen::Triplet<double>>& entries) {
+  for (int k = 0; k < Q.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(Q, k); it; ++it)
+      entries.emplace_back(first + int(it.row()), first + k, factor * it.value());
+}
+
+// With v = v_a + H w/gamma, v_a = (u - u0)/gamma, the incremental potential (dt/H) Phi(u + H w) without its elastic
+// energy is 1/2 w'Q w - w'push:
+//   Q = dt H (M/gamma^2 + C/gamma),  push = dt (f - M (v_a - v*)/gamma - C v_a).
+template <int Dim>
+void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, double dt, double horizon, int first,
+                 CouplingParts<Dim>& parts) {
+  const Eigen::VectorXd va = (u - p.base) / p.gamma;
+  Eigen::VectorXd push = p.force - p.body->mass * (va - p.target) / p.gamma;
+  add_matrix(p.body->mass, dt * horizon / (p.gamma * p.gamma), first, parts.mass);
+  if (p.damping.size() > 0) {
+    push -= p.damping * va;
+    add_matrix(p.damping, dt * horizon / p.gamma, first, parts.mass);
+  }
+  parts.coupling.push.segment(first, push.size()) = dt * push;
+}
+
+// 1/2 w'm w - w'(momentum + dt m g)
+template <int Dim>
+void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravity, double dt, int first,
+                       CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  const Eigen::VectorXd &m = beside.mass, weight = beside.heavy.cwiseProduct(gravity);
+  for (int i = 0; i < int(m.size()); ++i)
+    if (m[i] > 0) parts.mass.emplace_back(first + i, first + i, m[i]);
+  c.mass_beside.segment(first, m.size()) = m;
+  c.momentum_beside.segment(first, m.size()) = beside.momentum;
+  c.push.segment(first, m.size()) += beside.momentum + dt * weight;
+  c.buoyancy_correction.segment(first, m.size()) = weight;
+}
+
+// M times what is linear in the deformed positions, from -1 to 1 over the body: forces, moments, what bends and
+// stretches.
+template <int Dim>
+Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> x(Dim, u.size() / Dim);
+  for (Eigen::Index n = 0; n < x.cols(); ++n)
+    x.col(n) = body.mesh.nodes[std::size_t(n)] + u.template segment<Dim>(Dim * n);
+  const Vec<Dim> low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
+  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(u.size(), Dim * (Dim + 1));
+  for (Eigen::Index n = 0; n < x.cols(); ++n)
+    for (int axis = 0; axis < Dim; ++axis) {
+      f(Dim * n + axis, axis) = 1;
+      for (int a = 0; a < Dim; ++a)
+        f(Dim * n + axis, Dim * (a + 1) + axis) = (2 * x(a, n) - low[a] - high[a]) / (high[a] - low[a]);
+    }
+  return body.mass * f;
+}
+
+// J of the elastic bodies, and what their faces do not show.
+template <int Dim>
+void set_columns(const PressureRows<Dim>& rows, const std::vector<std::size_t>& shown, std::vector<BodyEntries> bodies,
+                 SolidCoupling<Dim>& c) {
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const std::size_t b = std::size_t(std::find(c.bodies.begin(), c.bodies.end(), bodies[n].body) - c.bodies.begin());
+    c.cell_fluxes[b] = added_fluxes(bodies[n].entries, shown[n], rows);
+    Eigen::MatrixXd loads = std::move(c.J.blocks[b].loads);
+    const int first = c.first[b], width = c.first[b + 1] - first;
+    sort_by_rows(bodies[n].entries);
+    c.J.blocks[b] = make_block(bodies[n].entries, c.freedom, Freedom::free, first, width);
+    c.J_held.blocks[b] = make_block(bodies[n].entries, c.freedom, Freedom::fixed, first, width);
+    c.J.blocks[b].loads = std::move(loads);
+  }
+}
+
+}  // namespace
+
+// Gravity on each node, and the scene's own forces.
+template <int Dim>
+StepLoad step_load(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon, int k) {
+  const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+  const double start = state.time, end = state.time + horizon;
+  const Vec3 gravity = s.gravity.of_step(start, dt);
+  const Eigen::VectorXd before = applied_force_at(solid, start), own = applied_force_at(solid, end);
+  Eigen::VectorXd force = solid.body.mass * truncate<Dim>(gravity).replicate(solid.body.size() / Dim, 1);
+  if (own.size() > 0) force += own;
+  return {force, s.gravity.at(start) == gravity && s.gravity.at(end) == gravity && before == own};
+}
+
+template <int Dim>
+void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                           const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
+                           CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  std::vector<ElasticShare<Dim>> shares;
+  std::vector<BodyEntries> entries;
+  std::vector<std::size_t> shown;  // of the entries of each body, by its faces
+  const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
+  const CellField<Dim, char> open = s.has_elastic() ? open_cells(s, g.faces) : CellField<Dim, char>();
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    const int k = c.bodies[b], first = c.first[b];
+    if (!s.bodies[k].is_elastic()) continue;
+    const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+    const ElasticState& e = state.elastic[k].state;
+    const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
+    hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
+    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, step_load(s, state, dt, horizon, k));
+    add_inertia(p, e.u, dt, horizon, first, parts);
+    c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
+    if (s.bodies[k].is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
+    entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
+    bring_home_air(s, rows, 0, entries.back().entries);
+    shown.push_back(entries.back().entries.size());
+    if (s.bodies[k].is_thin() || is_divided(solid))
+      keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries.back().entries);
+    else
+      hang_on_facets(s, g, rows, state, open, gravity, dt, entries.back(), c);
+    bring_home_air(s, rows, shown.back(), entries.back().entries);
+    c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
+    const double most = highest_pressure_beside(s, *g.shares[std::size_t(k)], rows, state.pressure);
+    shares.push_back({&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)});
+  }
+  c.swept = correct_swept_volume(s, g, rows, closed, state.elastic, horizon, entries);
+  set_columns(rows, shown, std::move(entries), c);
+  if (!shares.empty())
+    c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), s.tampering.elastic_forces * dt, horizon);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,       \
+                                         const NullSpace&, const State<D>&, double, double, CouplingParts<D>&); \
+  template StepLoad step_load<D>(const Setup<D>&, const State<D>&, double, double, int);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,105 @@
+#include "coupling/solve/contact_model.h"
+
+namespace seiche {
+
+AddedMassModel::AddedMassModel(Eigen::MatrixXd T, const Eigen::VectorXd& v0, const Eigen::VectorXd& g0,
+                               std::vector<Freedom> freedom)
+    : T_(std::move(T)), v0_(v0), freedom_(std::move(freedom)) {
+  hold_fixed(T_);
+  g0_ = masked(g0);
+}
+
+void AddedMassModel::hold_fixed(Eigen::MatrixXd& T) const {
+  for (Eigen::Index i = 0; i < T.rows(); ++i) {
+    if (freedom_[std::size_t(i)] == Freedom::free) continue;
+    const double own = T(i, i);
+    T.row(i).setZero();
+    T.col(i).setZero();
+    T(i, i) = own;
+  }
+}
+
+Eigen::VectorXd AddedMassModel::masked(Eigen::VectorXd g) const {
+  for (Eigen::Index i = 0; i < g.size(); ++i)
+    if (freedom_[std::size_t(i)] == Freedom::fixed) g[i] = 0;
+  return g;
+}
+
+InertiaResponse AddedMassModel::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
+  Eigen::MatrixXd H = T_;
+  if (K.nonZeros() > 0) H += K;
+  hold_fixed(H);
+  const Eigen::LLT<Eigen::MatrixXd> factor(H);
+  if (factor.info() != Eigen::Success) return {{}, Shape::indefinite, {}, {}};
+  return respond(factor.solve(T_ * v0_ - g0_ + masked(r)));
+}
+
+InertiaResponse AddedMassModel::respond(const Eigen::VectorXd& v) {
+  return {{}, Shape::convex, v, g0_ + T_ * (v - v0_)};
+}
+
+Eigen::VectorXd AddedMassModel::error(const Eigen::VectorXd& v, const Eigen::VectorXd& g) const {
+  return T_.llt().solve(masked(g) - g0_ - T_ * (v - v0_));
+}
+
+// T <- T - T s s'T/(s'T s) + y y'/(y's) for the step s = v - v0 and the true change y of the gradient along it.
+void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
+  const Eigen::VectorXd s = v - v0_, y = masked(g) - g0_, Ts = T_ * s;
+  const double sTs = s.dot(Ts), ys = y.dot(s);
+  constexpr double least = 1e-6;  // of the curvature expected; less is rounding of the two solves
+  if (ys > least * sTs && sTs > 0) T_ += y * y.transpose() / ys - Ts * Ts.transpose() / sTs;
+  v0_ = v;
+  g0_ = masked(g);
+}
+
+namespace {
+
+constexpr int most_corrections = 30;
+// Contact and liquid agree when velocities are known to this many tolerances of the liquid's solves, and never better
+// than rounding lets the model's factors tell.
+constexpr double tolerances = 100, least_tolerance = 1e-9;
+
+}  // namespace
+
+template <int Dim>
+ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
+                                        double horizon, double dt, const SolidCoupling<Dim>& coupling,
+                                        const SpdSolver& solver, LiquidProblem<Dim>& problem,
+                                        const Eigen::VectorXd& speeds, double tolerance,
+                                        const ContactOptions& options) {
+  const double agreed = std::max(tolerances * tolerance, least_tolerance);
+  ContactInLiquid r;
+  const int n = problem.size();
+  const InertiaResponse alone = problem.minimise(SparseMatrix(n, n), Eigen::VectorXd::Zero(n));
+  r.contact.failure = alone.failure;
+  if (!alone.failure.empty()) return r;
+  AddedMassModel model(Eigen::MatrixXd(coupling.mass) + solver.added_mass_estimate(), alone.velocity, alone.gradient,
+                       coupling.freedom);
+  int newton_iterations = 0;
+  while (r.corrections < most_corrections) {
+    r.contact = solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity);
+    newton_iterations += r.contact.newton_iterations;
+    r.agreed = r.corrections == 0 && r.contact.newton_iterations == 0;  // nothing is touched
+    if (!r.contact.failure.empty() || r.agreed) return r;
+    const InertiaResponse liquid = problem.respond(r.contact.velocity);
+    ++r.corrections;
+    r.contact.failure = liquid.failure;
+    r.contact.newton_iterations = newton_iterations;
+    if (!liquid.failure.empty()) return r;
+    const double off = model.error(liquid.velocity, liquid.gradient).cwiseProduct(speeds).cwiseAbs().maxCoeff();
+    const double fastest = liquid.velocity.cwiseProduct(speeds).cwiseAbs().maxCoeff();
+    r.agreed = off <= agreed * (fastest + options.usual_speed);
+    if (r.agreed) return r;
+    model.learn(liquid.velocity, liquid.gradient);
+  }
+  return r;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template ContactInLiquid solve_contact_in_liquid<D>(                                                    \
+      const ContactScene<D>&, const std::vector<ContactMotion>&, double, double, const SolidCoupling<D>&, \
+      const SpdSolver&, LiquidProblem<D>&, const Eigen::VectorXd&, double, const ContactOptions&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,127 @@
+#include "coupling/solve/coupled_solve.h"
+
+#include "coupling/solids/sealed_liquid.h"
+#include "coupling/solve/solve_parts.h"
+#include "coupling/solve/viscous_solve.h"
+#include "coupling/state/features.h"
+#include "fluid/pressure/parting_search.h"
+
+namespace seiche {
+namespace {
+
+// Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
+template <int Dim>
+bool iterates_on_bodies(const Setup<Dim>& s) {
+  constexpr double most_bytes = 4e9;
+  const std::string& choice = s.scene.solver.elastic;
+  const auto is_large = [&](const Body<Dim>& b) {
+    return b.is_elastic() && factor_bytes(Dim, b.elastic().body.size()) > most_bytes;
+  };
+  const bool any_large = std::any_of(s.bodies.begin(), s.bodies.end(), is_large);
+  return s.has_elastic() && (choice == "iterate" || (choice == "auto" && any_large));
+}
+
+// PFMG takes 24 to 44 iterations where BoomerAMG takes 15, or is not positive definite, where coefficients jump.
+template <int Dim>
+std::string preconditioner(const Setup<Dim>& s) {
+  const std::string& choice = s.scene.solver.preconditioner;
+  return choice == "auto" && !causes_against(s, Feature::multigrid).empty() ? "boomeramg" : choice;
+}
+
+// Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.
+template <int Dim>
+void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
+                    const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
+  const Setup<Dim>& s = input.setup;
+  const ProjectionInput<Dim>& in = input.liquid;
+  const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
+  const SolveOptions options{
+      .tolerance = s.scene.solver.tolerance, .preconditioner = preconditioner(s), .jumps = s.has_gas()};
+  SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.ranks);
+  refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
+  Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
+  for (double& flux : b) flux *= s.tampering.divergence;
+  if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
+  LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
+  KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
+                s.ranks);
+  if (iterates_on_bodies(s)) problem.solve_together(kkt);
+  r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
+  refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
+  set_pressure(input, p, r);
+}
+
+// One solve, with the cells that part given.
+template <int Dim>
+CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
+  const Setup<Dim>& s = input.setup;
+  CoupledSolution<Dim> r;
+  r.rows = number_rows(input.liquid);
+  r.pressure = CellField<Dim>(s.layout);
+  r.u_star = input.u_star;
+  const PressureProblem<Dim> liquid(input.liquid, r.rows);
+  r.closed_component = liquid.closed.component;
+  SolidCoupling<Dim> coupling =
+      couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
+  set_held_velocities(s, coupling, input.geometry);
+  take_prescribed_fluxes(s, input.geometry, r.rows, coupling.swept);
+  const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
+  if (route == ViscousRoute::coupled) {
+    solve_with_viscosity(input, liquid, coupling, r);
+  } else {
+    if (route == ViscousRoute::split) act_before_pressure(input, liquid, coupling, r);
+    if (r.failure.empty()) solve_pressure(input, liquid, coupling, r);
+  }
+  if (r.failure.empty()) {
+    set_velocities(s, coupling, r.solids, input.geometry, input.state);
+    set_reactions(s, coupling, r.reactions, input.state);
+    mark_sealed(s, r.rows, coupling.swept, input.state);
+  }
+  for (RigidState& body : input.state.rigid) body.horizon = input.horizon;
+  return r;
+}
+
+// Pressures this many solver tolerances below zero pull.
+constexpr double pull = 10;
+
+void add_up(SolveReport& all, const SolveReport& one) {
+  const int iterations = all.iterations + one.iterations;
+  all = one;
+  all.iterations = iterations;
+}
+
+}  // namespace
+
+// One solve a guess of the cells that part, each from where the step began and the pressure of the last.
+template <int Dim>
+CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
+  const ProjectionInput<Dim>& in = input.liquid;
+  if (!in.parting) return solve_once(input);
+  State<Dim>& state = input.state;
+  PartingSearch<Dim> search(in, pull * input.setup.scene.solver.tolerance, state.parting);
+  const StepGeometry<Dim> still = input.geometry;
+  const std::vector<RigidState> rigid = state.rigid;
+  const std::vector<ElasticMotion> elastic = state.elastic;
+  CoupledSolution<Dim> r;
+  CellField<Dim> from = input.guess;
+  do {
+    input.geometry = still;
+    state.rigid = rigid;
+    state.elastic = elastic;
+    CoupledSolution<Dim> trial =
+        solve_once(CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow,
+                                     input.u_star, input.horizon, input.viscosity, input.fault});
+    add_up(r.report, trial.report);
+    std::swap(trial.report, r.report);
+    r = std::move(trial);
+    if (!r.failure.empty()) return r;
+    from = r.pressure;
+  } while (!search.is_settled_by(r.rows, r.closed_component, r.pressure, r.u_star));
+  r.parting_error = search.error();
+  return r;
+}
+
+template CoupledSolution<2> solve_coupled<2>(const CoupledInput<2>&);
+template CoupledSolution<3> solve_coupled<3>(const CoupledInput<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,144 @@
+#include "coupling/solve/liquid_problem.h"
+
+#include <fmt/format.h>
+
+namespace seiche {
+
+template <int Dim>
+LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed,
+                                  const Vector& b, Vector& pressure, double c1, double c2, const Communicator& ranks)
+    : CoupledProblem<Dim>(coupling),
+      solver_(solver),
+      closed_(closed),
+      b_(b),
+      pressure_(pressure),
+      c1_(c1),
+      c2_(c2),
+      ranks_(ranks),
+      H_(ranks),
+      none_(ranks) {
+  Vector moved(b.size());
+  add_multiplied(coupling.J, c1 * coupling.free, moved);
+  scale_ = norm(b, ranks) + norm(moved, ranks);
+}
+
+// A mismatch counts where the bodies are solved for: what they do not balance while they are held says nothing.
+template <int Dim>
+std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
+  SolveReport r = solver_.solve(H, b, pressure_, scale_);
+  if (H.size() == 0) r.mismatch = report_.mismatch;
+  add_up(r);
+  if (r.converged) return {};
+  return fmt::format("the pressure solve stopped at residual {:.2e} after {} iterations", r.residual, r.iterations);
+}
+
+template <int Dim>
+void LiquidProblem<Dim>::add_up(const SolveReport& r) {
+  report_.converged = r.converged;
+  report_.iterations += r.iterations;
+  report_.residual = std::max(report_.residual, r.residual);
+  report_.mismatch = r.mismatch;
+  report_.used = r.used;
+  report_.identity_rows = r.identity_rows;
+  report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
+}
+
+// A p + c1 J v = b,  H v - c2 J'p = M v* + r. Columns of J of what is held are zero.
+template <int Dim>
+InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eigen::VectorXd push) {
+  const SparseMatrix H =
+      uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push);
+  Eigen::VectorXd v = last_.size() == push.size() ? last_ : coupling_.free;
+  const KktReport r = kkt_->solve(H, this->with_missing_fluxes(b_, -c1_), push, pressure_, v, scale_);
+  if (r.indefinite) return indefinite_response();
+  add_up({.converged = r.solve.converged,
+          .iterations = r.solve.iterations,
+          .residual = r.solve.residual,
+          .used = r.solve.used,
+          .ladder = r.solve.ladder,
+          .identity_rows = report_.identity_rows,
+          .mismatch = r.solve.mismatch});
+  if (!r.solve.converged)
+    return failed_response(
+        fmt::format("the solve of pressures and bodies together stopped at residual {:.2e} after {} iterations",
+                    r.solve.residual, r.solve.iterations));
+  make_identical(v, ranks_);
+  last_ = v;
+  const Eigen::VectorXd force = impulse_of(pressure_);
+  hold(v);
+  return respond_with_pressure(v, force);
+}
+
+// c2 J'p, the same bits on all ranks: they all go through the same contact solve.
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of(const Vector& pressure) const {
+  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure, ranks_);
+  make_identical(impulse, ranks_);
+  return impulse;
+}
+
+// That of the mean pressures of closed components: they are the multipliers of chi'(J v) = given.
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_of_means() const {
+  const std::vector<int>& sensed = solver_.sensed_components();
+  if (sensed.empty()) return {};
+  std::vector<double> sums(2 * sensed.size());
+  std::vector<std::size_t> place(std::size_t(closed_.count), sensed.size());
+  for (std::size_t k = 0; k < sensed.size(); ++k) place[std::size_t(sensed[k])] = k;
+  const auto place_of = [&](std::size_t row) {
+    return closed_.component[row] < 0 ? sensed.size() : place[std::size_t(closed_.component[row])];
+  };
+  for (std::size_t i = 0; i < pressure_.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) sums[2 * k] += pressure_[i], sums[2 * k + 1] += 1;
+  ranks_.global_sum(sums);
+  Vector means(pressure_.size());
+  for (std::size_t i = 0; i < means.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) means[i] = sums[2 * k] / sums[2 * k + 1];
+  return impulse_of(means);
+}
+
+// c2 J_held'p
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::impulse_on_held() const {
+  if (!coupling_.any_held()) return Eigen::VectorXd::Zero(coupling_.size());
+  Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J_held, pressure_, ranks_);
+  make_identical(impulse, ranks_);
+  return impulse;
+}
+
+template <int Dim>
+InertiaResponse LiquidProblem<Dim>::respond_with_pressure(const Eigen::VectorXd& v,
+                                                          const Eigen::VectorXd& force) const {
+  const Eigen::VectorXd gradient = coupling_.mass * v - coupling_.push - force - impulse_on_held();
+  return {{}, Shape::convex, v, gradient, -impulse_of_means()};
+}
+
+template <int Dim>
+InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
+  Eigen::VectorXd push = coupling_.push + r;
+  if (kkt_) return minimise_together(K, push);
+  if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
+    return indefinite_response();
+  const Eigen::VectorXd dry = H_.solve(push);
+  Vector b = this->with_missing_fluxes(b_, -c1_);
+  add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
+  if (std::string failure = solve(H_, b); !failure.empty()) return failed_response(failure);
+  const Eigen::VectorXd force = impulse_of(pressure_);
+  Eigen::VectorXd v = dry + H_.solve(force);
+  hold(v);
+  return respond_with_pressure(v, force);
+}
+
+// While what is held is under way, b counts it as arrived.
+template <int Dim>
+InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
+  Vector b = this->with_missing_fluxes(b_, -c1_);
+  add_multiplied(coupling_.J, -c1_ * free_part(v), b);
+  if (std::string failure = solve(none_, b); !failure.empty()) return failed_response(failure);
+  return respond_with_pressure(v, impulse_of(pressure_));
+}
+
+template class LiquidProblem<2>;
+template class LiquidProblem<3>;
+
+}  // namespace seiche

@@ -1,0 +1,106 @@
+#include "coupling/solve/solids_minimum.h"
+
+#include "coupling/solids/contact_setup.h"
+#include "coupling/solids/rigid_coupling.h"
+#include "coupling/solve/contact_model.h"
+
+namespace seiche {
+namespace {
+
+// Speed of the farthest point of its body where a degree of freedom is one.
+template <int Dim>
+Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling) {
+  constexpr int n = twist_size<Dim>;
+  Eigen::VectorXd speeds = Eigen::VectorXd::Ones(coupling.size());
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
+    const Body<Dim>& body = s.bodies[coupling.bodies[b]];
+    if (body.is_rigid()) speeds.segment(coupling.first[b] + Dim, n - Dim).setConstant(body.radius());
+  }
+  return speeds;
+}
+
+// The last pressure belongs to the last trial, not to what the line search made of it; and what liquid that bodies
+// close off has as its mean follows from their balance alone. So once more, with the impulses of contact as given.
+template <int Dim>
+std::string settle(const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem, ContactReport& contact) {
+  constexpr int n = twist_size<Dim>;
+  Eigen::VectorXd impulse(problem.size());
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
+    const BodyImpulse& i = contact.impulses[std::size_t(coupling.bodies[b])];
+    impulse.template segment<n>(coupling.first[b]) = stacked<Dim>(i.linear, i.angular);
+  }
+  const InertiaResponse r = problem.minimise(SparseMatrix(problem.size(), problem.size()), impulse);
+  if (r.failure.empty()) contact.velocity = r.velocity;
+  return r.failure;
+}
+
+// Contact that asks the liquid at every turn of Newton's method, from the velocities `found` by the model if any.
+template <int Dim>
+ContactReport solve_in_turns(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt, double horizon,
+                             const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                             const ContactOptions& options, const ContactReport& found) {
+  ContactReport contact =
+      solve_contact(*s.contact, motions, horizon, dt, problem, options, found.velocity, coupling.potential.get());
+  const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
+  if (touched && !coupling.potential) contact.failure = settle(coupling, problem, contact);
+  contact.newton_iterations += found.newton_iterations;
+  return contact;
+}
+
+// Contact against a model of the added mass. Bodies that close off liquid are beyond it; elastic ones have too many
+// unknowns for it, and so have many rigid ones.
+template <int Dim>
+ContactInLiquid solve_modelled(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt,
+                               double horizon, const SolidCoupling<Dim>& coupling, const InviscidLiquid<Dim>& liquid,
+                               const ContactOptions& options) {
+  const bool fits = !coupling.potential && coupling.bodies.size() <= most_modelled;
+  if (!liquid.solver || !fits || !liquid.solver->sensed_components().empty()) return {};
+  return solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, *liquid.solver, *liquid.problem,
+                                 unit_speeds(s, coupling), s.scene.solver.tolerance, options);
+}
+
+// Held unknowns move as given. The impulse that makes them is the gradient of all energies,
+//   R dt = M v - push - (pressure, viscosity) + contact + dt Psi',
+// which the solve makes zero for the free unknowns alone.
+template <int Dim>
+Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd residual) {
+  for (Eigen::Index i = 0; i < residual.size(); ++i)
+    if (!coupling.is_held(i)) residual[i] = 0;
+  return residual;
+}
+
+}  // namespace
+
+template <int Dim>
+SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon,
+                              const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                              const InviscidLiquid<Dim>& liquid) {
+  SolidsMinimum r;
+  r.velocity = r.reaction = Eigen::VectorXd::Zero(problem.size());
+  if (!s.contact) {
+    InertiaResponse response = problem.minimise(SparseMatrix(0, 0), r.velocity);
+    r.failure = response.failure;
+    if (r.failure.empty()) r.velocity = std::move(response.velocity);
+    return r;
+  }
+  const auto motions = contact_motions(s, state, horizon);
+  const ContactOptions options = contact_options(s);
+  ContactInLiquid modelled = solve_modelled(s, motions, dt, horizon, coupling, liquid, options);
+  ContactReport contact = std::move(modelled.contact);
+  if (!modelled.agreed && contact.failure.empty())
+    contact = solve_in_turns(s, motions, dt, horizon, coupling, problem, options, contact);
+  r.failure = contact.failure;
+  r.newton_iterations = contact.newton_iterations;
+  r.contacts = contact.active;
+  r.velocity = std::move(contact.velocity);
+  if (coupling.potential && r.failure.empty()) r.reaction = held_part(coupling, std::move(contact.residual));
+  return r;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template SolidsMinimum minimise_solids<D>(const Setup<D>&, const State<D>&, double, double, const SolidCoupling<D>&, \
+                                            CoupledProblem<D>&, const InviscidLiquid<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

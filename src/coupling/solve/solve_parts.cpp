@@ -1,0 +1,83 @@
+#include "coupling/solve/solve_parts.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace seiche {
+namespace {
+
+constexpr double balanced = 1e-6;  // of the volume moved: rounding, and what formulas of inflow balance to
+
+template <int Dim>
+void refuse(const Setup<Dim>& s, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
+  if (std::abs(m.net) <= balanced * m.scale) return;
+  std::string who;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (!g.placed[k].twist.at_rest()) who += (who.empty() ? " by '" : ", '") + s.bodies[k].spec().name + "'";
+  throw Error(ExitCode::cannot_continue,
+              fmt::format("incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free "
+                          "surface, an outflow side, or a motion that keeps the volume",
+                          -m.net, Dim, who));
+}
+
+}  // namespace
+
+template <int Dim>
+void refuse_impossible_motion(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
+                              const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
+  if (liquid.closed.count > 0)
+    refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, without(liquid.closed, sensed)));
+}
+
+template <int Dim>
+void refuse_unbalanced_chambers(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
+                                const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
+  if (r.failure.empty() && !sensed.empty() && r.report.mismatch > balanced)
+    refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, liquid.closed));
+}
+
+template <int Dim>
+Vector guessed_pressure(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows) {
+  Vector p;
+  for (Site c : rows.cells) p.push_back(in.guess[c]);
+  return p;
+}
+
+template <int Dim>
+Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupling,
+                             CoupledProblem<Dim>& problem, const InviscidLiquid<Dim>& inviscid,
+                             CoupledSolution<Dim>& r) {
+  SolidsMinimum m = minimise_solids(in.setup, in.state, in.liquid.dt, in.horizon, coupling, problem, inviscid);
+  r.failure = m.failure;
+  r.newton_iterations = m.newton_iterations;
+  r.contacts = m.contacts;
+  r.reactions = m.reaction / in.liquid.dt;
+  const int earlier = r.report.iterations;
+  r.report = problem.report();
+  r.report.iterations += earlier;
+  for (std::size_t n = 0; n < coupling.swept.size(); ++n)
+    for (const int row : coupling.swept[n].rows)
+      in.geometry.faces.cell_flux[r.rows.cells[std::size_t(row)]] += problem.missing_fluxes()[n];
+  return std::move(m.velocity);
+}
+
+template <int Dim>
+void set_pressure(const CoupledInput<Dim>& in, const Vector& p, CoupledSolution<Dim>& r) {
+  for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
+  in.setup.halo.fill_ghosts(r.pressure);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void refuse_impossible_motion<D>(const CoupledInput<D>&, const PressureProblem<D>&,                  \
+                                            const std::vector<int>&, const CoupledSolution<D>&);                \
+  template void refuse_unbalanced_chambers<D>(const CoupledInput<D>&, const PressureProblem<D>&,                \
+                                              const std::vector<int>&, const CoupledSolution<D>&);              \
+  template Vector guessed_pressure<D>(const CoupledInput<D>&, const PressureRows<D>&);                          \
+  template Eigen::VectorXd find_minimum<D>(const CoupledInput<D>&, const SolidCoupling<D>&, CoupledProblem<D>&, \
+                                           const InviscidLiquid<D>&, CoupledSolution<D>&);                      \
+  template void set_pressure<D>(const CoupledInput<D>&, const Vector&, CoupledSolution<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

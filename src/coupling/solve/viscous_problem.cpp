@@ -1,0 +1,81 @@
+#include "coupling/solve/viscous_problem.h"
+
+#include <fmt/format.h>
+
+namespace seiche {
+
+template <int Dim>
+ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous,
+                                    const ViscousSolvers& solvers, double area, Vector& u, Vector& p,
+                                    const Communicator& ranks)
+    : CoupledProblem<Dim>(coupling),
+      viscous_(viscous),
+      solvers_(solvers),
+      area_(area),
+      u_(u),
+      p_(p),
+      ranks_(ranks),
+      H_(ranks),
+      none_(ranks),
+      last_(coupling.free) {}
+
+template <int Dim>
+std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f,
+                                       const Eigen::VectorXd& g, const Vector& q, Eigen::VectorXd& v) {
+  const SaddleReport r = solver.solve(H, f, g, q, u_, v, p_);
+  report_.converged = r.converged;
+  report_.iterations += r.iterations;
+  report_.residual = std::max(report_.residual, r.residual);
+  if (H.size() > 0) report_.mismatch = r.mismatch;  // what held bodies do not balance says nothing
+  report_.used = r.used;
+  report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
+  if (r.converged) return {};
+  return fmt::format("the solve of pressure and viscosity stopped at residual {:.2e} after {} iterations", r.residual,
+                     r.iterations);
+}
+
+// grad e = M v - push - (g - H_vv v - G'u - J'p^), the same bits on all ranks.
+template <int Dim>
+InertiaResponse ViscousProblem<Dim>::response_at(const Eigen::VectorXd& v) const {
+  const ViscousSystem<Dim>& system = viscous_.system();
+  Eigen::VectorXd reaction = local_transposed(system.G, u_) + local_transposed(viscous_.J(), p_);
+  reaction += local_transposed(viscous_.G_held(), u_) + local_transposed(viscous_.J_held(), p_);
+  ranks_.global_sum(std::span<double>(reaction.data(), std::size_t(reaction.size())));
+  make_identical(reaction, ranks_);
+  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - system.g + system.Hvv * v + reaction};
+}
+
+template <int Dim>
+InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
+  const ViscousSystem<Dim>& system = viscous_.system();
+  Eigen::VectorXd push = coupling_.push + r + system.g;
+  SparseMatrix H = coupling_.mass + system.Hvv;
+  if (K.nonZeros() > 0) H = H + K;
+  if (!H_.set(uncouple_held(coupling_, H, push))) return indefinite_response();
+  Eigen::VectorXd v = last_;
+  if (std::string failure = solve(solvers_.coupled, H_, system.f, push, this->with_missing_fluxes(system.q, -area_), v);
+      !failure.empty())
+    return failed_response(failure);
+  this->hold(v);
+  last_ = v;
+  return response_at(v);
+}
+
+// While what is held is under way, q counts it as arrived.
+template <int Dim>
+InertiaResponse ViscousProblem<Dim>::respond(const Eigen::VectorXd& v) {
+  const ViscousSystem<Dim>& system = viscous_.system();
+  Vector f = system.f, q = this->with_missing_fluxes(system.q, -area_);
+  const Eigen::VectorXd moving = -this->free_part(v);
+  add_multiplied(system.G, moving, f);
+  add_multiplied(viscous_.J(), moving, q);
+  Eigen::VectorXd none;
+  if (std::string failure = solve(solvers_.alone(), none_, f, none, q, none); !failure.empty())
+    return failed_response(failure);
+  return response_at(v);
+}
+
+template class ViscousProblem<2>;
+template class ViscousProblem<3>;
+
+}  // namespace seiche

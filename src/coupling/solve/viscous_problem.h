@@ -1,0 +1,46 @@
+#pragma once
+// Viscous liquid behind the bodies: their inertia, the liquid's velocity and its pressure in one saddle-point problem.
+#include <functional>
+
+#include "coupling/solve/coupled_problem.h"
+#include "coupling/solve/viscous_coupling.h"
+#include "linalg/saddle/solver.h"
+
+namespace seiche {
+
+// The liquid with the bodies, and with the bodies' motion given: made where it is first asked for, which is collective.
+struct ViscousSolvers {
+  SaddleSolver& coupled;
+  std::function<SaddleSolver&()> alone;
+};
+
+// e(v) = 1/2 (v - v*)'M(v - v*) + the least that the liquid's kinetic energy and dissipation add where it makes room:
+//   F u + G v + D'p^ = f,   G'u + (M + H_vv + K) v + J'p^ = M v* + r + g,   D u + J v = q,   p^ = -dt p.
+// What is held has its velocity, and f, g and q know of it.
+template <int Dim>
+class ViscousProblem : public CoupledProblem<Dim> {
+ public:
+  // Keeps references; `area` is that of a face, `u` and `p` (rows of the system) are the first guess and hold the last
+  // solution.
+  ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, const ViscousSolvers& solvers,
+                 double area, Vector& u, Vector& p, const Communicator& ranks);
+  InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
+  InertiaResponse respond(const Eigen::VectorXd& v) override;
+
+ private:
+  using CoupledProblem<Dim>::coupling_;
+  using CoupledProblem<Dim>::report_;
+  std::string solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g,
+                    const Vector& q, Eigen::VectorXd& v);
+  InertiaResponse response_at(const Eigen::VectorXd& v) const;
+
+  const ViscousStep<Dim>& viscous_;
+  ViscousSolvers solvers_;
+  double area_;
+  Vector &u_, &p_;
+  Communicator ranks_;
+  BodyMatrix H_, none_;
+  Eigen::VectorXd last_;  // velocities of the last minimum
+};
+
+}  // namespace seiche

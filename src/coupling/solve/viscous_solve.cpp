@@ -1,0 +1,152 @@
+#include "coupling/solve/viscous_solve.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "coupling/solve/viscous_problem.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Of the liquid with bodies that G and J (empty: none) couple to it; D M^-1 D' = h^(Dim-2)/rho A.
+template <int Dim>
+SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, const ViscousSystem<Dim>& v,
+                         const BlockColumns& G, const BlockColumns& J) {
+  const Layout<Dim>& layout = in.liquid.layout;
+  std::vector<int> axes;  // of the rows of F
+  std::vector<std::array<double, 3>> positions;
+  for (const auto& [axis, face] : v.rows.faces) {
+    const Vec<Dim> x = layout.position(layout.index(face), face_offset<Dim>(axis)) / layout.h();
+    axes.push_back(axis);
+    std::copy_n(x.data(), Dim, positions.emplace_back().begin());
+  }
+  const double schur_scale = std::pow(layout.h(), Dim - 2) / in.liquid.density;
+  return SaddleSolver({.F = v.F,
+                       .G = G,
+                       .D = v.D,
+                       .Dt = v.Dt,
+                       .J = J,
+                       .A = liquid.A,
+                       .grid = liquid.grid,
+                       .closed = liquid.closed,
+                       .schur_scale = schur_scale,
+                       .schur_mass = v.schur_mass,
+                       .mass = v.mass,
+                       .axis = std::move(axes),
+                       .position = std::move(positions)},
+                      {.tolerance = in.setup.scene.solver.tolerance}, in.setup.ranks);
+}
+
+// u + by (slope), on faces with an unknown velocity.
+template <int Dim>
+FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, double by) {
+  FaceField<Dim> r = u;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(in.liquid.layout, in.liquid.layout.faces(a), [&](Site f) {
+      if (in.liquid.faces.is_unknown(a, f)) r.at(a, f) += by * in.slope.at(a, f);
+    });
+  fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.sides, r);
+  return r;
+}
+
+template <int Dim>
+ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometry<Dim>& faces) {
+  return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.parting, p.gas_density, nullptr, p.air};
+}
+
+template <int Dim>
+void take_loads(const ViscousStep<Dim>& viscous, const FaceField<Dim>& u, CoupledSolution<Dim>& r) {
+  r.viscous_loads = viscous.loads(u, r.solids);
+  r.dissipation = viscous.dissipation(u, r.solids);
+}
+
+}  // namespace
+
+template <int Dim>
+void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling,
+                         CoupledSolution<Dim>& r) {
+  const double dt = in.liquid.dt;
+  const FaceField<Dim> pressed = shifted(in, in.u_star, -dt);
+  FaceGeometry<Dim> faces = in.liquid.faces;
+  faces.side_pressure.fill(0);  // part of the slope
+  const ProjectionInput<Dim> unpressed = with_faces(in.liquid, faces);
+  ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
+  viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
+  const ViscousSystem<Dim>& system = viscous.system();
+  SaddleSolver solver = make_solver(in, liquid, system, system.G, viscous.J());
+  Vector p = guessed_pressure(in, r.rows), u = viscous.gather(pressed);
+  Eigen::VectorXd impulse = dt * multiply_transposed(viscous.J(), p, in.setup.ranks);
+  make_identical(impulse, in.setup.ranks);
+  Eigen::VectorXd push = coupling.push + impulse + system.g, v = coupling.free;
+  BodyMatrix H(in.setup.ranks);
+  if (!H.set(uncouple_held(coupling, coupling.mass + system.Hvv, push))) {
+    r.failure = "the matrix of the solids' inertia and drag is not positive definite";
+    return;
+  }
+  const SaddleReport report = solver.solve_viscous(H, system.f, push, u, v);
+  r.report.iterations = report.iterations;
+  r.report.ladder = report.ladder;
+  if (!report.converged) {
+    r.failure = fmt::format("the solve of viscosity stopped at residual {:.2e} after {} iterations", report.residual,
+                            report.iterations);
+    return;
+  }
+  Eigen::VectorXd drag = multiply_transposed(system.G, u, in.setup.ranks);
+  drag += multiply_transposed(viscous.G_held(), u, in.setup.ranks);
+  make_identical(drag, in.setup.ranks);
+  coupling.push += system.g - system.Hvv * v - drag;
+  FaceField<Dim> moved = pressed;
+  viscous.scatter(u, moved);
+  fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.sides, moved);
+  r.u_star = shifted(in, moved, dt);
+  r.solids = v;
+  take_loads(viscous, moved, r);
+}
+
+template <int Dim>
+void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
+                          const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
+  const Setup<Dim>& s = in.setup;
+  const double dt = in.liquid.dt;
+  ViscousStep<Dim> viscous(s, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity, in.u_star);
+  viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
+  const BlockColumns none;
+  SaddleSolver solver = make_solver(in, liquid, viscous.system(), viscous.system().G, viscous.J());
+  std::unique_ptr<SaddleSolver> alone;
+  const auto make_alone = [&]() -> SaddleSolver& {
+    if (!alone) alone.reset(new SaddleSolver(make_solver(in, liquid, viscous.system(), none, none)));
+    return *alone;
+  };
+  refuse_impossible_motion(in, liquid, solver.sensed_components(), r);
+  Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
+  for (double& x : p) x *= -dt;
+  ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.layout.geometry().face_area(), u, p, s.ranks);
+  r.solids = find_minimum(in, coupling, problem, {}, r);
+  refuse_unbalanced_chambers(in, liquid, solver.sensed_components(), r);
+  for (double& x : p) x /= -dt;
+  set_pressure(in, p, r);
+  FaceField<Dim> solved = in.u_star;
+  viscous.scatter(u, solved);
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, solved);
+  if (!r.failure.empty()) return;
+  take_loads(viscous, solved, r);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      r.u_star.at(a, f) = solved.at(a, f);
+      if (in.liquid.faces.is_unknown(a, f))
+        r.u_star.at(a, f) += dt * face_pressure_slope(in.liquid, r.rows, r.pressure, a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, r.u_star);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template void act_before_pressure<D>(const CoupledInput<D>&, const PressureProblem<D>&, SolidCoupling<D>&,        \
+                                       CoupledSolution<D>&);                                                        \
+  template void solve_with_viscosity<D>(const CoupledInput<D>&, const PressureProblem<D>&, const SolidCoupling<D>&, \
+                                        CoupledSolution<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

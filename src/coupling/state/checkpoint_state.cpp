@@ -1,0 +1,328 @@
+#include "coupling/state/checkpoint_state.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "base/error.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+// All levels are stored always; those the run does not have yet as zeros, which the scalar "levels" tells apart.
+using LevelNames = std::array<const char*, 3>;
+constexpr LevelNames level_names{"now", "before", "earlier"};
+constexpr LevelNames gas_level_names{"gas.now", "gas.before", "gas.earlier"};
+
+template <int Dim>
+FieldRecord empty_record(const std::string& name, const Box<Dim>& box) {
+  FieldRecord r;
+  r.name = name;
+  for (int a = 0; a < Dim; ++a) r.lower[a] = box.lower[a], r.upper[a] = box.upper[a];
+  if (Dim == 2) r.upper[2] = box.empty() ? 0 : 1;
+  return r;
+}
+
+template <int Dim, class Array>
+FieldRecord record(const Setup<Dim>& s, const std::string& name, const Box<Dim>& box, const Array& f) {
+  FieldRecord r = empty_record<Dim>(name, box);
+  for_each_index_in_order(s.layout, box, [&](Site c, const IVec<Dim>&) { r.values.push_back(double(f[c])); });
+  return r;
+}
+
+template <int Dim, class Array>
+void restore(const Setup<Dim>& s, const CheckpointData& data, const std::string& name, const Box<Dim>& box, Array& f) {
+  const auto found =
+      std::find_if(data.fields.begin(), data.fields.end(), [&](const auto& r) { return r.name == name; });
+  if (found == data.fields.end() || std::int64_t(found->values.size()) != box.size())
+    throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
+  std::size_t n = 0;
+  for_each_index_in_order(s.layout, box,
+                          [&](Site c, const IVec<Dim>&) { f[c] = std::decay_t<decltype(f[c])>(found->values[n++]); });
+}
+
+// visit(name, axis) of the face fields of a level.
+template <int Dim, class Visit>
+void for_each_level_field(const Setup<Dim>& s, const std::string& level, const Visit& visit) {
+  std::vector<const char*> fields{"u", "valid", "q"};
+  if (s.is_viscous()) fields.push_back("n");
+  for (int a = 0; a < Dim; ++a)
+    for (const char* field : fields) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
+}
+
+// visit(name, field, axis) of a film's components.
+template <int Dim, class AnyFilm, class Visit>
+void for_each_film_field(AnyFilm& film, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a) {
+    visit(std::string("film.open[") + "xyz"[a] + "]", film.open[a], a);
+    visit(std::string("film.u[") + "xyz"[a] + "]", film.u[a], a);
+  }
+}
+
+template <int Dim>
+void save_level(const Setup<Dim>& s, const std::string& name, const Level<Dim>& level, CheckpointData& data) {
+  for_each_level_field(s, name, [&](const std::string& field, char which, int a) {
+    const Box<Dim> box = s.layout.faces(a);
+    if (which == 'u') data.fields.push_back(record<Dim>(s, field, box, level.u[a]));
+    if (which == 'v') data.fields.push_back(record<Dim>(s, field, box, level.valid[a]));
+    if (which == 'q') data.fields.push_back(record<Dim>(s, field, box, level.q[a]));
+    if (which == 'n') data.fields.push_back(record<Dim>(s, field, box, level.n[a]));
+  });
+}
+
+template <int Dim>
+std::shared_ptr<const Level<Dim>> load_level(const Setup<Dim>& s, const std::string& name, const CheckpointData& data) {
+  auto level = std::make_shared<Level<Dim>>(empty_level(s));
+  for_each_level_field(s, name, [&](const std::string& field, char which, int a) {
+    const Box<Dim> box = s.layout.faces(a);
+    if (which == 'u') restore<Dim>(s, data, field, box, level->u[a]);
+    if (which == 'v') restore<Dim>(s, data, field, box, level->valid[a]);
+    if (which == 'q') restore<Dim>(s, data, field, box, level->q[a]);
+    if (which == 'n') restore<Dim>(s, data, field, box, level->n[a]);
+  });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, level->u);
+  s.halo.fill_ghosts(level->valid);
+  return level;
+}
+
+// Levels that there are not are saved as `none`.
+template <int Dim>
+void save_flow(const Setup<Dim>& s, const LevelNames& names, const Flow<Dim>& flow, const Level<Dim>& none,
+               CheckpointData& data) {
+  save_level(s, names[0], *flow.now, data);
+  save_level(s, names[1], flow.before ? *flow.before : none, data);
+  save_level(s, names[2], flow.earlier ? *flow.earlier : none, data);
+}
+
+template <int Dim>
+Flow<Dim> load_flow(const Setup<Dim>& s, const LevelNames& names, int levels, const CheckpointData& data) {
+  Flow<Dim> flow;
+  flow.now = load_level(s, names[0], data);
+  if (levels >= 2) flow.before = load_level(s, names[1], data);
+  if (levels >= 3) flow.earlier = load_level(s, names[2], data);
+  return flow;
+}
+
+// visit(name, value) of every number of a rigid body's state.
+template <class State, class Visit>
+void for_each_number(State& r, const std::string& body, const Visit& visit) {
+  const auto vector = [&](const char* name, auto& v) {
+    for (int i = 0; i < int(v.size()); ++i) visit(fmt::format("rigid.{}.{}{}", body, name, i), v.data()[i]);
+  };
+  vector("center", r.center);
+  vector("rotation", r.rotation);
+  vector("velocity", r.velocity);
+  vector("angular_velocity", r.angular_velocity);
+  vector("angular_momentum", r.angular_momentum);
+  vector("extra_force", r.extra_force);
+  vector("extra_torque", r.extra_torque);
+  visit(fmt::format("rigid.{}.horizon", body), r.horizon);
+}
+
+// visit(name, value) of every number of the viscous loads.
+template <class Loads, class Visit>
+void for_each_load(Loads& loads, const Visit& visit) {
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      visit(fmt::format("viscous.{}.force{}", k, c), loads[k].force[c]);
+      visit(fmt::format("viscous.{}.torque{}", k, c), loads[k].torque[c]);
+    }
+}
+
+// visit(name, vector) of what an elastic body's state is made of.
+template <class Motion, class Visit>
+void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
+  visit("elastic." + body + ".u", m.state.u);
+  visit("elastic." + body + ".v", m.state.v);
+  visit("elastic." + body + ".u_old", m.state.u_old);
+  visit("elastic." + body + ".v_old", m.state.v_old);
+  visit("elastic." + body + ".velocity", m.velocity);
+  visit("elastic." + body + ".cavity", m.cavity);
+  visit("elastic." + body + ".kept_volume", m.kept_volume);
+  visit("elastic." + body + ".extra_load", m.extra_load);
+  visit("elastic." + body + ".reaction", m.reaction);
+}
+
+// Vectors as texts: their bytes.
+template <int Dim>
+void save_elastic(const Setup<Dim>& s, const State<Dim>& state, CheckpointData& data) {
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    data.scalars[fmt::format("elastic.{}.dt_old", k)] = state.elastic[k].state.dt_old;
+    for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, const Eigen::VectorXd& v) {
+      data.texts[name] = std::string(reinterpret_cast<const char*>(v.data()), std::size_t(v.size()) * sizeof(double));
+    });
+  }
+}
+
+template <int Dim>
+void load_elastic(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
+  state.elastic.resize(s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    const std::string dt_old = fmt::format("elastic.{}.dt_old", k);
+    if (!data.scalars.contains(dt_old)) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + dt_old + "'");
+    state.elastic[k] = initial_elastic_motion(s.bodies[k]);
+    state.elastic[k].state.dt_old = data.scalars.at(dt_old);
+    for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, Eigen::VectorXd& v) {
+      const auto size = std::size_t(v.size());
+      const auto found = data.texts.find(name);
+      if (found == data.texts.end() || found->second.size() != size * sizeof(double))
+        throw Error(
+            ExitCode::bad_checkpoint,
+            fmt::format("the checkpoint lacks '{}' of {} numbers; the solid's mesh is another one", name, size));
+      std::memcpy(v.data(), found->second.data(), found->second.size());
+    });
+  }
+}
+
+// What is scalars alone: `scalar(name)` gives one. The step must be known.
+template <int Dim, class Scalar>
+void load_rigid(const Setup<Dim>& s, const Scalar& scalar, State<Dim>& state) {
+  state.rigid.resize(s.bodies.size());
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_rigid())
+      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
+  if (s.is_viscous() && state.step > 0) state.viscous_loads.resize(s.bodies.size());
+  for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
+}
+
+// Of enclosed air: whose each cell is and the volumes, as bytes.
+template <int Dim>
+void save_air(const Setup<Dim>& s, const State<Dim>& state, CheckpointData& data) {
+  data.fields.push_back(record<Dim>(s, "air", s.layout.cells(), state.air.label));
+  const std::vector<double>& v = state.air.volume;
+  data.texts["air.volume"] = std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(double));
+  data.scalars["air.lost"] = state.lost_air;
+}
+
+template <int Dim, class Scalar>
+void load_air(const Setup<Dim>& s, const CheckpointData& data, const Scalar& scalar, State<Dim>& state) {
+  if (!s.keeps_air()) return;
+  state.lost_air = scalar("air.lost");
+  const auto found = data.texts.find("air.volume");
+  if (found == data.texts.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks 'air.volume'");
+  state.air.volume.resize(found->second.size() / sizeof(double));
+  if (!found->second.empty()) std::memcpy(state.air.volume.data(), found->second.data(), found->second.size());
+  state.air.label = CellField<Dim, std::int64_t>(s.layout, no_air);
+  restore<Dim>(s, data, "air", s.layout.cells(), state.air.label);
+  s.halo.fill_ghosts({state.air.label.data()});
+}
+
+// Of cells, where the scene has them.
+template <int Dim>
+void load_marks(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
+  if (s.scene.liquid.separates) {
+    state.parting = Parting<Dim>(s.layout);
+    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
+  }
+  if (s.may_seal()) {
+    state.sealed = CellField<Dim, char>(s.layout);
+    restore<Dim>(s, data, "sealed", s.layout.cells(), state.sealed);
+    s.halo.fill_ghosts({state.sealed.data()});
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
+  CheckpointData data;
+  data.scalars = {{"time", state.time},
+                  {"step", double(state.step)},
+                  {"dt_now", state.dt_now},
+                  {"dt_before", state.dt_before},
+                  {"horizon", state.horizon},
+                  {"viscous_rate", state.viscous_rate},
+                  {"levels", state.earlier  ? 3.0
+                             : state.before ? 2.0
+                                            : 1.0},
+                  {"expected_volume", state.expected_volume},
+                  {"corrected_volume", state.corrected_volume}};
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_rigid())
+      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double x) { data.scalars[n] = x; });
+  for_each_load(state.viscous_loads, [&](const std::string& n, double x) { data.scalars[n] = x; });
+  save_elastic(s, state, data);
+  data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
+  data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
+  if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
+  if (s.may_seal()) data.fields.push_back(record<Dim>(s, "sealed", s.layout.cells(), state.sealed));
+  if (s.keeps_air()) save_air(s, state, data);
+  for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
+    data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
+  });
+  const Level<Dim> none = empty_level(s);
+  save_flow(s, level_names, liquid_flow(state), none, data);
+  if (s.has_gas()) save_flow(s, gas_level_names, state.gas, none, data);
+  return data;
+}
+
+template <int Dim>
+State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
+  const auto scalar = [&](const std::string& name) {
+    const auto found = data.scalars.find(name);
+    if (found == data.scalars.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + name + "'");
+    return found->second;
+  };
+  State<Dim> state;
+  state.time = scalar("time");
+  state.step = std::int64_t(scalar("step"));
+  state.dt_now = scalar("dt_now");
+  state.dt_before = scalar("dt_before");
+  state.horizon = scalar("horizon");
+  state.viscous_rate = scalar("viscous_rate");
+  state.expected_volume = scalar("expected_volume");
+  state.corrected_volume = scalar("corrected_volume");
+  load_rigid(s, scalar, state);
+  load_air(s, data, scalar, state);
+  load_elastic(s, data, state);
+  state.phi = CellField<Dim>(s.layout);
+  state.pressure = CellField<Dim>(s.layout);
+  restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);
+  restore<Dim>(s, data, "pressure", s.layout.cells(), state.pressure);
+  load_marks(s, data, state);
+  state.film = {FaceField<Dim>(s.layout), FaceField<Dim>(s.layout)};
+  for_each_film_field<Dim>(
+      state.film, [&](const std::string& name, auto& f, int a) { restore<Dim>(s, data, name, s.layout.faces(a), f); });
+  fill_level_set_ghosts(s.layout, s.halo, state.phi);
+  s.halo.fill_ghosts(state.pressure);
+  const int levels = int(scalar("levels"));
+  const Flow<Dim> liquid = load_flow(s, level_names, levels, data);
+  std::tie(state.now, state.before, state.earlier) = std::tie(liquid.now, liquid.before, liquid.earlier);
+  if (s.has_gas()) state.gas = load_flow(s, gas_level_names, levels, data);
+  return state;
+}
+
+template <int Dim>
+std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
+  std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
+                                 empty_record<Dim>("pressure", s.layout.cells())};
+  if (s.scene.liquid.separates) boxes.push_back(empty_record<Dim>("gap", s.layout.cells()));
+  if (s.may_seal()) boxes.push_back(empty_record<Dim>("sealed", s.layout.cells()));
+  if (s.keeps_air()) boxes.push_back(empty_record<Dim>("air", s.layout.cells()));
+  const Film<Dim> film;
+  for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {
+    boxes.push_back(empty_record<Dim>(name, s.layout.faces(a)));
+  });
+  const auto add_levels = [&](const LevelNames& names) {
+    for (const char* level : names)
+      for_each_level_field(s, level, [&](const std::string& field, char, int a) {
+        boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
+      });
+  };
+  add_levels(level_names);
+  if (s.has_gas()) add_levels(gas_level_names);
+  return boxes;
+}
+
+#define SEICHE_INSTANTIATE(D)                                              \
+  template CheckpointData save_state<D>(const Setup<D>&, const State<D>&); \
+  template State<D> load_state<D>(const Setup<D>&, const CheckpointData&); \
+  template std::vector<FieldRecord> state_boxes<D>(const Setup<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

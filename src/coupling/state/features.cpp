@@ -1,0 +1,149 @@
+#include "coupling/state/features.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/expression.h"
+
+namespace seiche {
+namespace {
+
+using F = Feature;
+
+// What is told of a feature.
+template <int Dim>
+struct FeatureText {
+  Feature feature;
+  const char* name;
+  const char* without;                 // consequence where it is off
+  bool (*matters)(const Setup<Dim>&);  // whether a scene would have it but for the exclusions
+};
+
+template <int Dim>
+bool is_second_order(const Setup<Dim>& s) {
+  return s.scene.time.scheme == TimeScheme::second_order && !s.has_prescribed_flow();
+}
+
+template <int Dim>
+const std::vector<FeatureText<Dim>>& feature_texts() {
+  using S = const Setup<Dim>&;
+  static const std::vector<FeatureText<Dim>> table{
+      {F::steps_by_halves, "steps by halves",
+       "surface and bodies move at once, after the solve; places are of first order in the step where its length "
+       "changes",
+       [](S s) { return is_second_order(s); }},
+      {F::shared_viscosity, "viscous stress shared between start and end of a step",
+       "it is taken at the end of the step; its error in time is four times as large",
+       [](S s) { return is_second_order(s) && s.is_viscous(); }},
+      {F::shear_jump, "jump of shear across the surface between fluids",
+       "shear beside the surface is smeared over a cell", [](S s) { return s.has_gas() && s.is_viscous(); }},
+      {F::kinks, "one-sided interpolation at kinks of the surface's distance",
+       "the surface is interpolated across kinks of its distance, and thin films are carried less sharply",
+       [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
+      {F::sealed_cavities, "cavities within elastic solids kept full",
+       "the surface alone tells what a sealed cavity holds", [](S s) { return s.has_elastic(); }},
+      {F::multigrid, "the program's own multigrid as preconditioner", "algebraic multigrid (BoomerAMG) is used",
+       [](S s) { return s.scene.solver.preconditioner == "auto"; }}};
+  return table;
+}
+
+template <int Dim>
+bool any_body(const Setup<Dim>& s, bool (*holds)(const Body<Dim>&)) {
+  return std::any_of(s.bodies.begin(), s.bodies.end(), holds);
+}
+
+template <int Dim>
+bool has_kinematic(const Setup<Dim>& s) {
+  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.kind().is_prescribed(); });
+}
+
+template <int Dim>
+bool has_formula_of_viscosity(const Setup<Dim>& s) {
+  return !s.scene.liquid.rheology.model.empty() || !Expression(s.scene.liquid.viscosity).is_constant();
+}
+
+template <int Dim>
+bool one_is_inviscid(const Setup<Dim>& s) {
+  if (has_formula_of_viscosity(s)) return false;
+  return Expression(s.scene.liquid.viscosity)(Vec3::Zero(), 0) == 0 || s.scene.gas.viscosity == 0;
+}
+
+const char* const introduction = R"doc(# Features that others switch off
+
+Some features do not go together. The log of a run and `seiche check` name, once and at the start, each feature that a
+scene would have and that something else in it switches off. This page is made from the same table.
+
+Two things change from step to step and are not told: near contact, and where a source opens or closes, a step moves all
+at once even in scenes that go by halves; and viscous stress is shared only where liquid fills the domain and is not
+stiff (dt μ/(ρ h²) ≤ ½, see [viscosity.md](viscosity.md)).
+
+)doc";
+
+}  // namespace
+
+template <int Dim>
+const std::vector<Exclusion<Dim>>& exclusions() {
+  using S = const Setup<Dim>&;
+  using B = const Body<Dim>&;
+  static const std::vector<Exclusion<Dim>> table{
+      {F::steps_by_halves, "scheme = \"first_order\"",
+       [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
+      {F::steps_by_halves, "a prescribed flow", [](S s) { return s.has_prescribed_flow(); }},
+      {F::steps_by_halves, "[gas] that flows", [](S s) { return s.has_gas(); }},
+      {F::steps_by_halves, "enclosed air that keeps its volume", [](S s) { return s.keeps_air(); }},
+      {F::steps_by_halves, "rigid beside kinematic solids", [](S s) { return s.has_rigid() && has_kinematic(s); }},
+      {F::steps_by_halves, "elastic solids", [](S s) { return s.has_elastic(); }},
+      {F::steps_by_halves, "solids thinner than a cell",
+       [](S s) { return any_body<Dim>(s, [](B b) { return b.is_thin(); }); }},
+      {F::shared_viscosity, "scheme = \"first_order\"",
+       [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
+      {F::shared_viscosity, "[gas] that flows", [](S s) { return s.has_gas(); }},
+      {F::shared_viscosity, "solids", [](S s) { return !s.bodies.empty(); }},
+      {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return has_formula_of_viscosity(s); }},
+      {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s); }},
+      {F::kinks, "[gas] that flows", [](S s) { return s.has_gas(); }},
+      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.has_gas(); }},
+      {F::multigrid, "[gas] that flows", [](S s) { return s.has_gas(); }}};
+  return table;
+}
+
+template <int Dim>
+std::vector<std::string> causes_against(const Setup<Dim>& s, Feature feature) {
+  std::vector<std::string> causes;
+  for (const Exclusion<Dim>& row : exclusions<Dim>())
+    if (row.feature == feature && row.present(s)) causes.push_back(row.cause);
+  return causes;
+}
+
+template <int Dim>
+std::vector<std::string> describe_features(const Setup<Dim>& s) {
+  std::vector<std::string> lines;
+  for (const FeatureText<Dim>& text : feature_texts<Dim>()) {
+    const std::vector<std::string> causes = causes_against(s, text.feature);
+    if (causes.empty() || !text.matters(s)) continue;
+    lines.push_back(fmt::format("off: {} (because of: {}); {}", text.name, fmt::join(causes, ", "), text.without));
+  }
+  return lines;
+}
+
+std::string feature_reference() {
+  std::string page = introduction;
+  page += "| feature | off with | what that means |\n|---|---|---|\n";
+  for (const FeatureText<2>& text : feature_texts<2>()) {
+    std::vector<std::string> causes;
+    for (const Exclusion<2>& row : exclusions<2>())
+      if (row.feature == text.feature) causes.push_back(row.cause);
+    page += fmt::format("| {} | {} | {} |\n", text.name, fmt::join(causes, "; "), text.without);
+  }
+  return page;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                    \
+  template const std::vector<Exclusion<D>>& exclusions<D>();                     \
+  template std::vector<std::string> causes_against<D>(const Setup<D>&, Feature); \
+  template std::vector<std::string> describe_features<D>(const Setup<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

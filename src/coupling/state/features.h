@@ -1,0 +1,34 @@
+#pragma once
+// Features that others switch off: one table behind the solver's own decisions, the log and docs/features.md.
+#include <string>
+#include <vector>
+
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+enum class Feature { steps_by_halves, shared_viscosity, shear_jump, kinks, sealed_cavities, multigrid };
+
+// Something that a feature does not go with.
+template <int Dim>
+struct Exclusion {
+  Feature feature;
+  const char* cause;
+  bool (*present)(const Setup<Dim>&);
+};
+
+template <int Dim>
+const std::vector<Exclusion<Dim>>& exclusions();
+
+// Causes in this scene that switch the feature off, in the order of the table.
+template <int Dim>
+std::vector<std::string> causes_against(const Setup<Dim>& setup, Feature feature);
+
+// A line for each feature that would matter in this scene and is off: what it is, why, and what that means.
+template <int Dim>
+std::vector<std::string> describe_features(const Setup<Dim>& setup);
+
+// docs/features.md as text.
+std::string feature_reference();
+
+}  // namespace seiche

@@ -1,0 +1,312 @@
+// The Simulation behind make_simulation: owns setup and state, and climbs the ladder of a step that fails.
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/report/energy_budget.h"
+#include "coupling/report/measures.h"
+#include "coupling/report/scene_account.h"
+#include "coupling/solids/contact_setup.h"
+#include "coupling/state/checkpoint_state.h"
+#include "coupling/state/features.h"
+#include "coupling/thin/thin_weight.h"
+#include "coupling/transport/viscous_transport.h"
+#include "solid/body/enclosed_volume.h"
+#include "solid/elastic/output.h"
+
+namespace seiche {
+namespace {
+
+constexpr int most_halvings = 7;
+
+// Where viscous liquid fills its domain, steps over more than two cells feed eddies that they do not resolve: a cavity
+// at Re = 5000 swung by 0.2 of the lid's speed at Courant number 4. Empty, or what is said of that. Collective.
+template <int Dim>
+std::string note_on_long_steps(const Setup<Dim>& s, const State<Dim>& state) {
+  constexpr double resolved = 2;
+  const double cfl = s.scene.time.cfl;
+  if (cfl <= resolved || !s.is_viscous() || s.has_prescribed_flow() || has_surface(s, state.phi)) return {};
+  return fmt::format(
+      "time.cfl = {:g}: steps over more than {:g} cells do not resolve eddies of viscous liquid that fills its domain; "
+      "the flow may come out wrong and unsteady where viscosity is low; lower cfl to {:g}",
+      cfl, resolved, resolved);
+}
+
+template <int Dim>
+class FlowSimulation : public Simulation {
+ public:
+  FlowSimulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering)
+      : setup_(scene, ranks, tampering), state_(initial_state(setup_)) {
+    geometry_ = measure_geometry();
+    surfaces_ = rest_surfaces();
+    phases_.warnings = setup_.notes;
+    warn_of_long_steps();
+    account_ = account_scene(setup_, state_, geometry_.psi);
+    phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
+    refresh(measure(state_, geometry_));
+  }
+
+  void set_fault_hook(FaultHook hook) override { phases_.hook = std::move(hook); }
+  double time() const override { return state_.time; }
+  std::int64_t step_count() const override { return state_.step; }
+  StepStats stats() const override { return stats_; }
+  std::vector<SolidState> solids() const override { return solids_; }
+  double expected_volume() const override { return state_.expected_volume; }
+  ProbeSample probe(std::size_t k) const override { return measure_probe(setup_, state_, setup_.scene.probes.at(k)); }
+  FrameField frame_field(const std::string& name) const override { return make_frame_field(setup_, state_, name); }
+  CheckpointData save() const override { return save_state(setup_, state_); }
+  std::vector<FieldRecord> checkpoint_boxes() const override { return state_boxes(setup_); }
+  const Timers& timers() const override { return phases_.timers; }
+  std::vector<std::string> take_warnings() override { return std::exchange(phases_.warnings, {}); }
+
+  StepStats step(double until) override {
+    const auto start = std::chrono::steady_clock::now();
+    double dt = choose_step(setup_, state_, until);
+    std::string failures;
+    for (int halvings = 0; halvings <= most_halvings && dt > 0; ++halvings, dt = hold_back(setup_, state_, dt / 2)) {
+      Attempt<Dim> a = attempt(dt);
+      if (a.failure.empty()) {
+        accept(std::move(a));
+        stats_.rejected = halvings;
+        stats_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return stats_;
+      }
+      failures = fmt::format("step {} of {:.6g} s at time {:.6g} s: {}", state_.step + 1, dt, state_.time, a.failure);
+      phases_.warnings.push_back(failures + "; trying half the step");
+      for (const std::string& line : a.solve.ladder)
+        phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
+    }
+    const std::string close = nearest_solids(setup_, state_);
+    throw Error(ExitCode::cannot_continue, fmt::format("{} (after {} halvings; {})", failures, most_halvings,
+                                                       close.empty() ? remedy() : "all but touching: " + close));
+  }
+
+  // The run told of its start when it began. The note on long steps is repeated: `resume --set` may change cfl.
+  void load(const CheckpointData& data) override {
+    state_ = load_state(setup_, data);
+    phases_.warnings.clear();
+    warn_of_long_steps();
+    geometry_ = measure_geometry();
+    refresh(measure(state_, geometry_));
+  }
+
+  SurfaceMesh solid_surface(std::size_t k) const override {
+    SurfaceMesh mesh = surfaces_.at(k);
+    if (setup_.bodies[k].is_elastic()) {
+      const auto points = surface_points(setup_.bodies[k].elastic(), state_.elastic[k].state.u);
+      std::transform(points.begin(), points.end(), mesh.points.begin(), extend<Dim>);
+      return mesh;
+    }
+    const Pose& pose = geometry_.placed[k].pose;
+    for (Vec3& x : mesh.points) x = pose.apply(x);
+    return mesh;
+  }
+
+  VolumeFrame solid_volume(std::size_t k) const override {
+    if (!setup_.bodies.at(k).is_elastic()) return {};
+    const ElasticSolid<Dim>& solid = setup_.bodies[k].elastic();
+    return volume_frame(solid.body, solid.surface, state_.elastic[k].state.u, state_.elastic[k].velocity);
+  }
+
+  std::vector<std::string> describe_start() const override {
+    std::vector<std::string> lines = account_.lines;
+    const std::vector<std::string> features = describe_features(setup_);
+    lines.insert(lines.end(), features.begin(), features.end());
+    for (const Body<Dim>& body : setup_.bodies)
+      if (body.is_elastic()) lines.push_back(describe_mesh(body.spec().name, body.elastic().body.mesh));
+    return lines;
+  }
+
+ private:
+  // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
+  Attempt<Dim> attempt(double dt) {
+    const bool solved = !setup_.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
+    if (state_.step > 0 || !solved) return budgeted_step(state_, dt);
+    Attempt<Dim> trial = budgeted_step(state_, dt);
+    if (!trial.failure.empty()) return trial;
+    Attempt<Dim> informed = budgeted_step(inform(trial.state, dt), dt);
+    informed.state.earlier = informed.state.gas.earlier = nullptr;
+    informed.state.dt_before = 0;
+    return informed;
+  }
+
+  // Fails where kinetic energy comes from nowhere. `start` is the present state or it as informed by a trial.
+  Attempt<Dim> budgeted_step(const State<Dim>& start, double dt) {
+    Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
+    if (!a.failure.empty()) return a;
+    a.stats = measure(a.state, a.geometry);
+    if (!setup_.has_prescribed_flow()) a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a);
+    return a;
+  }
+
+  StepGeometry<Dim> measure_geometry() const {
+    StepGeometry<Dim> g = setup_.solids.measure(place_bodies(setup_, state_), state_.time);
+    for (std::size_t k = 0; k < setup_.bodies.size(); ++k) {
+      const RigidState& r = state_.rigid[k];
+      if (setup_.bodies[k].is_rigid())
+        set_twist(setup_.layout, int(k), Twist{r.velocity, r.angular_velocity, r.center}, g);
+      if (setup_.bodies[k].is_elastic()) set_node_velocity(setup_.layout, int(k), state_.elastic[k].velocity, g);
+    }
+    return g;
+  }
+
+  // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) -
+  // u(dt); and the cavities.
+  State<Dim> inform(const State<Dim>& trial, double dt) const {
+    State<Dim> state = state_;
+    std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
+    if (state.gas.now) std::tie(state.gas.now, state.gas.before) = inform(*state_.gas.now, *trial.gas.now);
+    state.dt_now = dt;
+    take_cavities(trial, state);
+    return state;
+  }
+
+  // Walls of cavities that the trial found keep in the first step, too, what they hold at the start.
+  void take_cavities(const State<Dim>& trial, State<Dim>& state) const {
+    state.sealed = trial.sealed;
+    for (std::size_t k = 0; k < setup_.bodies.size(); ++k) state.elastic[k].cavity = trial.elastic[k].cavity;
+    for (const CavityWalls<Dim>& walls : kept_cavities(setup_.bodies, state.elastic)) {
+      std::vector<Eigen::VectorXd> u;
+      for (const WallPatch<Dim>& wall : walls) u.push_back(state.elastic[std::size_t(wall.body)].state.u);
+      const double volume = enclosed_volume(walls, u);
+      for (const WallPatch<Dim>& wall : walls) state.elastic[std::size_t(wall.body)].kept_volume[wall.patch] = volume;
+    }
+  }
+
+  static std::pair<std::shared_ptr<Level<Dim>>, std::shared_ptr<Level<Dim>>> inform(const Level<Dim>& start,
+                                                                                    const Level<Dim>& trial) {
+    auto now = std::make_shared<Level<Dim>>(start), before = std::make_shared<Level<Dim>>(start);
+    now->q = before->q = trial.q;
+    now->n = before->n = trial.n;
+    for (int a = 0; a < Dim; ++a)
+      for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.u[a][f];
+    return {now, before};
+  }
+
+  void accept(Attempt<Dim> a) {
+    state_ = std::move(a.state);
+    geometry_ = std::move(a.geometry);
+    solve_ = a.solve;
+    divergence_ = a.divergence;
+    newton_iterations_ = a.newton_iterations;
+    contacts_ = a.contacts;
+    dissipation_ = a.dissipation;
+    rheology_iterations_ = a.rheology_iterations;
+    parting_error_ = a.parting_error;
+    warn_of_parting();
+    for (const std::string& line : a.solve.ladder)
+      phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
+    refresh(a.stats);
+  }
+
+  // Of a step that failed: keys that a resumed run may change.
+  std::string remedy() const {
+    const TimeSpec& t = setup_.scene.time;
+    const std::string step = t.fixed_step ? fmt::format("time.fixed_step={:.3g}", *t.fixed_step / 2)
+                                          : fmt::format("time.cfl={:.3g}", t.cfl / 2);
+    return fmt::format("try `seiche resume` with --set {} or --set solver.tolerance={:.3g}", step,
+                       std::min(10 * setup_.scene.solver.tolerance, 0.01));
+  }
+
+  void warn_of_long_steps() {
+    const std::string note = note_on_long_steps(setup_, state_);
+    if (!note.empty()) phases_.warnings.push_back(note);
+  }
+
+  // Once.
+  void warn_of_parting() {
+    if (parting_error_ == 0 || std::exchange(told_of_parting_, true)) return;
+    phases_.warnings.push_back(
+        fmt::format("step {}: which cells part from the solids was not found; going on with the set that is wrong by "
+                    "the least, {:.1e} of the largest pressure (later ones are counted in summary.json)",
+                    state_.step, parting_error_));
+  }
+
+  // Volumes, energies, momentum and speed of a state.
+  StepStats measure(const State<Dim>& state, const StepGeometry<Dim>& geometry) const {
+    StepStats stats;
+    stats.step = state.step;
+    stats.time = state.time;
+    stats.dt = state.dt_now;
+    measure_fluids(setup_, state, geometry.psi, stats);
+    measure_air(setup_, state, geometry.psi, stats);
+    stats.liquid_volume -= volume_beyond(setup_, geometry, state.phi);
+    measure_rigid(setup_, state, stats);
+    measure_elastic(setup_, state, stats);
+    return stats;
+  }
+
+  // What stats() and solids() answer, of the present state.
+  void refresh(const StepStats& measured) {
+    stats_ = measured;
+    stats_.max_divergence = divergence_;
+    stats_.newton_iterations = newton_iterations_;
+    stats_.contacts = contacts_;
+    stats_.viscous_dissipation = dissipation_;
+    stats_.rheology_iterations = rheology_iterations_;
+    stats_.parting_error = parting_error_;
+    stats_.solver_iterations = solve_.iterations;
+    stats_.solver_residual = solve_.residual;
+    solids_ = measure_solids(setup_, state_, geometry_);
+  }
+
+  std::vector<SurfaceMesh> rest_surfaces() const {
+    const DomainSpec& d = setup_.scene.domain;
+    std::vector<SurfaceMesh> surfaces;
+    for (const Body<Dim>& body : setup_.bodies) {
+      if (body.is_rigid() || body.is_elastic()) {
+        surfaces.push_back(body.contact_surface());
+        continue;
+      }
+      Vec<Dim> lower = Vec<Dim>::Constant(1e300), upper = -lower;
+      for (int corner = 0; corner < (1 << Dim); ++corner) {
+        Vec3 x = d.lower;
+        for (int a = 0; a < Dim; ++a) x[a] = (corner >> a) & 1 ? d.upper[a] : d.lower[a];
+        const Vec<Dim> rest = truncate<Dim>(body.pose(0).to_rest(x));
+        lower = lower.cwiseMin(rest);
+        upper = upper.cwiseMax(rest);
+      }
+      surfaces.push_back(shape_surface<Dim>(body.spec().shape, {d.cell_size, nullptr}, lower, upper));
+    }
+    return surfaces;
+  }
+
+  Setup<Dim> setup_;
+  State<Dim> state_;
+  StepGeometry<Dim> geometry_;
+  SceneAccount account_;
+  Phases phases_;
+  std::vector<SurfaceMesh> surfaces_;
+  SolveReport solve_;
+  double divergence_ = 0;
+  int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
+  double dissipation_ = 0, parting_error_ = 0;
+  bool told_of_parting_ = false;
+  StepStats stats_;
+  std::vector<SolidState> solids_;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks) {
+  return make_simulation(scene, ranks, {});
+}
+
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering) {
+  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, tampering);
+  return std::make_unique<FlowSimulation<3>>(scene, ranks, tampering);
+}
+
+// Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there
+// is liquid, the matrix and its hierarchy of grids (about 1 kB a row; half the cells are taken to be liquid).
+Cost estimate_cost(const Scene& scene, int ranks) {
+  const double halo = std::ceil(scene.time.cfl) + 3;
+  double cells = 1, padded = 1;
+  for (int a = 0; a < scene.dimension; ++a) {
+    cells *= scene.domain.cells[a];
+    padded *= scene.domain.cells[a] / std::cbrt(double(ranks)) + 2 * halo;
+  }
+  const double per_site = 8.0 * (12 + 20 * scene.dimension);
+  return {std::int64_t(std::min(cells, 9e18)), padded * ranks * per_site + 0.5 * cells * 1000};
+}
+
+}  // namespace seiche

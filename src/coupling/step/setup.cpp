@@ -1,0 +1,275 @@
+// From a scene to its grid, solids and initial state.
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/solids/contact_setup.h"
+#include "coupling/thin/films.h"
+#include "coupling/thin/thin_solids.h"
+#include "coupling/thin/thin_weight.h"
+#include "coupling/transport/air_volume.h"
+#include "coupling/transport/formula_checks.h"
+#include "coupling/transport/initial_surface.h"
+#include "coupling/transport/liquid_viscosity.h"
+#include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/restore.h"
+#include "coupling/transport/transport.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+Geometry<Dim> grid_geometry(const DomainSpec& d) {
+  Geometry<Dim> g;
+  g.lower = truncate<Dim>(d.lower);
+  g.h = d.cell_size;
+  for (int a = 0; a < Dim; ++a) {
+    g.cells[a] = d.cells[a];
+    g.periodic[a] = d.sides[a][0].type == SideType::periodic;
+  }
+  return g;
+}
+
+// Cells a step can carry values across, and the reach of the four-point stencils.
+int halo_width(const Scene& scene) {
+  return int(std::ceil(scene.time.cfl)) + 3;
+}
+
+// Inertia below this share of that of the liquid cannot be told from none: the pressure that carries a body is known to
+// 1e-16 of itself, and its velocity is that over its mass.
+constexpr double least_density_ratio = 1e-7;
+
+SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std::string>& notes) {
+  const double least = least_density_ratio * liquid.density;
+  const bool floats = spec.kind == SolidKind::rigid || spec.kind == SolidKind::elastic;
+  if (!floats || spec.rigid.density >= least) return spec;
+  notes.push_back(fmt::format("solid '{}': density {:g} kg/m^3 is taken as {:g}, {:g} of the liquid's", spec.name,
+                              spec.rigid.density, least, least_density_ratio));
+  spec.rigid.density = least;
+  return spec;
+}
+
+void append_name(const std::string& name, std::string& list) {
+  list += (list.empty() ? "'" : ", '") + name + "'";
+}
+
+template <int Dim>
+std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>& notes) {
+  std::vector<Body<Dim>> bodies;
+  const double h = scene.domain.cell_size;
+  const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
+  std::string thin;
+  for (const SolidSpec& spec : scene.solids) {
+    bodies.emplace_back(heavy_enough(spec, scene.liquid, notes), ShapeOptions{h, &notes}, lower, upper);
+    if (bodies.back().is_thin()) append_name(spec.name, thin);
+  }
+  if (!thin.empty())
+    notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid sees steps of whole cells there", h, thin));
+  return bodies;
+}
+
+// A box of liquid that ends at a side of the domain goes on beyond it: the wall is no free surface.
+ShapeSpec open_to_sides(ShapeSpec shape, const DomainSpec& domain) {
+  const TransformSpec& t = shape.transform;
+  const bool plain = t.scale == 1 && t.rotate.degrees == 0 && t.translate.isZero(0) && !shape.invert;
+  if (shape.kind != "box" || !plain) return shape;
+  const double near = 1e-6 * domain.cell_size;
+  for (int a = 0; a < 3; ++a) {
+    const double size = domain.upper[a] - domain.lower[a];
+    if (shape.lower[a] <= domain.lower[a] + near) shape.lower[a] = domain.lower[a] - size;
+    if (shape.upper[a] >= domain.upper[a] - near) shape.upper[a] = domain.upper[a] + size;
+  }
+  return shape;
+}
+
+template <int Dim>
+std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::string>& notes) {
+  std::vector<Source<Dim>> sources;
+  for (const LiquidSourceSpec& spec : scene.liquid.sources)
+    sources.push_back({spec, make_shape<Dim>(open_to_sides(spec.shape, scene.domain), {scene.domain.cell_size, &notes}),
+                       VectorExpression(spec.velocity)});
+  return sources;
+}
+
+// What is said of an initial velocity that is not finite; `region` is its index, -1 for the liquid's own.
+template <int Dim>
+std::string velocity_fault(const Setup<Dim>& s, int region, int axis, double value, const Vec<Dim>& x) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  const std::string key = region < 0 ? "liquid" : fmt::format("liquid.region.{}", region);
+  const Formula& formula = (region < 0 ? liquid.velocity : *liquid.regions[region].velocity)[axis];
+  return not_finite_text<Dim>(fmt::format("{}.velocity[{}]", key, axis), formula, value, x, 0);
+}
+
+// Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid. `fault` says where a formula is
+// not finite.
+template <int Dim>
+FaceField<Dim> initial_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near,
+                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes, std::string& fault) {
+  FaceField<Dim> u(s.layout);
+  const VectorExpression everywhere(s.scene.liquid.velocity);
+  std::vector<std::optional<VectorExpression>> own;
+  for (const auto& region : s.scene.liquid.regions) {
+    own.emplace_back();
+    if (region.velocity) own.back().emplace(*region.velocity);
+  }
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!near.at(a, f)) return;
+      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      int region = -1;
+      for (std::size_t k = 0; k < shapes.size(); ++k)
+        if (own[k] && (*shapes[k])(x) < s.layout.h()) region = int(k);
+      const VectorExpression& v = region < 0 ? everywhere : *own[region];
+      u.at(a, f) = v.component(a, extend<Dim>(x), 0);
+      if (fault.empty() && !std::isfinite(u.at(a, f))) fault = velocity_fault(s, region, a, u.at(a, f), x);
+    });
+  return u;
+}
+
+template <int Dim>
+FaceField<Dim> initial_gas_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near, std::string& fault) {
+  FaceField<Dim> u(s.layout);
+  const VectorFormula& formula = s.scene.gas.velocity;
+  const VectorExpression velocity(formula);
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!near.at(a, f)) return;
+      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      u.at(a, f) = velocity.component(a, extend<Dim>(x), 0);
+      if (fault.empty() && !std::isfinite(u.at(a, f)))
+        fault = not_finite_text<Dim>(fmt::format("gas.velocity[{}]", a), formula[a], u.at(a, f), x, 0);
+    });
+  return u;
+}
+
+// A fluid's level at the start, with the velocity u on the faces near it.
+template <int Dim>
+std::shared_ptr<const Level<Dim>> initial_level(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+                                                const FaceField<Dim, char>& near, FaceField<Dim> u) {
+  Level<Dim> level = empty_level(s);
+  level.valid = near;
+  level.u = std::move(u);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
+      if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
+    });
+  continue_level(s, g, near, level);
+  return std::make_shared<Level<Dim>>(std::move(level));
+}
+
+}  // namespace
+
+template <int Dim>
+Setup<Dim>::Setup(const Scene& sc, const Communicator& r, const Tampering& t)
+    : scene(sc),
+      tampering(t),
+      viscous(seiche::is_viscous(sc.liquid) || (sc.gas.flows() && sc.gas.viscosity > 0)),
+      gravity(sc.gravity),
+      ranks(r),
+      layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],
+             halo_width(sc)),
+      halo(layout, partition(layout.geometry(), r.size()), r),
+      sides(sc.domain, viscous ? WallFlow::sticks : WallFlow::slips),
+      bodies(make_bodies<Dim>(sc, notes)),
+      solids(layout, sides, bodies),
+      sources(make_sources<Dim>(sc, notes)) {
+  if (has_rigid() || has_elastic()) contact.emplace(make_contact_scene(sc, bodies, tampering));
+  followed = find_followed_points(*this);
+}
+
+template <int Dim>
+bool Setup<Dim>::has_rigid() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) { return b.is_rigid(); });
+}
+
+template <int Dim>
+bool Setup<Dim>::has_elastic() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) { return b.is_elastic(); });
+}
+
+template <int Dim>
+bool Setup<Dim>::may_seal() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) {
+    return b.is_elastic() && std::any_of(b.elastic().patches.begin(), b.elastic().patches.end(),
+                                         [](const SurfacePatch<Dim>& p) { return !p.is_closed(); });
+  });
+}
+
+template <int Dim>
+std::vector<Placement> place_bodies(const Setup<Dim>& s, const State<Dim>& state) {
+  auto placed = place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    if (!s.bodies[k].is_elastic()) continue;
+    placed[k].displacement = state.elastic[k].state.u;
+    placed[k].velocity = Eigen::VectorXd::Zero(placed[k].displacement.size());
+  }
+  return placed;
+}
+
+// What a pinned step will meet is known at the start as far as the initial velocity and the solids' motions go; of
+// these a bounded number of steps is looked at, evenly spread over the run.
+template <int Dim>
+void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
+  constexpr double most_looks = 1e4, budget = 2e6;  // of one body, of all; a second or two
+  const TimeSpec& time = s.scene.time;
+  if (!time.fixed_step || time.end <= 0) return;
+  const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
+  const double most = std::min(most_looks, budget / double(s.bodies.size() + 1));
+  const double looks = std::clamp(std::floor(time.end / dt), 1.0, most);
+  std::string fault = fault_of_pinned_flow(s, start, dt);
+  for (int n = 0; fault.empty() && n < looks; ++n) {
+    const double t = time.end * n / looks;
+    auto placed = place_bodies(s.bodies, start.rigid, t, t + dt);
+    for (std::size_t k = 0; n == 0 && k < placed.size(); ++k) {
+      if (s.bodies[k].is_rigid())
+        placed[k].twist = {start.rigid[k].velocity, start.rigid[k].angular_velocity, start.rigid[k].center};
+      placed[k].velocity = start.elastic[k].velocity;
+    }
+    fault = fault_of_pinned_solids(s, placed, t, dt);
+  }
+  if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
+}
+
+template <int Dim>
+State<Dim> initial_state(const Setup<Dim>& s) {
+  std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
+  for (const auto& region : s.scene.liquid.regions)
+    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.layout.h(), nullptr}));
+  State<Dim> state;
+  state.phi = initial_surface(s, shapes);
+  state.pressure = CellField<Dim>(s.layout);
+  if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
+  if (s.may_seal()) state.sealed = CellField<Dim, char>(s.layout);
+  for (const Body<Dim>& body : s.bodies) {
+    state.rigid.push_back(initial_rigid_state(body));
+    state.elastic.push_back(initial_elastic_motion(body));
+  }
+  refuse_overlaps(s, state);
+  const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);
+  state.expected_volume = liquid_volume(s, state.phi, g.psi) - volume_beyond(s, g, state.phi);
+  if (s.keeps_air()) state.air = initial_air(s, g, state.phi);
+
+  std::string fault;
+  const FaceField<Dim, char> wet = faces_near_liquid(s, state.phi);
+  FaceField<Dim> u = initial_velocity(s, wet, shapes, fault);
+  if (s.has_gas()) {
+    const FaceField<Dim, char> near = faces_near_gas(s, state.phi);
+    state.gas.now = initial_level(s, g, near, initial_gas_velocity(s, near, fault));
+  }
+  check_formulas_at_start(s, g, fault);
+  state.now = s.has_prescribed_flow() ? prescribed_level(s, state.phi, 0) : initial_level(s, g, wet, std::move(u));
+  state.film = measure_film(s, g.faces, state.now->u, state.now->u);
+  check_fixed_step(s, state);
+  return state;
+}
+
+template struct Setup<2>;
+template struct Setup<3>;
+template std::vector<Placement> place_bodies<2>(const Setup<2>&, const State<2>&);
+template std::vector<Placement> place_bodies<3>(const Setup<3>&, const State<3>&);
+template State<2> initial_state<2>(const Setup<2>&);
+template State<3> initial_state<3>(const Setup<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,260 @@
+// How long the next step may be.
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "coupling/solids/contact_setup.h"
+#include "coupling/tension/surface_tension.h"
+#include "coupling/transport/given_motion.h"
+#include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/viscous_transport.h"
+#include "grid/domain_faces.h"
+#include "grid/loops.h"
+#include "solid/body/enclosed_volume.h"
+
+namespace seiche {
+
+namespace {
+
+// Inflow moves the surface in the air before it, too.
+template <int Dim>
+double fastest_inflow(const Setup<Dim>& s, const Level<Dim>& level) {
+  double fastest = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side) {
+      if (s.sides.type(a, side) != SideType::inflow) continue;
+      const Box<Dim> box = faces_of_side(s.layout, a, side);
+      fastest = std::max(fastest, local_max(s.layout, box, 0.0, [&](Site f) { return std::abs(level.u.at(a, f)); }));
+    }
+  return fastest;
+}
+
+template <int Dim>
+double speed_at(const Level<Dim>& level, int axis, Site f) {
+  return level.valid.at(axis, f) ? std::abs(level.u.at(axis, f)) : 0.0;
+}
+
+}  // namespace
+
+template <int Dim>
+double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
+  double fastest = 0;
+  for (int a = 0; a < Dim; ++a)
+    fastest =
+        std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) {
+                   return std::max(speed_at(*state.now, a, f), state.gas.now ? speed_at(*state.gas.now, a, f) : 0.0);
+                 }));
+  return s.ranks.global_max(std::max(fastest, fastest_inflow(s, *state.now)));
+}
+
+namespace {
+
+// The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
+// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension
+// add.
+template <int Dim>
+double limit_of_present_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  if (s.has_prescribed_flow()) return limit_of_prescribed(s, state, until - state.time);
+  const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),
+               reach = s.scene.time.cfl * s.layout.h();
+  const double capillary = capillary_step(s);
+  if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
+  const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
+  if (!s.has_gas() && !has_surface(s, state.phi)) return std::min(flow, capillary);  // nothing to wave
+  const double waves = 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g));
+  return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
+}
+
+// So does what the scene gives, which the flow follows before it is seen in it.
+template <int Dim>
+double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const double limit = limit_of_present_flow(s, state, until);
+  if (s.has_prescribed_flow()) return limit;
+  const double span = std::min(limit, until - state.time), given = limit_of_given_flow(s, state.time, span);
+  return given < span ? given : limit;
+}
+
+constexpr double rounding = 1e-9;  // relative, of a motion that takes just the whole reach
+
+template <int Dim>
+std::string pinned_step(const Setup<Dim>& s, double t, double dt) {
+  return fmt::format("time.fixed_step = {:g} s: the step of {:.6g} s from time {:.6g} s carries",
+                     *s.scene.time.fixed_step, dt, t);
+}
+
+// The solids as they will move in the coming dt.
+template <int Dim>
+std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  std::vector<Placement> placed = place_bodies(s.bodies, state.rigid, state.time, state.time + dt);
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    const RigidState& r = state.rigid[k];
+    if (s.bodies[k].is_rigid()) placed[k].twist = {r.velocity, r.angular_velocity, r.center};
+    placed[k].velocity = state.elastic[k].velocity;
+  }
+  return placed;
+}
+
+// How far solids go in dt. Those that move as prescribed may be back where they began by then.
+template <int Dim>
+double largest_way(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  const bool prescribed = std::any_of(s.bodies.begin(), s.bodies.end(),
+                                      [](const Body<Dim>& body) { return body.spec().kind == SolidKind::kinematic; });
+  double largest = s.solids.largest_displacement(motion_ahead(s, state, dt), dt);
+  for (const double part : {0.29, 0.5})
+    if (prescribed)
+      largest = std::max(largest, s.solids.largest_displacement(motion_ahead(s, state, part * dt), part * dt));
+  return largest;
+}
+
+// Moving solids go at most one cell a step.
+template <int Dim>
+double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  if (s.contact && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
+  for (int n = 0; n < 60 && largest_way(s, state, dt) > s.layout.h(); ++n) dt /= 2;
+  return dt;
+}
+
+// A step that would leave less than another one to go is evened out.
+double land(double dt, double remaining) {
+  if (dt >= remaining * (1 - 1e-9)) return remaining;
+  return 2 * dt > remaining ? remaining / 2 : dt;
+}
+
+// The longest step of at most dt of which a whole number fills what remains.
+double share_evenly(double dt, double remaining) {
+  return remaining / std::max(1.0, std::ceil(remaining / dt - 1e-9));
+}
+
+// From t to the next frame, or to the end.
+double until_frame(const TimeSpec& spec, double t) {
+  const double frame = std::floor(t * spec.frame_rate * (1 + 1e-12) + 1e-9) + 1;
+  const double next = frame / spec.frame_rate;
+  return t < spec.end * (1 - 1e-12) ? std::min(next, spec.end) - t : next - t;
+}
+
+// Whether no element turns inside out on the straight way of a step other than the one solved for.
+template <int Dim>
+double share_without_inversion(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  double share = 1;
+  const auto w = elastic_velocities_over(s.bodies, state.elastic, state.time, dt, state.horizon);
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    if (s.bodies[k].is_elastic())
+      share = std::min(share, inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
+                                                   Eigen::VectorXd(dt * w[k])));
+  return share;
+}
+
+std::string too_short(double dt, double remaining, double h, const std::string& held) {
+  return fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {} steps); {}", dt,
+                     remaining, most_steps_a_frame,
+                     held.empty() ? fmt::format("the flow or a solid is too fast for cells of {:.3g} m", h)
+                                  : "solids leave each other no room: " + held);
+}
+
+}  // namespace
+
+// Each look is along straight paths to where the solids are at the end of the step: a shorter step has other ends, so
+// it is looked at again.
+template <int Dim>
+double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  if (s.has_elastic() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
+  constexpr int most_looks = 40;
+  constexpr double margin = 0.9;  // so that the next look finds the share of gaps it wants left
+  for (int n = 0; n < most_looks; ++n) {
+    const double share = std::min(safe_share(s, state, dt), share_without_inversion(s, state, dt));
+    if (share >= 1) return dt;
+    dt *= margin * share;
+  }
+  return 0;
+}
+
+// The halo holds paths of ceil(cfl) cells.
+template <int Dim>
+std::string fault_of_pinned_flow(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  const double h = s.layout.h(), cfl = s.scene.time.cfl, most = std::ceil(cfl);
+  const double speed =
+      s.has_prescribed_flow() ? fastest_prescribed(s, state.phi, state.time + 0.5 * dt) : fastest_component(s, state);
+  const double crossed = speed * dt / h;
+  if (crossed <= most * (1 + rounding)) return {};
+  return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
+                     pinned_step(s, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
+}
+
+// A solid that goes further than a cell leaps over faces.
+template <int Dim>
+std::string fault_of_pinned_solids(const Setup<Dim>& s, const std::vector<Placement>& placed, double t, double dt) {
+  const double h = s.layout.h(), crossed = s.solids.largest_displacement(placed, dt) / h;
+  if (crossed <= 1 + rounding) return {};
+  return fmt::format(
+      "{} a solid {:.3g} cells of {:g} m; at most 1 is possible; lower fixed_step or slow the solid down",
+      pinned_step(s, t, dt), crossed, h);
+}
+
+// Where the flow may speed up, 0.9 of what it allows now: then the coming step can be taken as it was solved for. Steps
+// share what remains to the frame evenly: the solve takes the solids over the coming step, the liquid over this one,
+// and lengths that differ in step with the frames fed a flap that is as slow as waves (energy e-fold in 3 s).
+template <int Dim>
+double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
+  const TimeSpec& spec = s.scene.time;
+  if (!s.has_elastic()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
+  const double remaining = until_frame(spec, next.time);
+  if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
+  constexpr double margin = 0.9;
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next, next.time + remaining));
+  if (spec.max_step) plan = std::min(plan, *spec.max_step);
+  return share_evenly(limit_of_solids(s, next, plan), remaining);
+}
+
+template <int Dim>
+bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
+  const double until = state.time + until_frame(s.scene.time, state.time);
+  const double dt = std::min(state.horizon, limit_of_flow(s, state, until));
+  return limit_of_solids(s, state, dt) >= state.horizon * (1 - 1e-9);
+}
+
+template <int Dim>
+double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const TimeSpec& spec = s.scene.time;
+  const double remaining = until - state.time;
+  if (!(remaining > 0))
+    throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
+  const bool planned = s.has_elastic() && state.step > 0 && !spec.fixed_step;
+  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
+  if (spec.max_step) dt = std::min(dt, *spec.max_step);
+  if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(s, state, std::min(dt, remaining));
+  if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
+    dt = state.horizon;
+  else if (!spec.fixed_step)
+    dt = limit_of_solids(s, state, std::min(dt, remaining));
+  if (s.has_elastic() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
+  if (dt >= remaining * (1 - 1e-9)) dt = remaining;
+  if (spec.fixed_step) {
+    std::string fault = fault_of_pinned_flow(s, state, dt);
+    if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(s, state, dt), state.time, dt);
+    if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
+  }
+  const bool as_planned = s.has_elastic() && dt == state.horizon;
+  if (!as_planned && !spec.fixed_step) dt = land(dt, remaining);
+  const double free = hold_back(s, state, dt);
+  if (!(free * double(most_steps_a_frame) > remaining))
+    throw Error(ExitCode::cannot_continue,
+                too_short(free, remaining, s.layout.h(),
+                          free < dt ? nearest_solids(s, state) : solids_at_periodic_sides(s, state)));
+  return free;
+}
+
+template double fastest_component<2>(const Setup<2>&, const State<2>&);
+template double fastest_component<3>(const Setup<3>&, const State<3>&);
+template std::string fault_of_pinned_flow<2>(const Setup<2>&, const State<2>&, double);
+template std::string fault_of_pinned_solids<2>(const Setup<2>&, const std::vector<Placement>&, double, double);
+template std::string fault_of_pinned_flow<3>(const Setup<3>&, const State<3>&, double);
+template std::string fault_of_pinned_solids<3>(const Setup<3>&, const std::vector<Placement>&, double, double);
+template double choose_horizon<2>(const Setup<2>&, const State<2>&, double);
+template double choose_horizon<3>(const Setup<3>&, const State<3>&, double);
+template bool can_go_as_planned<2>(const Setup<2>&, const State<2>&);
+template bool can_go_as_planned<3>(const Setup<3>&, const State<3>&);
+template double hold_back<2>(const Setup<2>&, const State<2>&, double);
+template double hold_back<3>(const Setup<3>&, const State<3>&, double);
+template double choose_step<2>(const Setup<2>&, const State<2>&, double);
+template double choose_step<3>(const Setup<3>&, const State<3>&, double);
+
+}  // namespace seiche

@@ -1,0 +1,160 @@
+#include "coupling/tension/contact_angle.h"
+
+#include "coupling/geometry/cell_distance.h"
+#include "grid/interpolation.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+constexpr int depth = 3;  // cells behind a wall that the stencils of a curvature next to it read
+
+double cotangent(double degrees) {
+  return degrees == 90 ? 0 : 1 / std::tan(degrees * 3.14159265358979323846 / 180);
+}
+
+// From where a surface runs along the wall (0) to where it meets it (1), by the share of grad phi along the wall. The
+// flattest contact angle, 20 degrees, has 0.34.
+double meets(double along, double norm) {
+  const double t = std::clamp((along / norm - 0.1) / 0.2, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// The part of grad phi across `normal` at a point of index coordinates x as a unit vector, and `weight`, how far the
+// surface there meets a wall of this normal.
+template <int Dim>
+struct Tangent {
+  Vec<Dim> e = Vec<Dim>::Zero();
+  double weight = 0;
+};
+
+template <int Dim>
+Tangent<Dim> tangent_at(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x, const Vec<Dim>& normal) {
+  Vec<Dim> g;
+  for (int a = 0; a < Dim; ++a) {
+    const Vec<Dim> step = Vec<Dim>::Unit(a);
+    g[a] = 0.5 * (interpolate_linear<Dim>(layout, f, x + step) - interpolate_linear<Dim>(layout, f, x - step));
+  }
+  const Vec<Dim> t = g - g.dot(normal) * normal;
+  const double norm = g.norm(), along = t.norm();
+  if (!(along > 1e-12 * norm)) return {};
+  return {t / along, meets(along, norm)};
+}
+
+// One layer beyond a side: layer 1 from the layer inside, later ones from the one before, each shifted by cot(angle)
+// cells.
+template <int Dim>
+class BeyondSide {
+ public:
+  BeyondSide(const Layout<Dim>& layout, int axis, int side, double shift, CellField<Dim>& phi)
+      : layout_(layout), axis_(axis), out_(side == 0 ? -1 : 1), shift_(shift), phi_(phi) {}
+
+  void fill(int layer) {
+    Box<Dim> box = layout_.cells();
+    if (box.empty() || !(out_ < 0 ? layout_.at_lower(axis_) : layout_.at_upper(axis_))) return;
+    for (int b = 0; b < axis_; ++b) {
+      box.lower[b] = layout_.authority().lower[b];
+      box.upper[b] = layout_.authority().upper[b];
+    }
+    const int first = out_ < 0 ? -1 : layout_.geometry().cells[axis_];
+    box.lower[axis_] = first + out_ * (layer - 1);
+    box.upper[axis_] = box.lower[axis_] + 1;
+    const CellField<Dim> old = phi_;
+    for_each_index(layout_, box, [&](Site s, const IVec<Dim>& i) { phi_[s] = value(old, s, i); });
+  }
+
+ private:
+  double value(const CellField<Dim>& old, Site s, const IVec<Dim>& i) const {
+    const Vec<Dim> x = i.template cast<double>() - out_ * Vec<Dim>::Unit(axis_);
+    const Vec<Dim> normal = Vec<Dim>::Unit(axis_);
+    const Vec<Dim> inside = x - out_ * normal;  // where differences along the normal are of the flow alone
+    const Tangent<Dim> t = tangent_at<Dim>(layout_, old.data(), inside, normal);
+    const double met = interpolate_cubic<Dim>(layout_, old.data(), x - shift_ * t.e);
+    return (1 - t.weight) * old[s] + t.weight * met;
+  }
+
+  const Layout<Dim>& layout_;
+  int axis_, out_;
+  double shift_;
+  CellField<Dim>& phi_;
+};
+
+bool is_wall(SideType type) {
+  return type == SideType::free_slip || type == SideType::no_slip || type == SideType::moving_wall;
+}
+
+template <int Dim>
+void continue_beyond_walls(const Setup<Dim>& s, CellField<Dim>& phi) {
+  const double shift = cotangent(s.scene.liquid.contact_angle);
+  for (int a = 0; a < Dim; ++a)
+    for (int layer = 1; layer <= depth; ++layer) {
+      for (int side = 0; side < 2; ++side)
+        if (is_wall(s.sides.type(a, side))) BeyondSide<Dim>(s.layout, a, side, shift, phi).fill(layer);
+      s.halo.fill_ghosts(phi);
+    }
+}
+
+// A cell within a solid, and the point (index coordinates) whose phi it takes on.
+template <int Dim>
+struct Buried {
+  Site site;
+  Vec<Dim> from;
+  double weight;
+};
+
+template <int Dim>
+double shift_at(const Setup<Dim>& s, const StepGeometry<Dim>& g, Site cell) {
+  const SolidSpec& solid = s.bodies[std::size_t(g.body[cell])].spec();
+  return cotangent(solid.contact_angle.value_or(s.scene.liquid.contact_angle));
+}
+
+// From depth d below a solid's surface phi is looked up at 2 d towards the flow, at most a cell, as far as the surface
+// is mirrored, deeper than that carried on along straight lines.
+template <int Dim>
+std::vector<Buried<Dim>> buried_cells(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+  std::vector<Buried<Dim>> cells;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (std::abs(phi[c]) > (depth + 2) * s.layout.h()) return;
+    const auto [psi, slope] = distance_at_cell<Dim>(s.layout, g.psi, c);
+    const double d = -psi / s.layout.h();
+    if (d <= 0 || d > depth || slope.norm() == 0 || g.body[c] < 0) return;
+    const Vec<Dim> out = slope.normalized(), x = i.template cast<double>();
+    const double up = std::min(2 * d, 1.0);
+    const Tangent<Dim> t = tangent_at<Dim>(s.layout, phi.data(), x + (std::min(d, 1.0) + 1) * out, out);
+    cells.push_back({c, x + up * (out - shift_at(s, g, c) * t.e), t.weight});
+  });
+  return cells;
+}
+
+// Each pass carries phi about a cell deeper; those next to the surface lean on each other.
+template <int Dim>
+void continue_into_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+  constexpr int passes = 2 * depth;
+  const std::vector<Buried<Dim>> cells = buried_cells(s, g, phi);
+  std::vector<double> straight(cells.size()), next(cells.size());
+  for (std::size_t n = 0; n < cells.size(); ++n) straight[n] = phi[cells[n].site];
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t n = 0; n < cells.size(); ++n)
+      next[n] = (1 - cells[n].weight) * straight[n] +
+                cells[n].weight * interpolate_cubic<Dim>(s.layout, phi.data(), cells[n].from);
+    for (std::size_t n = 0; n < cells.size(); ++n) phi[cells[n].site] = next[n];
+    s.halo.fill_ghosts(phi);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+CellField<Dim> continue_at_contact_angle(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+  CellField<Dim> continued = phi;
+  fill_level_set_ghosts(s.layout, s.halo, continued);
+  if (!s.bodies.empty()) continue_into_solids(s, g, continued);
+  continue_beyond_walls(s, continued);
+  return continued;
+}
+
+template CellField<2> continue_at_contact_angle<2>(const Setup<2>&, const StepGeometry<2>&, const CellField<2>&);
+template CellField<3> continue_at_contact_angle<3>(const Setup<3>&, const StepGeometry<3>&, const CellField<3>&);
+
+}  // namespace seiche

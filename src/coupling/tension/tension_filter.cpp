@@ -1,0 +1,89 @@
+#include "coupling/tension/tension_filter.h"
+
+#include "coupling/tension/surface_graph.h"
+#include "linalg/krylov/krylov.h"
+
+namespace seiche {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// 1 + l^4 K^2, and its diagonal's inverse.
+template <int Dim>
+class Filter {
+ public:
+  Filter(const SurfaceGraph<Dim>& graph, double length) : graph_(graph), weight_(std::pow(length, 4)) {}
+
+  void multiply(const Vector& x, Vector& y) const {
+    Vector bent(x.size());
+    graph_.laplacian(x, bent);
+    graph_.laplacian(bent, y);
+    for (std::size_t n = 0; n < x.size(); ++n) y[n] = x[n] + weight_ * y[n];
+  }
+  void residual(const Vector& b, const Vector& x, Vector& r) const {
+    multiply(x, r);
+    for (std::size_t n = 0; n < b.size(); ++n) r[n] = b[n] - r[n];
+  }
+  void apply(const Vector& r, Vector& z) const {
+    for (std::size_t n = 0; n < r.size(); ++n) {
+      const double degree = graph_.degree(n);
+      z[n] = r[n] / (1 + weight_ * degree * (degree + 1));
+    }
+  }
+
+ private:
+  const SurfaceGraph<Dim>& graph_;
+  double weight_;
+};
+
+// Mean of kappa over the crossed links of each cell.
+template <int Dim>
+Vector mean_at_cells(const Layout<Dim>& layout, const std::vector<Site>& cells, const FaceField<Dim, char>& crossed,
+                     const FaceField<Dim>& kappa) {
+  Vector mean(cells.size());
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    int count = 0;
+    for (int a = 0; a < Dim; ++a)
+      for (Site f : {cells[n], cells[n] + layout.stride(a)})
+        if (crossed.at(a, f)) mean[n] += kappa.at(a, f), ++count;
+    mean[n] /= count;
+  }
+  return mean;
+}
+
+}  // namespace
+
+// s^2 = 1.4: on surfaces along the diagonals the graph's Laplacian is half that of the surface, and the largest of s^2
+// x^3/(1 + x^4/4) is 1.5^2.
+double filter_length(double sigma, double density, double h, double dt) {
+  if (dt * dt * 4 * pi * sigma <= density * h * h * h) return 0;
+  return std::cbrt(sigma * dt * dt / (1.4 * density)) / h;
+}
+
+template <int Dim>
+void filter_curvature(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
+                      double length, FaceField<Dim>& kappa) {
+  const SurfaceGraph<Dim> graph(s, crossed);
+  const Vector before = mean_at_cells(s.layout, graph.cells(), crossed, kappa);
+  Vector after = before;
+  Filter<Dim> filter(graph, length);
+  constexpr double tolerance = 1e-10;  // far below the error of curvature
+  constexpr int most = 2000;           // what is left then is still a curvature, only less smooth
+  conjugate_gradients(filter, filter, before, after, {tolerance * norm(before, s.ranks), most}, s.ranks);
+  // What links of one cell differ by is as short as can be: it goes as well.
+  const CellField<Dim>& smooth = graph.spread(after);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (!crossed.at(a, f)) return;
+      const Site low = f - s.layout.stride(a);
+      const double t = phi[low] / (phi[low] - phi[f]);
+      kappa.at(a, f) = (1 - t) * smooth[low] + t * smooth[f];
+    });
+}
+
+template void filter_curvature<2>(const Setup<2>&, const CellField<2>&, const FaceField<2, char>&, double,
+                                  FaceField<2>&);
+template void filter_curvature<3>(const Setup<3>&, const CellField<3>&, const FaceField<3, char>&, double,
+                                  FaceField<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,218 @@
+#include "coupling/transport/air_volume.h"
+
+#include <cstring>
+#include <map>
+
+#include "coupling/transport/transport.h"
+#include "grid/loops.h"
+#include "levelset/fractions.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+// Region of each cell and of the cells around it, layer by layer, first through open faces alone; open air is the last.
+template <int Dim>
+CellField<Dim, std::int64_t> nearest_regions(const Setup<Dim>& s, const AirRegions<Dim>& air, const CellField<Dim>& phi,
+                                             const FaceGeometry<Dim>* faces) {
+  constexpr int own_side = 2;
+  CellField<Dim, std::int64_t> near = air.label;
+  for_each_site(s.layout, s.layout.padded(), [&](Site c) {
+    if (near[c] == open_air) near[c] = air.count();
+  });
+  const int layers = int(std::ceil(s.band() / s.layout.h())) + 1;
+  for (int layer = 0; layer < layers; ++layer) {
+    const CellField<Dim, std::int64_t> old = near;
+    for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+      if (old[c] >= 0) return;
+      double largest = -std::numeric_limits<double>::infinity();
+      for_each_face_of(s.layout, c, [&](int a, Site f, int, Site across) {
+        if (old[across] < 0 || phi[across] <= largest) return;
+        if (layer < own_side && faces && !faces->is_unknown(a, f)) return;
+        near[c] = old[across];
+        largest = phi[across];
+      });
+    });
+    s.halo.fill_ghosts({near.data()});
+  }
+  return near;
+}
+
+// Air in the owned cells of each region, summed over the ranks.
+template <int Dim>
+std::vector<double> volumes_of(const Setup<Dim>& s, const CellField<Dim, std::int64_t>& near, std::int64_t count,
+                               const NodeField<Dim>& psi, const CellField<Dim>& phi, double shift) {
+  CellField<Dim> depth(s.layout);  // below zero in the air
+  for_each_site(s.layout, s.layout.padded(),
+                [&](Site c) { depth[c] = -phi[c] - (std::abs(phi[c]) < s.band() ? shift : 0); });
+  std::vector<double> volume(std::size_t(count + 1));
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (near[c] >= 0) volume[std::size_t(near[c])] += liquid_share(s.layout, depth, psi, c);
+  });
+  s.ranks.global_sum(volume);
+  for (double& v : volume) v *= s.layout.geometry().cell_volume();
+  return volume;
+}
+
+// Cells that a region now has of one before; either may be open_air.
+using Overlaps = std::map<std::pair<std::int64_t, std::int64_t>, double>;
+
+struct Overlap {
+  std::int64_t before, now;
+  double cells;
+};
+
+// Where the air of a cell was, in cells.
+template <int Dim>
+Site origin(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, Site c) {
+  Site from = c;
+  for (int a = 0; a < Dim; ++a) {
+    const double moved = 0.5 * (u.at(a, c) + u.at(a, c + layout.stride(a))) * dt / layout.h();
+    from -= Site(std::lround(std::clamp<double>(moved, 1 - layout.halo(), layout.halo() - 1))) * layout.stride(a);
+  }
+  return from;
+}
+
+// How many cells each region now has of each before, over all ranks.
+template <int Dim>
+Overlaps overlaps(const Setup<Dim>& s, const AirRegions<Dim>& before, const AirRegions<Dim>& now,
+                  const FaceField<Dim>& u, double dt) {
+  Overlaps mine, all;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (now.label[c] == no_air) return;
+    std::int64_t from = dt > 0 ? before.label[origin(s.layout, u, dt, c)] : no_air;
+    if (from == no_air) from = before.label[c];
+    if (from != no_air) mine[{from, now.label[c]}] += 1;
+  });
+  std::string bytes;
+  for (const auto& [pair, cells] : mine) {
+    const Overlap o{pair.first, pair.second, cells};
+    bytes.append(reinterpret_cast<const char*>(&o), sizeof o);
+  }
+  for (const std::string& part : s.ranks.all_gather(bytes))
+    for (std::size_t n = 0; n < part.size(); n += sizeof(Overlap)) {
+      Overlap o;
+      std::memcpy(&o, part.data() + n, sizeof o);
+      all[{o.before, o.now}] += o.cells;
+    }
+  return all;
+}
+
+// Where the surface is cut off by a rim, cells beside it change sides to and fro: each would take a cell's air along.
+// Up to 2^Dim cells between a region that stays and the open air are therefore nobody's, and splinters below a cell's
+// volume leave theirs with the larger part, so that they vanish and it is whole.
+template <int Dim>
+Overlaps without_blur(Overlaps cells, const std::vector<double>& measured, std::size_t before, double cell) {
+  constexpr double blur = 1 << Dim;
+  std::vector<char> stays(before), comes(measured.size()), has_large(before);
+  for (const auto& [pair, n] : cells) {
+    if (pair.first < 0 || pair.second < 0) continue;
+    stays[std::size_t(pair.first)] = comes[std::size_t(pair.second)] = 1;
+    if (measured[std::size_t(pair.second)] >= cell) has_large[std::size_t(pair.first)] = 1;
+  }
+  for (auto& [pair, n] : cells) {
+    if (pair.first >= 0 && pair.second >= 0) {
+      if (has_large[std::size_t(pair.first)] && measured[std::size_t(pair.second)] < cell) n = 0;
+    } else if (n <= blur && (pair.first >= 0 ? stays[std::size_t(pair.first)]
+                                             : pair.second >= 0 && comes[std::size_t(pair.second)])) {
+      n = 0;
+    }
+  }
+  return cells;
+}
+
+// V_n = sum_b V_b m_bn / sum_n m_bn, m_bn the part of n's measured volume that came from b; from what was open m_n.
+template <int Dim>
+void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before, const Overlaps& found,
+                     const std::vector<double>& measured, AirRegions<Dim>& now, double& lost) {
+  const double cell = s.layout.geometry().cell_volume();
+  const Overlaps cells = without_blur<Dim>(found, measured, before.volume.size(), cell);
+  std::vector<double> in_all(now.volume.size()), kept(before.volume.size());
+  std::vector<char> known(now.volume.size());
+  for (const auto& [pair, n] : found)
+    if (pair.second >= 0) known[std::size_t(pair.second)] = 1;
+  for (const auto& [pair, n] : cells)
+    if (pair.second >= 0) in_all[std::size_t(pair.second)] += n;
+  // Regions in cut cells may have no volume to share by.
+  const auto part = [&](const auto& pair, double n) {
+    if (pair.second < 0 || n == 0) return n * cell;
+    return std::max(measured[std::size_t(pair.second)], 1e-3 * cell) * n / in_all[std::size_t(pair.second)];
+  };
+  for (const auto& [pair, n] : cells)
+    if (pair.first >= 0) kept[std::size_t(pair.first)] += part(pair, n);
+  for (const auto& [pair, n] : cells) {
+    if (pair.second < 0 || n == 0) continue;
+    const auto k = std::size_t(pair.second);
+    now.volume[k] += pair.first < 0
+                         ? measured[k] * n / in_all[k]
+                         : before.volume[std::size_t(pair.first)] * (part(pair, n) / kept[std::size_t(pair.first)]);
+  }
+  for (std::size_t n = 0; n < now.volume.size(); ++n)
+    if (!known[n]) now.volume[n] = measured[n];
+  for (std::size_t b = 0; b < kept.size(); ++b)
+    if (kept[b] == 0) lost += before.volume[b];
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> air_volumes(const Setup<Dim>& s, const AirRegions<Dim>& air, const NodeField<Dim>& psi,
+                                const CellField<Dim>& phi) {
+  return volumes_of(s, nearest_regions<Dim>(s, air, phi, nullptr), air.count(), psi, phi, 0);
+}
+
+template <int Dim>
+AirRegions<Dim> initial_air(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+  AirRegions<Dim> air = find_air_regions(s.layout, s.halo, s.ranks, phi, g.faces);
+  std::vector<double> measured = air_volumes(s, air, g.psi, phi);
+  measured.pop_back();
+  air.volume = std::move(measured);
+  return air;
+}
+
+template <int Dim>
+AirRegions<Dim> follow_air(const Setup<Dim>& s, const AirRegions<Dim>& before, const FaceField<Dim>& u, double dt,
+                           const StepGeometry<Dim>& g, const CellField<Dim>& phi, double& lost) {
+  AirRegions<Dim> now = find_air_regions(s.layout, s.halo, s.ranks, phi, g.faces);
+  hand_on_volumes(s, before, overlaps(s, before, now, u, dt), air_volumes(s, now, g.psi, phi), now, lost);
+  return now;
+}
+
+template <int Dim>
+double control_volumes(const Setup<Dim>& s, const StepGeometry<Dim>& g, double expected, double limit,
+                       AirRegions<Dim>& air, CellField<Dim>& phi) {
+  const double probe = 1e-3 * s.layout.h(), liquid = liquid_volume(s, phi, g.psi);
+  const auto near = nearest_regions(s, air, phi, &g.faces);
+  const std::vector<double> volume = volumes_of(s, near, air.count(), g.psi, phi, 0);
+  const std::vector<double> grown = volumes_of(s, near, air.count(), g.psi, phi, probe);
+  const std::size_t open = air.volume.size();
+  double enclosed = 0, lacking = 0;  // of the regions' volumes
+  for (std::size_t k = 0; k < open; ++k) enclosed += air.volume[k], lacking += air.volume[k] - volume[k];
+  const double excess = liquid - expected;  // what the liquid has too much
+  if (!air.any_open && enclosed > 0)
+    for (double& v : air.volume) v *= 1 + (excess - lacking) / enclosed;
+  std::vector<double> shift(open + 1);
+  for (std::size_t k = 0; k <= open; ++k) {
+    const double area = (grown[k] - volume[k]) / probe,
+                 wanted = k < open ? air.volume[k] - volume[k] : excess - lacking;
+    shift[k] = area > 0 ? std::clamp(wanted / area, -limit, limit) : 0;
+  }
+  for_each_site(s.layout, s.layout.padded(), [&](Site c) {
+    if (near[c] >= 0 && std::abs(phi[c]) < s.band()) phi[c] += shift[std::size_t(near[c])];
+  });
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  return liquid_volume(s, phi, g.psi) - liquid;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template std::vector<double> air_volumes<D>(const Setup<D>&, const AirRegions<D>&, const NodeField<D>&,     \
+                                              const CellField<D>&);                                           \
+  template AirRegions<D> initial_air<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);        \
+  template AirRegions<D> follow_air<D>(const Setup<D>&, const AirRegions<D>&, const FaceField<D>&, double,    \
+                                       const StepGeometry<D>&, const CellField<D>&, double&);                 \
+  template double control_volumes<D>(const Setup<D>&, const StepGeometry<D>&, double, double, AirRegions<D>&, \
+                                     CellField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,123 @@
+#include "coupling/transport/initial_surface.h"
+
+#include "coupling/transport/transport.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+// Shapes whose values are no exact distances near their zero.
+bool needs_redistancing(const ShapeSpec& s) {
+  return s.kind == "expression";
+}
+
+template <int Dim>
+class Regions {
+ public:
+  Regions(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes)
+      : band_(s.band()), shapes_(shapes) {}
+
+  double operator()(const Vec<Dim>& x) const {
+    double d = band_;
+    for (const auto& shape : shapes_) d = std::min(d, (*shape)(x));
+    return std::max(d, -band_);
+  }
+
+  // Whether straight lines between cell centres put a surface where the shapes have it, to a tenth of a cell.
+  bool is_straight(const Vec<Dim>& x, const Vec<Dim>& step, double low, double high) const {
+    constexpr double margin = 0.1;
+    const double share = low / (low - high);
+    const bool before = share < margin || is_inside(x + (share - margin) * step) == (low < 0);
+    const bool behind = share > 1 - margin || is_inside(x + (share + margin) * step) == (high < 0);
+    return before && behind;
+  }
+
+  // Share of the way from x to x + step at which liquid begins or ends, by bisection.
+  double crossing(const Vec<Dim>& x, const Vec<Dim>& step, bool inside) const {
+    double low = 0, high = 1;
+    for (int n = 0; n < 20; ++n) {
+      const double middle = 0.5 * (low + high);
+      (is_inside(x + middle * step) == inside ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+ private:
+  bool is_inside(const Vec<Dim>& x) const { return (*this)(x) < 0; }
+
+  double band_;
+  const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes_;
+};
+
+// body(axis, site of the neighbour, step to it) for the neighbours of a cell within the domain on the surface's other
+// side.
+template <int Dim, class Body>
+void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, Site c, const IVec<Dim>& i,
+                     const Body& body) {
+  for (int a = 0; a < Dim; ++a)
+    for (const int way : {-1, 1}) {
+      const Site other = c + way * layout.stride(a);
+      const int there = i[a] + way;
+      if (there < 0 || there >= layout.geometry().cells[a] || (phi[c] < 0) == (phi[other] < 0)) continue;
+      Vec<Dim> step = Vec<Dim>::Zero();
+      step[a] = way * layout.h();
+      body(a, other, step);
+    }
+}
+
+// Whether a formula jumps and its values at cell centres misplace its zero. Distances change by a cell from one to the
+// next; what changes by more than two has jumped. Collective.
+template <int Dim>
+bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim>& phi) {
+  bool misplaced = false;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (misplaced) return;
+    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+    for_each_across(s.layout, phi, c, i, [&](int, Site other, const Vec<Dim>& step) {
+      const bool jumps = std::abs(phi[c] - phi[other]) > 2 * s.layout.h();
+      misplaced = misplaced || (jumps && !regions.is_straight(x, step, phi[c], phi[other]));
+    });
+  });
+  return s.ranks.any(misplaced);
+}
+
+// Distance of the cells beside the zero from the plane through the zeros theta_a h away along the axes,
+// d = h / sqrt(sum 1/theta_a^2); the band elsewhere. What a jump leaves farther off would draw the zero along.
+template <int Dim>
+void place_zero(const Setup<Dim>& s, const Regions<Dim>& regions, CellField<Dim>& phi) {
+  constexpr double least = 1e-3;
+  const CellField<Dim> old = phi;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+    Vec<Dim> inverse = Vec<Dim>::Zero();
+    for_each_across(s.layout, old, c, i, [&](int a, Site, const Vec<Dim>& step) {
+      inverse[a] = std::max(inverse[a], 1 / std::max(least, regions.crossing(x, step, old[c] < 0)));
+    });
+    phi[c] = std::copysign(inverse.isZero(0) ? s.band() : s.layout.h() / inverse.norm(), old[c]);
+  });
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+}
+
+}  // namespace
+
+template <int Dim>
+CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+  CellField<Dim> phi(s.layout, s.band());
+  const Regions<Dim> distance(s, shapes);
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    phi[c] = distance(s.layout.position(i, cell_offset<Dim>()));
+  });
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  const auto& regions = s.scene.liquid.regions;
+  if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); })) {
+    if (misplaces_zero(s, distance, phi)) place_zero(s, distance, phi);
+    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi);
+  }
+  return phi;
+}
+
+template CellField<2> initial_surface<2>(const Setup<2>&, const std::vector<std::unique_ptr<ShapeField<2>>>&);
+template CellField<3> initial_surface<3>(const Setup<3>&, const std::vector<std::unique_ptr<ShapeField<3>>>&);
+
+}  // namespace seiche

@@ -1,0 +1,11 @@
+#pragma once
+// The level set that a run begins with.
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// Distance to the union of the regions' shapes, within the band; ghosts filled. Collective.
+template <int Dim>
+CellField<Dim> initial_surface(const Setup<Dim>& setup, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes);
+
+}  // namespace seiche

@@ -1,0 +1,77 @@
+#include "coupling/transport/liquid_viscosity.h"
+
+#include <fmt/format.h>
+
+#include "coupling/transport/formula_checks.h"
+#include "fluid/rheology/rheology.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+std::string bad_value_text(const Formula& formula, double value, const Vec<Dim>& x, double t) {
+  if (!std::isfinite(value)) return not_finite_text<Dim>("liquid.viscosity", formula, value, x, t);
+  return fmt::format("liquid.viscosity = \"{}\" is {:g} Pa s at {}, t = {:g} s; it must be >= 0 there", formula, value,
+                     place_text<Dim>(x), t);
+}
+
+// visit(site, value) of the formula in this rank's cells; the first value that is none, as a text.
+template <int Dim, class Visit>
+std::string evaluate(const Setup<Dim>& s, const Formula& formula, double t, const Visit& visit) {
+  const Expression value_of(formula);
+  std::string fault;
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+    const double value = value_of(extend<Dim>(x), t);
+    if (fault.empty() && !(std::isfinite(value) && value >= 0)) fault = bad_value_text<Dim>(formula, value, x, t);
+    visit(c, value);
+  });
+  return fault;
+}
+
+}  // namespace
+
+bool is_viscous(const LiquidSpec& liquid) {
+  if (!liquid.rheology.model.empty()) return true;
+  const Expression value(liquid.viscosity);
+  return !value.is_constant() || value(Vec3::Zero(), 0) != 0;
+}
+
+template <int Dim>
+RheologySpec rheology_of(const Setup<Dim>& s) {
+  RheologySpec spec = resolve_rheology(s.scene);
+  spec.yield_stress *= s.tampering.yield_stress;
+  return spec;
+}
+
+template <int Dim>
+std::string set_liquid_viscosity(const Setup<Dim>& s, const FaceField<Dim>& u, const FaceField<Dim, char>& valid,
+                                 double t, CellField<Dim>& mu) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  if (!liquid.rheology.model.empty()) {
+    set_viscosity(s.layout, s.halo, rheology_of(s), u, valid, mu);
+    return {};
+  }
+  const std::string fault = evaluate(s, liquid.viscosity, t, [&](Site c, double value) { mu[c] = value; });
+  s.halo.fill_ghosts(mu);
+  extend_beyond_sides<Dim>(s.layout, mu.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::constant));
+  return fault;
+}
+
+template <int Dim>
+std::string fault_of_viscosity(const Setup<Dim>& s, double t) {
+  const LiquidSpec& liquid = s.scene.liquid;
+  const bool asked = liquid.rheology.model.empty() && !Expression(liquid.viscosity).is_constant();
+  return asked ? evaluate(s, liquid.viscosity, t, [](Site, double) {}) : std::string();
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template RheologySpec rheology_of<D>(const Setup<D>&);                                                        \
+  template std::string set_liquid_viscosity<D>(const Setup<D>&, const FaceField<D>&, const FaceField<D, char>&, \
+                                               double, CellField<D>&);                                          \
+  template std::string fault_of_viscosity<D>(const Setup<D>&, double);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,107 @@
+#include "coupling/transport/path_origins.h"
+
+#include "coupling/transport/restore.h"
+#include "fluid/boundary/inflow.h"
+#include "fluid/transport/advection.h"
+#include "grid/interpolation.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+using Range = std::pair<double, double>;
+
+// Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
+template <int Dim>
+Range valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
+  Range range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+  constexpr int neighbours = Dim == 2 ? 9 : 27;
+  for (int n = 0; n < neighbours; ++n) {
+    Site at = f;
+    for (int a = 0, left = n; a < Dim; ++a, left /= 3) at += (left % 3 - 1) * layout.stride(a);
+    if (!level.valid.at(axis, at)) continue;
+    range = {std::min(range.first, level.u.at(axis, at)), std::max(range.second, level.u.at(axis, at))};
+  }
+  return range;
+}
+
+// The face nearest to x with all neighbours stored.
+template <int Dim>
+Site nearest_face(const Layout<Dim>& layout, int axis, const Vec<Dim>& x) {
+  const Vec<Dim> g = index_coordinates<Dim>(layout, x, face_offset<Dim>(axis));
+  IVec<Dim> i;
+  for (int a = 0; a < Dim; ++a)
+    i[a] = int(std::clamp(std::round(g[a]), layout.padded().lower[a] + 1.0, layout.padded().upper[a] - 2.0));
+  return layout.site(i);
+}
+
+// The faces of a component within `reach` cells of a side, without those on it.
+template <int Dim>
+Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int component, int reach) {
+  Box<Dim> box = layout.faces(component);
+  const int n = layout.geometry().cells[axis], on_side = component == axis ? 1 : 0;
+  if (side == 0) box.lower[axis] = std::max(box.lower[axis], on_side);
+  if (side == 0) box.upper[axis] = std::min(box.upper[axis], reach + on_side);
+  if (side == 1) box.lower[axis] = std::max(box.lower[axis], n - reach);
+  if (side == 1) box.upper[axis] = std::min(box.upper[axis], n);
+  return box;
+}
+
+// Acceleration by gravity, pressure and viscosity as the last step left it. Impacts change velocity at once whatever dt
+// is, so that it is at most that of gravity or h/4 in a step. Free fall where nothing was solved for.
+template <int Dim>
+double acceleration_at(const Setup<Dim>& s, const Level<Dim>& level, int axis, Site f, double g, double dt) {
+  if (level.valid.at(axis, f) != face_solved) return g;
+  const double most = std::max(std::abs(g), 0.25 * s.layout.h() / (dt * dt));
+  const double viscous = s.is_viscous() ? level.n.at(axis, f) : 0;
+  return std::clamp(g - level.q.at(axis, f) + viscous, -most, most);
+}
+
+}  // namespace
+
+template <int Dim>
+void limit_at_surfaces(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths,
+                       const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!paths.near.at(a, f) || interior.at(a, f)) return;
+      const Vec<Dim> from = departure_of_face(s.layout, paths.velocity, a, f, i, paths.dt);
+      Range range = valid_range(s.layout, level, a, nearest_face(s.layout, a, from));
+      if (range.first > range.second) range = valid_range(s.layout, level, a, f);
+      if (range.first <= range.second) u.at(a, f) = std::clamp(u.at(a, f), range.first, range.second);
+    });
+}
+
+// With tau the time since the entry, A the acceleration, u_in + tau A is wanted. The solve adds dt (A - g) and the
+// viscous share that memory leaves: u* = u_in + dt g - (dt - tau) A + memory.
+template <int Dim>
+void let_liquid_in(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
+                   const FaceField<Dim>& memory, FaceField<Dim>& u) {
+  const double dt = paths.dt;
+  const Vec3 g = s.tampering.gravity * s.gravity.of_step(t + dt, dt);
+  const int reach = int(std::ceil(s.scene.time.cfl)) + 1;
+  for (int axis = 0; axis < Dim; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (s.sides.type(axis, side) != SideType::inflow) continue;
+      for (int a = 0; a < Dim; ++a)
+        for_each_index_in_order(
+            s.layout, faces_behind(s.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
+              if (!paths.near.at(a, f)) return;
+              const Vec<Dim> from = departure_of_face(s.layout, paths.velocity, a, f, i, dt);
+              const auto entry = find_entry(s.layout, s.sides, from, s.layout.position(i, face_offset<Dim>(a)), t, dt);
+              if (!entry) return;
+              const double before = dt - entry->inside, acc = acceleration_at(s, level, a, f, g[a], dt);
+              u.at(a, f) = velocity_of(s.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
+            });
+    }
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template void limit_at_surfaces<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, const FaceField<D, char>&, \
+                                     FaceField<D>&);                                                                   \
+  template void let_liquid_in<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, double, const FaceField<D>&,   \
+                                 FaceField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,201 @@
+#include "coupling/transport/restore.h"
+
+#include <optional>
+#include <unordered_map>
+
+#include "coupling/thin/films.h"
+#include "coupling/transport/transport.h"
+#include "coupling/transport/two_fluids.h"
+#include "grid/loops.h"
+#include "levelset/extrapolate.h"
+
+namespace seiche {
+namespace {
+
+constexpr int straight_layers = 2;  // in which velocity is continued straight, before it is constant
+
+// Mean of the psi of a face's corners, and its gradient there (per cell).
+template <int Dim>
+struct FaceDistance {
+  double psi = 0;
+  Vec<Dim> gradient = Vec<Dim>::Zero();
+};
+
+template <int Dim>
+FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face) {
+  constexpr int corners = 1 << (Dim - 1);
+  FaceDistance<Dim> r;
+  for (int k = 0; k < corners; ++k) {
+    Site node = face;
+    for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
+    r.psi += psi[node] / corners;
+    r.gradient[axis] += (psi[node + layout.stride(axis)] - psi[node - layout.stride(axis)]) / (2 * corners);
+    for (int b = 1; b < Dim; ++b)
+      r.gradient[(axis + b) % Dim] += (((k >> (b - 1)) & 1) ? 1 : -1) * psi[node] * 2 / corners;
+  }
+  return r;
+}
+
+// All components at a face of one axis: its own, and the mean of the four (2D: four) around it of the others.
+template <int Dim>
+Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site f) {
+  Vec<Dim> v;
+  for (int b = 0; b < Dim; ++b) {
+    const Site da = layout.stride(axis), db = layout.stride(b);
+    const auto& c = u[b];
+    v[b] = b == axis ? c[f] : 0.25 * (c[f] + c[f + db] + c[f - da] + c[f + db - da]);
+  }
+  return v;
+}
+
+// Velocities of the solids at faces: of what deforms on the faces that it closes, as far in as its surface is near.
+template <int Dim>
+class SolidVelocities {
+ public:
+  SolidVelocities(const Setup<Dim>& s, const StepGeometry<Dim>& g)
+      : g_(g), layout_(s.layout), shares_(s.bodies.size()) {
+    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+      if (!g.deforms(int(k))) continue;
+      for (std::size_t n = 0; n < g.shares[k]->size(); ++n)
+        shares_[k][std::size_t((*g.shares[k])[n].axis)][(*g.shares[k])[n].face] = n;
+    }
+  }
+  std::optional<Vec<Dim>> at(int body, int axis, Site face) const {
+    if (!g_.deforms(body)) {
+      const Vec3 x = extend<Dim>(layout_.position(layout_.index(face), face_offset<Dim>(axis)));
+      return truncate<Dim>(g_.placed[std::size_t(body)].twist.at(x));
+    }
+    const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
+    const auto found = faces.find(face);
+    if (found == faces.end()) return {};
+    const SurfaceWeights& hung = (*g_.attached[std::size_t(body)])[found->second];
+    if (hung.empty()) return {};
+    Vec<Dim> v;
+    for (int b = 0; b < Dim; ++b) v[b] = velocity_at<Dim>(hung, b, g_.placed[std::size_t(body)].velocity);
+    return v;
+  }
+
+ private:
+  const StepGeometry<Dim>& g_;
+  const Layout<Dim>& layout_;
+  std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
+};
+
+// Whether viscous liquid has the velocity of this body (-1: none) at its surface.
+template <int Dim>
+bool liquid_sticks_to(const Setup<Dim>& s, int body) {
+  return s.is_viscous() && body >= 0 && s.bodies[std::size_t(body)].spec().slip == Slip::no_slip;
+}
+
+// In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n. Solved faces keep theirs.
+// Where liquid sticks to the solid, what is continued straight passes through the solid's velocity at its surface;
+// farther in than that goes all of it is the solid's.
+template <int Dim>
+void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const SolidVelocities<Dim>& solids,
+                   const FaceField<Dim, char>& valid, const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
+  const FaceField<Dim> old = u;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
+      const FaceDistance<Dim> d = distance_at_face(s.layout, g.psi, a, f);
+      const double norm = d.gradient.norm();
+      if (d.psi >= 0 || norm == 0) return;
+      const Vec<Dim> n = d.gradient / norm;
+      const std::optional<Vec<Dim>> v = solids.at(g.body[f], a, f);
+      if (v && liquid_sticks_to(s, g.body[f])) {
+        if (d.psi < -straight_layers * s.layout.h()) u.at(a, f) = (*v)[a];
+        return;
+      }
+      if (v) u.at(a, f) += (*v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
+    });
+}
+
+// The given velocity on walls and inflow, wet or dry. Fills ghosts.
+template <int Dim>
+void keep_prescribed(const Setup<Dim>& s, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::prescribed) u.at(a, f) = g.faces.prescribed.at(a, f);
+    });
+  fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
+}
+
+}  // namespace
+
+template <int Dim>
+void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
+                       FaceField<Dim>& u) {
+  FaceField<Dim, char> reached = valid;
+  const SolidVelocities<Dim> solids(s, g);
+  for (int a = 0; a < Dim; ++a) {
+    // Inflow feeds the air before it, too.
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      if (valid.at(a, f)) reached.at(a, f) = 1;
+      if (g.faces.kind_at(a, f) != FaceKind::prescribed) return;
+      u.at(a, f) = g.faces.prescribed.at(a, f);
+      if (u.at(a, f) != 0) reached.at(a, f) = 1;
+    });
+    for (const SealedFace& f : g.sealed)
+      if (f.axis == a && !valid.at(a, f.face)) {
+        u.at(a, f.face) = solids.at(f.body, a, f.face).value_or(Vec<Dim>::Zero())[a];
+        reached.at(a, f.face) = 1;
+      }
+    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), straight_layers}, u[a], reached[a]);
+  }
+  keep_prescribed(s, g, u);
+  if (s.bodies.empty()) return;
+  follow_solids(s, g, solids, valid, reached, u);
+  keep_prescribed(s, g, u);
+}
+
+template <int Dim>
+void continue_level(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& near,
+                    Level<Dim>& level) {
+  if (s.has_gas()) keep_faces(s.layout, near, level);
+  continue_velocity(s, g, level.valid, level.u);
+  s.halo.fill_ghosts(level.valid);
+}
+
+template <int Dim>
+Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                               const StepGeometry<Dim>& g) {
+  Level<Dim> next = empty_level(s);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+      const Site low = f - s.layout.stride(a);
+      const bool wet = rows.touch_pressure(low, f);
+      if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
+      if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
+        next.valid.at(a, f) = face_prescribed;
+        next.u.at(a, f) = in.faces.prescribed.at(a, f);
+        return;
+      }
+      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s, g.body[f])) next.valid.at(a, f) = face_solved;
+      next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
+      next.u.at(a, f) = u_star.at(a, f) - s.tampering.pressure_gradient * in.dt * next.q.at(a, f);
+    });
+  s.halo.fill_ghosts(next.u);
+  Restored<Dim> restored;
+  restored.divergence = max_divergence(in, rows, next.u);
+  const FaceField<Dim> solved = next.u;
+  if (in.has_gas()) {
+    restored.gas = next;
+    continue_level(s, g, faces_near_gas(s, in.phi), restored.gas);
+  }
+  continue_level(s, g, faces_near_liquid(s, in.phi), next);
+  restored.film = measure_film(s, in.faces, solved, next.u);
+  restored.level = std::move(next);
+  return restored;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template void continue_level<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&, Level<D>&); \
+  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,          \
+                                     FaceField<D>&);                                                              \
+  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,    \
+                                           const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,35 @@
+#pragma once
+// After the solve: velocity and pressure slope on the faces next to liquid, continued beyond it.
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// valid codes of Level::valid.
+enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
+
+// The flow after a solve.
+template <int Dim>
+struct Restored {
+  Level<Dim> level;  // the liquid's
+  Level<Dim> gas;    // where gas flows
+  Film<Dim> film;
+  double divergence = 0;  // the largest |net flux|/volume of a cell with a row, 1/s
+};
+
+// u = u* - dt grad p/rho on unknown faces, the given velocity on prescribed ones, q = grad p/rho; then u continued.
+template <int Dim>
+Restored<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
+                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                               const StepGeometry<Dim>& geometry);
+
+// Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
+template <int Dim>
+void continue_velocity(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid,
+                       FaceField<Dim>& u);
+
+// Continues a fluid's level from the faces near it, its only valid ones where there is another fluid.
+template <int Dim>
+void continue_level(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near,
+                    Level<Dim>& level);
+
+}  // namespace seiche

@@ -1,0 +1,97 @@
+#include "coupling/transport/sources.h"
+
+#include <fmt/format.h>
+
+#include "coupling/transport/formula_checks.h"
+#include "coupling/transport/transport.h"
+#include "grid/loops.h"
+#include "levelset/redistance.h"
+
+namespace seiche {
+namespace {
+
+// Distance to what a source brings: its shape carried along its own velocity, min over the ages a of shape(x - a v(x)),
+// ages being at most a cell's crossing apart; the domain's cells along all axes bound how many can matter. Nothing is
+// carried to where the velocity's formula has no value.
+template <int Dim>
+double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open,
+                           const Vec<Dim>& x) {
+  if (open.oldest == 0) return (*source.shape)(x);
+  const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), open.begin));
+  if (!v.allFinite()) return (*source.shape)(x);
+  const double crossed = v.norm() * (open.oldest - open.youngest) / layout.h();
+  const int parts = int(std::ceil(std::min(crossed, double(layout.geometry().cells.sum()))));
+  double distance = (*source.shape)(x - open.youngest * v);
+  for (int n = 1; n <= parts; ++n) {
+    const double age = open.youngest + (open.oldest - open.youngest) * n / parts;
+    distance = std::min(distance, (*source.shape)(x - age * v));
+  }
+  return distance;
+}
+
+}  // namespace
+
+std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, double t1) {
+  const double begin = std::max(source.from, t0), end = std::min(source.until, t1);
+  if (!(begin < end)) return {};
+  return OpenTime{begin, end, t1 - end, source.from >= t0 ? t1 - begin : t1 - end};
+}
+
+template <int Dim>
+double add_sources(const Setup<Dim>& s, const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
+  const bool any = std::any_of(s.sources.begin(), s.sources.end(),
+                               [&](const auto& x) { return open_in_step(x.spec, t0, t1).has_value(); });
+  if (!any) return 0;
+  const NodeField<Dim> psi = s.solids.measure(place_bodies(s, state), t0).psi;
+  const double before = liquid_volume(s, phi, psi);
+  for (const Source<Dim>& source : s.sources) {
+    const auto open = open_in_step(source.spec, t0, t1);
+    if (!open) continue;
+    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+      const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+      phi[c] = std::min(phi[c], distance_to_brought(s.layout, source, *open, x));
+    });
+  }
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+  return liquid_volume(s, phi, psi) - before;
+}
+
+template <int Dim>
+void set_source_velocity(const Setup<Dim>& s, double t0, double t1, FaceField<Dim>& u) {
+  for (const Source<Dim>& source : s.sources) {
+    const auto open = open_in_step(source.spec, t0, t1);
+    if (!open) continue;
+    for (int a = 0; a < Dim; ++a)
+      for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+        const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+        if (distance_to_brought(s.layout, source, *open, x) <= 0)
+          u.at(a, f) = source.velocity.component(a, extend<Dim>(x), open->begin);
+      });
+  }
+}
+
+template <int Dim>
+std::string fault_of_source(const Setup<Dim>& s, std::size_t index, double t) {
+  const Source<Dim>& source = s.sources[index];
+  std::string fault;
+  if (source.velocity.is_constant() && source.velocity(Vec3::Zero(), t).allFinite()) return fault;
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site, const IVec<Dim>& i) {
+      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      if (!fault.empty() || (*source.shape)(x) > 0) return;
+      const double v = source.velocity.component(a, extend<Dim>(x), t);
+      if (std::isfinite(v)) return;
+      fault = not_finite_text<Dim>(fmt::format("liquid.source.{}.velocity[{}]", index, a), source.spec.velocity[a], v,
+                                   x, t);
+    });
+  return fault;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                      \
+  template double add_sources<D>(const Setup<D>&, const State<D>&, double, double, CellField<D>&); \
+  template void set_source_velocity<D>(const Setup<D>&, double, double, FaceField<D>&);            \
+  template std::string fault_of_source<D>(const Setup<D>&, std::size_t, double);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

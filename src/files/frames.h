@@ -1,0 +1,53 @@
+#pragma once
+// Frames of a run: the fields of all ranks gathered on rank 0 and written as one OpenVDB file, with solid surfaces and,
+// on request, fluid fields for ParaView.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/scene.h"
+#include "coupling/state/simulation.h"
+#include "files/run_directory.h"
+#include "files/vtk.h"
+#include "geometry/vdb/openvdb_adapter.h"
+
+namespace seiche {
+
+struct FrameLabel {
+  int number = 0;
+  double time = 0, dt = 0;  // s
+};
+
+std::string frame_file(const std::string& stem, int number, const std::string& extension);  // "frame.0012.vdb"
+
+// The name under which the simulation and the frames know a name of `output.frames` ("velocity" -> "vel"); "" for
+// "solids", which is no field.
+std::string field_of_output(const std::string& name);
+
+// "field at cell (i, j, k)" of the first value that is not finite, or "".
+std::string first_not_finite(const FrameField& field);
+
+class FrameWriter {
+ public:
+  FrameWriter(const Scene& scene, const RunPaths& paths, const Communicator& ranks)
+      : scene_(scene), paths_(paths), ranks_(ranks), surfaces_(scene.solids.size()) {}
+
+  // Writes frame `label` and all that goes with it. Collective. Throws on all ranks: Error(output_failed), or
+  // Error(cannot_continue) naming field and cell when a value is not a number; nothing of that frame is then written.
+  void write(const FrameLabel& label, const Simulation& simulation, PhaseFault fault);
+
+ private:
+  vdb::Frame gather(const FrameLabel& label, const Simulation& simulation, PhaseFault fault) const;
+  void write_solids(const FrameLabel& label, const Simulation& simulation);
+  std::vector<VolumeFrame> elastic_volumes(const FrameLabel& label, const Simulation& simulation) const;
+  void write_elastic(const FrameLabel& label, const std::vector<VolumeFrame>& volumes) const;
+  void write_fluid(const vdb::Frame& frame) const;
+  bool wants(const std::vector<std::string>& list, const std::string& name) const;
+
+  const Scene& scene_;
+  RunPaths paths_;
+  const Communicator& ranks_;
+  std::vector<SurfaceMesh> surfaces_;  // as last written; those of solids that never move are kept (rank 0)
+};
+
+}  // namespace seiche

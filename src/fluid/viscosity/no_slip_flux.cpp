@@ -1,0 +1,116 @@
+#include "fluid/viscosity/no_slip_flux.h"
+
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Integrals over the part of a face with psi > 0, per area of the face.
+struct OpenPart {
+  double area = 0, distance = 0;  // of 1 and of psi
+};
+
+// Adds the open part of a simplex of N + 1 <= 3 corners: all of it, the tip at its one open corner, or all but the tip
+// at its one closed corner.
+template <int N>
+void add_simplex(const std::array<double, N + 1>& psi, double measure, OpenPart& part) {
+  int positive = 0, last_positive = 0, last_other = 0;
+  double sum = 0;
+  for (int i = 0; i <= N; ++i) {
+    sum += psi[i];
+    (psi[i] > 0 ? last_positive : last_other) = i;
+    positive += psi[i] > 0;
+  }
+  if (positive == 0) return;
+  const bool tip_is_open = positive == 1;
+  if (!tip_is_open) part.area += measure, part.distance += measure * sum / (N + 1);
+  if (positive == N + 1) return;
+  const int tip = tip_is_open ? last_positive : last_other;
+  double share = tip_is_open ? measure : -measure;
+  for (int i = 0; i <= N; ++i)
+    if (i != tip) share *= psi[tip] / (psi[tip] - psi[i]);
+  part.area += share;
+  part.distance += share * psi[tip] / (N + 1);
+}
+
+OpenPart open_part(const Layout<2>& layout, const NodeField<2>& psi, int axis, Site f) {
+  OpenPart part;
+  add_simplex<1>({psi[f], psi[f + layout.stride(1 - axis)]}, 1, part);
+  return part;
+}
+
+// Four triangles around the centre, as the open fraction has them.
+OpenPart open_part(const Layout<3>& layout, const NodeField<3>& psi, int axis, Site f) {
+  const Site p = layout.stride((axis + 1) % 3), q = layout.stride((axis + 2) % 3);
+  const std::array<Site, 5> ring{f, f + p, f + p + q, f + q, f};
+  double center = 0;
+  for (int n = 0; n < 4; ++n) center += psi[ring[n]] / 4;
+  OpenPart part;
+  for (int n = 0; n < 4; ++n) add_simplex<2>({psi[ring[n]], psi[ring[n + 1]], center}, 0.25, part);
+  return part;
+}
+
+template <int Dim>
+class NoSlipFlux {
+ public:
+  NoSlipFlux(const ViscousInput<Dim>& in, const ViscousSamples<Dim>& s, const std::vector<RigidField>& motion,
+             const FaceField<Dim>& u)
+      : in_(in), layout_(in.layout), s_(s), motion_(motion), u_(u) {}
+
+  // w du/dpsi (mean distance of the open part - distance of the centre), the slope that of a sample further out: taken
+  // from the face's own velocity it would feed back on itself, and solves in turns would not settle. Slits, whose
+  // centre lies in the solid, have next to no velocity of their own.
+  double operator()(int axis, Site f) const {
+    const double w = in_.faces.open.at(axis, f);
+    const int k = s_.solid.at(axis, f);
+    if (w <= 0 || w >= 1 || k < 0 || !in_.solids[k].no_slip || s_.rows.row.at(axis, f) < 0) return 0;
+    const OpenPart open = open_part(layout_, in_.psi, axis, f);
+    if (open.area <= 0) return 0;
+    const double distance = open.distance / open.area, own = s_.psi.at(axis, f);
+    const Site from = sample(axis, f);
+    if (from < 0) return 0;
+    return w * relative(k, axis, from) / s_.psi.at(axis, from) * (distance - std::max(own, 0.0));
+  }
+
+ private:
+  // The neighbour of the same component that is farthest from the wall, or -1.
+  Site sample(int axis, Site f) const {
+    Site best = -1;
+    // Nearer ones would magnify their errors; slits without any, less than a twentieth open, pass next to nothing.
+    double farthest = 0.25 * layout_.h();
+    for (int b = 0; b < Dim; ++b)
+      for (Site g : {f - layout_.stride(b), f + layout_.stride(b)}) {
+        if (s_.kind_at(axis, g) != SampleKind::unknown || s_.psi.at(axis, g) <= farthest) continue;
+        best = g;
+        farthest = s_.psi.at(axis, g);
+      }
+    return best;
+  }
+  double relative(int k, int axis, Site f) const {
+    const Vec3 x = extend<Dim>(layout_.position(layout_.index(f), face_offset<Dim>(axis)));
+    return u_.at(axis, f) - motion_[k].at(x)[axis];
+  }
+
+  const ViscousInput<Dim>& in_;
+  const Layout<Dim>& layout_;
+  const ViscousSamples<Dim>& s_;
+  const std::vector<RigidField>& motion_;
+  const FaceField<Dim>& u_;
+};
+
+}  // namespace
+
+template <int Dim>
+void add_no_slip_flux(const ViscousInput<Dim>& in, const ViscousSamples<Dim>& samples,
+                      const std::vector<RigidField>& motion, const FaceField<Dim>& u, FaceField<Dim>& closed_flux) {
+  const NoSlipFlux<Dim> flux(in, samples, motion, u);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(in.layout, in.layout.grown(1), [&](Site f) { closed_flux.at(a, f) += flux(a, f); });
+}
+
+template void add_no_slip_flux<2>(const ViscousInput<2>&, const ViscousSamples<2>&, const std::vector<RigidField>&,
+                                  const FaceField<2>&, FaceField<2>&);
+template void add_no_slip_flux<3>(const ViscousInput<3>&, const ViscousSamples<3>&, const std::vector<RigidField>&,
+                                  const FaceField<3>&, FaceField<3>&);
+
+}  // namespace seiche

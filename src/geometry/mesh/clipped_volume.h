@@ -1,0 +1,11 @@
+#pragma once
+// Volume of the part of a closed surface's inside that lies in a box.
+#include "geometry/mesh/mesh.h"
+
+namespace seiche {
+
+// m^3; 2D (segments): m^2. Negative for a surface that is oriented inwards.
+template <int Dim>
+double clipped_volume(const SurfaceMesh& surface, const Vec3& lower, const Vec3& upper);
+
+}  // namespace seiche

@@ -1,0 +1,171 @@
+#include "geometry/mesh/intersections.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "base/disjoint_sets.h"
+#include "geometry/mesh/exact_orientation.h"
+#include "geometry/mesh/pairs.h"
+
+namespace seiche::mesh {
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+// An axis along which the triangle can be seen at all, if possible the one along which it is widest; -1: none.
+int view(const Vec3& a, const Vec3& b, const Vec3& c) {
+  int widest = 0;
+  (b - a).cross(c - a).cwiseAbs().maxCoeff(&widest);
+  for (int k = 0; k < 3; ++k)
+    if (const int axis = (widest + k) % 3; orientation(a, b, c, axis) != 0) return axis;
+  return -1;
+}
+
+bool segments_meet_in_plane(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, int axis) {
+  const int pa = orientation(a, b, p, axis), qa = orientation(a, b, q, axis);
+  const int ap = orientation(p, q, a, axis), bp = orientation(p, q, b, axis);
+  if (pa != 0 || qa != 0 || ap != 0 || bp != 0) return pa * qa <= 0 && ap * bp <= 0;
+  for (int k = 0; k < 3; ++k)  // on one line
+    if (std::max(p[k], q[k]) < std::min(a[k], b[k]) || std::max(a[k], b[k]) < std::min(p[k], q[k])) return false;
+  return true;
+}
+
+bool lies_in(const Vec3& p, const std::array<Vec3, 3>& t, int axis) {
+  const int ab = orientation(t[0], t[1], p, axis), bc = orientation(t[1], t[2], p, axis),
+            ca = orientation(t[2], t[0], p, axis);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+bool meet_in_plane(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
+  const int axis = view(t[0], t[1], t[2]);
+  if (axis < 0) return false;
+  if (lies_in(p, t, axis)) return true;
+  for (int k = 0; k < 3; ++k)
+    if (segments_meet_in_plane(p, q, t[k], t[(k + 1) % 3], axis)) return true;
+  return false;
+}
+
+bool segment_meets(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
+  const int above = orientation(t[0], t[1], t[2], p), below = orientation(t[0], t[1], t[2], q);
+  if (above * below > 0) return false;
+  if (above == 0 && below == 0) return meet_in_plane(p, q, t);
+  const int ab = orientation(p, q, t[0], t[1]), bc = orientation(p, q, t[1], t[2]), ca = orientation(p, q, t[2], t[0]);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+std::array<Vec3, 3> corners(const SurfaceMesh& mesh, const Triangle& t) {
+  return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+}
+
+// The triangle turned so that the corners it shares with the other come first, and how many those are.
+std::pair<Triangle, int> shared_first(Triangle t, const Triangle& other) {
+  const auto is_shared = [&](int p) { return std::find(other.begin(), other.end(), p) != other.end(); };
+  const auto end = std::stable_partition(t.begin(), t.end(), is_shared);
+  return {t, int(end - t.begin())};
+}
+
+// Both lie in one plane and on the same side of their common edge.
+bool folded(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
+  const Vec3 &u = mesh.points[s[0]], &v = mesh.points[s[1]], &a = mesh.points[s[2]], &b = mesh.points[t[2]];
+  if (orientation(u, v, a, b) != 0) return false;
+  const int axis = view(u, v, a);
+  return axis >= 0 && orientation(u, v, a, axis) == orientation(u, v, b, axis);
+}
+
+bool any_side_meets(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
+  const auto x = corners(mesh, s), y = corners(mesh, t);
+  for (int k = 0; k < 3; ++k)
+    if (segment_meets(x[k], x[(k + 1) % 3], y)) return true;
+  return false;
+}
+
+bool has_area(const SurfaceMesh& mesh, const Triangle& t) {
+  return view(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) >= 0 &&
+         (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm() > 0;
+}
+
+// A number for each point: the same for the corners of triangles without area that hang together, -1 for all others.
+std::vector<int> sliver_points(const SurfaceMesh& mesh) {
+  DisjointSets sets(mesh.points.size());
+  std::vector<int> group(mesh.points.size(), -1);
+  for (const Triangle& t : mesh.triangles) {
+    if (has_area(mesh, t)) continue;
+    sets.join(t[0], t[1]);
+    sets.join(t[0], t[2]);
+    for (const int p : t) group[p] = 0;
+  }
+  for (std::size_t p = 0; p < group.size(); ++p)
+    if (group[p] == 0) group[p] = sets.root(int(p));
+  return group;
+}
+
+bool share_sliver(const std::vector<int>& group, const Triangle& s, const Triangle& t) {
+  for (const int p : s)
+    for (const int q : t)
+      if (group[p] >= 0 && group[p] == group[q]) return true;
+  return false;
+}
+
+// The triangles at each edge of those with area.
+std::map<Edge, std::vector<int>> triangles_at_edges(const SurfaceMesh& mesh) {
+  std::map<Edge, std::vector<int>> result;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& c = mesh.triangles[t];
+    if (!has_area(mesh, c)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
+      result[{low, high}].push_back(int(t));
+    }
+  }
+  return result;
+}
+
+// Pairs of triangles that share an edge, or of which one's edge comes close to the other: all that may intersect, for
+// where triangles meet, an edge of one meets the other. Lower index first, each once.
+std::vector<std::array<int, 2>> candidates(const SurfaceMesh& mesh) {
+  const auto owners = triangles_at_edges(mesh);
+  std::vector<Edge> edges;
+  std::vector<const std::vector<int>*> at;
+  std::vector<std::array<int, 2>> pairs;
+  for (const auto& [edge, triangles] : owners) {
+    edges.push_back(edge);
+    at.push_back(&triangles);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (std::size_t j = i + 1; j < triangles.size(); ++j) pairs.push_back({triangles[i], triangles[j]});
+  }
+  for (const auto& [edge, t] : close_pairs(mesh.points, edges, mesh.triangles))
+    for (const int s : *at[edge]) pairs.push_back({std::min(s, t), std::max(s, t)});
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+// Triangles that share a corner meet elsewhere if and only if one's side opposite of it meets the other: the common
+// part is convex, and a ray from the corner leaves one of them first.
+bool intersect(const SurfaceMesh& mesh, const Triangle& one, const Triangle& two) {
+  const auto [s, shared] = shared_first(one, two);
+  const Triangle t = shared_first(two, one).first;
+  if (shared == 3) return true;
+  if (shared == 2) return folded(mesh, s, t);
+  if (shared == 0) return any_side_meets(mesh, s, t) || any_side_meets(mesh, t, s);
+  const auto x = corners(mesh, s), y = corners(mesh, t);
+  return segment_meets(x[1], x[2], y) || segment_meets(y[1], y[2], x);
+}
+
+std::vector<std::array<int, 2>> self_intersections(const SurfaceMesh& mesh) {
+  std::vector<char> counts;
+  for (const Triangle& t : mesh.triangles) counts.push_back(has_area(mesh, t));
+  const std::vector<int> group = sliver_points(mesh);
+  std::vector<std::array<int, 2>> found;
+  for (const auto& [s, t] : candidates(mesh)) {
+    const Triangle &one = mesh.triangles[s], &two = mesh.triangles[t];
+    if (counts[s] && counts[t] && !share_sliver(group, one, two) && intersect(mesh, one, two)) found.push_back({s, t});
+  }
+  return found;
+}
+
+}  // namespace seiche::mesh

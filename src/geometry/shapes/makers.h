@@ -1,0 +1,44 @@
+#pragma once
+// The makers behind the shape table. Each builds one kind from its spec in the shape's own frame unless said otherwise
+// and throws Error(bad_input), without place, on impossible sizes; make_shape() adds the place, transform and
+// inversion.
+#include <memory>
+#include <string>
+
+#include "geometry/shapes/shapes.h"
+
+namespace seiche::shape {
+
+template <int Dim>
+using Field = std::unique_ptr<ShapeField<Dim>>;
+
+template <int Dim>
+Field<Dim> make_box(const ShapeSpec& spec, const ShapeOptions& options);
+template <int Dim>
+Field<Dim> make_sphere(const ShapeSpec& spec, const ShapeOptions& options);
+template <int Dim>
+Field<Dim> make_cylinder(const ShapeSpec& spec, const ShapeOptions& options);
+template <int Dim>
+Field<Dim> make_capsule(const ShapeSpec& spec, const ShapeOptions& options);
+template <int Dim>
+Field<Dim> make_plane(const ShapeSpec& spec, const ShapeOptions& options);
+template <int Dim>
+Field<Dim> make_expression(const ShapeSpec& spec, const ShapeOptions& options);
+template <int Dim>
+Field<Dim> make_level_set(const ShapeSpec& spec, const ShapeOptions& options);
+
+// In world coordinates: its vertices are transformed before they are sampled. 3D only.
+template <int Dim>
+Field<Dim> make_mesh(const ShapeSpec& spec, const ShapeOptions& options);
+
+// The closed mesh of a "mesh" shape, transformed; with invert its triangles face the other way.
+SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options);
+
+// The rotation matrix of a transform; exact at multiples of 90 degrees about an axis of coordinates.
+// 2D: about z. 3D: throws Error(bad_input) if the axis is zero.
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> rotation(const RotationSpec& rotate);
+
+[[noreturn]] void refuse(const std::string& message);
+
+}  // namespace seiche::shape

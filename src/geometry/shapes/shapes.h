@@ -1,0 +1,44 @@
+#pragma once
+// Shapes of a scene as signed distances (or, for expressions, level sets): negative inside.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/scene.h"
+#include "geometry/mesh/mesh.h"
+
+namespace seiche {
+
+template <int Dim>
+class ShapeField {
+ public:
+  virtual ~ShapeField() = default;
+  // Signed distance at x (m), negative inside. Safe to call from one thread at a time only.
+  // Expressions are scaled to a first-order distance near their zero (phi / |grad phi|).
+  virtual double operator()(const Vec<Dim>& x) const = 0;
+};
+
+struct ShapeOptions {
+  double cell_size = 0;                       // voxel size of sampled shapes (mesh, level_set), m
+  std::vector<std::string>* notes = nullptr;  // what was mended in files, for the log
+};
+
+// Builds the shape with its transform and inversion applied. Throws Error(bad_input) naming spec.where.
+template <int Dim>
+std::unique_ptr<ShapeField<Dim>> make_shape(const ShapeSpec& spec, const ShapeOptions& options);
+
+// The names of the shape table, for the reader and the documentation.
+std::vector<std::string> shape_names();
+
+// The surface of a shape as a mesh, for pictures and .vtu frames: the file's own triangles for "mesh", otherwise
+// contoured on a grid of the given spacing within [lower, upper]. 2D gives segments.
+template <int Dim>
+SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
+                          const Vec<Dim>& upper);
+
+// The zero contour of a field on a grid of the given spacing, closed: what reaches beyond [lower, upper] is cut off
+// flat there.
+template <int Dim>
+SurfaceMesh closed_contour(const ShapeField<Dim>& field, double spacing, const Vec<Dim>& lower, const Vec<Dim>& upper);
+
+}  // namespace seiche

@@ -1,0 +1,23 @@
+#pragma once
+// Primitive shapes as closed, outward-oriented surfaces in the shape's own frame, corners on the shape's surface.
+#include "base/scene.h"
+#include "geometry/mesh/mesh.h"
+
+namespace seiche {
+
+// `chord` (m) is how far the surface may lie inside the shape; the counts of points are bounded, so that the surface
+// of a large body may lie further inside.
+template <int Dim>
+SurfaceMesh tessellate_box(const ShapeSpec& spec, double chord);
+template <int Dim>
+SurfaceMesh tessellate_sphere(const ShapeSpec& spec, double chord);
+template <int Dim>
+SurfaceMesh tessellate_cylinder(const ShapeSpec& spec, double chord);
+template <int Dim>
+SurfaceMesh tessellate_capsule(const ShapeSpec& spec, double chord);
+
+// The box spanned from `corner` by three edges that form a right-handed system (in 2D the first two, z = 0).
+template <int Dim>
+SurfaceMesh block_surface(const Vec3& corner, const std::array<Vec3, 3>& edges);
+
+}  // namespace seiche

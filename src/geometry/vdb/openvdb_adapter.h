@@ -1,0 +1,56 @@
+#pragma once
+// The only door to OpenVDB: contouring, frames written and read.
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh/mesh.h"
+#include "geometry/vdb/sampled_distance.h"
+
+namespace seiche::vdb {
+
+// The level set of one of our own frames, "surface" if it holds several; outside the frame's domain it is at least the
+// distance to the domain. 2D frames ignore z. Throws Error(bad_input) if the file is no such frame or of another
+// dimension than asked for.
+std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file, int dimension = 3);
+
+// The zero contour of values given at the nodes lower + i*spacing, i < nodes, first axis fastest (3D). Triangles face
+// the positive side; where the negative side reaches the outermost nodes the surface is left open.
+SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower,
+                    double spacing);
+
+enum class GridKind { level_set, scalar, staggered_vector };
+
+// Values of the voxels lower <= index < upper, first axis fastest; vectors as x, y, z triples.
+struct Block {
+  std::array<int, 3> lower{0, 0, 0}, upper{0, 0, 0};
+  std::vector<float> values;
+};
+
+struct Grid {
+  std::string name;
+  GridKind kind = GridKind::scalar;
+  float background = 0;       // level sets: 3 h; voxels with |value| >= background are inactive
+  std::vector<Block> blocks;  // pieces from ranks; disjoint
+};
+
+struct Frame {
+  int dimension = 3;    // 2D frames are one voxel thick at k = 0
+  Vec3 lower{0, 0, 0};  // low corner of voxel (0,0,0), m
+  double cell_size = 0;
+  double time = 0, dt = 0;
+  int number = 0;
+  std::string creator;
+  std::vector<Grid> grids;
+};
+
+// Serialises a frame to the bytes of a .vdb file (Blosc, active mask, statistics metadata, cell-centre transform).
+// The domain is the box from voxel 0 to the highest upper of all blocks. Throws Error(cannot_continue) naming grid and
+// voxel on a value that is not finite.
+std::string encode(const Frame& frame);
+// Reads a frame of ours back, each grid as one dense block over the frame's domain. Throws Error(bad_input).
+Frame decode(const std::filesystem::path& file);
+
+}  // namespace seiche::vdb

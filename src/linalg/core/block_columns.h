@@ -1,0 +1,64 @@
+#pragma once
+// Tall matrices in blocks that each touch few rows: how bodies act on the liquid.
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "base/communicator.h"
+#include "linalg/core/vector_ops.h"
+
+namespace seiche {
+
+// This rank's rows of `width` columns: entries start[i] up to start[i + 1] stand in row[i]. Rows ascend.
+struct ColumnBlock {
+  int width = 0;
+  std::vector<int> row;
+  std::vector<int> start{0};
+  std::vector<int> column;  // of each entry, within the block
+  std::vector<double> value;
+  // Loads f, one a column of this matrix, to which the responses H^-1 f are combinations of the columns that a
+  // preconditioner had better know: of a body's nodes weights whose sums are forces and moments. Empty: each column by
+  // itself.
+  Eigen::MatrixXd loads;
+
+  // Entries of one row come one after the other.
+  void add(int in_row, int in_column, double entry);
+  bool deforms() const { return loads.size() > 0; }
+  // Visits f(row, column, value).
+  template <class Visit>
+  void for_each(const Visit& f) const {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      for (int n = start[i]; n < start[i + 1]; ++n) f(row[i], column[std::size_t(n)], value[std::size_t(n)]);
+  }
+};
+
+struct BlockColumns {
+  std::vector<ColumnBlock> blocks;
+  int columns() const;
+  bool any_deforms() const;
+  // First column of each block, and the number of columns.
+  std::vector<int> first_columns() const;
+  // Visits f(row, column, value), the column counted over all blocks.
+  template <class Visit>
+  void for_each(const Visit& f) const {
+    int first = 0;
+    for (const ColumnBlock& b : blocks) {
+      b.for_each([&](int i, int k, double value) { f(i, first + k, value); });
+      first += b.width;
+    }
+  }
+};
+
+// y += J v, v the same on all ranks.
+void add_multiplied(const BlockColumns& J, const Eigen::VectorXd& v, Vector& y);
+
+// J' x of this rank's rows.
+Eigen::VectorXd local_transposed(const BlockColumns& J, const Vector& x);
+
+// J' x, the same on all ranks. Collective.
+Eigen::VectorXd multiply_transposed(const BlockColumns& J, const Vector& x, const Communicator& ranks);
+
+// The same bits on all ranks: those of rank 0. Collective.
+void make_identical(Eigen::VectorXd& v, const Communicator& ranks);
+
+}  // namespace seiche

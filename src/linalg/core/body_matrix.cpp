@@ -1,0 +1,105 @@
+#include "linalg/core/body_matrix.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace seiche {
+namespace {
+
+int root_of(std::vector<int>& parent, int i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+// Rows of each connected part of the graph of H, parts in the order of their first rows.
+std::vector<std::vector<int>> connected_parts(const SparseMatrix& H) {
+  std::vector<int> parent(std::size_t(H.rows()));
+  std::iota(parent.begin(), parent.end(), 0);
+  for (int k = 0; k < H.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it) {
+      const int a = root_of(parent, k), b = root_of(parent, int(it.row()));
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::map<int, std::vector<int>> parts;
+  for (int i = 0; i < int(parent.size()); ++i) parts[root_of(parent, i)].push_back(i);
+  std::vector<std::vector<int>> list;
+  for (auto& [root, rows] : parts) list.push_back(std::move(rows));
+  return list;
+}
+
+Eigen::VectorXd gathered(const Eigen::VectorXd& b, const std::vector<int>& rows) {
+  return b(rows);
+}
+
+}  // namespace
+
+void BodyMatrix::find_parts() {
+  std::vector<Part> old = std::move(parts_);
+  parts_.clear();
+  shared_.clear();
+  for (std::vector<int>& rows : connected_parts(H_)) {
+    if (int(rows.size()) <= shared_limit) {
+      shared_.insert(shared_.end(), rows.begin(), rows.end());
+      continue;
+    }
+    const auto known = std::find_if(old.begin(), old.end(), [&](const Part& p) { return p.rows == rows; });
+    parts_.push_back({std::move(rows), 0, known != old.end() ? std::move(known->factor) : SparseCholesky()});
+  }
+  std::sort(shared_.begin(), shared_.end());
+}
+
+// A factor costs about n^2 in 3D (nested dissection), which ranks' loads are counted in.
+void BodyMatrix::share_out() {
+  std::vector<std::size_t> order(parts_.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parts_[a].rows.size() > parts_[b].rows.size(); });
+  std::vector<double> load(std::size_t(ranks_.size()), 0.0);
+  for (const std::size_t p : order) {
+    parts_[p].owner = int(std::min_element(load.begin(), load.end()) - load.begin());
+    load[std::size_t(parts_[p].owner)] += std::pow(double(parts_[p].rows.size()), 2);
+  }
+}
+
+SparseMatrix BodyMatrix::submatrix(const std::vector<int>& rows) const {
+  std::vector<int> place(std::size_t(H_.rows()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[std::size_t(rows[i])] = int(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const int k : rows)
+    for (SparseMatrix::InnerIterator it(H_, k); it; ++it)
+      entries.emplace_back(place[std::size_t(it.row())], place[std::size_t(k)], it.value());
+  SparseMatrix part(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
+  part.setFromTriplets(entries.begin(), entries.end());
+  return part;
+}
+
+bool BodyMatrix::factor_shared() {
+  if (shared_.empty()) return true;
+  shared_factor_.compute(parts_.empty() ? H_ : submatrix(shared_));
+  return shared_factor_.info() == Eigen::Success && (shared_factor_.vectorD().array() > 0).all();
+}
+
+bool BodyMatrix::set(SparseMatrix H) {
+  H_ = std::move(H);
+  find_parts();
+  share_out();
+  bool good = factor_shared();
+  for (Part& part : parts_)
+    if (good && part.owner == ranks_.rank()) good = part.factor.factor(submatrix(part.rows));
+  return !ranks_.any(!good);
+}
+
+Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
+  if (parts_.empty()) return shared_.empty() ? b : Eigen::VectorXd(shared_factor_.solve(b));
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
+  for (const Part& part : parts_)
+    if (part.owner == ranks_.rank()) x(part.rows) = part.factor.solve(gathered(b, part.rows));
+  // Each sum has one term that is not zero: no rounding.
+  ranks_.global_sum(std::span<double>(x.data(), std::size_t(x.size())));
+  // By way of a vector: Eigen would permute within the rows of x, and take what it has written for what it reads.
+  if (!shared_.empty()) x(shared_) = Eigen::VectorXd(shared_factor_.solve(gathered(b, shared_)));
+  return x;
+}
+
+}  // namespace seiche

@@ -1,0 +1,56 @@
+#pragma once
+// The system as every rung of the ladder sees it: ghost columns numbered, rows without a diagonal made harmless.
+#include <cstdint>
+#include <vector>
+
+#include "linalg/core/column_halo.h"
+#include "linalg/core/distributed_matrix.h"
+#include "linalg/core/null_space.h"
+#include "linalg/core/vector_ops.h"
+
+namespace seiche {
+
+// Keeps references to `A` and `grid`.
+class LinearSystem {
+ public:
+  // Collective.
+  LinearSystem(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, const Communicator& ranks);
+
+  int rows() const { return pattern_.rows(); }
+  const DistributedMatrix& pattern() const { return pattern_; }  // rows and columns; for values see values()
+  const RowGrid& grid() const { return grid_; }
+  const NullSpace& null_space() const { return null_space_; }
+  const Communicator& ranks() const { return ranks_; }
+  const ColumnHalo& halo() const { return halo_; }
+  const MeanRemover& means() const { return means_; }
+  // Of A, in its order; rows and columns whose diagonal was zero are those of the identity.
+  const std::vector<double>& values() const { return values_; }
+  double diagonal(int row) const { return values_[pattern_.row_start[row]]; }
+  const std::vector<int>& identity_list() const { return identity_; }  // of this rank
+  std::int64_t identity_rows() const { return identity_rows_; }        // over all ranks
+
+  // y = A x. Collective.
+  void multiply(const Vector& x, Vector& y) const;
+  // r = b - A x. Collective.
+  void residual(const Vector& b, const Vector& x, Vector& r) const;
+  // v is zero in identity rows and has zero mean on each component of the null space. Collective.
+  void project(Vector& v) const;
+
+ private:
+  void replace_zero_diagonals();
+  const double* with_ghosts(const Vector& x) const;
+
+  const DistributedMatrix& pattern_;
+  const RowGrid& grid_;
+  NullSpace null_space_;
+  Communicator ranks_;
+  ColumnHalo halo_;
+  std::vector<double> values_;
+  std::vector<int> columns_;   // as ColumnHalo::local_index gives them
+  std::vector<int> identity_;  // local rows
+  std::int64_t identity_rows_ = 0;
+  MeanRemover means_;
+  mutable std::vector<double> extended_;
+};
+
+}  // namespace seiche

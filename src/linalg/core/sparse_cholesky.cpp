@@ -1,0 +1,54 @@
+#include "linalg/core/sparse_cholesky.h"
+
+#ifdef SEICHE_CHOLMOD
+#include <Eigen/CholmodSupport>
+#else
+#include <Eigen/SparseCholesky>
+#endif
+#include <algorithm>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+#ifdef SEICHE_CHOLMOD
+struct Method : Eigen::CholmodSupernodalLLT<SparseMatrix> {
+  Method() { cholmod().print = 0; }  // it would print where a matrix is not positive definite
+};
+#else
+using Method = Eigen::SimplicialLLT<SparseMatrix>;
+#endif
+
+}  // namespace
+
+struct SparseCholesky::Factors {
+  Method llt;
+  std::vector<int> outer, inner;  // the pattern that was ordered
+
+  bool knows(const SparseMatrix& A) const {
+    return outer.size() == size_t(A.outerSize() + 1) && inner.size() == size_t(A.nonZeros()) &&
+           std::equal(outer.begin(), outer.end(), A.outerIndexPtr()) &&
+           std::equal(inner.begin(), inner.end(), A.innerIndexPtr());
+  }
+};
+
+SparseCholesky::SparseCholesky() : factors_(std::make_unique<Factors>()) {}
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+bool SparseCholesky::factor(const SparseMatrix& A) {
+  if (!factors_->knows(A)) {
+    factors_->outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1);
+    factors_->inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    factors_->llt.analyzePattern(A);
+  }
+  factors_->llt.factorize(A);
+  return factors_->llt.info() == Eigen::Success;
+}
+
+Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
+  return factors_->llt.solve(b);
+}
+
+}  // namespace seiche

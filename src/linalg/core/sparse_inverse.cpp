@@ -1,0 +1,45 @@
+#include "linalg/core/sparse_inverse.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+// H on the rows and columns of S. `place` is -1 everywhere, before and after.
+Eigen::MatrixXd dense_part(const SparseMatrix& H, const std::vector<int>& S, std::vector<int>& place) {
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(Eigen::Index(S.size()), Eigen::Index(S.size()));
+  for (std::size_t a = 0; a < S.size(); ++a) place[std::size_t(S[a])] = int(a);
+  for (std::size_t a = 0; a < S.size(); ++a)
+    for (SparseMatrix::InnerIterator it(H, S[a]); it; ++it)
+      if (place[std::size_t(it.row())] >= 0) part(place[std::size_t(it.row())], Eigen::Index(a)) = it.value();
+  for (const int s : S) place[std::size_t(s)] = -1;
+  return part;
+}
+
+}  // namespace
+
+// Row i on the columns S: H_SS y = e_i, g = y/sqrt(y_i).
+SparseMatrix sparse_inverse_factor(const SparseMatrix& H, const std::vector<char>& wanted) {
+  const int n = int(H.rows());
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> place(std::size_t(n), -1);
+  for (int i = 0; i < n; ++i) {
+    std::vector<int> S;
+    bool any = false;
+    for (SparseMatrix::InnerIterator it(H, i); it && it.row() <= i; ++it) {
+      S.push_back(int(it.row()));
+      any = any || wanted[std::size_t(it.row())];
+    }
+    if (!any) continue;
+    const Eigen::MatrixXd part = dense_part(H, S, place);
+    const Eigen::VectorXd y = part.llt().solve(Eigen::VectorXd::Unit(part.rows(), part.rows() - 1));
+    for (std::size_t a = 0; a < S.size(); ++a)
+      if (wanted[std::size_t(S[a])]) entries.emplace_back(i, S[a], y[Eigen::Index(a)] / std::sqrt(y[part.rows() - 1]));
+  }
+  SparseMatrix G(n, n);
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
+}
+
+}  // namespace seiche

@@ -1,0 +1,21 @@
+#pragma once
+// Vectors over this rank's rows of which few entries differ from zero.
+#include "linalg/core/vector_ops.h"
+
+namespace seiche {
+
+// `row` ascends.
+struct SparseVector {
+  std::vector<int> row;
+  std::vector<double> value;
+};
+
+SparseVector nonzeros(const Vector& x);
+
+// Of this rank's entries.
+double local_dot(const SparseVector& x, const Vector& y);
+
+// y += a x
+void add_scaled(Vector& y, double a, const SparseVector& x);
+
+}  // namespace seiche

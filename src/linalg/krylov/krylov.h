@@ -1,0 +1,117 @@
+#pragma once
+// Krylov loops over any operator and preconditioner. An operator gives
+//   multiply(x, y)     y = A x
+//   residual(b, x, r)  r = b - A x
+// and a preconditioner apply(r, z), z = B r. All are collective.
+#include <string>
+
+#include "linalg/core/vector_ops.h"
+
+namespace seiche {
+
+struct KrylovLimits {
+  double target = 0;  // stop at |r| <= target, with r the residual as the loop updates it
+  int iterations = 0;
+};
+
+struct KrylovResult {
+  int iterations = 0;
+  std::string failure;  // empty if the target was met
+};
+
+// Hestenes and Stiefel 1952, preconditioned. A and B symmetric positive (semi-)definite.
+template <class Operator, class Preconditioner>
+KrylovResult conjugate_gradients(const Operator& A, Preconditioner& B, const Vector& b, Vector& x,
+                                 const KrylovLimits& limits, const Communicator& ranks) {
+  Vector r(b.size()), z(b.size()), p(b.size()), q(b.size());
+  A.residual(b, x, r);
+  double rz = 0;
+  for (int k = 0;; ++k) {
+    if (norm(r, ranks) <= limits.target) return {k, ""};
+    if (k == limits.iterations) return {k, "iteration limit"};
+    B.apply(r, z);
+    const double rz_before = rz;
+    rz = dot(r, z, ranks);
+    if (!(rz > 0)) return {k, "preconditioner not positive definite"};
+    if (k == 0)
+      p = z;
+    else
+      scale_and_add(p, rz / rz_before, z);  // p = z + beta p
+    A.multiply(p, q);
+    const double pq = dot(p, q, ranks);
+    if (!(pq > 0)) return {k, "matrix not positive definite"};
+    add_scaled(x, rz / pq, p);
+    add_scaled(r, -rz / pq, q);
+  }
+}
+
+// The small least-squares problem of GMRES, min |beta e1 - H y|, kept triangular by Givens rotations.
+class HessenbergLeastSquares {
+ public:
+  explicit HessenbergLeastSquares(double beta) : rhs_{beta} {}
+  // Appends a column of k + 2 entries; returns the residual norm after it.
+  double append(std::vector<double> column);
+  std::vector<double> solve() const;
+
+ private:
+  std::vector<std::vector<double>> columns_;
+  std::vector<double> cosines_, sines_, rhs_;
+};
+
+// Preconditioned directions of GMRES: all kept, or made once more from their sum where the preconditioner is linear.
+enum class Directions { kept, summed };
+
+// x += Z y, or B V y where Z was not kept.
+template <class Preconditioner>
+void add_combination(const std::vector<double>& y, const std::vector<Vector>& v, const std::vector<Vector>& z,
+                     Preconditioner& B, Vector& x) {
+  for (std::size_t k = 0; k < z.size(); ++k) add_scaled(x, y[k], z[k]);
+  if (!z.empty() || y.empty()) return;
+  Vector sum(x.size(), 0.0), Bs(x.size());
+  for (std::size_t k = 0; k < y.size(); ++k) add_scaled(sum, y[k], v[k]);
+  B.apply(sum, Bs);
+  add_scaled(x, 1, Bs);
+}
+
+// Saad and Schultz 1986, preconditioned from the right; with directions kept flexible (Saad 1993), for preconditioners
+// that are not quite linear. None need be symmetric. Restarts every `restart` steps.
+template <class Operator, class Preconditioner>
+KrylovResult gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x, const KrylovLimits& limits,
+                   const Communicator& ranks, Directions directions, int restart = 40) {
+  Vector r(b.size()), Br(b.size());
+  int done = 0;
+  while (true) {
+    A.residual(b, x, r);
+    const double beta = norm(r, ranks);
+    if (beta <= limits.target) return {done, ""};
+    if (done >= limits.iterations) return {done, "iteration limit"};
+    if (!std::isfinite(beta)) return {done, "not finite"};
+    HessenbergLeastSquares small(beta);
+    std::vector<Vector> v, z;  // orthonormal residuals; preconditioned
+    double residual = beta, length = beta;
+    for (int k = 0; k < restart && done < limits.iterations && residual > limits.target && length > 0; ++k, ++done) {
+      for (double& entry : r) entry /= length;
+      v.push_back(r);
+      B.apply(v[k], Br);
+      A.multiply(Br, r);
+      if (directions == Directions::kept) z.push_back(Br);
+      std::vector<double> h;
+      for (const Vector& u : v) {  // modified Gram-Schmidt
+        h.push_back(dot(u, r, ranks));
+        add_scaled(r, -h.back(), u);
+      }
+      length = norm(r, ranks);
+      h.push_back(length);
+      residual = small.append(std::move(h));
+    }
+    add_combination(small.solve(), v, z, B, x);
+  }
+}
+
+template <class Operator, class Preconditioner>
+KrylovResult flexible_gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x,
+                            const KrylovLimits& limits, const Communicator& ranks, int restart = 40) {
+  return gmres(A, B, b, x, limits, ranks, Directions::kept, restart);
+}
+
+}  // namespace seiche

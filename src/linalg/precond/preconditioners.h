@@ -1,0 +1,38 @@
+#pragma once
+// The preconditioners by name. A new one is a file and a row in the table of preconditioners.cpp.
+#include <memory>
+#include <span>
+#include <string>
+
+#include "linalg/core/linear_system.h"
+
+namespace seiche {
+
+class Preconditioner {
+ public:
+  virtual ~Preconditioner() = default;
+  // z = B r with B symmetric positive (semi-)definite. Collective.
+  virtual void apply(const Vector& r, Vector& z) = 0;
+};
+
+// Either a preconditioner or why there is none, the same on all ranks.
+struct PreconditionerOrFailure {
+  std::unique_ptr<Preconditioner> preconditioner;
+  std::string failure;
+};
+
+struct PreconditionerEntry {
+  const char* name;
+  const char* description;
+  PreconditionerOrFailure (*make)(const LinearSystem&);  // collective
+};
+
+std::span<const PreconditionerEntry> preconditioner_table();
+
+// What "auto" stands for on this system; any other name stands for itself. Collective.
+std::string choose_preconditioner(const std::string& name, const LinearSystem& system);
+
+// Throws Error(bad_input) for a name that is not in the table.
+PreconditionerOrFailure make_preconditioner(const std::string& name, const LinearSystem& system);
+
+}  // namespace seiche

@@ -1,0 +1,123 @@
+#include "linalg/precond/rigid_motions.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "linalg/krylov/krylov.h"
+
+namespace seiche {
+namespace {
+
+// Whether motions may touch the same rows or neighbouring ones.
+bool meet(const StiffMotion& a, const StiffMotion& b) {
+  return a.region != b.region || std::abs(a.slab - b.slab) <= 2;
+}
+
+// F on the rows where a motion is zero.
+class RowsAround {
+ public:
+  RowsAround(const LinearSystem& F, const SparseVector& motion) : F_(F), within_(motion.row) {}
+  void multiply(const Vector& x, Vector& y) const {
+    F_.multiply(x, y);
+    for (const int i : within_) y[std::size_t(i)] = 0;
+  }
+  void residual(const Vector& b, const Vector& x, Vector& r) const {
+    multiply(x, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = b[i] - r[i];
+  }
+
+ private:
+  const LinearSystem& F_;
+  const std::vector<int>& within_;
+};
+
+struct Relaxation {
+  const LinearSystem& F;
+  void apply(const Vector& r, Vector& z) const {
+    for (std::size_t i = 0; i < r.size(); ++i) z[i] = r[i] / F.diagonal(int(i));
+  }
+};
+
+}  // namespace
+
+RigidMotions::RigidMotions(const LinearSystem& F, const FacePlaces& places, int dimension,
+                           std::unique_ptr<Preconditioner> B)
+    : F_(F), B_(std::move(B)), Z_(find_stiff_motions(F, places, dimension)) {
+  extend();
+  SparseProduct multiply(F);
+  for (const StiffMotion& m : Z_) FZ_.push_back(multiply(m.z));
+  invert_energies(energies());
+}
+
+// With the liquid around it at rest a part of n cells would cost n times what it does. Of so many motions, for they are
+// no longer sparse; what is next to nothing of them is left out.
+void RigidMotions::extend() {
+  constexpr int most = 24, steps = 12;
+  constexpr double enough = 0.05, next_to_nothing = 0.01;
+  Vector z(std::size_t(F_.rows())), x(z.size()), b(z.size());
+  int extended = 0;
+  for (StiffMotion& m : Z_) {
+    if (!m.whole || ++extended > most) continue;
+    const RowsAround around(F_, m.z);
+    std::fill(z.begin(), z.end(), 0.0);
+    std::fill(x.begin(), x.end(), 0.0);
+    add_scaled(z, -1, m.z);
+    around.multiply(z, b);
+    Relaxation D{F_};
+    (void)conjugate_gradients(around, D, b, x, {enough * norm(b, F_.ranks()), steps}, F_.ranks());
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::abs(x[i] - z[i]) > next_to_nothing ? x[i] - z[i] : 0;
+    m.z = nonzeros(z);
+  }
+}
+
+// Z'F Z
+Eigen::MatrixXd RigidMotions::energies() const {
+  const auto n = Eigen::Index(Z_.size());
+  Eigen::MatrixXd E = Eigen::MatrixXd::Zero(n, n);
+  Vector Fz(std::size_t(F_.rows()));
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto at = std::size_t(k);
+    add_scaled(Fz, 1, FZ_[at]);
+    for (Eigen::Index l = 0; l < n; ++l)
+      if (meet(Z_[at], Z_[std::size_t(l)])) E(l, k) = local_dot(Z_[std::size_t(l)].z, Fz);
+    for (const int i : FZ_[at].row) Fz[std::size_t(i)] = 0;
+  }
+  F_.ranks().global_sum(std::span<double>(E.data(), std::size_t(E.size())));
+  return 0.5 * (E + E.transpose());
+}
+
+// Motions of nested regions may be the same but for rounding: what is next to nothing of a combination is left out.
+void RigidMotions::invert_energies(Eigen::MatrixXd E) {
+  constexpr double next_to_nothing = 1e-6;
+  inverse_.setZero(E.rows(), E.cols());
+  if (E.size() == 0) return;
+  const Eigen::VectorXd scale = E.diagonal().cwiseSqrt().cwiseInverse();
+  E = (scale.asDiagonal() * E * scale.asDiagonal()).eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(E);
+  for (Eigen::Index k = 0; k < E.rows(); ++k) {
+    if (modes.eigenvalues()[k] <= next_to_nothing) continue;
+    const Eigen::VectorXd mode = scale.cwiseProduct(modes.eigenvectors().col(k));
+    inverse_ += mode * mode.transpose() / modes.eigenvalues()[k];
+  }
+}
+
+Eigen::VectorXd RigidMotions::summed(Eigen::VectorXd y) const {
+  F_.ranks().global_sum(std::span<double>(y.data(), std::size_t(y.size())));
+  return y;
+}
+
+void RigidMotions::apply(const Vector& r, Vector& z) {
+  if (Z_.empty()) return B_->apply(r, z);
+  const auto n = Eigen::Index(Z_.size());
+  Eigen::VectorXd pushed(n), left(n);
+  for (Eigen::Index k = 0; k < n; ++k) pushed[k] = local_dot(Z_[std::size_t(k)].z, r);
+  const Eigen::VectorXd first = inverse_ * summed(pushed);
+  Vector rest = r;
+  for (Eigen::Index k = 0; k < n; ++k) add_scaled(rest, -first[k], FZ_[std::size_t(k)]);
+  B_->apply(rest, z);
+  for (Eigen::Index k = 0; k < n; ++k)
+    left[k] = local_dot(Z_[std::size_t(k)].z, rest) - local_dot(FZ_[std::size_t(k)], z);
+  const Eigen::VectorXd q = first + inverse_ * summed(left);
+  for (Eigen::Index k = 0; k < n; ++k) add_scaled(z, q[k], Z_[std::size_t(k)].z);
+}
+
+}  // namespace seiche

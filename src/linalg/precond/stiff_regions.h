@@ -1,0 +1,20 @@
+#pragma once
+// Connected parts of a matrix whose diagonal is large beside that of what surrounds them.
+#include <cstdint>
+
+#include "linalg/core/linear_system.h"
+
+namespace seiche {
+
+struct StiffRegion {
+  Row first;             // the lowest of its rows, over all ranks
+  std::int64_t size;     // over all ranks
+  std::vector<int> row;  // of this rank, ascending
+};
+
+// Rows joined by entries of the size of their diagonals, at several levels below the largest diagonal: regions are
+// nested or apart. At most `most`, the largest of those that have `fewest` rows; the same on any number of ranks.
+// Collective.
+std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, std::size_t most);
+
+}  // namespace seiche

@@ -1,0 +1,101 @@
+#include "linalg/spd/coupled_system.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace seiche {
+namespace {
+
+// J' chi of each component of the null space of A, and J' |.| as its scale: rounding decides what counts as zero.
+struct Felt {
+  Eigen::MatrixXd sums, sizes;
+};
+
+Felt feel_components(const LinearSystem& A, const BlockColumns& J) {
+  const NullSpace& null_space = A.null_space();
+  Felt felt{Eigen::MatrixXd::Zero(J.columns(), null_space.count), Eigen::MatrixXd::Zero(J.columns(), null_space.count)};
+  J.for_each([&](int i, int k, double value) {
+    const int c = null_space.component.empty() ? -1 : null_space.component[i];
+    if (c < 0) return;
+    felt.sums(k, c) += value;
+    felt.sizes(k, c) += std::abs(value);
+  });
+  if (felt.sums.size() == 0) return felt;
+  A.ranks().global_sum(std::span<double>(felt.sums.data(), std::size_t(felt.sums.size())));
+  A.ranks().global_sum(std::span<double>(felt.sizes.data(), std::size_t(felt.sizes.size())));
+  // Sums of up to 1e6 terms of rounding size 1e-16.
+  const auto rounding = 1e-11 * felt.sizes.array();
+  felt.sums = (felt.sums.array().abs() > rounding).select(felt.sums, 0.0);
+  return felt;
+}
+
+}  // namespace
+
+NullSpace without(NullSpace null_space, const std::vector<int>& components) {
+  for (int& c : null_space.component)
+    if (std::find(components.begin(), components.end(), c) != components.end()) c = -1;
+  return null_space;
+}
+
+CoupledSystem::CoupledSystem(const LinearSystem& A, const BlockColumns& J, double c)
+    : A_(A), J_(J), c_(c), unsensed_means_({}, A.ranks()) {
+  find_sensed();
+}
+
+// The null space of S: constants on the components of A that no body feels (J' chi = 0), and combinations of the other
+// components that no body feels together.
+void CoupledSystem::find_sensed() {
+  const Felt felt = feel_components(A_, J_);
+  for (int c = 0; c < felt.sums.cols(); ++c)
+    if (!felt.sums.col(c).isZero(0)) sensed_.push_back(c);
+  unsensed_means_ = MeanRemover(without(A_.null_space(), sensed_), A_.ranks());
+  if (sensed_.empty()) return;
+  const int n = int(sensed_.size());
+  sensed_rows_.assign(std::size_t(n), 0.0);
+  for (const int c : A_.null_space().component)
+    for (int k = 0; k < n; ++k) sensed_rows_[k] += c == sensed_[k];
+  A_.ranks().global_sum(sensed_rows_);
+  Eigen::MatrixXd C(felt.sums.rows(), n);
+  for (int k = 0; k < n; ++k) C.col(k) = felt.sums.col(sensed_[k]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(C.transpose() * C);
+  int zeros = 0;
+  // Squares of sums whose rounding is 1e-11 of them.
+  while (zeros < n && eigen.eigenvalues()[zeros] <= 1e-20 * eigen.eigenvalues()[n - 1]) ++zeros;
+  combinations_ = eigen.eigenvectors().leftCols(zeros);
+}
+
+Eigen::VectorXd CoupledSystem::weigh(const Eigen::VectorXd& w) const {
+  return c_ * H_->solve(w);
+}
+
+void CoupledSystem::multiply(const Vector& x, Vector& y) const {
+  A_.multiply(x, y);
+  if (is_coupled()) add_multiplied(J_, weigh(multiply_transposed(J_, x, ranks())), y);
+}
+
+void CoupledSystem::residual(const Vector& b, const Vector& x, Vector& r) const {
+  multiply(x, r);
+  for (int i = 0; i < rows(); ++i) r[i] = b[i] - r[i];
+}
+
+// v -= chi N (N' W N)^-1 N' chi' v, W the rows of each component.
+void CoupledSystem::project(Vector& v) const {
+  if (!is_coupled()) return A_.project(v);
+  for (const int i : A_.identity_list()) v[i] = 0;
+  unsensed_means_.apply(v);
+  if (combinations_.cols() == 0) return;
+  const auto& component = A_.null_space().component;
+  std::vector<double> sums(sensed_.size());
+  for (std::size_t i = 0; i < component.size(); ++i)
+    for (std::size_t k = 0; k < sensed_.size(); ++k)
+      if (component[i] == sensed_[k]) sums[k] += v[i];
+  ranks().global_sum(sums);
+  const Eigen::Map<const Eigen::VectorXd> s(sums.data(), Eigen::Index(sums.size()));
+  const Eigen::Map<const Eigen::VectorXd> W(sensed_rows_.data(), Eigen::Index(sums.size()));
+  const Eigen::MatrixXd small = combinations_.transpose() * W.asDiagonal() * combinations_;
+  const Eigen::VectorXd part = combinations_ * small.ldlt().solve(combinations_.transpose() * s);
+  for (std::size_t i = 0; i < component.size(); ++i)
+    for (std::size_t k = 0; k < sensed_.size(); ++k)
+      if (component[i] == sensed_[k]) v[i] -= part[Eigen::Index(k)];
+}
+
+}  // namespace seiche

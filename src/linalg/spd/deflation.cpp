@@ -1,0 +1,354 @@
+#include "linalg/spd/deflation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <unordered_map>
+
+namespace seiche {
+namespace {
+
+// Cells around a body within which its own column of B J is kept where there are many bodies; for few it is kept whole.
+// Wider ranges save iterations and cost more colours (docs/decisions/0006-many-bodies.md).
+constexpr int cut_reach = 4;
+// Columns from which dense factors are worth it.
+constexpr Eigen::Index least_dense = 100;
+
+enum class Placeless { keep, drop };
+
+// Values of v on the rows that lie in a range, and on those that lie nowhere.
+SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range,
+                 Placeless placeless) {
+  SparseVector c;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const bool kept = has_place(cells[i]) ? range.contains(cells[i]) : placeless == Placeless::keep;
+    if (v[i] != 0 && kept) c.row.push_back(int(i)), c.value.push_back(v[i]);
+  }
+  return c;
+}
+
+// Lets the values fade out over the outer cells of a range: cut off sharply, what is left of A z at the edge costs
+// twice the iterations.
+void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& range, SparseVector& c) {
+  for (std::size_t n = 0; n < c.row.size(); ++n) {
+    const auto& cell = cells[c.row[n]];
+    double weight = 1;
+    for (int a = 0; a < 3; ++a) {
+      if (range.wraps(a)) continue;
+      const int n = range.offset(a, cell[a]);
+      const double inside = std::min(n + 1, range.width(a) - n);
+      weight = std::min(weight, inside / (cut_reach + 1));
+    }
+    c.value[n] *= weight;
+  }
+}
+
+// Sums of products over the ranks' rows, by pair of columns.
+class PairSums {
+ public:
+  explicit PairSums(std::int64_t columns) : columns_(columns) {}
+  void add(int i, int j, double value) { sums_[std::int64_t(i) * columns_ + j] += value; }
+
+  // Collective.
+  std::vector<Eigen::Triplet<double>> total(const Communicator& ranks) const {
+    std::map<std::int64_t, double> all(sums_.begin(), sums_.end());
+    if (ranks.size() > 1) {
+      std::vector<Item> mine;
+      for (const auto& [key, value] : all) mine.push_back({key, value});
+      const std::string bytes(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(Item));
+      all.clear();
+      for (const std::string& part : ranks.all_gather(bytes)) {
+        std::vector<Item> theirs(part.size() / sizeof(Item));
+        if (!part.empty()) std::memcpy(theirs.data(), part.data(), part.size());
+        for (const Item& item : theirs) all[item.key] += item.value;
+      }
+    }
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (const auto& [key, value] : all) triplets.emplace_back(int(key / columns_), int(key % columns_), value);
+    return triplets;
+  }
+
+ private:
+  struct Item {
+    std::int64_t key;
+    double value;
+  };
+  std::int64_t columns_;
+  std::unordered_map<std::int64_t, double> sums_;
+};
+
+struct ColumnValue {
+  int column;
+  double value;
+};
+
+// Columns by row.
+std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseVector>& columns, int rows) {
+  std::vector<std::vector<ColumnValue>> list(rows);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (std::size_t n = 0; n < columns[c].row.size(); ++n)
+      list[columns[c].row[n]].push_back({int(c), columns[c].value[n]});
+  return list;
+}
+
+}  // namespace
+
+// Bodies that deform have a preconditioner of their own: what serves A alone then never meets H.
+Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
+  if (S.columns().any_deforms() && !S.is_coupled()) return;
+  make_columns();
+  add_component_columns();
+  multiply_out();
+  factor_own();
+}
+
+Deflation::Regions Deflation::find_regions() const {
+  const BlockColumns& J = S_.columns();
+  Regions regions{cells_of_rows(S_.liquid()), {}, {}, {}, J.blocks.size() <= few_bodies};
+  constexpr int everywhere = 1 << 28;
+  for (const CellRange& r : ranges_of_blocks(J, regions.cells, S_.liquid().grid().periodic, S_.ranks())) {
+    regions.kept.push_back(r.grown(regions.whole ? everywhere : cut_reach));
+    regions.touched.push_back(regions.kept.back().grown(1));  // A reaches one cell further
+  }
+  regions.color = color(regions.touched, reaching_placeless(S_.liquid(), regions.cells, regions.kept));
+  return regions;
+}
+
+int Deflation::mode_count(std::size_t block) const {
+  const ColumnBlock& b = S_.columns().blocks[block];
+  return b.deforms() ? int(modes_[block].cols()) : b.width;
+}
+
+// Of deformable bodies: an orthonormal basis of their responses to their loads. Free ones move rigidly under forces and
+// moments, held ones bend as they do most easily.
+void Deflation::find_modes() {
+  constexpr double dependent = 1e-6;  // what is left of a response beside the others
+  const auto& blocks = S_.columns().blocks;
+  const std::vector<int> first = S_.columns().first_columns();
+  modes_.resize(blocks.size());
+  Eigen::Index most = 0;
+  for (const ColumnBlock& b : blocks) most = std::max(most, b.loads.cols());
+  if (most == 0 || !S_.is_coupled()) return;
+  Eigen::MatrixXd responses(first.back(), most);
+  for (Eigen::Index k = 0; k < most; ++k) {
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(first.back());
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (k < blocks[b].loads.cols()) load.segment(first[b], blocks[b].width) = blocks[b].loads.col(k).normalized();
+    responses.col(k) = S_.weigh(load);
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!blocks[b].deforms()) continue;
+    Eigen::MatrixXd own = responses.block(first[b], 0, blocks[b].width, blocks[b].loads.cols());
+    own.colwise().normalize();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
+    qr.setThreshold(dependent);
+    modes_[b] = qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
+  }
+}
+
+// Bodies of one colour share one application of B a column.
+void Deflation::make_columns() {
+  const Regions regions = find_regions();
+  find_modes();
+  const auto& color = regions.color;
+  const int colors = color.empty() ? 0 : 1 + *std::max_element(color.begin(), color.end());
+  int modes = 0;
+  for (std::size_t b = 0; b < color.size(); ++b) modes = std::max(modes, mode_count(b));
+  for (int c = 0; c < colors; ++c)
+    for (int mode = 0; mode < modes; ++mode) {
+      std::vector<std::size_t> members;
+      for (std::size_t b = 0; b < color.size(); ++b)
+        if (color[b] == c && mode < mode_count(b)) members.push_back(b);
+      add_columns(regions, members, mode);
+    }
+}
+
+// z = B (sum of the members' columns of J), then each member's part of it.
+void Deflation::add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode) {
+  const LinearSystem& A = S_.liquid();
+  Vector r(A.rows(), 0.0), z(A.rows()), own(A.rows(), 0.0), az(A.rows());
+  bool any = false;
+  for (const std::size_t b : members) {
+    const ColumnBlock& block = S_.columns().blocks[b];
+    const bool combined = block.deforms();
+    block.for_each([&](int i, int k, double value) { r[i] += value * (combined ? modes_[b](k, mode) : k == mode); });
+    for (const int i : block.row) any = any || r[i] != 0;
+  }
+  if (!S_.ranks().any(any)) return;
+  A.project(r);
+  B_.apply(r, z);
+  A.project(z);
+  ++applications_;
+  for (const std::size_t b : members) {
+    Z_.push_back(cut(z, regions.cells, regions.kept[b], regions.whole ? Placeless::keep : Placeless::drop));
+    if (!regions.whole) fade_out(regions.cells, regions.kept[b], Z_.back());
+    for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
+  }
+  A.multiply(own, az);
+  for (const std::size_t b : members) AZ_.push_back(cut(az, regions.cells, regions.touched[b], Placeless::keep));
+}
+
+// A sees no constants on closed components; where bodies feel them, S does.
+void Deflation::add_component_columns() {
+  body_columns_ = int(Z_.size());
+  const auto& component = S_.liquid().null_space().component;
+  for (const int c : S_.sensed_components()) {
+    SparseVector chi;
+    for (std::size_t i = 0; i < component.size(); ++i)
+      if (component[i] == c) chi.row.push_back(int(i)), chi.value.push_back(1);
+    Z_.push_back(std::move(chi));
+    AZ_.emplace_back();
+  }
+}
+
+void Deflation::multiply_out() {
+  const Communicator& ranks = S_.ranks();
+  const auto z_rows = by_row(Z_, S_.rows()), az_rows = by_row(AZ_, S_.rows());
+  PairSums zaz(std::int64_t(Z_.size())), jz(std::int64_t(Z_.size()));
+  for (std::size_t i = 0; i < z_rows.size(); ++i)
+    for (const ColumnValue& a : z_rows[i])
+      for (const ColumnValue& b : az_rows[i]) zaz.add(a.column, b.column, a.value * b.value);
+  S_.columns().for_each([&](int i, int k, double value) {
+    for (const ColumnValue& z : z_rows[i]) jz.add(k, z.column, value * z.value);
+  });
+  zaz_ = zaz.total(ranks);
+  jz_ = jz.total(ranks);
+  double trace = 0;
+  for (const auto& t : zaz_)
+    if (t.row() == t.col()) trace += t.value();
+  regularization_ = Z_.empty() ? 0 : 1e-14 * trace / double(Z_.size());
+}
+
+Eigen::MatrixXd Deflation::estimate_schur() const {
+  Eigen::MatrixXd zaz = Eigen::MatrixXd::Zero(body_columns_, body_columns_);
+  Eigen::MatrixXd jz = Eigen::MatrixXd::Zero(S_.columns().columns(), body_columns_);
+  for (const auto& t : zaz_)
+    if (t.row() < body_columns_ && t.col() < body_columns_) zaz(t.row(), t.col()) += t.value();
+  for (const auto& t : jz_)
+    if (t.col() < body_columns_) jz(t.row(), t.col()) += t.value();
+  zaz.diagonal().array() += regularization_;
+  const Eigen::MatrixXd schur = jz * zaz.ldlt().solve(jz.transpose());
+  return 0.5 * (schur + schur.transpose());
+}
+
+// E = Z'AZ + c (J'Z)' H^-1 (J'Z). Without H there is nothing to deflate.
+bool Deflation::refresh() {
+  if (Z_.empty() || !S_.is_coupled()) return true;
+  return S_.columns().any_deforms() ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
+}
+
+// Where H is large: column by column.
+bool Deflation::multiply_small() {
+  const auto n = Eigen::Index(Z_.size());
+  Eigen::MatrixXd JZ = Eigen::MatrixXd::Zero(S_.columns().columns(), n), E = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& t : jz_) JZ(t.row(), t.col()) += t.value();
+  for (const auto& t : zaz_) E(t.row(), t.col()) += t.value();
+  E.diagonal().array() += regularization_;
+  for (Eigen::Index k = 0; k < n; ++k) E.col(k) += JZ.transpose() * S_.weigh(JZ.col(k));
+  small_.emplace(0.5 * (E + E.transpose()));
+  return small_->info() == Eigen::Success && E.allFinite();
+}
+
+// Where H is small, but bodies are many: E is the Schur complement of the factored matrix, which is quasi-definite and
+// sparse.
+bool Deflation::factor_extended() {
+  const int n = int(Z_.size()), m = S_.columns().columns();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& t : zaz_) entries.emplace_back(t.row(), t.col(), t.value());
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, regularization_);
+  for (const auto& t : jz_) {
+    entries.emplace_back(n + t.row(), t.col(), t.value());
+    entries.emplace_back(t.col(), n + t.row(), t.value());
+  }
+  const SparseMatrix& H = S_.bodies();
+  for (int k = 0; k < H.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it)
+      entries.emplace_back(n + int(it.row()), n + int(it.col()), -it.value() / S_.scale());
+  SparseMatrix E(n + m, n + m);
+  E.setFromTriplets(entries.begin(), entries.end());
+  extended_.compute(E);
+  return extended_.info() == Eigen::Success;
+}
+
+// What does not depend on H where Z'AZ is all but dense, as it is of many bodies in 3D: dense factors are then far
+// quicker than sparse ones. Closed components make Z'AZ singular.
+void Deflation::factor_own() {
+  const auto n = Eigen::Index(Z_.size()), m = Eigen::Index(S_.columns().columns());
+  constexpr double dense = 0.1;
+  if (n < least_dense || n > body_columns_ || double(zaz_.size()) < dense * double(n) * double(n)) return;
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& t : zaz_) F(t.row(), t.col()) += t.value();
+  F.diagonal().array() += regularization_;
+  own_.emplace(F);
+  if (own_->info() != Eigen::Success) return own_.reset();
+  W_.setZero(n, m);
+  for (const auto& t : jz_) W_(t.col(), t.row()) += t.value();
+  own_->matrixL().solveInPlace(W_);
+  added_.setZero(m, m);
+  added_.selfadjointView<Eigen::Lower>().rankUpdate(W_.transpose());
+}
+
+bool Deflation::factor_added_mass() {
+  Eigen::MatrixXd T = added_;
+  const SparseMatrix& H = S_.bodies();
+  for (int k = 0; k < H.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it) T(it.row(), it.col()) += it.value() / S_.scale();
+  added_mass_.compute(T);
+  return added_mass_.info() == Eigen::Success;
+}
+
+// With F = Z'AZ = LL', W = L^-1 (J'Z)':  E^-1 = L^-T (1 - W (H/c + W'W)^-1 W') L^-1.
+Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
+  if (small_) return small_->solve(f);
+  if (own_) {
+    Eigen::VectorXd y = own_->matrixL().solve(f);
+    y -= W_ * added_mass_.solve(W_.transpose() * y);
+    return own_->matrixU().solve(y);
+  }
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(f.size() + S_.columns().columns());
+  all.head(f.size()) = f;
+  return extended_.solve(all).head(f.size());
+}
+
+Eigen::VectorXd Deflation::transposed(const std::vector<SparseVector>& columns, const Vector& x) const {
+  Eigen::VectorXd y(Eigen::Index(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) y[Eigen::Index(c)] = local_dot(columns[c], x);
+  return y;
+}
+
+void Deflation::subtract(const Eigen::VectorXd& q, Vector& z) const {
+  for (std::size_t c = 0; c < Z_.size(); ++c) add_scaled(z, -q[Eigen::Index(c)], Z_[c]);
+}
+
+void Deflation::apply(const Vector& r, Vector& z) {
+  B_.apply(r, z);
+  S_.liquid().project(z);
+  if (Z_.empty() || !S_.is_coupled()) return;
+  const Eigen::Index n = Eigen::Index(Z_.size()), m = S_.columns().columns();
+  Eigen::VectorXd sums(n + m);  // (AZ)'z - Z'r, J'z
+  sums << transposed(AZ_, z) - transposed(Z_, r), local_transposed(S_.columns(), z);
+  S_.ranks().global_sum(std::span<double>(sums.data(), std::size_t(sums.size())));
+  // (S Z)' z = (A Z)' z + (J'Z)' c H^-1 J'z
+  Eigen::VectorXd f = sums.head(n);
+  const Eigen::VectorXd w = S_.weigh(sums.tail(m));
+  for (const auto& t : jz_) f[t.col()] += t.value() * w[t.row()];
+  Eigen::VectorXd q = solve_small(f);
+  make_identical(q, S_.ranks());
+  subtract(q, z);
+  S_.project(z);
+}
+
+void Deflation::prepare(const Vector& b, Vector& x) {
+  if (Z_.empty() || !S_.is_coupled()) return;
+  Vector r(x.size());
+  S_.residual(b, x, r);
+  Eigen::VectorXd f = transposed(Z_, r);
+  S_.ranks().global_sum(std::span<double>(f.data(), std::size_t(f.size())));
+  Eigen::VectorXd q = solve_small(-f);
+  make_identical(q, S_.ranks());
+  subtract(q, x);
+}
+
+}  // namespace seiche

@@ -1,0 +1,76 @@
+#pragma once
+// Makes a preconditioner B of A serve for S = A + c J H^-1 J', whatever H: the directions Z = B J, cut to the
+// neighbourhood of each body, are solved for exactly (A-DEF2 of Tang, Nabben, Vuik, Erlangga 2009). With uncut Z and
+// H -> infinity nothing changes; with H -> 0 (massless bodies) Z spans what A alone does not know.
+#include <optional>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+
+#include "linalg/core/sparse_vector.h"
+#include "linalg/precond/preconditioners.h"
+#include "linalg/spd/body_regions.h"
+#include "linalg/spd/coupled_system.h"
+
+namespace seiche {
+
+// Up to this many bodies columns are kept whole.
+inline constexpr std::size_t few_bodies = 2;
+
+class Deflation {
+ public:
+  // Keeps references. Collective.
+  Deflation(const CoupledSystem& S, Preconditioner& B);
+
+  // For the present H of S. Collective; whether E = Z' S Z could be factored.
+  [[nodiscard]] bool refresh();
+
+  // z = (I - Q S) B r + Q r, Q = Z E^-1 Z'. Collective.
+  void apply(const Vector& r, Vector& z);
+
+  // x += Q (b - S x): afterwards the residual is orthogonal to Z, which apply() counts on. Collective.
+  void prepare(const Vector& b, Vector& x);
+
+  // (J'Z)(Z'AZ)^-1(Z'J), the Galerkin part of J'A^-1 J; closed components left out.
+  Eigen::MatrixXd estimate_schur() const;
+
+  int applications_of_B() const { return applications_; }  // at set-up
+
+ private:
+  struct Regions {
+    std::vector<std::array<int, 3>> cells;  // of this rank's rows
+    std::vector<CellRange> kept, touched;   // of each body: where its columns of Z, and of A Z, are not zero
+    std::vector<int> color;
+    bool whole;  // nothing is cut
+  };
+  Regions find_regions() const;
+  void find_modes();
+  int mode_count(std::size_t block) const;
+  void make_columns();
+  void add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode);
+  void add_component_columns();
+  void multiply_out();
+  Eigen::VectorXd transposed(const std::vector<SparseVector>& columns, const Vector& x) const;
+  bool multiply_small();
+  bool factor_extended();
+  void factor_own();
+  bool factor_added_mass();
+  Eigen::VectorXd solve_small(const Eigen::VectorXd& f) const;
+  void subtract(const Eigen::VectorXd& q, Vector& z) const;
+
+  const CoupledSystem& S_;
+  Preconditioner& B_;
+  std::vector<Eigen::MatrixXd> modes_;  // of each block that deforms
+  std::vector<SparseVector> Z_, AZ_;
+  std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
+  int body_columns_ = 0;                          // the first of Z; closed components follow
+  double regularization_ = 0;
+  int applications_ = 0;
+  std::optional<Eigen::LDLT<Eigen::MatrixXd>> small_;  // of E
+  Eigen::SimplicialLDLT<SparseMatrix> extended_;       // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> own_;     // or, where nearly all columns overlap: Z'AZ = LL',
+  Eigen::MatrixXd W_, added_;                          // W = L^-1 (J'Z)', W'W,
+  Eigen::LLT<Eigen::MatrixXd> added_mass_;             // H/c + W'W
+};
+
+}  // namespace seiche

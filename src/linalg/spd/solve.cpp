@@ -1,0 +1,269 @@
+#include "linalg/spd/solve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "linalg/krylov/krylov.h"
+#include "linalg/precond/hypre_adapter.h"
+#include "linalg/precond/preconditioners.h"
+#include "linalg/spd/body_coupling.h"
+#include "linalg/spd/deflation.h"
+#include "linalg/spd/direct_solve.h"
+
+namespace seiche {
+namespace {
+
+enum class Method { conjugate_gradients, flexible_gmres, direct };
+enum class Start { warm, cold };
+
+const char* name(Method method) {
+  switch (method) {
+    case Method::conjugate_gradients:
+      return "conjugate gradients";
+    case Method::flexible_gmres:
+      return "flexible GMRES";
+    case Method::direct:
+      return "direct";
+  }
+  return "";
+}
+
+// What "auto" chose must earn its keep: so many iterations for each digit of the tolerance, or the next rung's turn.
+constexpr double iterations_per_digit = 4;
+
+// What a solver that claims success wrongly leaves behind.
+void spoil(Vector& x, int rung) {
+  const double wrong = rung % 2 == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  std::fill(x.begin(), x.end(), wrong);
+}
+
+const DistributedMatrix& checked_size(const DistributedMatrix& A) {
+  constexpr Row limit = std::numeric_limits<std::int32_t>::max();
+  if (A.global_rows <= limit) return A;
+  throw Error(ExitCode::machine, fmt::format("the pressure system has {} rows, but hypre as built here counts to {}; "
+                                             "use larger cells, or a hypre with 64-bit integers",
+                                             A.global_rows, limit));
+}
+
+}  // namespace
+
+struct SpdSolver::Rung {
+  Method method;
+  std::string preconditioner;
+  Start start;
+  int iterations;
+
+  std::string label() const {
+    if (method == Method::direct) return name(method);
+    return fmt::format("{} with {}, {} start", name(method), preconditioner, start == Start::warm ? "warm" : "cold");
+  }
+};
+
+// A compatible right-hand side and what a solution must reach.
+struct SpdSolver::Problem {
+  Vector b;
+  double norm = 0;  // of b
+  double tolerance = 0;
+};
+
+struct SpdSolver::Built {
+  std::unique_ptr<DistributedMatrix> matrix;  // what it was made from, unless it was A
+  std::unique_ptr<LinearSystem> system;
+  Eigen::VectorXd diagonal;  // of H, which it knows of
+  PreconditionerOrFailure made;
+  std::unique_ptr<Deflation> deflation;
+  int solves = 0, first_iterations = 0, last_iterations = 0;
+
+  bool has_become_slow() const { return last_iterations > 2 * first_iterations; }
+};
+
+SpdSolver::SpdSolver(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J,
+                     double c, const SolveOptions& options, const Communicator& ranks)
+    : options_(options), J_(std::move(J)), liquid_(checked_size(A), grid, null_space, ranks), system_(liquid_, J_, c) {}
+
+SpdSolver::~SpdSolver() = default;
+
+int SpdSolver::setup_applications() const {
+  int sum = 0;
+  for (const auto& [name, built] : built_) sum += built->deflation ? built->deflation->applications_of_B() : 0;
+  return sum;
+}
+
+std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) const {
+  constexpr auto cg = Method::conjugate_gradients;
+  const int limit = options_.max_iterations, patience = std::max(2000, 10 * limit);  // the latter without a hierarchy
+  const int start_limit = chosen == "none" ? patience : limit;
+  std::vector<Rung> ladder;
+  if (options_.preconditioner == "auto" && chosen == "multigrid") {
+    const double digits = -std::log10(options_.tolerance);
+    ladder.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
+    ladder.push_back({cg, "boomeramg", Start::warm, limit});
+  } else {
+    ladder.push_back({cg, chosen, Start::warm, start_limit});
+  }
+  if (chosen != "boomeramg") ladder.push_back({cg, chosen, Start::cold, start_limit});
+  ladder.push_back({cg, "boomeramg", Start::cold, limit});
+  if (chosen != "none") ladder.push_back({cg, "none", Start::cold, patience});
+  ladder.push_back({Method::flexible_gmres, "boomeramg", Start::cold, limit});
+  ladder.push_back({Method::direct, "direct", Start::cold, 0});
+  return ladder;
+}
+
+// Preconditioners that need not keep to the grid's stencil know of deformable bodies.
+void SpdSolver::make(const std::string& name, Built& built) const {
+  const LinearSystem* system = &liquid_;
+  const bool filled = J_.any_deforms() && system_.is_coupled() && name != "multigrid";
+  if (filled) {
+    built.matrix =
+        std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
+    built.system = std::make_unique<LinearSystem>(*built.matrix, liquid_.grid(), liquid_.null_space(), system_.ranks());
+    system = built.system.get();
+    built.diagonal = system_.bodies().diagonal();
+  }
+  // Rows that deformable bodies fill are coarsened badly by aggressive coarsening (twice the iterations), and one sweep
+  // does not smooth them (a third more). Jumps: docs/decisions/0002-preconditioner-choice.md.
+  if (name != "boomeramg")
+    built.made = make_preconditioner(name, *system);
+  else if (filled)
+    built.made = make_boomeramg(*system, {.aggressive_levels = 0, .sweeps = 2});
+  else if (options_.jumps)
+    built.made = make_boomeramg(*system, {.elements_per_row = 6, .aggressive_levels = 0});
+  else
+    built.made = make_preconditioner(name, *system);
+}
+
+SpdSolver::Built& SpdSolver::build(const std::string& name) {
+  std::unique_ptr<Built>& built = built_[J_.any_deforms() && system_.is_coupled() ? name + ", coupled" : name];
+  if (!built || is_outdated(*built)) make(name, *(built = std::make_unique<Built>()));
+  if (!built->made.preconditioner) return *built;
+  if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
+  last_built_ = built->deflation.get();
+  return *built;
+}
+
+// Stiffness or contact has come or gone, and it shows. Contact at a few nodes does not: there a new one costs far more
+// than it saves (docs/decisions/0018-hierarchies-in-contact.md).
+bool SpdSolver::is_outdated(const Built& built) const {
+  return built.diagonal.size() > 0 && built.has_become_slow() &&
+         has_changed_much(system_.bodies().diagonal(), built.diagonal);
+}
+
+double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
+  Vector r(x.size());
+  system_.residual(problem.b, x, r);
+  return norm(r, system_.ranks()) / problem.norm;
+}
+
+// Iterates, and starts again from where it stands while the true residual is not there yet.
+SpdSolver::Climb SpdSolver::iterate(const Rung& rung, const Problem& problem, Vector& x) {
+  Built& built = build(rung.preconditioner);
+  if (!built.made.preconditioner) return {0, built.made.failure};
+  Deflation& B = *built.deflation;
+  if (!B.refresh()) return {0, "the bodies' part of the preconditioner could not be factored"};
+  // A little less than the tolerance: the residual that the loops update drifts from the true one.
+  const double target = 0.95 * problem.tolerance * problem.norm;
+  Climb total;
+  for (int restart = 0; restart < 4; ++restart) {
+    const KrylovLimits limits{target, rung.iterations - total.iterations};
+    B.prepare(problem.b, x);
+    const KrylovResult part = rung.method == Method::flexible_gmres
+                                  ? flexible_gmres(system_, B, problem.b, x, limits, system_.ranks())
+                                  : conjugate_gradients(system_, B, problem.b, x, limits, system_.ranks());
+    total = {total.iterations + part.iterations, part.failure};
+    if (!part.failure.empty() || true_residual(problem, x) <= problem.tolerance) break;
+  }
+  if (built.solves++ == 0) built.first_iterations = total.iterations;
+  built.last_iterations = total.iterations;
+  return total;
+}
+
+SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vector& x) {
+  if (rung.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
+  if (rung.method == Method::direct) return {0, solve_directly(system_, problem.b, x)};
+  return iterate(rung, problem, x);
+}
+
+// Among many bodies multigrid needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md), and with
+// any the columns of J seen through a hierarchy are a model of their added mass, seen through a diagonal they are not.
+std::string SpdSolver::choose() const {
+  const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
+  const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || J_.any_deforms()));
+  return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
+}
+
+Eigen::MatrixXd SpdSolver::added_mass_estimate() const {
+  if (!last_built_) return Eigen::MatrixXd::Zero(J_.columns(), J_.columns());
+  return system_.scale() * last_built_->estimate_schur();
+}
+
+// x keeps the best finite vector met.
+void SpdSolver::climb_ladder(const Problem& problem, Vector& x, SolveReport& report) {
+  const std::string chosen = choose();
+  Vector y = x;
+  int index = 0;
+  for (const Rung& rung : make_ladder(chosen)) {
+    const Climb result = climb(rung, problem, y);
+    if (index < options_.fail_rungs) spoil(y, index);
+    ++index;
+    system_.project(y);
+    const double residual = true_residual(problem, y);
+    report.iterations += result.iterations;
+    report.used = rung.method == Method::direct ? "direct" : rung.preconditioner;
+    report.converged = residual <= problem.tolerance && all_finite(y, system_.ranks());
+    if (report.converged || residual < report.residual) {
+      x = y;
+      report.residual = residual;
+    }
+    if (report.converged) return;
+    report.ladder.push_back(fmt::format("{}: residual {:.2e} after {} iterations{}{}", rung.label(), residual,
+                                        result.iterations, result.failure.empty() ? "" : ", ", result.failure));
+  }
+}
+
+// Takes out of b what no x can reach, in place; |part taken out| / |b|.
+double SpdSolver::make_compatible(Vector& b) const {
+  const double before = norm(b, system_.ranks());
+  Vector removed = b;
+  system_.project(b);
+  system_.project(b);  // once more for the rounding of the first means
+  for (std::size_t i = 0; i < b.size(); ++i) removed[i] -= b[i];
+  return before > 0 ? norm(removed, system_.ranks()) / before : 0;
+}
+
+SolveReport SpdSolver::solve(const BodyMatrix& H, const Vector& b, Vector& x, double scale) {
+  const Communicator& ranks = system_.ranks();
+  SolveReport report;
+  report.used = "none";
+  report.identity_rows = liquid_.identity_rows();
+  report.converged = liquid_.pattern().global_rows == 0;
+  if (report.converged) return report;
+  system_.set_bodies(H);
+  if (!all_finite(liquid_.values(), ranks) || !all_finite(b, ranks)) {
+    report.residual = std::numeric_limits<double>::infinity();
+    report.ladder.push_back("the matrix or the right-hand side is not finite");
+    return report;
+  }
+  Problem problem{b, norm(b, ranks), options_.tolerance};
+  report.mismatch = make_compatible(problem.b);
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * problem.norm;
+  problem.norm = scale > 0 ? scale : norm(problem.b, ranks);
+  if (problem.norm <= rounding || !all_finite(x, ranks)) std::fill(x.begin(), x.end(), 0.0);
+  system_.project(x);
+  report.converged = problem.norm <= rounding;
+  if (report.converged) return report;
+  report.residual = true_residual(problem, x);
+  report.converged = report.residual <= problem.tolerance && options_.fail_rungs == 0;
+  if (!report.converged) climb_ladder(problem, x, report);
+  return report;
+}
+
+SolveReport solve_spd(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, const Vector& b,
+                      Vector& x, const SolveOptions& options, const Communicator& ranks) {
+  return SpdSolver(A, grid, null_space, {}, 0, options, ranks).solve(BodyMatrix(ranks), b, x);
+}
+
+}  // namespace seiche

@@ -1,0 +1,81 @@
+#include "render/image.h"
+
+namespace seiche::render {
+namespace {
+
+// The sRGB transfer functions (IEC 61966-2-1).
+float encode_srgb(float v) {
+  v = std::clamp(v, 0.0f, 1.0f);
+  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
+}
+
+float decode_srgb(float v) {
+  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
+// A table is exact enough for 8 bits: 4096 steps of sqrt(v), which is nearly even in sRGB.
+std::array<std::uint8_t, 4097> srgb_table() {
+  std::array<std::uint8_t, 4097> table{};
+  for (int i = 0; i <= 4096; ++i) {
+    const float root = float(i) / 4096;
+    table[i] = std::uint8_t(std::lround(255 * encode_srgb(root * root)));
+  }
+  return table;
+}
+
+}  // namespace
+
+void blend(Canvas& canvas, int x, int y, const Vec3f& color, float alpha) {
+  if (x < 0 || y < 0 || x >= canvas.width || y >= canvas.height) return;
+  Vec3f& pixel = canvas.at(x, y);
+  pixel += alpha * (color - pixel);
+}
+
+void fill(Canvas& canvas, const std::array<int, 4>& x0y0x1y1, const Vec3f& color, float alpha) {
+  for (int y = x0y0x1y1[1]; y < x0y0x1y1[3]; ++y) {
+    for (int x = x0y0x1y1[0]; x < x0y0x1y1[2]; ++x) blend(canvas, x, y, color, alpha);
+  }
+}
+
+void draw_line(Canvas& canvas, const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width, const Vec3f& color,
+               float alpha) {
+  stroke(canvas, from, to, width, color, [alpha](int, int, float) { return alpha; });
+}
+
+Image to_image(const Canvas& canvas) {
+  static const std::array<std::uint8_t, 4097> table = srgb_table();
+  Image image{canvas.width, canvas.height, {}};
+  image.rgb.reserve(canvas.pixels.size() * 3);
+  for (const Vec3f& pixel : canvas.pixels) {
+    for (int c = 0; c < 3; ++c) {
+      const float root = std::sqrt(std::clamp(pixel[c], 0.0f, 1.0f));
+      image.rgb.push_back(table[std::size_t(root * 4096 + 0.5f)]);
+    }
+  }
+  return image;
+}
+
+Vec3f from_srgb(float r, float g, float b) {
+  return {decode_srgb(r), decode_srgb(g), decode_srgb(b)};
+}
+
+Image shrink(const Image& image, int width, int height) {
+  Image small{width, height, std::vector<std::uint8_t>(std::size_t(width) * height * 3)};
+  for (int y = 0; y < height; ++y) {
+    const int y0 = y * image.height / height, y1 = std::max(y0 + 1, (y + 1) * image.height / height);
+    for (int x = 0; x < width; ++x) {
+      const int x0 = x * image.width / width, x1 = std::max(x0 + 1, (x + 1) * image.width / width);
+      std::array<int, 3> sum{0, 0, 0};
+      for (int k = 0; k < (y1 - y0) * (x1 - x0); ++k) {
+        const std::size_t from = std::size_t(y0 + k / (x1 - x0)) * image.width + x0 + k % (x1 - x0);
+        for (int c = 0; c < 3; ++c) sum[c] += image.rgb[3 * from + c];
+      }
+      for (int c = 0; c < 3; ++c) {
+        small.rgb[3 * (std::size_t(y) * width + x) + c] = std::uint8_t(sum[c] / ((y1 - y0) * (x1 - x0)));
+      }
+    }
+  }
+  return small;
+}
+
+}  // namespace seiche::render

@@ -1,0 +1,161 @@
+#include "render/outline.h"
+
+#include <map>
+
+namespace seiche::render {
+namespace {
+
+// Corners in counter-clockwise order; side s runs from corner s to s + 1.
+Vec2f corner(const Box& box, int s) {
+  constexpr int along_x[4] = {0, 1, 1, 0}, along_y[4] = {0, 0, 1, 1};
+  return {along_x[s & 3] ? box.upper[0] : box.lower[0], along_y[s & 3] ? box.upper[1] : box.lower[1]};
+}
+
+// The place of a point near the border as side + share of it, in [0, 4); negative if it is not at the border.
+float border_place(const Box& box, const Vec2f& x) {
+  const float slack = 1e-4f * box.size().head<2>().norm();
+  for (int s = 0; s < 4; ++s) {
+    const Vec2f from = corner(box, s), along = corner(box, s + 1) - from;
+    const float share = (x - from).dot(along) / along.squaredNorm();
+    if ((x - from - share * along).norm() < slack && share >= -1e-3f && share <= 1.001f) {
+      return std::min(float(s) + std::clamp(share, 0.0f, 0.9999f), 3.9999f);
+    }
+  }
+  return -1;
+}
+
+float walk_length(float from, float to) {
+  return to >= from ? to - from : to - from + 4;
+}
+
+// Appends the corners passed on the way round from one place to another.
+void walk_border(const Box& box, float from, float to, Polygon& polygon) {
+  const float end = from + walk_length(from, to);
+  for (int s = int(from) + 1; float(s) < end; ++s) polygon.push_back(corner(box, s));
+}
+
+// Open and closed chains of a solid's segments.
+struct Chains {
+  std::vector<Polygon> closed, open;
+};
+
+Chains join(const SolidMesh& solids, int solid) {
+  std::map<int, int> next;
+  std::map<int, int> arrivals;
+  for (std::size_t i = 0; i < solids.mesh.segments.size(); ++i) {
+    if (i < solids.solid.size() && solids.solid[i] != solid) continue;
+    const auto [a, b] = solids.mesh.segments[i];
+    next[a] = b;
+    ++arrivals[b];
+  }
+  Chains chains;
+  const auto follow = [&](int start) {
+    Polygon chain;
+    int at = start;
+    for (auto step = next.find(at); step != next.end(); step = next.find(at)) {
+      chain.push_back(solids.mesh.points[at].head<2>().cast<float>());
+      at = step->second;
+      next.erase(step);
+    }
+    if (at != start) chain.push_back(solids.mesh.points[at].head<2>().cast<float>());
+    return chain;
+  };
+  std::vector<int> starts;
+  for (const auto& [a, b] : next) {
+    if (arrivals.find(a) == arrivals.end()) starts.push_back(a);
+  }
+  for (const int start : starts) chains.open.push_back(follow(start));
+  while (!next.empty()) chains.closed.push_back(follow(next.begin()->first));
+  return chains;
+}
+
+Box enlarge(Box box, const std::vector<Polygon>& chains) {
+  for (const Polygon& chain : chains) {
+    for (const Vec2f& x : chain) {
+      box.lower.head<2>() = box.lower.head<2>().cwiseMin(x);
+      box.upper.head<2>() = box.upper.head<2>().cwiseMax(x);
+    }
+  }
+  return box;
+}
+
+// From the end of a chain round the border to the nearest start of one, until the first chain is met again.
+void close_along_border(std::vector<Polygon> open, const Box& box, std::vector<Polygon>& closed) {
+  while (!open.empty()) {
+    Polygon polygon = open.front();
+    const Vec2f first = polygon.front();
+    open.erase(open.begin());
+    for (;;) {
+      const float from = border_place(box, polygon.back());
+      float best = border_place(box, first);
+      if (from < 0 || best < 0) break;
+      auto nearest = open.end();
+      for (auto chain = open.begin(); chain != open.end(); ++chain) {
+        const float place = border_place(box, chain->front());
+        if (place >= 0 && walk_length(from, place) < walk_length(from, best)) nearest = chain, best = place;
+      }
+      walk_border(box, from, best, polygon);
+      if (nearest == open.end()) break;
+      polygon.insert(polygon.end(), nearest->begin(), nearest->end());
+      open.erase(nearest);
+    }
+    closed.push_back(std::move(polygon));
+  }
+}
+
+// Twice the area that lies to the left of closed polygons; negative where all beyond them does.
+float left_area(const std::vector<Polygon>& polygons) {
+  float sum = 0;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2f a = polygon[i] - polygon[0], b = polygon[(i + 1) % polygon.size()] - polygon[0];
+      sum += a.x() * b.y() - a.y() * b.x();
+    }
+  }
+  return sum;
+}
+
+Polygon border_of(const Box& box) {
+  return {corner(box, 0), corner(box, 1), corner(box, 2), corner(box, 3)};
+}
+
+}  // namespace
+
+std::vector<Polygon> close_outlines(const SolidMesh& solids, int solid, const Box& box) {
+  Chains chains = join(solids, solid);
+  if (!chains.open.empty()) {
+    const Box border = enlarge(box, chains.open);
+    // a closed hole of an outline without open chains needs none; with them the rule stays even-odd
+    close_along_border(std::move(chains.open), border, chains.closed);
+  } else if (left_area(chains.closed) < 0) {
+    chains.closed.push_back(border_of(enlarge(box, chains.closed)));  // what is left of them fills the domain
+  }
+  return std::move(chains.closed);
+}
+
+std::vector<float> row_coverage(const std::vector<Polygon>& polygons, int x0, int n, int y) {
+  constexpr int lines = 4;
+  std::vector<float> cover(n, 0.0f);
+  for (int line = 0; line < lines; ++line) {
+    const float height = float(y) + (float(line) + 0.5f) / lines;
+    std::vector<float> crossings;
+    for (const Polygon& polygon : polygons) {
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2f &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        if ((a.y() <= height) == (b.y() <= height)) continue;
+        crossings.push_back(a.x() + (height - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const float from = std::max(crossings[i] - float(x0), 0.0f),
+                  to = std::min(crossings[i + 1] - float(x0), float(n));
+      for (int x = int(from); float(x) < to; ++x) {
+        cover[x] += (std::min(to, float(x + 1)) - std::max(from, float(x))) / lines;
+      }
+    }
+  }
+  return cover;
+}
+
+}  // namespace seiche::render

@@ -1,0 +1,15 @@
+#pragma once
+// The only door to libpng.
+#include <filesystem>
+
+#include "render/image.h"
+
+namespace seiche::render {
+
+// Written whole or not at all (io/checked_file). Throws Error(output_failed) with the path and the cause.
+void write_png(const std::filesystem::path& file, const Image& image);
+
+// Reads any PNG as 8-bit RGB. Throws Error(bad_input).
+Image read_png(const std::filesystem::path& file);
+
+}  // namespace seiche::render

@@ -1,0 +1,59 @@
+#pragma once
+// What is in a 3D picture: the liquid, the solids, the ground, the light, and how each of them looks.
+#include <memory>
+#include <optional>
+
+#include "render/bvh.h"
+#include "render/color.h"
+#include "render/volume.h"
+
+namespace seiche::render {
+
+// Light that reaches the ground: a map of factors over a rectangle of it, 1 beyond.
+struct GroundShadow {
+  int size = 0;
+  Vec3f lower{0, 0, 0};  // of the rectangle
+  float extent = 1;      // of both sides, m
+  std::vector<Vec3f> light;
+};
+
+struct Stage {
+  Box domain;
+  int up_axis = 1;
+  std::unique_ptr<LiquidSurface> liquid;  // empty: no liquid
+  std::optional<ScalarVolume> quantity;   // for false colours
+  ColorScale scale;
+  Bvh solids;
+  std::vector<char> containers;  // by solid: seen from outside, it is left away
+  std::vector<Vec3f> colors;     // by solid
+  float ground = 0;              // its height along the up axis
+  float reach = 1;               // diagonal of the domain, m
+  Vec3f to_light{0, 1, 0};
+  GroundShadow shadow;
+
+  Vec3f up() const { return Vec3f::Unit(up_axis); }
+};
+
+// Sets ground, light and reach from the domain, and measures the shadow on the ground. Liquid and solids are in place.
+void light_stage(Stage& stage, const Vec3f& toward_eye);
+
+// The nearest opaque thing along a ray.
+struct OpaqueHit {
+  enum class Kind { sky, ground, solid } kind = Kind::sky;
+  float t = 1e30f;
+  Vec3f normal{0, 1, 0};  // against the ray
+  int solid = 0;
+};
+OpaqueHit find_opaque(const Stage& stage, const Ray& ray, float t0);
+
+// Linear light from it.
+Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit);
+Vec3f sky(const Stage& stage, const Vec3f& direction);
+
+// Factor of the key light that gets to x past the solids.
+float sun_at(const Stage& stage, const Vec3f& x);
+
+// The part of light that is left after a path of this length in the liquid, by channel (Beer-Lambert).
+Vec3f transmitted(const Stage& stage, float length);
+
+}  // namespace seiche::render

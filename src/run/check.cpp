@@ -1,0 +1,150 @@
+// `seiche check`: everything that can be known about a scene without running it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/agree.h"
+#include "base/gravity.h"
+#include "fluid/rheology/rheology.h"
+#include "geometry/shapes/shapes.h"
+#include "run/command.h"
+#include "run/loop.h"
+#include "run/memory.h"
+#include "run/mesh_extents.h"
+#include "solid/elastic/solid.h"
+#include "solid/mesh/point.h"
+
+namespace seiche {
+namespace {
+
+// Cells that one core advances in a second, roughly; measured on dam breaks.
+constexpr double cells_a_core_second = 3e5;
+
+// Grids up to this size are set up as a run would, within a few seconds.
+constexpr std::int64_t most_cells_set_up = 2'000'000;
+
+// What the solids of a scene turned out to be.
+struct Verified {
+  std::vector<std::string> notes, meshes, factors;
+};
+
+std::vector<const ShapeSpec*> shapes_of(const Scene& scene) {
+  std::vector<const ShapeSpec*> shapes;
+  for (const auto& region : scene.liquid.regions) shapes.push_back(&region.shape);
+  for (const auto& source : scene.liquid.sources) shapes.push_back(&source.shape);
+  for (const auto& solid : scene.solids) {
+    if (!solid.kind.has_elements) shapes.push_back(&solid.shape);
+  }
+  return shapes;
+}
+
+// Meshes an elastic solid as a run would, and finds the points of it that probes follow.
+template <int Dim>
+void verify_elastic(const Scene& scene, const SolidSpec& solid, const ShapeOptions& options, Verified& found) {
+  const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
+  const ElasticSolid<Dim> elastic = make_elastic_solid<Dim>(solid, options, lower, upper);
+  for (const ProbeSpec& probe : scene.probes) {
+    if (probe.kind == ProbeKind::displacement && probe.solid == solid.name)
+      point_of_probe<Dim>(elastic.body.mesh, probe);
+  }
+  found.meshes.push_back(describe_mesh<Dim>(solid.name, elastic.body.mesh));
+  found.factors.push_back(fmt::format("the factors of '{}' take about {}", solid.name,
+                                      readable_bytes(factor_bytes(Dim, elastic.body.size()))));
+}
+
+template <int Dim>
+void verify_shapes(const Scene& scene, Verified& found) {
+  const ShapeOptions options{scene.domain.cell_size, &found.notes};
+  for (const ShapeSpec* shape : shapes_of(scene)) make_shape<Dim>(*shape, options);
+  for (const SolidSpec& solid : scene.solids) {
+    if (solid.kind.has_elements) verify_elastic<Dim>(scene, solid, options, found);
+  }
+}
+
+Verified verify_solids(const Scene& scene) {
+  Verified found;
+  scene.dimension == 2 ? verify_shapes<2>(scene, found) : verify_shapes<3>(scene, found);
+  return found;
+}
+
+// Steps if the liquid falls freely through the domain: v = sqrt(2 g H), dt = cfl h / v. At least one step a frame.
+double expected_steps(const Scene& scene) {
+  const Gravity gravity(scene.gravity);
+  const Vec3 start = gravity.at(0);
+  const double g = gravity.largest(0, scene.time.end), first = start.norm();
+  const Vec3 extent = scene.domain.upper - scene.domain.lower;
+  const double height = first > 0 ? std::abs(extent.dot(start)) / first : g > 0 ? extent.maxCoeff() : 0;
+  const double speed = std::sqrt(2 * g * height);
+  double dt = speed > 0 ? scene.time.cfl * scene.domain.cell_size / speed : 1 / scene.time.frame_rate;
+  if (scene.time.max_step) dt = std::min(dt, *scene.time.max_step);
+  if (scene.time.fixed_step) dt = *scene.time.fixed_step;
+  return std::max(scene.time.end / dt, double(last_frame(scene.time)));
+}
+
+std::string report(const Scene& scene, const Cost& cost, int ranks) {
+  const auto& n = scene.domain.cells;
+  const int frames = last_frame(scene.time) + 1;
+  const double steps = std::max(0.0, expected_steps(scene));
+  const double seconds = steps * double(cost.cells) / (cells_a_core_second * ranks);
+  // A frame holds at most a level set and three velocity components a cell, 4 bytes each.
+  const double frame_bytes = 16.0 * double(cost.cells);
+  std::string text = fmt::format("cells   {} ({} x {}", cost.cells, n[0], n[1]);
+  if (scene.dimension == 3) text += fmt::format(" x {}", n[2]);
+  text += fmt::format(")\nmemory  about {}\n", readable_bytes(cost.bytes));
+  text += fmt::format("frames  {} (0 to {:g} s, {:g} a second), at most {} on disk\n", frames, scene.time.end,
+                      scene.time.frame_rate, readable_bytes(frames * frame_bytes));
+  text += fmt::format("steps   about {:.0f}, if the liquid falls through the whole domain\n", steps);
+  return text + fmt::format("time    about {} on {} core{}, within a factor of three", readable_seconds(seconds), ranks,
+                            ranks == 1 ? "" : "s");
+}
+
+// What is told of the initial state.
+struct Start {
+  std::vector<std::string> lines, warnings;
+};
+
+// The initial state evaluates the formulas wherever a run would, and tells what liquid and solids there are.
+Start look_at_start(const Scene& scene, const Cost& cost, const Verified& found, const Communicator& ranks) {
+  if (cost.cells <= most_cells_set_up) {
+    const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);
+    Start start{simulation->describe_start(), found.notes};
+    for (std::string& text : simulation->take_warnings())
+      if (std::find(start.warnings.begin(), start.warnings.end(), text) == start.warnings.end())
+        start.warnings.push_back(std::move(text));
+    return start;
+  }
+  Start start{found.meshes, found.notes};
+  start.lines.push_back(
+      "note: formulas are evaluated, and liquid and solids measured, as the run begins; the grid is too large for that "
+      "here");
+  return start;
+}
+
+}  // namespace
+
+ExitCode check_command(const CheckOptions& options, const Surroundings& around) {
+  RunLog log(around.ranks, around.console, Verbosity::normal);
+  Scene scene;
+  Verified found;
+  agree(around.ranks, "checking the scene", [&] {
+    scene = read_scene(options.scene, options.overrides);
+    check_memory(estimate_cost(scene, around.ranks.size()), 1, 1, machine_memory());
+    std::vector<std::string> notes = check_mesh_extents(scene);
+    found = verify_solids(scene);
+    found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
+  });
+  const Cost cost = estimate_cost(scene, around.ranks.size());
+  const Start start = look_at_start(scene, cost, found, around.ranks);
+  for (const std::string& text : start.warnings) log.warn(text);
+  log.note(fmt::format("{}: no errors", options.scene.string()));
+  if (const std::string note = note_of_end(scene); !note.empty()) log.note(note);
+  if (const std::string text = describe_rheology(scene.liquid.rheology); !text.empty()) log.note(text);
+  for (const std::string& text : start.lines) log.note(text);
+  for (const std::string& text : found.factors) log.note(text);
+  log.note(report(scene, cost, around.ranks.size()));
+  if (!found.meshes.empty()) log.note("note: the time is that of the liquid; elastic solids take theirs on top");
+  return ExitCode::done;
+}
+
+}  // namespace seiche

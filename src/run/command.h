@@ -1,0 +1,65 @@
+#pragma once
+// What the verbs run, resume and check do.
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/emergency_channel.h"
+#include "base/error.h"
+#include "files/run_directory.h"
+#include "run/log.h"
+#include "run/scene.h"
+#include "scene/reader.h"
+
+namespace seiche {
+
+// Options that run and resume share.
+struct SessionOptions {
+  std::optional<int> frames;       // number of the last frame
+  std::optional<int> threads;      // of this rank; unset: the machine's, shared among its ranks
+  std::optional<double> walltime;  // s
+  double watchdog = 600;           // s without progress after which the run is ended
+  std::string inject;              // see run_fault.h
+  std::string tampering;           // see coupling/state/tampering.h
+  Verbosity verbosity = Verbosity::normal;
+};
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> out;  // unset: out/<scene name>
+  std::vector<Override> overrides;
+  ExistingOutput existing = ExistingOutput::refuse;
+  SessionOptions session;
+};
+
+struct ResumeOptions {
+  std::filesystem::path folder;
+  std::optional<double> end;  // s
+  std::vector<Override> overrides;
+  EditPolicy edits = EditPolicy::refuse;
+  SessionOptions session;
+};
+
+struct CheckOptions {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+};
+
+// The surroundings of a command.
+struct Surroundings {
+  const Communicator& ranks;
+  const EmergencyChannel& emergency;
+  Console console;
+};
+
+// A note where the end time leaves nothing to simulate, else "".
+std::string note_of_end(const Scene& scene);
+
+// All are collective, return ExitCode::done or ExitCode::stopped and throw Error otherwise.
+ExitCode run_command(const RunOptions& options, const Surroundings& around);
+ExitCode resume_command(const ResumeOptions& options, const Surroundings& around);
+ExitCode check_command(const CheckOptions& options, const Surroundings& around);
+
+}  // namespace seiche

@@ -1,0 +1,39 @@
+#pragma once
+// The growing tables of a run: stats.csv, solids.csv and probes.csv.
+#include <memory>
+#include <vector>
+
+#include "base/scene.h"
+#include "coupling/state/simulation.h"
+#include "files/run_directory.h"
+#include "files/table_file.h"
+#include "run/scene.h"
+#include "run/state.h"
+
+namespace seiche {
+
+// Compares the tables with the checkpoint they belong to. Damage is an Error(bad_checkpoint); forced, it is returned as
+// warnings, and `state` is changed so that the run goes on after the whole lines that are left. Not collective.
+std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy, RunState& state);
+
+class RunTables {
+ public:
+  // Opens the tables on rank 0, cut to the sizes in `state`, and begins new ones with their headers. Collective.
+  RunTables(const Scene& scene, const RunPaths& paths, const Communicator& ranks, RunState& state);
+
+  // Appends the rows of one step and of the probes that are due. Collective. Throws on all ranks: Error(output_failed),
+  // or Error(cannot_continue) naming the number that is not finite; no row is then written.
+  void add(const StepStats& stats, const Simulation& simulation, RunState& state);
+  void sync();  // to the disk; collective
+
+ private:
+  std::vector<ProbeSample> due_samples(double time, const Simulation& simulation, RunState& state) const;
+  void write_rows(const StepStats& stats, const std::vector<SolidState>& solids,
+                  const std::vector<ProbeSample>& samples);
+
+  const Scene& scene_;
+  const Communicator& ranks_;
+  std::unique_ptr<TableFile> stats_, solids_, probes_;  // rank 0
+};
+
+}  // namespace seiche

@@ -1,0 +1,131 @@
+// Keys of [liquid].
+#include <limits>
+
+#include "scene/options.h"
+
+namespace seiche {
+namespace {
+
+using T = OptionType;
+
+Section<LiquidRegionSpec> region_section() {
+  Section<LiquidRegionSpec> s;
+  s.keys = lift<LiquidRegionSpec>(shape_section(), &LiquidRegionSpec::shape);
+  s.keys.push_back(value_key<LiquidRegionSpec>({.key = "velocity",
+                                                .type = T::formula_vector,
+                                                .unit = "m/s",
+                                                .variables = "xyzt",
+                                                .unset = "that of [liquid]",
+                                                .doc = "initial velocity in this region"},
+                                               &LiquidRegionSpec::velocity));
+  s.finish = [](SceneContext& c, const Place& p, LiquidRegionSpec& r) { finish_shape(c, p, r.shape); };
+  return s;
+}
+
+// The end of time is written by leaving the key out.
+Key<LiquidSourceSpec> until_key() {
+  const Option option{.key = "until",
+                      .unit = "s",
+                      .unset = "for ever",
+                      .doc =
+                          "the source flows while from <= t < until: its shape is filled at the start and kept full, "
+                          "parts of a step count"};
+  Key<LiquidSourceSpec> key{option, {}, {}};
+  key.read = [option](SceneContext& c, const Place& p, LiquidSourceSpec& s) { read_value(c, p, option, s.until); };
+  key.write = [option](const LiquidSourceSpec& s, int dimension, const std::string& path, SceneLines& lines) {
+    if (s.until == std::numeric_limits<double>::infinity()) return;
+    lines.push_back({join_path(path, option.key), option.key, to_toml(s.until, option, dimension)});
+  };
+  return key;
+}
+
+// `from` is a point of cylinders and capsules, so their sources begin at `start`.
+Section<LiquidSourceSpec> source_section() {
+  using S = LiquidSourceSpec;
+  Section<S> s;
+  s.keys = lift<S>(shape_section(), &S::shape);
+  s.keys.push_back(value_key<S>({.key = "velocity",
+                                 .type = T::formula_vector,
+                                 .unit = "m/s",
+                                 .variables = "xyzt",
+                                 .unset = "zero",
+                                 .doc = "velocity of the liquid that is added"},
+                                &S::velocity));
+  s.keys.push_back(value_key<S>({.key = "from",
+                                 .unit = "s",
+                                 .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},
+                                 .unset = "0.0",
+                                 .doc = "when the source begins"},
+                                &S::from));
+  s.keys.push_back(value_key<S>({.key = "start",
+                                 .unit = "s",
+                                 .only_for = {"shape", {"cylinder", "capsule"}},
+                                 .unset = "0.0",
+                                 .doc = "when the source begins (the from of these shapes is a point)"},
+                                &S::from));
+  s.keys.push_back(until_key());
+  s.finish = [](SceneContext& c, const Place& p, S& source) {
+    finish_shape(c, p, source.shape);
+    if (c.clean(p.path) && !(source.from < source.until)) c.report(p, "[[liquid.source]] must begin before its until");
+  };
+  return s;
+}
+
+Key<LiquidSpec> prescribed_velocity_key() {
+  return value_key<LiquidSpec>(
+      {.key = "prescribed_velocity",
+       .type = T::formula_vector,
+       .unit = "m/s",
+       .variables = "xyzt",
+       .unset = "the flow is solved for",
+       .doc = "the flow at all times, which should be free of divergence: nothing is solved, the surface "
+              "alone moves with it, through sides of the domain too; for scenes of liquid alone"},
+      &LiquidSpec::prescribed_velocity);
+}
+
+}  // namespace
+
+Option density_option() {
+  return {.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"};
+}
+
+Option initial_velocity_option() {
+  return {.key = "velocity",
+          .type = T::formula_vector,
+          .unit = "m/s",
+          .variables = "xyzt",
+          .unset = "zero",
+          .doc = "initial velocity (expressions at t = 0)"};
+}
+
+Section<LiquidSpec> liquid_section() {
+  using S = LiquidSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>(density_option(), &S::density),
+      value_key<S>({.key = "separates",
+                    .type = T::boolean,
+                    .doc = "true: liquid may part from walls and solids, whose pressure on it stays at or above zero; "
+                           "false: it clings to them"},
+                   &S::separates),
+      viscosity_key(),
+      surface_tension_key(),
+      tension_scheme_key(),
+      value_key<S>(contact_angle_option("where the surface meets sides and solids"), &S::contact_angle),
+      rheology_key(),
+      value_key<S>(initial_velocity_option(), &S::velocity),
+      prescribed_velocity_key(),
+      list_key<S, LiquidRegionSpec>({.key = "region",
+                                     .unset = "no liquid",
+                                     .doc = "where liquid is at t = 0: the union of all",
+                                     .most = most_entries},
+                                    &S::regions, region_section()),
+      list_key<S, LiquidSourceSpec>(
+          {.key = "source", .unset = "none", .doc = "liquid added in a shape for a time", .most = most_entries},
+          &S::sources, source_section()),
+  };
+  s.finish = [](SceneContext& c, const Place& p, S&) { check_one_viscosity(c, p); };
+  return s;
+}
+
+}  // namespace seiche

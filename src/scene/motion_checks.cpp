@@ -1,0 +1,108 @@
+// Prescribed motions looked at over the whole run, before it starts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/expression.h"
+#include "scene/checks.h"
+
+namespace seiche {
+namespace {
+
+// The fewest samples see a leap that lasts; the most bound the time it takes to look.
+constexpr int most_samples = 2000, fewest_samples = 50;
+constexpr double start_tolerance = 1e-9;  // m, degrees; round-off of formulas that are zero at t = 0
+constexpr int sample_budget = 2'000'000;  // of all solids together
+
+struct Sampling {
+  double end = 0, reach = 0;  // s; the longest displacement between two samples, m
+  int count = most_samples;
+};
+
+// What is wrong with the motion, or an empty text.
+std::string fault_of_motion(const MotionSpec& motion, const Sampling& sampling) {
+  const VectorExpression translate(motion.translate);
+  const Expression degrees(motion.degrees);
+  Vec3 last = Vec3::Zero();
+  for (int i = 0; i <= sampling.count; ++i) {
+    const double t = sampling.end * i / sampling.count;
+    const Vec3 now = translate(Vec3::Zero(), t);
+    if (!now.allFinite() || !std::isfinite(degrees(Vec3::Zero(), t)))
+      return fmt::format("the motion is not finite at t = {} s", t);
+    if (i > 0 && (now - last).norm() > sampling.reach) {
+      return fmt::format(
+          "the motion jumps by {:.4g} m at t = {:.6g} s, further than the domain is long ({:.4g} m); make it "
+          "continuous",
+          (now - last).norm(), t, sampling.reach);
+    }
+    last = now;
+  }
+  return "";
+}
+
+bool at_rest(const MotionSpec& motion) {
+  const auto& t = motion.translate;
+  return Expression(motion.degrees).is_constant() &&
+         std::all_of(t.begin(), t.end(), [](const Formula& part) { return Expression(part).is_constant(); });
+}
+
+enum class Start { anywhere, at_rest_pose };
+
+struct Moving {
+  std::string path, subject;
+  const MotionSpec* motion;
+  Start start;
+};
+
+// An elastic solid is at rest in shape as the run begins, its pinned part too.
+std::string fault_of_start(const Moving& moving) {
+  if (moving.start == Start::anywhere) return "";
+  const Vec3 moved = VectorExpression(moving.motion->translate)(Vec3::Zero(), 0);
+  const double turned = Expression(moving.motion->degrees)(Vec3::Zero(), 0);
+  if (moved.norm() <= start_tolerance && std::abs(turned) <= start_tolerance) return "";
+  return fmt::format(
+      "the motion must begin at the rest pose; at t = 0 it moves by {:.4g} m and turns by {:.4g} degrees", moved.norm(),
+      turned);
+}
+
+// The motions of a kinematic solid or of an elastic one's pins.
+std::vector<Moving> motions_of(const SolidSpec& solid, const std::string& path) {
+  std::vector<Moving> all;
+  const std::string subject = fmt::format("solid \"{}\"", solid.name);
+  if (solid.kind.is_prescribed()) all.push_back({path + ".motion", subject, &solid.motion, Start::anywhere});
+  const auto& pins = solid.elastic.pinned;
+  for (std::size_t n = 0; n < pins.size(); ++n) {
+    const std::string entry = pins.size() > 1 ? fmt::format(".{}", n) : "";
+    all.push_back(
+        {fmt::format("{}.pinned{}.motion", path, entry), subject + ", pinned", &pins[n].motion, Start::at_rest_pose});
+  }
+  return all;
+}
+
+}  // namespace
+
+void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene) {
+  std::vector<Moving> moving;
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const std::string path = fmt::format("solid.{}", i);
+    if (!context.clean(path)) continue;
+    for (Moving& m : motions_of(scene.solids[i], path)) {
+      const std::string fault = fault_of_start(m);
+      if (!fault.empty()) {
+        context.report(m.path, line_of(root, m.path), m.subject + ": " + fault);
+      } else if (!at_rest(*m.motion)) {
+        moving.push_back(std::move(m));
+      }
+    }
+  }
+  Sampling sampling{scene.time.end, (scene.domain.upper - scene.domain.lower).norm(), most_samples};
+  if (!moving.empty()) sampling.count = std::clamp(sample_budget / int(moving.size()), fewest_samples, most_samples);
+  for (const Moving& m : moving) {
+    const std::string fault = fault_of_motion(*m.motion, sampling);
+    if (!fault.empty()) context.report(m.path, line_of(root, m.path), m.subject + ": " + fault);
+  }
+}
+
+}  // namespace seiche

@@ -1,0 +1,13 @@
+#pragma once
+#include <vector>
+
+#include "scene/reader.h"
+#include "scene/toml.h"
+
+namespace seiche {
+
+// Sets the values in the tree; override number n (from 0) gets the line -n - 1. Throws Error(bad_input) for a path that
+// leads nowhere and for values that are not TOML.
+void apply_overrides(TomlNode& root, const std::vector<Override>& overrides);
+
+}  // namespace seiche

@@ -1,0 +1,29 @@
+#pragma once
+// Scene files: TOML to seiche::Scene and back.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/scene.h"
+#include "scene/writer.h"
+
+namespace seiche {
+
+// --set key.path=value: the value is TOML, bare words and formulas are taken as text, entries of arrays are counted
+// from 0 (solid.0.radius).
+struct Override {
+  std::string path, value;
+};
+
+// Splits "key.path=value" at the first '='. Throws Error(bad_input) if there is none.
+Override parse_override(const std::string& text);
+
+// Reads and checks a scene. Throws Error(bad_input) with all problems, one line each ("scene.toml:14: ..."); syntax
+// errors and unreadable files are reported alone.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+// The same from text. `name` stands in messages for the file; paths in the scene are relative to `folder`.
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                  const std::vector<Override>& overrides = {});
+
+}  // namespace seiche

@@ -1,0 +1,167 @@
+// Keys of shapes: which a shape takes, and what they must hold.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "scene/options.h"
+#include "solid/mesh/file.h"
+
+namespace seiche {
+namespace {
+
+using T = OptionType;
+
+const std::vector<std::string> axial{"cylinder", "capsule"};
+
+Section<RotationSpec> rotation_section() {
+  Section<RotationSpec> s;
+  s.keys = {
+      value_key<RotationSpec>(
+          {.key = "axis", .type = T::axis, .doc = "axis through the origin; 3D scenes must give it"},
+          &RotationSpec::axis),
+      value_key<RotationSpec>({.key = "degrees",
+                               .unit = "degrees",
+                               .presence = Presence::required,
+                               .doc = "angle, counter-clockwise seen against the axis"},
+                              &RotationSpec::degrees),
+  };
+  s.finish = [](SceneContext& c, const Place& p, RotationSpec& r) { check_axis(c, p, r.axis); };
+  return s;
+}
+
+// A key that the named shapes need and the others must not have.
+template <class Member>
+Key<ShapeSpec> geometry_key(const std::vector<std::string>& shapes, Option option, Member member) {
+  option.only_for = {"shape", shapes};
+  option.presence = Presence::required;
+  return value_key<ShapeSpec>(option, member);
+}
+
+Key<ShapeSpec> point_key(const std::vector<std::string>& shapes, const std::string& name, Vec3 ShapeSpec::*member,
+                         const std::string& doc) {
+  return geometry_key(shapes, {.key = name, .type = T::vector, .unit = "m", .doc = doc}, member);
+}
+
+std::vector<Key<ShapeSpec>> geometry_keys() {
+  using S = ShapeSpec;
+  return {
+      point_key({"box"}, "lower", &S::lower, "low corner"),
+      point_key({"box"}, "upper", &S::upper, "high corner"),
+      point_key({"sphere"}, "center", &S::center, "centre of the sphere (2D: disc)"),
+      point_key(axial, "from", &S::from, "one end of the axis"),
+      point_key(axial, "to", &S::to, "other end of the axis"),
+      geometry_key({"sphere", "cylinder", "capsule"},
+                   {.key = "radius", .unit = "m", .range = positive(), .doc = "radius"}, &S::radius),
+      point_key({"plane"}, "point", &S::point, "a point of the plane"),
+      geometry_key({"plane"}, {.key = "normal", .type = T::vector, .doc = "points out of the shape; any length"},
+                   &S::normal),
+      geometry_key({"mesh", "level_set"},
+                   {.key = "file",
+                    .type = T::file,
+                    .doc = "mesh: closed triangles (.obj, .ply, .stl), for elastic solids also elements (.msh, .vtu, "
+                           ".mesh); level_set: a frame of ours (.vdb)"},
+                   &S::file),
+      geometry_key(
+          {"expression"},
+          {.key = "phi", .type = T::formula, .variables = "xyz", .doc = "negative inside; need not be a distance"},
+          &S::phi),
+  };
+}
+
+void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape, MeshFiles files) {
+  std::string ending = shape.file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char ch) { return std::tolower(ch); });
+  const std::string path = join_path(p.path, "file");
+  const int line = p.node->find("file")->value.line;
+  const auto is_any = [&](std::vector<std::string> known) {
+    return std::find(known.begin(), known.end(), ending) != known.end();
+  };
+  if (shape.kind == "level_set" && !is_any({".vdb"})) {
+    c.report(path, line,
+             fmt::format("{}: a level_set is read from a .vdb file, not '{}'", path, shape.file.filename().string()));
+  }
+  if (shape.kind != "mesh" || is_any({".obj", ".ply", ".stl"})) return;
+  const bool elements = holds_elements(shape.file);
+  if (elements && files == MeshFiles::surfaces_and_elements) return;
+  c.report(path, line,
+           fmt::format("{}: {}; a mesh is a closed triangle surface in .obj, .ply or .stl{}", path,
+                       elements ? "tetrahedra are for elastic solids"
+                                : "cannot read a mesh from '" + shape.file.filename().string() + "'",
+                       files == MeshFiles::surfaces ? "" : ", or elements in .msh, .vtu or .mesh"));
+}
+
+// There are no surfaces of triangles in 2D, but elements.
+void check_flat_mesh(SceneContext& c, const Place& p, const ShapeSpec& shape, MeshFiles files) {
+  const bool may_hold_elements = files == MeshFiles::surfaces_and_elements;
+  if (may_hold_elements && (shape.file.empty() || holds_elements(shape.file))) return;
+  c.report(p, fmt::format("{}: triangle meshes are for dimension = 3; in 2D use {}an expression or a level_set",
+                          section_title(p.path), may_hold_elements ? "elements in .msh, .vtu or .mesh, " : ""));
+}
+
+void check_extent(SceneContext& c, const Place& p, const ShapeSpec& shape) {
+  for (int axis = 0; axis < c.dimension; ++axis) {
+    if (shape.lower[axis] < shape.upper[axis]) continue;
+    c.report(p, fmt::format("the box of {} must have lower < upper; along {} they are {} and {}", section_title(p.path),
+                            "xyz"[axis], shape.lower[axis], shape.upper[axis]));
+  }
+}
+
+}  // namespace
+
+void check_axis(SceneContext& c, const Place& p, const Vec3& axis) {
+  const TomlEntry* given = p.node->find("axis");
+  const std::string path = join_path(p.path, "axis");
+  if (!given && c.dimension == 3)
+    c.report(path, p.node->line, p.path + " needs an axis in 3D, for instance axis = [0, 1, 0]");
+  if (!given || !c.clean(path)) return;
+  const Place place{&given->value, path};
+  if (axis.norm() == 0) return c.report(place, path + " must not be zero");
+  if (c.dimension == 2 && axis.head<2>().norm() != 0) c.report(place, path + " must be [0, 0, 1] in 2D, or left out");
+}
+
+void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape, MeshFiles files) {
+  shape.where = c.where(p.node->line);
+  if (shape.kind == "mesh" && c.dimension == 2) check_flat_mesh(c, p, shape, files);
+  if (!c.clean(p.path) || c.dimension == 0) return;
+  if (shape.kind == "box") check_extent(c, p, shape);
+  if (shape.kind == "plane" && shape.normal.norm() == 0) c.report(p, join_path(p.path, "normal") + " must not be zero");
+  const bool axial_shape = std::find(axial.begin(), axial.end(), shape.kind) != axial.end();
+  if (axial_shape && shape.from == shape.to) {
+    c.report(
+        p, fmt::format("the {} of {} has no axis: from and to are the same point", shape.kind, section_title(p.path)));
+  }
+  if (shape.kind == "mesh" || shape.kind == "level_set") check_extension(c, p, shape, files);
+}
+
+Section<ShapeSpec> shape_section() {
+  Section<ShapeSpec> s;
+  const auto transform = [](auto& shape) -> auto& {
+    return shape.transform;
+  };
+  s.keys = {value_key<ShapeSpec>(
+      {.key = "shape",
+       .type = T::choice,
+       .choices = {"box", "sphere", "cylinder", "capsule", "plane", "mesh", "expression", "level_set"},
+       .presence = Presence::required,
+       .doc = "kind of shape; it decides which further keys there are"},
+      &ShapeSpec::kind)};
+  for (Key<ShapeSpec>& key : geometry_keys()) s.keys.push_back(std::move(key));
+  s.keys.push_back(value_key<ShapeSpec>({.key = "invert",
+                                         .type = T::boolean,
+                                         .doc = "true: the outside of the shape (an inverted sphere is a container)"},
+                                        &ShapeSpec::invert));
+  Section<TransformSpec> t;
+  t.keys = {
+      value_key<TransformSpec>({.key = "scale", .range = positive(), .doc = "factor about the origin, applied first"},
+                               &TransformSpec::scale),
+      inline_key<TransformSpec>({.key = "rotate", .unset = "no rotation", .doc = "about the origin, after scale"},
+                                &TransformSpec::rotate, rotation_section()),
+      value_key<TransformSpec>(
+          {.key = "translate", .type = T::vector, .unit = "m", .unset = "zero", .doc = "applied last"},
+          &TransformSpec::translate)};
+  for (Key<ShapeSpec>& key : lift<ShapeSpec>(t, transform)) s.keys.push_back(std::move(key));
+  return s;
+}
+
+}  // namespace seiche

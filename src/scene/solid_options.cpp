@@ -1,0 +1,96 @@
+// Keys of [[solid]].
+#include "scene/options.h"
+
+namespace seiche {
+namespace {
+
+using T = OptionType;
+
+Section<MotionSpec> motion_rotation_section() {
+  Section<MotionSpec> s;
+  s.keys = {
+      value_key<MotionSpec>({.key = "axis", .type = T::axis, .doc = "axis of rotation; 3D scenes must give it"},
+                            &MotionSpec::axis),
+      value_key<MotionSpec>(
+          {.key = "center", .type = T::vector, .unit = "m", .unset = "the origin", .doc = "a point of the axis"},
+          &MotionSpec::center),
+      value_key<MotionSpec>({.key = "degrees",
+                             .type = T::formula,
+                             .unit = "degrees",
+                             .variables = "t",
+                             .presence = Presence::required,
+                             .doc = "angle as a function of t"},
+                            &MotionSpec::degrees),
+  };
+  s.finish = [](SceneContext& c, const Place& p, MotionSpec& m) { check_axis(c, p, m.axis); };
+  return s;
+}
+
+Key<SolidSpec> kind_key() {
+  return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
+      {.key = "kind",
+       .doc = "static: at rest; kinematic: moves as prescribed; rigid: moved by the liquid, gravity and contacts; "
+              "elastic: deformed by them"},
+      &SolidSpec::kind,
+      {{"static", SolidKind::fixed},
+       {"kinematic", SolidKind::kinematic},
+       {"rigid", SolidKind::rigid},
+       {"elastic", SolidKind::elastic}});
+}
+
+}  // namespace
+
+Section<MotionSpec> motion_section() {
+  Section<MotionSpec> s;
+  const auto itself = [](auto& m) -> auto& {
+    return m;
+  };
+  s.keys = {
+      value_key<MotionSpec>({.key = "translate",
+                             .type = T::formula_vector,
+                             .unit = "m",
+                             .variables = "t",
+                             .unset = "zero",
+                             .doc = "displacement from the rest pose as a function of t"},
+                            &MotionSpec::translate),
+      inline_key<MotionSpec>({.key = "rotate", .unset = "no rotation", .doc = "rotation, applied before translate"},
+                             itself, motion_rotation_section()),
+  };
+  return s;
+}
+
+Section<SolidSpec> solid_section() {
+  Section<SolidSpec> s;
+  s.keys = {
+      value_key<SolidSpec>({.key = "name", .type = T::text, .unset = "`solid1`, `solid2`, ...", .doc = "unique name"},
+                           &SolidSpec::name),
+      kind_key()};
+  for (Key<SolidSpec>& key : lift<SolidSpec>(shape_section(), &SolidSpec::shape)) s.keys.push_back(std::move(key));
+  s.keys.push_back(choice_key<SolidSpec, Slip SolidSpec::*, Slip>(
+      {.key = "slip", .doc = "what the liquid feels at the surface"}, &SolidSpec::slip,
+      {{"free_slip", Slip::free_slip}, {"no_slip", Slip::no_slip}}));
+  s.keys.push_back(inline_key<SolidSpec>({.key = "motion",
+                                          .only_for = {"kind", {"kinematic"}},
+                                          .presence = Presence::required,
+                                          .doc = "how it moves: translate and/or rotate as functions of t"},
+                                         &SolidSpec::motion, motion_section()));
+  for (Key<SolidSpec>& key : lift<SolidSpec>(rigid_section(), &SolidSpec::rigid)) s.keys.push_back(std::move(key));
+  s.keys.push_back(value_key<SolidSpec>({.key = "friction",
+                                         .range = between(0, number_limit),
+                                         .unset = "that of the other solid; 0 if both leave it out",
+                                         .doc = "Coulomb's coefficient in contacts with other solids"},
+                                        &SolidSpec::friction));
+  Option angle = contact_angle_option("at this solid");
+  angle.unset = "that of [liquid]";
+  s.keys.push_back(value_key<SolidSpec>(angle, &SolidSpec::contact_angle));
+  for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
+  s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
+    const bool has_elements = solid.kind.has_elements;
+    finish_shape(c, p, solid.shape, has_elements ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
+    if (!solid.kind.is_free() || !c.clean(p.path)) return;
+    has_elements ? finish_elastic(c, p, solid) : finish_rigid(c, p, solid);
+  };
+  return s;
+}
+
+}  // namespace seiche

@@ -1,0 +1,211 @@
+#include "scene/values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/suggest.h"
+#include "scene/formula.h"
+
+namespace seiche {
+namespace {
+
+using Kind = TomlNode::Kind;
+
+bool is_number(const TomlNode& node) {
+  return node.kind == Kind::number || node.kind == Kind::integer;
+}
+
+std::string unit_text(const Option& option) {
+  return option.unit.empty() ? "" : " " + option.unit;
+}
+
+void report_type(SceneContext& c, const Place& p, const Option& option) {
+  const std::string unit = option.unit.empty() ? "" : " (" + option.unit + ")";
+  const bool coded = p.node->kind == Kind::coded_integer;
+  c.report(p, fmt::format("{} must be {}{}, not {}{}", p.path, type_name(option.type), unit, describe(*p.node),
+                          coded ? "; write it in decimals" : ""));
+}
+
+std::string range_text(const Option& option) {
+  const std::string range = describe(option.range);
+  if (!range.empty()) return range + unit_text(option);
+  return fmt::format("a finite number below {} in magnitude", number_limit);
+}
+
+// A finite number within the option's range, -0 taken as 0.
+std::optional<double> checked_number(SceneContext& c, const Place& p, const Option& option) {
+  if (!is_number(*p.node)) {
+    Option one = option;
+    one.type = OptionType::number;
+    report_type(c, p, one);
+    return std::nullopt;
+  }
+  const double value = p.node->number;
+  if (!std::isfinite(value) || !contains(option.range, value)) {
+    c.report(p, fmt::format("{} must be {}; it is {}", p.path, range_text(option), value));
+    return std::nullopt;
+  }
+  return value == 0 ? 0.0 : value;
+}
+
+std::optional<Formula> checked_formula(SceneContext& c, const Place& p, const Option& option) {
+  if (is_number(*p.node)) {
+    const auto number = checked_number(c, p, option);
+    return number ? std::optional(number_text(*number)) : std::nullopt;
+  }
+  if (p.node->kind != Kind::text) {
+    Option one = option;
+    one.type = OptionType::formula;
+    report_type(c, p, one);
+    return std::nullopt;
+  }
+  if (const auto fault = formula_fault(p.node->text, option)) {
+    c.report(p, p.path + ": " + *fault);
+    return std::nullopt;
+  }
+  const auto number = plain_number(p.node->text);
+  return number ? number_text(*number) : p.node->text;
+}
+
+// The node is an array with the right number of components, else reported.
+bool check_length(SceneContext& c, const Place& p, const Option& option) {
+  if (p.node->kind != Kind::array) {
+    report_type(c, p, option);
+    return false;
+  }
+  const std::size_t size = p.node->items.size();
+  const bool always_three = option.type == OptionType::axis || option.type == OptionType::spin;
+  const std::size_t wanted = always_three ? 3 : std::size_t(c.dimension);
+  if (size == wanted || (wanted == 0 && (size == 2 || size == 3))) return true;
+  const std::string reason = option.type == OptionType::axis ? "" : fmt::format(" (dimension = {})", c.dimension);
+  c.report(p, wanted == 0 ? fmt::format("{} must have 2 or 3 components, not {}", p.path, size)
+                          : fmt::format("{} must have {} components{}, not {}", p.path, wanted, reason, size));
+  return false;
+}
+
+Place item(const Place& p, std::size_t index) {
+  return {&p.node->items[index], fmt::format("{}.{}", p.path, index)};
+}
+
+// In 2D a spin is one number about z: alone, in an array of one, or after two zeros as 3D scenes write it.
+void read_flat_spin(SceneContext& c, const Place& p, const Option& option, Vec3& out) {
+  const bool array = p.node->kind == Kind::array;
+  const std::size_t size = array ? p.node->items.size() : 1;
+  std::vector<double> parts;
+  if (!array && !is_number(*p.node)) return report_type(c, p, option);
+  for (std::size_t i = 0; i < size && (size == 1 || size == 3); ++i) {
+    const auto number = checked_number(c, array ? item(p, i) : p, option);
+    if (!number) return;
+    parts.push_back(*number);
+  }
+  if (parts.empty() || (size == 3 && (parts[0] != 0 || parts[1] != 0))) {
+    return c.report(p, fmt::format("{} must be one number ({}) in 2D: the rotation is about z", p.path, option.unit));
+  }
+  out = Vec3(0, 0, parts.back());
+}
+
+void check_plain_text(SceneContext& c, const Place& p) {
+  constexpr std::size_t longest = 1000;
+  const std::string& text = p.node->text;
+  const auto control = [](char ch) { return static_cast<unsigned char>(ch) < 0x20 || ch == 0x7f; };
+  if (text.size() > longest)
+    c.report(p, fmt::format("{} must have at most {} characters, not {}", p.path, longest, text.size()));
+  if (std::any_of(text.begin(), text.end(), control))
+    c.report(p, p.path + " must be one line without control characters");
+}
+
+}  // namespace
+
+bool is_text(const TomlNode& node) {
+  return node.kind == Kind::text;
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, double& out) {
+  if (const auto value = checked_number(c, p, option)) out = *value;
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, int& out) {
+  if (p.node->kind != Kind::integer) return report_type(c, p, option);
+  if (const auto value = checked_number(c, p, option)) out = int(*value);
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, bool& out) {
+  if (p.node->kind != Kind::boolean) return report_type(c, p, option);
+  out = p.node->boolean;
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, Vec3& out) {
+  if (option.type == OptionType::spin && c.dimension != 3) return read_flat_spin(c, p, option, out);
+  if (!check_length(c, p, option)) return;
+  Vec3 value = Vec3::Zero();
+  bool good = true;
+  for (std::size_t i = 0; i < p.node->items.size(); ++i) {
+    const auto number = checked_number(c, item(p, i), option);
+    good = good && number.has_value();
+    value[Eigen::Index(i)] = number.value_or(0.0);
+  }
+  if (good) out = value;
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, VectorFormula& out) {
+  if (!check_length(c, p, option)) return;
+  const std::string zero = number_text(0);
+  VectorFormula value{zero, zero, zero};
+  bool good = true;
+  for (std::size_t i = 0; i < p.node->items.size(); ++i) {
+    const auto formula = checked_formula(c, item(p, i), option);
+    good = good && formula.has_value();
+    value[i] = formula.value_or(zero);
+  }
+  if (good) out = value;
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, std::string& out) {
+  if (option.type == OptionType::formula) {
+    if (const auto formula = checked_formula(c, p, option)) out = *formula;
+    return;
+  }
+  if (!is_text(*p.node)) return report_type(c, p, option);
+  const std::size_t before = c.problem_count();
+  if (option.type == OptionType::choice) {
+    check_choice(c, p, option, p.node->text);
+  } else {
+    check_plain_text(c, p);
+  }
+  if (c.problem_count() == before) out = p.node->text;
+}
+
+void read_value(SceneContext& c, const Place& p, const Option& option, std::vector<std::string>& out) {
+  if (p.node->kind != Kind::array) return report_type(c, p, option);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < p.node->items.size(); ++i) {
+    const Place one = item(p, i);
+    if (!is_text(*one.node)) {
+      c.report(one, fmt::format("{} must be a name in quotes, not {}", one.path, describe(*one.node)));
+    } else if (std::find(names.begin(), names.end(), one.node->text) != names.end()) {
+      c.report(one, fmt::format("{} lists \"{}\" twice", p.path, one.node->text));
+    } else if (check_choice(c, one, option, one.node->text)) {
+      names.push_back(one.node->text);
+    }
+  }
+  if (c.clean(p.path)) out = names;
+}
+
+bool check_choice(SceneContext& c, const Place& p, const Option& option, const std::string& value) {
+  if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return true;
+  const auto refused =
+      std::find_if(option.refused.begin(), option.refused.end(), [&](auto& r) { return r.value == value; });
+  if (refused != option.refused.end()) {
+    c.report(p, fmt::format("{} = \"{}\": {}; this version has {}", p.path, value, refused->reason,
+                            quoted_list(option.choices)));
+    return false;
+  }
+  const auto near = suggest(value, option.choices);
+  c.report(p, fmt::format("{} must be {}, not {}{}", p.path, quoted_list(option.choices), describe(*p.node),
+                          near ? "; did you mean \"" + *near + "\"?" : ""));
+  return false;
+}
+
+}  // namespace seiche

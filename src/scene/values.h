@@ -1,0 +1,55 @@
+#pragma once
+// Single values of a scene: read from TOML with every check their option asks for, and written back as TOML text.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+#include "base/scene.h"
+#include "scene/context.h"
+
+namespace seiche {
+
+// Each reads place.node into `out`, or reports what is wrong with it and leaves `out` alone.
+void read_value(SceneContext& context, const Place& place, const Option& option, double& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, int& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, bool& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, Vec3& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, VectorFormula& out);
+// By option.type a text, a choice or a formula.
+void read_value(SceneContext& context, const Place& place, const Option& option, std::string& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, std::vector<std::string>& out);
+// An existing file, resolved against the scene's folder and inside it unless the scene allows others.
+void read_value(SceneContext& context, const Place& place, const Option& option, std::filesystem::path& out);
+
+template <class T>
+void read_value(SceneContext& context, const Place& place, const Option& option, std::optional<T>& out) {
+  T value{};
+  const std::size_t before = context.problem_count();
+  read_value(context, place, option, value);
+  if (context.problem_count() == before) out = value;
+}
+
+// As TOML text; empty for an optional that is not set. Vectors have `dimension` components.
+std::string to_toml(double value, const Option& option, int dimension);
+std::string to_toml(int value, const Option& option, int dimension);
+std::string to_toml(bool value, const Option& option, int dimension);
+std::string to_toml(const Vec3& value, const Option& option, int dimension);
+std::string to_toml(const VectorFormula& value, const Option& option, int dimension);
+std::string to_toml(const std::string& value, const Option& option, int dimension);
+std::string to_toml(const std::vector<std::string>& value, const Option& option, int dimension);
+std::string to_toml(const std::filesystem::path& value, const Option& option, int dimension);
+
+template <class T>
+std::string to_toml(const std::optional<T>& value, const Option& option, int dimension) {
+  return value ? to_toml(*value, option, dimension) : std::string();
+}
+
+std::string quote_toml(const std::string& text);
+bool is_text(const TomlNode& node);
+
+// Reports a value that is not one of option.choices. False if it did.
+bool check_choice(SceneContext& context, const Place& place, const Option& option, const std::string& value);
+
+}  // namespace seiche

@@ -1,0 +1,117 @@
+#include "solid/body/body.h"
+
+#include "geometry/shapes/closed_surface.h"
+#include "solid/body/thin_surface.h"
+#include "solid/body/thinness.h"
+
+namespace seiche {
+namespace {
+
+double radians(double degrees) {
+  return degrees * 3.14159265358979323846 / 180;
+}
+
+bool is_simple(const std::string& kind) {
+  return kind == "box" || kind == "sphere" || kind == "cylinder" || kind == "capsule" || kind == "plane";
+}
+
+// The centre of a simple shape, a plane's point, before its transform; else the origin.
+Vec3 shape_center(const ShapeSpec& s) {
+  if (s.kind == "box") return 0.5 * (s.lower + s.upper);
+  if (s.kind == "sphere") return s.center;
+  if (s.kind == "cylinder" || s.kind == "capsule") return 0.5 * (s.from + s.to);
+  if (s.kind == "plane") return s.point;
+  return Vec3::Zero();
+}
+
+// Of a solid that no forces move: the centre of mass of what its surface encloses.
+template <int Dim>
+Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
+  const TransformSpec& t = spec.transform;
+  const Vec3 center = t.translate + Eigen::AngleAxisd(radians(t.rotate.degrees), t.rotate.axis.normalized()) *
+                                        Vec3(t.scale * shape_center(spec));
+  if (is_simple(spec.kind) || surface.points.empty()) return center;
+  const Vec3 enclosed = mass_of_surface<Dim>(surface, 1).center;
+  return enclosed.allFinite() ? enclosed : center;
+}
+
+}  // namespace
+
+template <int Dim>
+Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper)
+    : spec_(spec) {
+  if (spec.kind.has_elements) {
+    make_elastic(options, lower, upper);
+    return;
+  }
+  shape_ = make_shape<Dim>(spec.shape, options);
+  surface_ = seiche::contact_surface<Dim>(spec.shape, options, lower, upper);
+  if (spec.kind.is_free()) {
+    mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
+    for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
+  }
+  reference_ = spec.kind.is_free() ? mass_.center : center_of<Dim>(spec.shape, surface_);
+  thin_ = is_thinner_than(*this, options.cell_size, lower, upper);
+  if (thin_) thin_surface_ = std::make_shared<const ThinSurface<Dim>>(surface_);
+  if (!spec.kind.is_prescribed()) return;
+  const MotionSpec& m = spec.motion;
+  motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
+}
+
+template <int Dim>
+void Body<Dim>::make_elastic(const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  elastic_ = std::make_unique<ElasticSolid<Dim>>(make_elastic_solid<Dim>(spec_, options, lower, upper));
+  surface_ = elastic_->surface.facets;
+  thin_ = is_thinner_than(*elastic_, options.cell_size);
+  const ElasticBody<Dim>& body = elastic_->body;
+  // Row sums of M: what each node has of the mass.
+  const Eigen::VectorXd masses = body.mass * Eigen::VectorXd::Ones(body.size());
+  for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
+    const double m = masses[Dim * Eigen::Index(n)];
+    mass_.mass += m;
+    mass_.center += m * extend<Dim>(body.mesh.nodes[n]);
+  }
+  mass_.center /= mass_.mass;
+  mass_.volume = mass_.mass / spec_.rigid.density;
+  reference_ = mass_.center;
+}
+
+template <int Dim>
+Pose Body<Dim>::pose(double t) const {
+  if (!motion_) return {};
+  const double angle = radians(motion_->degrees(Vec3::Zero(), t));
+  return {Eigen::AngleAxisd(angle, motion_->axis).toRotationMatrix(), motion_->center,
+          motion_->translate(Vec3::Zero(), t)};
+}
+
+template <int Dim>
+Twist Body<Dim>::twist(double t0, double t1) const {
+  if (!motion_ || t1 == t0) return {};
+  const double dt = t1 - t0;
+  const Vec3 d0 = motion_->translate(Vec3::Zero(), t0), d1 = motion_->translate(Vec3::Zero(), t1);
+  const double turn = motion_->degrees(Vec3::Zero(), t1) - motion_->degrees(Vec3::Zero(), t0);
+  return {(d1 - d0) / dt, motion_->axis * (radians(turn) / dt), motion_->center + d1};
+}
+
+template <int Dim>
+Twist Body<Dim>::velocity(double t, double tau) const {
+  if (!motion_) return {};
+  const Twist one = twist(t, t + tau), two = twist(t, t + 2 * tau);
+  return {2 * one.linear - two.linear, 2 * one.angular - two.angular,
+          motion_->center + motion_->translate(Vec3::Zero(), t)};
+}
+
+template <int Dim>
+double Body<Dim>::distance_in(const Pose& pose, const Vec<Dim>& x) const {
+  return (*shape_)(truncate<Dim>(pose.to_rest(extend<Dim>(x))));
+}
+
+template <int Dim>
+bool Body<Dim>::lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const {
+  return thin_surface_->meets(truncate<Dim>(pose.to_rest(extend<Dim>(x))), truncate<Dim>(pose.to_rest(extend<Dim>(y))));
+}
+
+template class Body<2>;
+template class Body<3>;
+
+}  // namespace seiche

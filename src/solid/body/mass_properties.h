@@ -1,0 +1,28 @@
+#pragma once
+// Mass, centre and inertia of the shapes that rigid solids may have.
+#include <Eigen/Core>
+
+#include "base/vec.h"
+#include "geometry/shapes/shapes.h"
+
+namespace seiche {
+
+struct MassProperties {
+  double mass = 0;                                    // kg; in 2D kg/m
+  double volume = 0;                                  // m^3; in 2D m^2
+  Vec3 center{0, 0, 0};                               // of mass, at rest, the shape's transform applied, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, world axes at rest, kg m^2; 2D: only (2,2)
+};
+
+// Exact for box, sphere, cylinder and capsule (scaled, rotated, translated), and for the polyhedron of a mesh; those of
+// the contact surface for expression and level_set, which must lie within [lower, upper].
+// Throws Error(bad_input) naming spec.where if the shape is not bounded (plane, inverted) or has no volume.
+template <int Dim>
+MassProperties mass_properties(const ShapeSpec& spec, double density, const ShapeOptions& options,
+                               const Vec<Dim>& lower, const Vec<Dim>& upper);
+
+// Of the inside of a closed surface: triangles in 3D, segments in 2D.
+template <int Dim>
+MassProperties mass_of_surface(const SurfaceMesh& surface, double density);
+
+}  // namespace seiche

@@ -1,0 +1,75 @@
+#include "solid/body/thinness.h"
+
+#include "geometry/mesh/distance.h"
+
+namespace seiche {
+namespace {
+
+// A second or so.
+constexpr double most_samples = 2e7, most_samples_of_mesh = 2e6;
+
+// A ball counts as fitting when it does but for rounding.
+constexpr double radius = 0.499;  // of h
+
+// Triangles in 3D; in 2D segments as triangles without area.
+template <int Dim>
+SurfaceMesh as_triangles(SurfaceMesh mesh) {
+  for (const auto& [a, b] : mesh.segments) mesh.triangles.push_back({a, b, b});
+  return mesh;
+}
+
+// Corners, middles of the edges (corners taken in pairs) and the centroid of an element.
+template <int Dim>
+std::vector<Vec<Dim>> samples_of(const ElasticMesh<Dim>& mesh, int e) {
+  std::vector<Vec<Dim>> samples;
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (int i = 0; i <= Dim; ++i) {
+    const Vec<Dim>& x = mesh.nodes[std::size_t(mesh.element(e)[i])];
+    for (int j = 0; j <= i; ++j) samples.push_back(0.5 * (x + mesh.nodes[std::size_t(mesh.element(e)[j])]));
+    sum += x;
+  }
+  samples.push_back(sum / (Dim + 1));
+  return samples;
+}
+
+}  // namespace
+
+template <int Dim>
+bool is_thinner_than(const ElasticSolid<Dim>& solid, double h) {
+  const SurfaceMesh surface = as_triangles<Dim>(solid.surface.facets);
+  const mesh::NearestTriangle nearest(surface);
+  const ElasticMesh<Dim>& mesh = solid.body.mesh;
+  for (int e = 0; e < mesh.element_count(); ++e)
+    for (const Vec<Dim>& x : samples_of(mesh, e))
+      if (nearest.distance(extend<Dim>(x), h) >= radius * h) return false;
+  return true;
+}
+
+template <int Dim>
+bool is_thinner_than(const Body<Dim>& body, double h, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  // A container, the outside of a shape, goes on beyond the domain.
+  if (body.spec().shape.kind == "expression" || body.spec().shape.invert) return false;
+  Vec<Dim> low = upper, high = lower;
+  for (const Vec3& x : body.contact_surface().points) {
+    low = low.cwiseMin(truncate<Dim>(x));
+    high = high.cwiseMax(truncate<Dim>(x));
+  }
+  low = low.cwiseMax(lower), high = high.cwiseMin(upper);
+  const Vec<Dim> count = ((high - low) / (h / 4)).array().ceil() + 1;
+  if (count.minCoeff() < 1 || count.prod() > (body.spec().shape.kind == "mesh" ? most_samples_of_mesh : most_samples))
+    return false;
+  for (int n = 0; n < int(count.prod()); ++n) {
+    Vec<Dim> x = low;
+    for (int a = 0, rest = n; a < Dim; rest /= int(count[a]), ++a)
+      x[a] += (high[a] - low[a]) * (rest % int(count[a])) / std::max(1.0, count[a] - 1);
+    if (body.distance_at_rest(x) < -radius * h) return false;
+  }
+  return true;
+}
+
+template bool is_thinner_than<2>(const ElasticSolid<2>&, double);
+template bool is_thinner_than<3>(const ElasticSolid<3>&, double);
+template bool is_thinner_than<2>(const Body<2>&, double, const Vec<2>&, const Vec<2>&);
+template bool is_thinner_than<3>(const Body<3>&, double, const Vec<3>&, const Vec<3>&);
+
+}  // namespace seiche

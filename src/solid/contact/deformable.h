@@ -1,0 +1,44 @@
+#pragma once
+// Pairs of primitives of which one side at least is on a deformable body, by the velocities that move their points.
+#include "solid/contact/friction.h"
+#include "solid/contact/search.h"
+
+namespace seiche::contact {
+
+// The velocities that move one pair: a twist for a rigid side, those of its points for a deformable one.
+template <int Dim>
+struct PairDofs {
+  static constexpr int most = Dim == 2 ? 7 : 15;  // a point of a rigid body and an element
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most>;
+  using Jacobian = Eigen::Matrix<double, 4 * Dim, Eigen::Dynamic, Eigen::ColMajor, 4 * Dim, most>;
+  using SlipDerivative = Eigen::Matrix<double, Eigen::Dynamic, Dim - 1, Eigen::ColMajor, most, Dim - 1>;
+
+  int count = 0;
+  std::array<int, most> dof{};  // in the stacked velocities; -1: prescribed
+  std::array<int, 2> begin{};   // where each side's begin
+  Vector prescribed;            // those of prescribed sides, 0 elsewhere
+};
+
+// second: a body, or -1 for a wall.
+template <int Dim>
+PairDofs<Dim> pair_dofs(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
+                        const Candidate& pair);
+
+// A function of the points that has the gradient and Hessian given, by the velocities after the interval. The change of
+// the left Jacobian of SO(3) is left out.
+template <int Dim>
+struct PairTerms {
+  typename PairDofs<Dim>::Vector gradient;  // over H
+  typename PairDofs<Dim>::Matrix hessian;   // over H^2
+};
+template <int Dim>
+PairTerms<Dim> pair_terms(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
+                          const Placement<Dim>& at, const Candidate& pair, const PairDofs<Dim>& dofs,
+                          const PairPoints<Dim>& x, const PairEnergy<Dim>& energy);
+
+// The derivative of the components of the slip by the pair's velocities.
+template <int Dim>
+typename PairDofs<Dim>::SlipDerivative slip_derivative(const FrictionPoint<Dim>& f, const PairDofs<Dim>& dofs);
+
+}  // namespace seiche::contact

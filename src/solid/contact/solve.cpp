@@ -1,0 +1,310 @@
+// Newton's method on e(v) + C(v) + P(v) with a line search that never lets surfaces touch (Li et al. 2020).
+#include <algorithm>
+#include <cmath>
+
+#include "solid/contact/path.h"
+#include "solid/contact/system.h"
+
+namespace seiche {
+namespace contact {
+namespace {
+
+constexpr double sufficient_decrease = 1e-4;  // Armijo
+constexpr double energy_round_off = 1e-12;    // of the sum of the energies: differences below say nothing
+constexpr double least_step = 1e-10;          // of a Newton step; shorter ones get nowhere
+// Gaps below this share of the reach make contacts stiffer, by this factor, this often at most.
+constexpr double tiny_gap = 1e-2, stiffening = 10;
+constexpr int stiffening_limit = 12;
+// Friction forces have settled when they move no point faster than this share of the creep speed, or of what contact
+// does to velocities: then friction is right to a thousandth.
+constexpr double settled_share = 0.1, settled_of_change = 1e-4;
+// Newton's tolerance as a share of what contact does to velocities, with new friction forces and with settled ones.
+constexpr double first_of_change = 1e-2, last_of_change = 1e-6;
+
+// Newton iterations before friction is smoothed, and how fast it becomes sharp again.
+constexpr int patience = 12;
+constexpr double sharpening = 0.2;
+
+enum class Outcome { converged, slow, failed };
+
+template <int Dim>
+class Solver {
+ public:
+  Solver(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon, double dt,
+         InertiaProblem& inertia, const ContactOptions& options, const VelocityPotential* potential)
+      : scene_(scene.data()), inertia_(inertia), options_(options), potential_(potential) {
+    interval_ = make_interval<Dim>(scene_, motions, horizon);
+    weights_ = {dt, options.reach, stiffness_for(heaviest() * options.acceleration, options.reach),
+                options.creep_speed};
+    for (const auto& twist : interval_.prescribed)
+      if (!twist.isZero(0)) share_ = 0;
+  }
+
+  ContactReport run(const Eigen::VectorXd& start) {
+    if (free_of_contact()) return report_;
+    if (!report_.failure.empty() || !begin(start)) return report_;
+    for (int i = 0; i < stiffening_limit; ++i) {
+      if (solve_with_friction() == Outcome::failed) return report_;
+      if (!stiffen()) break;
+    }
+    finish();
+    return report_;
+  }
+
+ private:
+  double heaviest() const {
+    double mass = 0;
+    for (size_t b = 0; b < scene_.mass.size(); ++b)
+      if (scene_.moves(static_cast<int>(b))) mass = std::max(mass, scene_.mass[b]);
+    return mass > 0 ? mass : 1;
+  }
+
+  // Takes the response if it is usable.
+  Outcome take(InertiaResponse response, InertiaResponse& into) {
+    ++report_.solves;
+    if (!response.failure.empty())
+      report_.failure = response.failure;
+    else if (response.shape == Shape::convex && !(response.velocity.allFinite() && response.gradient.allFinite()))
+      report_.failure = "the velocities of the bodies are not finite";
+    into = std::move(response);
+    return report_.failure.empty() ? Outcome::converged : Outcome::failed;
+  }
+
+  Velocities<Dim> velocities(const Eigen::VectorXd& v, double share) const {
+    return all_velocities<Dim>(scene_, interval_, v, share);
+  }
+
+  // Prescribed bodies or held degrees of freedom do not yet move as they shall.
+  bool under_way() const { return share_ < 1 || !inertia_.holds(e_.velocity); }
+
+  // The motion by e alone is the answer if it meets nothing: e has no lower value. With a potential it never is.
+  bool free_of_contact() {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
+    free_velocity_ = zero;
+    if (potential_) return false;
+    const Eigen::SparseMatrix<double> none(zero.size(), zero.size());
+    at_ = place<Dim>(scene_, interval_, velocities(zero, share_));
+    if (take(inertia_.minimise(none, zero), e_) == Outcome::failed) return false;
+    if (e_.shape == Shape::indefinite) {
+      fail("contact: the energy of the bodies' inertia is not convex");
+      return false;
+    }
+    free_velocity_ = e_.velocity;
+    const Walk<Dim> way = walk<Dim>(scene_, interval_, at_, velocities(e_.velocity, 1), weights_.reach);
+    if (way.share < 1) return false;
+    if (contact_energy<Dim>(scene_, interval_, way.end, way.near, {}, weights_) > 0) return false;
+    report_.velocity = e_.velocity;
+    report_.gradient = report_.residual = e_.gradient;
+    report_.smallest_gap = weights_.reach;
+    report_.stiffness = weights_.stiffness;
+    report_.impulses.resize(scene_.surfaces.size());
+    return true;
+  }
+
+  // At rest, or with the whole motion that an earlier solve found.
+  bool begin(const Eigen::VectorXd& start) {
+    const Eigen::VectorXd v = start.size() > 0 ? start : Eigen::VectorXd::Zero(inertia_.size());
+    if (start.size() > 0) share_ = 1;
+    at_ = place<Dim>(scene_, interval_, velocities(v, share_));
+    pairs_ = find_candidates<Dim>(scene_, at_.points, at_.points, weights_.reach);
+    const double energy = contact_energy<Dim>(scene_, interval_, at_, pairs_, {}, weights_);
+    if (!std::isfinite(energy)) report_.failure = "bodies touch or overlap at the start of the step";
+    if (potential_ && !std::isfinite(potential_->energy(v)))
+      report_.failure = "elements of elastic bodies are inverted at the start of the step";
+    return report_.failure.empty() && take(inertia_.respond(v), e_) == Outcome::converged;
+  }
+
+  // Newton with the friction forces of the present state, until these no longer move anything. Where the change from
+  // creep to slip is too sharp for Newton, first with a creep speed as large as what contact does, then ever smaller.
+  Outcome solve_with_friction() {
+    report_.friction = FrictionState::none;
+    int limit = patience;
+    weights_.creep_speed = options_.creep_speed;
+    for (int i = 0; i < options_.friction_limit; ++i) {
+      friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
+      if (i > 0 && friction_.empty()) return Outcome::converged;
+      if (!friction_.empty()) ++report_.friction_updates;
+      const bool sharp = weights_.creep_speed <= options_.creep_speed;
+      const double share = may_rub() && (i == 0 || !sharp) ? first_of_change : last_of_change;
+      double first_step = 0;
+      const Outcome outcome = newton(share, friction_.empty() ? options_.newton_limit : limit, first_step);
+      if (outcome == Outcome::failed) return outcome;
+      if (!friction_.empty()) report_.friction = FrictionState::unsettled;
+      if (outcome == Outcome::slow && sharp && limit == patience) {
+        limit = options_.newton_limit;
+        weights_.creep_speed = std::max(options_.creep_speed, change());
+      } else if (!sharp) {
+        weights_.creep_speed = std::max(options_.creep_speed, sharpening * weights_.creep_speed);
+      } else if (i > 0 && first_step <= std::max(settled_share * options_.creep_speed, settled_of_change * change())) {
+        report_.friction = FrictionState::settled;
+        return Outcome::converged;
+      }
+    }
+    return Outcome::converged;
+  }
+
+  // What contact does to velocities: by how much they differ from those without (m/s). With a potential, their size.
+  double change() const { return fastest(e_.velocity - free_velocity_); }
+
+  bool may_rub() const {
+    return std::any_of(scene_.friction.begin(), scene_.friction.end(),
+                       [](const auto& mu) { return mu.value_or(0) > 0; });
+  }
+
+  Outcome newton(double share_of_change, int limit, double& first_step) {
+    for (int i = 0; i < limit; ++i) {
+      ++report_.newton_iterations;
+      InertiaResponse goal;
+      if (aim(goal) == Outcome::failed) return Outcome::failed;
+      const double speed = fastest(goal.velocity - e_.velocity);
+      if (i == 0) first_step = speed;
+      const double tolerance = std::max(options_.speed_tolerance, share_of_change * change());
+      const bool last = speed <= tolerance && !under_way();
+      const double step = search(goal);
+      if (last) return Outcome::converged;
+      if (step == 0) return fail("contact: no step downhill is free of collisions");
+    }
+    if (limit < options_.newton_limit) return Outcome::slow;
+    return fail("contact: Newton's method does not converge");
+  }
+
+  // The minimum of e and the quadratic model of C and P at the present iterate. The model is made convex where there is
+  // none.
+  Outcome aim(InertiaResponse& goal) {
+    for (Curvature curvature : {Curvature::exact, Curvature::convex}) {
+      terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, curvature);
+      if (potential_) add_potential(curvature);
+      const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
+      inertia_.linearise_at(e_.velocity);
+      if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
+      if (goal.shape == Shape::convex) return Outcome::converged;
+    }
+    return fail("contact: the energy of the bodies' inertia is not convex");
+  }
+
+  void add_potential(Curvature curvature) {
+    std::vector<Eigen::Triplet<double>> entries;
+    potential_->add_terms(e_.velocity, curvature, terms_.gradient, entries);
+    Eigen::SparseMatrix<double> K(e_.velocity.size(), e_.velocity.size());
+    K.setFromTriplets(entries.begin(), entries.end());
+    terms_.K += K;
+    terms_.energy += potential_->energy(e_.velocity);
+  }
+
+  Outcome fail(const std::string& why) {
+    report_.failure = why;
+    return Outcome::failed;
+  }
+
+  double fastest(const Eigen::VectorXd& v) const { return contact::fastest<Dim>(scene_, interval_, v); }
+
+  // grad e at the present iterate. With constraints, that of e and the goal's multipliers times the constraints: steps
+  // that first have to meet a constraint are downhill then too.
+  Eigen::VectorXd gradient_towards(const InertiaResponse& goal) const {
+    if (goal.constraint.size() == 0) return e_.gradient;
+    return e_.gradient - e_.constraint + goal.constraint;
+  }
+
+  // e(v + s p) - e(v) of a quadratic whose gradients at v and v + p are known.
+  double inertia_change(const InertiaResponse& goal, double s) const {
+    const Eigen::VectorXd p = goal.velocity - e_.velocity, gradient = gradient_towards(goal);
+    return s * p.dot(gradient + 0.5 * s * (goal.gradient - gradient));
+  }
+
+  // Goes towards the goal as far as is free of collisions and inversion, and downhill; the share of the way, 0 if it
+  // stays. While prescribed bodies and held degrees of freedom are under way energies cannot be compared.
+  double search(const InertiaResponse& goal) {
+    const Eigen::VectorXd p = goal.velocity - e_.velocity;
+    const double slope = p.dot(gradient_towards(goal) + terms_.gradient), left = 1 - share_;
+    const bool compares = !under_way();
+    for (double s = potential_ ? potential_->step_bound(e_.velocity, p) : 1; s > least_step; s *= 0.5) {
+      Walk<Dim> way =
+          walk<Dim>(scene_, interval_, at_, velocities(e_.velocity + s * p, share_ + s * left), weights_.reach);
+      s *= way.share;
+      if (s <= least_step) break;
+      const double energy = energy_after(way, s * p);
+      const double inertia = inertia_change(goal, s);
+      double noise = energy_round_off * (std::abs(inertia) + energy + terms_.energy);
+      if (potential_) noise += potential_->round_off();
+      if (!std::isfinite(energy)) continue;
+      if (compares && inertia + energy - terms_.energy > sufficient_decrease * s * std::min(slope, 0.) + noise)
+        continue;
+      accept(std::move(way), goal, s);
+      share_ = s == 1 ? 1 : share_ + s * left;
+      return s;
+    }
+    return 0;
+  }
+
+  double energy_after(const Walk<Dim>& way, const Eigen::VectorXd& step) const {
+    const double contact = contact_energy<Dim>(scene_, interval_, way.end, way.near, friction_, weights_);
+    return potential_ ? contact + potential_->energy(e_.velocity + step) : contact;
+  }
+
+  void accept(Walk<Dim> way, const InertiaResponse& goal, double s) {
+    at_ = std::move(way.end);
+    pairs_ = std::move(way.near);
+    e_.velocity = s == 1 ? goal.velocity : Eigen::VectorXd(e_.velocity + s * (goal.velocity - e_.velocity));
+    const Eigen::VectorXd gradient = gradient_towards(goal);
+    e_.gradient = s == 1 ? goal.gradient : Eigen::VectorXd(gradient + s * (goal.gradient - gradient));
+    e_.constraint = goal.constraint;
+  }
+
+  bool stiffen() {
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
+    if (terms_.tightest >= tiny_gap * weights_.reach) return false;
+    weights_.stiffness *= stiffening;
+    return true;
+  }
+
+  void finish() {
+    const Velocities<Dim> still = velocities(Eigen::VectorXd::Zero(inertia_.size()), 0);
+    report_.straight_share =
+        walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.velocities, 0).share;
+    report_.residual = e_.gradient + terms_.gradient;  // with the friction that the velocities are a minimum with
+    if (potential_) potential_->add_gradient(e_.velocity, report_.residual);
+    friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
+    report_.velocity = e_.velocity;
+    report_.gradient = e_.gradient;
+    report_.active = terms_.active;
+    report_.smallest_gap = terms_.smallest_gap;
+    report_.stiffness = weights_.stiffness;
+    report_.impulses = contact_impulses<Dim>(scene_, at_, pairs_, friction_, weights_);
+  }
+
+  const Scene<Dim>& scene_;
+  InertiaProblem& inertia_;
+  const ContactOptions& options_;
+  const VelocityPotential* potential_;
+  Interval<Dim> interval_;
+  Weights weights_;
+  ContactReport report_;
+  // The present iterate: stacked velocities with the gradient of e, the share of the prescribed motion, what follows.
+  InertiaResponse e_;
+  Eigen::VectorXd free_velocity_;  // without contact
+  double share_ = 1;
+  Placement<Dim> at_;
+  std::vector<Candidate> pairs_;
+  std::vector<FrictionPoint<Dim>> friction_;
+  ContactTerms terms_;
+};
+
+}  // namespace
+}  // namespace contact
+
+template <int Dim>
+ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
+                            double dt, InertiaProblem& inertia, const ContactOptions& options,
+                            const Eigen::VectorXd& start, const VelocityPotential* potential) {
+  return contact::Solver<Dim>(scene, motions, horizon, dt, inertia, options, potential).run(start);
+}
+
+template ContactReport solve_contact<2>(const ContactScene<2>&, const std::vector<ContactMotion>&, double, double,
+                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&,
+                                        const VelocityPotential*);
+template ContactReport solve_contact<3>(const ContactScene<3>&, const std::vector<ContactMotion>&, double, double,
+                                        InertiaProblem&, const ContactOptions&, const Eigen::VectorXd&,
+                                        const VelocityPotential*);
+
+}  // namespace seiche

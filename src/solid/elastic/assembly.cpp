@@ -1,0 +1,215 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solid/elastic/body.h"
+#include "solid/material/guard.h"
+
+namespace seiche {
+namespace {
+
+constexpr double kept_volume = 0.1;  // share of det F that one step must leave
+
+// sum_a u_a g_a'
+template <int Dim>
+Gradient<Dim> gradient_of(const ElasticBody<Dim>& body, int e, const ShapeGradients<Dim>& g, const Eigen::VectorXd& u) {
+  Gradient<Dim> D = Gradient<Dim>::Zero();
+  const int* n = body.mesh.element(e);
+  for (int a = 0; a < g.rows(); ++a) D.noalias() += u.segment<Dim>(Dim * n[a]) * g.row(a);
+  return D;
+}
+
+// A point where det F is watched: of quadrature, where the material has its energy, or (order 2) a node, where the
+// volume guard alone has some.
+enum class Role { quadrature, node };
+
+template <int Dim>
+struct Point {
+  int element, number;  // number: of all quadrature points, of all nodes of elements
+  Role role;
+  double weight;  // volume that the point stands for, m^3
+  const ShapeGradients<Dim>& g;
+
+  Gradient<Dim> deformation(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) const {
+    return Gradient<Dim>::Identity() + gradient_of(body, element, g, u);
+  }
+  bool is_held(const HeldPressure<Dim>& held) const { return role == Role::quadrature && held.acts(number); }
+};
+
+// Visits f(point) over the points of an element.
+template <int Dim, class Visit>
+void over_points(const ElasticBody<Dim>& body, int e, Visit visit) {
+  double volume = 0;
+  for (int q = e * body.points_per_element; q < (e + 1) * body.points_per_element; ++q) {
+    visit(Point<Dim>{e, q, Role::quadrature, body.weights[q], body.gradients[q]});
+    volume += body.weights[q];
+  }
+  const int count = body.node_gradients.empty() ? 0 : body.mesh.nodes_per_element();
+  for (int a = e * count; a < (e + 1) * count; ++a) {
+    visit(Point<Dim>{e, a, Role::node, volume / count, body.node_gradients[a]});
+  }
+}
+
+template <int Dim, class Visit>
+void over_points(const ElasticBody<Dim>& body, Visit visit) {
+  for (int e = 0; e < body.mesh.element_count(); ++e) over_points(body, e, visit);
+}
+
+// B, dF = B du: column Dim a + i holds g_a in the entries of row i of F.
+template <int Dim>
+using Strain =
+    Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic, Eigen::ColMajor, Dim * Dim, Dim*(Dim + 1) * (Dim + 2) / 2>;
+
+template <int Dim>
+Strain<Dim> strain_of(const ShapeGradients<Dim>& g) {
+  Strain<Dim> B = Strain<Dim>::Zero(Dim * Dim, Dim * g.rows());
+  for (int a = 0; a < g.rows(); ++a) {
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) B(i + Dim * j, Dim * a + i) = g(a, j);
+    }
+  }
+  return B;
+}
+
+// Adds the element's matrix to the columns of its nodes.
+template <int Dim, class Matrix>
+void scatter(const ElasticBody<Dim>& body, int e, const Matrix& Ke, SparseMatrix& K) {
+  const int count = body.mesh.nodes_per_element();
+  const int *n = body.mesh.element(e), *slot = body.slots.data() + size_t(e) * count * count;
+  for (int b = 0; b < count; ++b) {
+    for (int k = 0; k < Dim; ++k) {
+      double* column = K.valuePtr() + K.outerIndexPtr()[Dim * n[b] + k];
+      for (int a = 0; a < count; ++a) {
+        for (int i = 0; i < Dim; ++i) column[slot[a * count + b] + i] += Ke(Dim * a + i, Dim * b + k);
+      }
+    }
+  }
+}
+
+// J(F + t D) = c_0 + c_1 t + c_2 t^2 + c_3 t^3
+template <int Dim>
+std::array<double, 4> volume_polynomial(const Gradient<Dim>& F, const Gradient<Dim>& D) {
+  const double first = elastic::cofactor<Dim>(F).cwiseProduct(D).sum();
+  if constexpr (Dim == 2) return {F.determinant(), first, D.determinant(), 0};
+  return {F.determinant(), first, elastic::cofactor<Dim>(D).cwiseProduct(F).sum(), D.determinant()};
+}
+
+// A bound from below on the first t at which the polynomial has fallen to kept_volume c_0, at most `limit`: a step of
+// what is left over the steepest slope within `window` cannot pass the root. The window follows the steps.
+double step_until_kept(const std::array<double, 4>& c, double limit) {
+  double t = 0, window = limit;
+  for (int i = 0; i < 100; ++i) {  // more steps only come closer
+    const double left = (1 - kept_volume) * c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    if (left < 1e-3 * c[0]) break;  // close enough: a step bound need not be sharp
+    const double end = std::min(limit, t + window);
+    const double slope = std::abs(c[1]) + 2 * std::abs(c[2]) * end + 3 * std::abs(c[3]) * end * end;
+    const bool passes = left >= slope * (end - t);
+    if (passes && end == limit) return limit;
+    const double step = passes ? end - t : left / slope;
+    window = passes ? 2 * window : 2 * step;
+    t += step;
+  }
+  return t;
+}
+
+}  // namespace
+
+template <int Dim>
+Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::VectorXd& u) {
+  return Gradient<Dim>::Identity() + gradient_of(body, q / body.points_per_element, body.gradients[std::size_t(q)], u);
+}
+
+template <int Dim>
+double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held) {
+  const Lame& lame = body.properties.lame;
+  double Psi = 0;
+  over_points(body, [&](const Point<Dim>& p) {
+    const Gradient<Dim> F = p.deformation(body, u);
+    double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
+    if (p.is_held(held)) density += held.energy(p.number, F);
+    Psi += p.weight * (density + elastic::volume_guard(lame, F.determinant()).value);
+  });
+  return Psi;
+}
+
+// dPsi/du_a = integral of P g_a, the guard's part of P being b' dJ/dF
+template <int Dim>
+Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
+                                 const HeldPressure<Dim>& held) {
+  const Lame& lame = body.properties.lame;
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(body.size());
+  over_points(body, [&](const Point<Dim>& p) {
+    const Gradient<Dim> F = p.deformation(body, u);
+    const double guard = elastic::volume_guard(lame, F.determinant()).slope;
+    if (p.role == Role::node && guard == 0) return;
+    Gradient<Dim> P = Gradient<Dim>::Zero();
+    if (p.role == Role::quadrature) P = body.material.stress(lame, F);
+    if (p.is_held(held)) P += held.stress(p.number, F);
+    if (guard != 0) P += guard * elastic::cofactor<Dim>(F);
+    const int* n = body.mesh.element(p.element);
+    for (int a = 0; a < p.g.rows(); ++a) {
+      r.segment<Dim>(Dim * n[a]).noalias() += p.weight * (P * p.g.row(a).transpose());
+    }
+  });
+  return r;
+}
+
+// K = integral of B' H B, H = d2Psi/dF2 and the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2
+template <int Dim>
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K,
+                   const HeldPressure<Dim>& held) {
+  constexpr int most = Dim * (Dim + 1) * (Dim + 2) / 2;
+  const Lame& lame = body.properties.lame;
+  const int size = Dim * body.mesh.nodes_per_element();
+  for (int e = 0; e < body.mesh.element_count(); ++e) {
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most> Ke(size, size);
+    Ke.setZero();
+    over_points(body, e, [&](const Point<Dim>& p) {
+      const Gradient<Dim> F = p.deformation(body, u);
+      const elastic::Guard guard = elastic::volume_guard(lame, F.determinant());
+      if (p.role == Role::node && guard.slope == 0) return;
+      Hessian<Dim> H = Hessian<Dim>::Zero();
+      if (p.role == Role::quadrature) H = body.material.stiffness(lame, F);
+      if (p.is_held(held)) H += held.stiffness(p.number, F);
+      const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
+      if (guard.slope != 0)
+        H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
+      if (curvature == Curvature::convex) H = project_positive<Dim>(H);
+      const Strain<Dim> B = strain_of<Dim>(p.g);
+      const Strain<Dim> HB = p.weight * H * B;
+      Ke.noalias() += B.transpose() * HB;
+    });
+    scatter(body, e, Ke, K);
+  }
+}
+
+template <int Dim>
+double least_volume_ratio(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
+  double least = std::numeric_limits<double>::infinity();
+  over_points(body, [&](const Point<Dim>& p) { least = std::min(least, p.deformation(body, u).determinant()); });
+  return least;
+}
+
+template <int Dim>
+double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d) {
+  double bound = 1;
+  over_points(body, [&](const Point<Dim>& p) {
+    const Gradient<Dim> D = gradient_of(body, p.element, p.g, d);
+    bound = step_until_kept(volume_polynomial<Dim>(p.deformation(body, u), D), bound);
+  });
+  return bound;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template Gradient<D> deformation_at<D>(const ElasticBody<D>&, int, const Eigen::VectorXd&);                          \
+  template double elastic_energy<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&);            \
+  template Eigen::VectorXd elastic_gradient<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&); \
+  template void add_stiffness<D>(const ElasticBody<D>&, const Eigen::VectorXd&, Curvature, SparseMatrix&,              \
+                                 const HeldPressure<D>&);                                                              \
+  template double least_volume_ratio<D>(const ElasticBody<D>&, const Eigen::VectorXd&);                                \
+  template double inversion_bound<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,79 @@
+#include "solid/elastic/potential.h"
+
+#include <cassert>
+
+namespace seiche {
+
+VelocityPotential::~VelocityPotential() = default;
+
+template <int Dim>
+ElasticPotential<Dim>::ElasticPotential(std::vector<ElasticShare<Dim>> bodies, int size, double dt, double horizon)
+    : bodies_(std::move(bodies)), size_(size), dt_(dt), horizon_(horizon) {}
+
+// u = u_n + H w
+template <int Dim>
+Eigen::VectorXd ElasticPotential<Dim>::displacement(const ElasticShare<Dim>& share, const Eigen::VectorXd& v) const {
+  return *share.displacement + horizon_ * v.segment(share.first_dof, share.body->size());
+}
+
+template <int Dim>
+double ElasticPotential<Dim>::energy(const Eigen::VectorXd& v) const {
+  assert(v.size() == size_);
+  double sum = 0;
+  for (const auto& share : bodies_) sum += elastic_energy(*share.body, displacement(share, v), share.held);
+  return dt_ / horizon_ * sum;
+}
+
+template <int Dim>
+void ElasticPotential<Dim>::add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const {
+  assert(v.size() == size_ && gradient.size() == size_);
+  for (const auto& share : bodies_)
+    gradient.segment(share.first_dof, share.body->size()) +=
+        dt_ * elastic_gradient(*share.body, displacement(share, v), share.held);
+}
+
+template <int Dim>
+void ElasticPotential<Dim>::add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+                                      std::vector<Eigen::Triplet<double>>& hessian) const {
+  add_gradient(v, gradient);
+  for (const auto& share : bodies_) {
+    const Eigen::VectorXd u = displacement(share, v);
+    SparseMatrix K = share.body->pattern;
+    add_stiffness(*share.body, u, curvature, K, share.held);
+    hessian.reserve(hessian.size() + size_t(K.nonZeros()));
+    for (int c = 0; c < K.outerSize(); ++c) {
+      for (SparseMatrix::InnerIterator entry(K, c); entry; ++entry) {
+        hessian.emplace_back(share.first_dof + int(entry.row()), share.first_dof + c, dt_ * horizon_ * entry.value());
+      }
+    }
+  }
+}
+
+template <int Dim>
+double ElasticPotential<Dim>::step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const {
+  double bound = 1;
+  for (const auto& share : bodies_) {
+    const Eigen::VectorXd d = horizon_ * dv.segment(share.first_dof, share.body->size());
+    bound = std::min(bound, inversion_bound(*share.body, displacement(share, v), d));
+  }
+  return bound;
+}
+
+// Psi is the difference of terms of the size of (lambda + 2 mu) times the volume.
+template <int Dim>
+double ElasticPotential<Dim>::round_off() const {
+  constexpr double share_of_terms = 1e-15;  // a few units in the last place
+  double sum = 0;
+  for (const auto& share : bodies_) {
+    const Lame& lame = share.body->properties.lame;
+    double volume = 0;
+    for (const double w : share.body->weights) volume += w;
+    sum += (lame.lambda + 2 * lame.mu) * volume;
+  }
+  return share_of_terms * dt_ / horizon_ * sum;
+}
+
+template class ElasticPotential<2>;
+template class ElasticPotential<3>;
+
+}  // namespace seiche

@@ -1,0 +1,40 @@
+#pragma once
+// The energy of elastic bodies as one of their nodes' velocities.
+#include "solid/elastic/body.h"
+#include "solid/energy/velocity_potential.h"
+
+namespace seiche {
+
+// One body: its displacement at the start of the interval, and where its nodes' velocities begin in the stacked v.
+template <int Dim>
+struct ElasticShare {
+  const ElasticBody<Dim>* body;
+  const Eigen::VectorXd* displacement;  // m
+  int first_dof;
+  HeldPressure<Dim> held;
+};
+
+// P(v) = dt/H sum Psi(u_n + H w), w the velocities of a body's nodes over the interval H, Psi with the work against the
+// held pressure. Its gradient is dt Psi', the impulse of the elastic forces at the end of the interval; its Hessian is
+// dt H Psi''.
+template <int Dim>
+class ElasticPotential : public VelocityPotential {
+ public:
+  // Keeps the pointers. `size`: of v. dt, horizon in s, above 0.
+  ElasticPotential(std::vector<ElasticShare<Dim>> bodies, int size, double dt, double horizon);
+  double energy(const Eigen::VectorXd& v) const override;
+  void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override;
+  void add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+                 std::vector<Eigen::Triplet<double>>& hessian) const override;
+  double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
+  double round_off() const override;
+
+ private:
+  Eigen::VectorXd displacement(const ElasticShare<Dim>& share, const Eigen::VectorXd& v) const;
+
+  std::vector<ElasticShare<Dim>> bodies_;
+  int size_;
+  double dt_, horizon_;
+};
+
+}  // namespace seiche

@@ -1,0 +1,16 @@
+#pragma once
+// The rows of the table of materials, one a file.
+#include "solid/material/material.h"
+
+namespace seiche::elastic {
+
+template <int Dim>
+ElasticMaterial<Dim> stable_neo_hookean();
+template <int Dim>
+ElasticMaterial<Dim> neo_hookean();
+template <int Dim>
+ElasticMaterial<Dim> corotated();
+template <int Dim>
+ElasticMaterial<Dim> st_venant_kirchhoff();
+
+}  // namespace seiche::elastic

@@ -1,0 +1,94 @@
+#include "solid/rigid/state.h"
+
+#include "solid/rigid/motion.h"
+
+namespace seiche {
+namespace {
+
+void hold_fixed_axes(const RigidSpec& spec, Vec3& linear, Vec3& angular) {
+  for (int a = 0; a < 3; ++a) {
+    if (spec.fixed_position[a]) linear[a] = 0;
+    if (spec.fixed_rotation[a]) angular[a] = 0;
+  }
+}
+
+// Mean angular velocity of the free rotation over dt. About a fixed axis, and in 2D, it stays as it is.
+template <int Dim>
+Vec3 free_angular_velocity(const Body<Dim>& body, const RigidState& r, double dt) {
+  if (Dim == 2 || !turns_freely(body.spec().rigid)) return r.angular_velocity;
+  return rotate_freely(principal_inertia(body.mass().inertia), r.rotation, r.angular_momentum, dt)
+      .mean_angular_velocity;
+}
+
+}  // namespace
+
+bool turns_freely(const RigidSpec& spec) {
+  return !(spec.fixed_rotation[0] || spec.fixed_rotation[1] || spec.fixed_rotation[2]);
+}
+
+template <int Dim>
+RigidState initial_rigid_state(const Body<Dim>& body) {
+  RigidState r;
+  if (!body.is_rigid()) return r;
+  r.center = body.mass().center;
+  r.velocity = body.spec().rigid.velocity;
+  r.angular_velocity = body.spec().rigid.angular_velocity;
+  hold_fixed_axes(body.spec().rigid, r.velocity, r.angular_velocity);
+  r.angular_momentum = body.mass().inertia * r.angular_velocity;
+  return r;
+}
+
+template <int Dim>
+Eigen::Matrix3d world_inertia(const Body<Dim>& body, const RigidState& r) {
+  return r.rotation * body.mass().inertia * r.rotation.transpose();
+}
+
+template <int Dim>
+Pose rigid_pose(const Body<Dim>& body, const RigidState& r) {
+  return {r.rotation, body.mass().center, r.center - body.mass().center};
+}
+
+template <int Dim>
+RigidState advance(const Body<Dim>& body, const RigidState& r, double dt) {
+  RigidState next = r;
+  Vec3 w = r.angular_velocity;
+  if (dt != r.horizon && r.horizon > 0)
+    w += free_angular_velocity(body, r, dt) - free_angular_velocity(body, r, r.horizon);
+  next.center += dt * r.velocity;
+  // Products of rotations drift from orthonormal by rounding; a quaternion of unit length cannot.
+  next.rotation = Eigen::Quaterniond(exp_rotation(dt * w) * r.rotation).normalized().toRotationMatrix();
+  return next;
+}
+
+template <int Dim>
+Twist free_twist(const Body<Dim>& body, const RigidState& r, const Vec3& gravity, double dt, double horizon) {
+  Twist v{r.velocity + dt * gravity, free_angular_velocity(body, r, horizon), r.center};
+  hold_fixed_axes(body.spec().rigid, v.linear, v.angular);
+  return v;
+}
+
+template <int Dim>
+std::vector<Placement> place_bodies(const std::vector<Body<Dim>>& bodies, const std::vector<RigidState>& rigid,
+                                    double t0, double t1) {
+  std::vector<Placement> placed;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (bodies[k].is_rigid())
+      placed.push_back({rigid_pose(bodies[k], rigid[k]), Twist{{0, 0, 0}, {0, 0, 0}, rigid[k].center}, {}, {}});
+    else
+      placed.push_back({bodies[k].pose(t1), bodies[k].twist(t0, t1), {}, {}});
+  }
+  return placed;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template RigidState initial_rigid_state<D>(const Body<D>&);                                                          \
+  template Eigen::Matrix3d world_inertia<D>(const Body<D>&, const RigidState&);                                        \
+  template Pose rigid_pose<D>(const Body<D>&, const RigidState&);                                                      \
+  template RigidState advance<D>(const Body<D>&, const RigidState&, double);                                           \
+  template Twist free_twist<D>(const Body<D>&, const RigidState&, const Vec3&, double, double);                        \
+  template std::vector<Placement> place_bodies<D>(const std::vector<Body<D>>&, const std::vector<RigidState>&, double, \
+                                                  double);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,44 @@
+#pragma once
+// The table and validation.json of a validation.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "validate/run/run.h"
+
+namespace seiche {
+
+struct ReportedResult {
+  CaseSpec one;
+  ResolutionSpec resolution;
+  CaseResult result;
+  std::string unit{};  // of the figure, see validate_quantity.h
+};
+
+struct Report {
+  std::string level;
+  int ranks = 1;
+  std::size_t planned = 0;              // runs to be made in all
+  std::vector<ReportedResult> results;  // those of one case beside each other
+  std::string tampering;                // operators that were broken for a test; empty: none
+  std::string machine;                  // this one, see validate_machine.h
+};
+
+std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED", "not run"
+bool is_measured(const CaseResult& result);
+
+// The results of each case, in order.
+std::vector<std::vector<ReportedResult>> by_case(const Report& report);
+
+// Widths of the first two columns.
+struct TableWidths {
+  std::size_t name = 4, resolution = 10;
+};
+
+std::string table_header(const TableWidths& widths);
+std::string table_row(const TableWidths& widths, const ReportedResult& row);
+std::string table_summary(const Report& report);  // "12 pass, 1 MISS"
+
+std::string format_report(const Report& report);  // JSON
+
+}  // namespace seiche

@@ -1,0 +1,36 @@
+#pragma once
+// Plots as SVG, to stand inside a page.
+#include <string>
+#include <vector>
+
+#include "validate/measure/measures.h"
+
+namespace seiche {
+
+struct Curve {
+  enum class Style { line, marks, line_and_marks, dashes };
+  std::string label;
+  Points points;
+  Style style = Style::line;
+};
+
+struct Chart {
+  enum class Axes { linear, logarithmic };
+  std::string x, y;  // names of the axes
+  Axes axes = Axes::linear;
+  std::vector<Curve> curves;
+};
+
+// Empty where there is nothing to show: no finite point, or for logarithmic axes none above zero.
+std::string format_svg(const Chart& chart);
+
+// Characters that HTML and SVG give a meaning, escaped.
+std::string escape_html(const std::string& text);
+
+// Round numbers from low to high, about `count` of them.
+std::vector<double> round_steps(double low, double high, int count);
+
+// At most about `most` points with the same extremes.
+Points thinned(const Points& points, std::size_t most);
+
+}  // namespace seiche

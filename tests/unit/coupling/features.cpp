@@ -1,0 +1,72 @@
+#include "coupling/state/features.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "../verification/scenes.h"
+#include "coupling/step/half_steps.h"
+
+using namespace seiche;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Scene basin() {
+  Scene scene = test::box_scene(2, 8);
+  test::add_liquid(scene, "y-0.5");
+  return scene;
+}
+
+SolidSpec box(SolidKind kind, const Vec3& lower, const Vec3& upper) {
+  SolidSpec spec;
+  spec.name = "block";
+  spec.kind = kind;
+  spec.shape.kind = "box";
+  spec.shape.lower = lower;
+  spec.shape.upper = upper;
+  spec.rigid.density = 500;
+  return spec;
+}
+
+std::vector<std::string> told(const Scene& scene) {
+  return describe_features(Setup<2>(scene, Communicator()));
+}
+
+}  // namespace
+
+TEST_CASE("nothing is told of a scene in which nothing is switched off") {
+  CHECK(told(basin()).empty());
+  Scene floating = basin();
+  floating.solids.push_back(box(SolidKind::rigid, {0.3, 0.3, 0}, {0.7, 0.7, 1}));
+  CHECK(told(floating).empty());
+  CHECK(may_go_by_halves(Setup<2>(floating, Communicator())));
+}
+
+TEST_CASE("what switches steps by halves off is told, and is what the step looks at") {
+  Scene scene = basin();
+  scene.solids.push_back(box(SolidKind::fixed, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
+  REQUIRE(told(scene).size() == 1);
+  CHECK_THAT(told(scene)[0], Contains("off: steps by halves (because of: solids thinner than a cell)"));
+  CHECK_FALSE(may_go_by_halves(Setup<2>(scene, Communicator())));
+  scene.time.scheme = TimeScheme::first_order;  // as asked for
+  CHECK(told(scene).empty());
+}
+
+TEST_CASE("all causes of a scene are told in one line") {
+  Scene scene = basin();
+  scene.gas.present = true;
+  scene.gas.density = 1;
+  scene.solids.push_back(box(SolidKind::fixed, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
+  CHECK_THAT(told(scene)[0], Contains("[gas] that flows, solids thinner than a cell"));
+}
+
+TEST_CASE("docs/features.md is what the table says") {
+  const auto page = std::filesystem::path(__FILE__).parent_path() / "../../../docs/features.md";
+  std::ifstream file(page);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto fresh = std::filesystem::temp_directory_path() / "features.md";
+  if (text != feature_reference()) std::ofstream(fresh) << feature_reference();
+  INFO("the page as it should be: " << fresh.string());
+  CHECK(text == feature_reference());
+}

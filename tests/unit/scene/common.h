@@ -1,0 +1,30 @@
+#pragma once
+// Scenes that the tests of the reader vary.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/reader.h"
+#include "unit/files/scratch.h"
+
+namespace seiche::testing {
+
+using Overrides = std::vector<Override>;
+
+// The smallest scene.
+inline const std::string small_scene = "[domain]\nupper = [1, 1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
+inline const std::string flat_scene = "dimension = 2\n[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
+
+// Reads `text` as scene.toml in the folder.
+Scene parse(const std::string& text, const Overrides& overrides = {}, const std::filesystem::path& folder = ".");
+
+// What the reader says against the text; fails the test if it says nothing or not with exit code 2.
+std::string fault(const std::string& text, const Overrides& overrides = {}, const std::filesystem::path& folder = ".");
+
+// A scene that has every table, with the given shape, side type and probe kind; 2D or 3D. Files: s.obj and s.vdb.
+std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe);
+
+std::size_t count_lines(const std::string& text);
+
+}  // namespace seiche::testing
