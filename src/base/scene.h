@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -173,9 +174,10 @@ struct SolidSpec {
   SolidKind kind = SolidKind::fixed;
   ShapeSpec shape;
   Slip slip = Slip::free_slip;
-  MotionSpec motion;                    // kinematic
-  RigidSpec rigid;                      // rigid and elastic
-  ElasticSpec elastic;                  // elastic
+  MotionSpec motion;                      // kinematic
+  RigidSpec rigid;                        // rigid and elastic
+  ElasticSpec elastic;                    // elastic
+  std::map<std::string, double> numbers;  // of keys that this kind alone has, as its row of the table lists them
   std::optional<double> friction;       // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
   std::optional<double> contact_angle;  // degrees; unset: that of the liquid
 };

@@ -191,7 +191,9 @@ void check_moving_solids(const Checker& c, const Scene& scene) {
                fmt::format("{0} solid \"{1}\" may move along {2}, but the domain is periodic along {2}, where bodies "
                            "cannot come back; close these sides, or {3}",
                            solid.kind.name, solid.name, "xyz"[axis],
-                           has_elements ? "pin a part of it" : fmt::format("give fixed = [\"{}\"]", "xyz"[axis])));
+                           has_elements          ? "pin a part of it"
+                           : solid.kind.may_turn ? fmt::format("give fixed = [\"{}\"]", "xyz"[axis])
+                                                 : "make it static"));
     }
   }
 }

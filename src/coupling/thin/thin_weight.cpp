@@ -51,7 +51,7 @@ template <int Dim>
 LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                            const State<Dim>& state, double dt, int k) {
   const FaceShares& shares = *g.shares[std::size_t(k)];
-  const Eigen::VectorXd& w = state.elastic[std::size_t(k)].velocity;
+  const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
   const auto size = std::size_t(w.size());
   std::vector<double> sums(3 * size);  // mass, what of it weighs, momentum
   std::size_t n = 0;                   // shares and sealed faces are in the same order
@@ -79,8 +79,7 @@ LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
 
 template <int Dim>
 bool has_thin_elastic(const Setup<Dim>& s) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(),
-                     [](const Body<Dim>& b) { return b.is_thin() && b.elements(); });
+  return std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body<Dim>& b) { return b.is_thin() && b.elements(); });
 }
 
 template <int Dim>

@@ -37,8 +37,6 @@ class Body {
   Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   const SolidSpec& spec() const { return spec_; }
-  bool is_rigid() const { return spec_.kind.is_free() && !spec_.kind.has_elements; }
-  bool is_elastic() const { return elastic_ != nullptr; }
   const SolidKind& kind() const { return spec_.kind; }
   const ElasticSolid<Dim>* elements() const { return elastic_.get(); }  // null: it does not deform
   const ElasticSolid<Dim>& elastic() const { return *elastic_; }        // where it has elements
