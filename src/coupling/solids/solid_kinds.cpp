@@ -10,7 +10,8 @@
   ROW(static_solid)             \
   ROW(kinematic_solid)          \
   ROW(rigid_solid)              \
-  ROW(elastic_solid)
+  ROW(elastic_solid)            \
+  ROW(sprung_solid)
 
 namespace seiche {
 
