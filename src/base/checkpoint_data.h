@@ -1,5 +1,5 @@
 #pragma once
-// The state of a run as plain named data, so that src/io stores it without knowing the simulation's types.
+// The state of a run as plain named data, so that src/files stores it without knowing the simulation's types.
 #include <array>
 #include <cstdint>
 #include <map>

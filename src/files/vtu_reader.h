@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/bvh.h"
+#include "files/solid_mesh.h"
 
 namespace seiche::render {
 

@@ -14,6 +14,7 @@
 #include "files/checked_file.h"
 #include "files/checkpoint_commit.h"
 #include "files/checkpoint_file.h"
+#include "files/json.h"
 #include "files/point_cache.h"
 #include "files/run_directory.h"
 #include "files/vtu_reader.h"
@@ -214,28 +215,6 @@ std::string last_row_of(const fs::path& file) {
 }
 
 }  // namespace
-
-std::string json_value(const std::string& json, const std::string& key) {
-  int depth = 0;
-  for (std::size_t at = 0; at < json.size(); ++at) {
-    if (json[at] == '{' || json[at] == '[') ++depth;
-    if (json[at] == '}' || json[at] == ']') --depth;
-    if (json[at] != '"') continue;
-    std::string word;
-    for (++at; at < json.size() && json[at] != '"'; ++at)
-      word += json[at] == '\\' && at + 1 < json.size() ? json[++at] : json[at];
-    std::size_t next = json.find_first_not_of(" \t\r\n", at + 1);
-    if (depth != 1 || word != key || next == std::string::npos || json[next] != ':') continue;
-    next = json.find_first_not_of(" \t\r\n", next + 1);
-    if (next == std::string::npos) return "";
-    if (json[next] != '"') return json.substr(next, json.find_first_of(",}] \t\r\n", next) - next);
-    std::string text;
-    for (++next; next < json.size() && json[next] != '"'; ++next)
-      text += json[next] == '\\' && next + 1 < json.size() ? json[++next] : json[next];
-    return text;
-  }
-  return "";
-}
 
 Lines describe_frame(const fs::path& file) {
   const vdb::Frame frame = vdb::decode(file);

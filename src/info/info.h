@@ -15,8 +15,4 @@ std::vector<std::string> describe_frame(const std::filesystem::path& file);
 std::vector<std::string> describe_checkpoint(const std::filesystem::path& folder);
 std::vector<std::string> describe_run(const std::filesystem::path& folder);
 
-// The value of a key at the top level of a JSON object as it stands there, strings without their quotes and escapes;
-// empty if there is no such key.
-std::string json_value(const std::string& json, const std::string& key);
-
 }  // namespace seiche

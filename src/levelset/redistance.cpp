@@ -2,6 +2,7 @@
 
 #include "grid/ghosts.h"
 #include "grid/loops.h"
+#include "grid/parallel_range.h"
 #include "levelset/closest_point.h"
 
 namespace seiche {
@@ -178,10 +179,8 @@ class Relaxation {
   }
 
   void forward_step() {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells_.size(), 1024), [&](const auto& range) {
-      for (std::size_t k = range.begin(); k != range.end(); ++k)
-        change_[k] = cells_[k].step * cells_[k].sign * rate(cells_[k]);
-    });
+    parallel_range_in_tasks(cells_.size(), 1024,
+                            [&](std::size_t k) { change_[k] = cells_[k].step * cells_[k].sign * rate(cells_[k]); });
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       double& p = phi_[cells_[k].site];
       p = std::clamp(p + change_[k], -limit_, limit_);

@@ -3,16 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "files/solid_mesh.h"
 #include "render/volume.h"
 
 namespace seiche::render {
-
-// A surface piece of a solid; `solid` counts from zero in the order of the scene.
-struct SolidMesh {
-  SurfaceMesh mesh;
-  std::vector<int> solid;  // one an element (triangle or segment)
-};
 
 struct Triangle {
   Vec3f corner, edge1, edge2;    // corners: corner, corner + edge1, corner + edge2

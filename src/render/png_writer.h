@@ -6,7 +6,7 @@
 
 namespace seiche::render {
 
-// Written whole or not at all (io/checked_file). Throws Error(output_failed) with the path and the cause.
+// Written whole or not at all (files/checked_file). Throws Error(output_failed) with the path and the cause.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 // Reads any PNG as 8-bit RGB. Throws Error(bad_input).

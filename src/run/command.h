@@ -21,7 +21,7 @@ struct SessionOptions {
   std::optional<int> threads;      // of this rank; unset: the machine's, shared among its ranks
   std::optional<double> walltime;  // s
   double watchdog = 600;           // s without progress after which the run is ended
-  std::string inject;              // see run_fault.h
+  std::string inject;              // see fault.h
   std::string tampering;           // see coupling/state/tampering.h
   Verbosity verbosity = Verbosity::normal;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/version.h"
+#include "files/json.h"
 
 namespace seiche {
 namespace {
@@ -38,20 +39,6 @@ std::string volume_warning(const RunState& state, double cell) {
       "step {}: the liquid's volume is {:.6g} where {:.6g} is expected of what was there, sources, inflow and outflow, "
       "{:+.3g} %: shorter steps (time.cfl, time.max_step) or smaller cells keep it (told once a session)",
       state.step, state.liquid_volume, state.expected_volume, 100 * volume_drift(state));
-}
-
-std::string json_string(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += std::string("\\") + c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      result += fmt::format("\\u{:04x}", int(c));
-    } else {
-      result += c;
-    }
-  }
-  return result + "\"";
 }
 
 std::string format_summary(const RunSummary& s) {

@@ -27,7 +27,4 @@ std::string volume_warning(const RunState& state, double cell);
 
 std::string format_summary(const RunSummary& summary);
 
-// The text in double quotes with JSON's escapes.
-std::string json_string(const std::string& text);
-
 }  // namespace seiche

@@ -5,6 +5,7 @@
 
 #include "fluid/viscosity/viscous_terms.h"
 #include "grid/loops.h"
+#include "grid/parallel_range.h"
 #include "linalg/core/matrix_entries.h"
 
 namespace seiche {
@@ -201,10 +202,8 @@ FaceField<Dim> assemble_rows(const ViscousInput<Dim>& in, ViscousSystem<Dim>& r)
   FaceField<Dim> drag(in.layout);
   const RowAssembly<Dim> row_of(in, *r.samples);
   std::vector<RowParts> parts(r.rows.faces.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts.size(), 512), [&](const auto& range) {
-    for (std::size_t n = range.begin(); n != range.end(); ++n)
-      parts[n] = row_of(r.rows.faces[n].first, r.rows.faces[n].second);
-  });
+  parallel_range_in_tasks(parts.size(), 512,
+                          [&](std::size_t n) { parts[n] = row_of(r.rows.faces[n].first, r.rows.faces[n].second); });
   r.F.first_row = r.rows.first;
   r.F.global_rows = r.rows.global;
   const std::vector<int> bodies = free_bodies(in);

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "linalg/precond/hypre_adapter.h"
-#include "linalg/spd/solve.h"
 
 namespace seiche {
 namespace {

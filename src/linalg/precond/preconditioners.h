@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "linalg/core/linear_system.h"
 
@@ -28,6 +29,9 @@ struct PreconditionerEntry {
 };
 
 std::span<const PreconditionerEntry> preconditioner_table();
+
+// The names a scene may ask for: "auto" and those of the table.
+std::vector<std::string> preconditioner_names();
 
 // What "auto" stands for on this system; any other name stands for itself. Collective.
 std::string choose_preconditioner(const std::string& name, const LinearSystem& system);

@@ -30,9 +30,6 @@ struct SolveReport {
   double mismatch = 0;              // |part of b no x can reach| / |b|: net inflow of closed components, for instance
 };
 
-// The names a scene may ask for.
-std::vector<std::string> preconditioner_names();
-
 class Deflation;
 class Preconditioner;
 

@@ -12,9 +12,9 @@ constexpr double slack = crossing_slack;
 
 template <int Dim>
 ThinSurface<Dim>::ThinSurface(const SurfaceMesh& mesh)
-    : surface_(contact::prepare_surface<Dim>(mesh, "a thin solid")), boxes_(surface_.nodes.size()) {
+    : surface_(build_surface_tree<Dim>(mesh, "a thin solid")), boxes_(surface_.nodes.size()) {
   for (std::size_t n = boxes_.size(); n-- > 0;) {
-    const contact::TreeNode& node = surface_.nodes[n];
+    const SurfaceTreeNode& node = surface_.nodes[n];
     for (int i = node.first; i < node.last; ++i)
       for (const int p : surface_.elements[surface_.order[i]]) boxes_[n].extend(surface_.points[p]);
     const Vec<Dim> grow = slack * boxes_[n].sizes();
@@ -25,7 +25,7 @@ ThinSurface<Dim>::ThinSurface(const SurfaceMesh& mesh)
 template <int Dim>
 bool ThinSurface<Dim>::meets_element(int element, const Vec<Dim>& p, const Vec<Dim>& q) const {
   const auto& x = surface_.points;
-  const contact::Element<Dim>& e = surface_.elements[element];
+  const std::array<int, Dim>& e = surface_.elements[element];
   std::array<Vec<Dim>, Dim> facet;
   for (int i = 0; i < Dim; ++i) facet[i] = x[e[i]];
   return crossing<Dim>(p, q, facet).has_value();
@@ -41,7 +41,7 @@ bool ThinSurface<Dim>::meets(const Vec<Dim>& p, const Vec<Dim>& q) const {
     const int n = todo.back();
     todo.pop_back();
     if (!boxes_[n].intersects(box)) continue;
-    const contact::TreeNode& node = surface_.nodes[n];
+    const SurfaceTreeNode& node = surface_.nodes[n];
     if (node.low_child > 0) todo.insert(todo.end(), {node.low_child, node.high_child});
     for (int i = node.first; node.low_child == 0 && i < node.last; ++i)
       if (meets_element(surface_.order[i], p, q)) return true;

@@ -1,7 +1,9 @@
 #pragma once
 // The surface of a solid that may be thinner than a cell: what lies on two sides of it is told by crossing it, since
 // distances at the nodes of a grid can miss it.
-#include "solid/contact/surface.h"
+#include <Eigen/Geometry>
+
+#include "geometry/mesh/surface_tree.h"
 
 namespace seiche {
 
@@ -17,7 +19,7 @@ class ThinSurface {
  private:
   bool meets_element(int element, const Vec<Dim>& p, const Vec<Dim>& q) const;
 
-  contact::Surface<Dim> surface_;
+  SurfaceTree<Dim> surface_;
   std::vector<Eigen::AlignedBox<double, Dim>> boxes_;  // of the nodes of its tree
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "geometry/mesh/surface_tree.h"
 #include "solid/contact/contact.h"
 
 namespace seiche {
@@ -13,32 +14,15 @@ namespace contact {
 template <int Dim>
 using Element = std::array<int, Dim>;
 
-// The elements order[first] up to order[last] below a node; children follow their parents; a leaf has low_child 0.
-struct TreeNode {
-  int first = 0, last = 0, low_child = 0, high_child = 0;
-};
+using TreeNode = SurfaceTreeNode;
 
-// Each point and each edge belongs to one element that has it (representative triangles, Curtis et al. 2008): what is
-// near is then found once.
 template <int Dim>
-struct Surface {
-  std::vector<Vec<Dim>> points;  // at rest; those of no element are left out
-  std::vector<int> source;       // of each the one in the mesh
-  std::vector<Element<Dim>> elements;
-  std::vector<std::array<int, 2>> edges;                // none in 2D
-  std::vector<std::vector<int>> own_points, own_edges;  // of each element
-  std::vector<int> order;
-  std::vector<TreeNode> nodes;
-  double volume = 0;  // m^3, negative: the solid is what lies outside
-};
+using Surface = SurfaceTree<Dim>;
 
 template <int Dim>
 struct Wall {
   Vec<Dim> point, normal;
 };
-
-template <int Dim>
-Surface<Dim> prepare_surface(const SurfaceMesh& mesh, const std::string& name);
 
 }  // namespace contact
 

@@ -48,8 +48,8 @@ ElasticBody<Dim> make_elastic_body(ElasticMesh<Dim> mesh, const ElasticMaterial<
 template <int Dim>
 Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::VectorXd& u);
 
-// Psi(u), J, with the guard of elastic_guard.h below a tenth of the volume at rest; infinite where det F <= 0. With the
-// work against the held pressure, if any.
+// Psi(u), J, with the guard of solid/material/guard.h below a tenth of the volume at rest; infinite where det F <= 0.
+// With the work against the held pressure, if any.
 template <int Dim>
 double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held = {});
 

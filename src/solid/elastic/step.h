@@ -26,7 +26,7 @@ template <int Dim>
 IncrementalPotential<Dim> begin_step(const ElasticBody<Dim>& body, const ElasticState& state, ElasticScheme scheme,
                                      double dt, const StepLoad& load);
 
-// Takes the minimum u as the new state; v = (u - u0) / gamma without energy that the scheme added (elastic_excess.h).
+// Takes the minimum u as the new state; v = (u - u0) / gamma without energy that the scheme added (excess.h).
 template <int Dim>
 void end_step(const IncrementalPotential<Dim>& potential, double dt, const Pins& pins, const Eigen::VectorXd& u,
               ElasticState& state);

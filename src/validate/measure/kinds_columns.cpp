@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "files/checked_file.h"
-#include "info/info.h"
+#include "files/json.h"
 #include "validate/measure/kinds.h"
 
 namespace seiche {

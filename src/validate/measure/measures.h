@@ -1,5 +1,5 @@
 #pragma once
-// What can be measured on the run of a validation case. A further measure is a row of a table in validate_kinds_*.cpp.
+// What can be measured on the run of a validation case. A further measure is a row of a table in kinds_*.cpp.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "files/run_directory.h"
 #include "scene/section.h"
-#include "validate/case/case.h"
+#include "validate/measure/spec.h"
 
 namespace seiche {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/scene.h"
-#include "validate/case/case.h"
+#include "validate/measure/spec.h"
 
 namespace seiche {
 

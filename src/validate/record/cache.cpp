@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "files/checked_file.h"
+#include "files/json.h"
 #include "files/run_directory.h"
-#include "info/info.h"
 #include "scene/writer.h"
 #include "validate/record/machine.h"
 

@@ -32,7 +32,7 @@ std::string checksums_of_files(const Scene& scene);
 // for a test, the bytes of the files that the scene names. Throws Error(bad_input) where such a file cannot be read.
 std::string run_identity(const Scene& scene, int ranks, const std::string& tampering);
 
-// The machine on which a kept run was made (validate_machine.h); empty where that was not noted.
+// The machine on which a kept run was made (machine.h); empty where that was not noted.
 std::string machine_of(const std::filesystem::path& run);
 
 enum class Earlier { use, ignore };

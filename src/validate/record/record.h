@@ -18,7 +18,7 @@ struct Origin {
   std::string date;   // UTC, such as 2026-11-22
   int ranks = 1;
   int threads = 0;      // of a rank; 0: not known
-  std::string machine;  // see validate_machine.h; empty: not known
+  std::string machine;  // see machine.h; empty: not known
 };
 
 struct RecordedRun {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/version.h"
-#include "run/summary.h"
+#include "files/json.h"
 
 namespace seiche {
 namespace {

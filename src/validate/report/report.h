@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "validate/run/run.h"
+#include "validate/case/case.h"
+#include "validate/report/result.h"
 
 namespace seiche {
 
@@ -12,7 +13,7 @@ struct ReportedResult {
   CaseSpec one;
   ResolutionSpec resolution;
   CaseResult result;
-  std::string unit{};  // of the figure, see validate_quantity.h
+  std::string unit{};  // of the figure, see validate/measure/quantity.h
 };
 
 struct Report {
@@ -21,7 +22,7 @@ struct Report {
   std::size_t planned = 0;              // runs to be made in all
   std::vector<ReportedResult> results;  // those of one case beside each other
   std::string tampering;                // operators that were broken for a test; empty: none
-  std::string machine;                  // this one, see validate_machine.h
+  std::string machine;                  // this one, see validate/record/machine.h
 };
 
 std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED", "not run"

@@ -9,7 +9,7 @@
 #include "base/agree.h"
 #include "base/version.h"
 #include "files/checked_file.h"
-#include "info/info.h"
+#include "files/json.h"
 #include "validate/record/machine.h"
 
 namespace seiche {

@@ -7,29 +7,10 @@
 
 #include "run/command.h"
 #include "validate/case/case.h"
-#include "validate/measure/measures.h"
 #include "validate/record/cache.h"
-#include "validate/record/record.h"
+#include "validate/report/result.h"
 
 namespace seiche {
-
-// failed: could not be run or measured; absent: it was not asked to be run, and there is no earlier run
-enum class Verdict { passed, missed, failed, absent };
-
-// One resolution of a case, run and judged.
-struct CaseResult {
-  Verdict verdict = Verdict::failed;
-  Measurement measured;
-  std::optional<double> order;         // of convergence from the run before in its series
-  std::optional<double> fitted_order;  // over all of the series, at its last run
-  double cell_size = 0;                // m
-  double wall_seconds = 0;             // of the run, whenever it was made
-  bool cached = false;                 // an earlier run was taken
-  bool recorded = false;               // only its figures are there
-  Origin origin;                       // of the run
-  std::string message;                 // why it failed
-  std::filesystem::path run;
-};
 
 enum class Making { runs, report };  // report: of the runs that there are
 
@@ -42,7 +23,7 @@ struct ValidateOptions {
   Earlier earlier = Earlier::use;
   Making making = Making::runs;
   std::optional<std::filesystem::path> docs;    // where to write the report as Markdown
-  std::optional<std::filesystem::path> record;  // figures of other builds and days, see validate_record.h
+  std::optional<std::filesystem::path> record;  // figures of other builds and days, see validate/record/record.h
   std::string tampering;                        // see coupling/state/tampering.h
 };
 

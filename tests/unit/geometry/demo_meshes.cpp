@@ -179,12 +179,15 @@ std::filesystem::path committed(const std::string& name) {
   return root / "scenes" / "meshes" / (name + ".ply");
 }
 
-// As a file holds it: coordinates as floats. What differs is left in the working folder, to be looked at and copied.
+// As a file holds it: coordinates as floats. What differs is left among the temporary files, to be looked at
+// and copied.
 void check_committed(const std::string& name, const SurfaceMesh& made) {
   CAPTURE(name);
   std::ifstream file(committed(name), std::ios::binary);
   const std::string held{std::istreambuf_iterator<char>(file), {}}, fresh = ply(made, name);
-  if (held != fresh) std::ofstream(name + ".ply", std::ios::binary) << fresh;
+  const auto differs = std::filesystem::temp_directory_path() / (name + ".ply");
+  if (held != fresh) std::ofstream(differs, std::ios::binary) << fresh;
+  INFO("the mesh as its formula gives it: " << differs.string());
   CHECK(held.size() == fresh.size());
   CHECK((held == fresh));
 }

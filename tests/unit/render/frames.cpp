@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "files/checked_file.h"
+#include "files/json.h"
 #include "files/vtk.h"
 #include "files/vtu_reader.h"
 #include "info/info.h"

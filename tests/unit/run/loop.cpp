@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "files/checkpoint.h"
+#include "files/json.h"
 #include "run/fault.h"
 #include "run/summary.h"
 #include "unit/files/scratch.h"

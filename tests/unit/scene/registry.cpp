@@ -10,7 +10,7 @@
 
 #include "fluid/rheology/rheology.h"
 #include "geometry/shapes/shapes.h"
-#include "linalg/spd/solve.h"
+#include "linalg/precond/preconditioners.h"
 #include "scene/docs.h"
 #include "scene/options.h"
 #include "unit/scene/common.h"
@@ -176,7 +176,7 @@ TEST_CASE("docs/scene-reference.md is what the table of keys says") {
   const auto page = std::filesystem::path(__FILE__).parent_path() / "../../../docs/scene-reference.md";
   std::ifstream file(page);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto fresh = std::filesystem::current_path() / "scene-reference.md";
+  const auto fresh = std::filesystem::temp_directory_path() / "scene-reference.md";
   if (text != scene_reference()) std::ofstream(fresh) << scene_reference();
   INFO("the page as it should be: " << fresh.string());
   CHECK(text == scene_reference());

@@ -85,7 +85,7 @@ double space_error(const Manufactured<Dim>& exact, int cells, int order) {
 }
 
 // A block in free flight, turned and stretched from its rest shape on, steps as in wag: what steps add to its energy is
-// taken from it (elastic_excess.h).
+// taken from it (solid/elastic/excess.h).
 Eigen::VectorXd tumble(const ElasticBody<2>& block, ElasticScheme scheme, int steps) {
   const double duration = 0.2;
   ElasticState state = at_rest(block);

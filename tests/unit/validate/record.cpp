@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "info/info.h"
+#include "files/json.h"
 #include "unit/validate/cases.h"
 #include "validate/case/checks.h"
 #include "validate/measure/quantity.h"

@@ -4,7 +4,7 @@
 #include <csignal>
 #include <utility>
 
-#include "info/info.h"
+#include "files/json.h"
 #include "unit/validate/cases.h"
 
 using namespace seiche;

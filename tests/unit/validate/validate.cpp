@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
-#include "info/info.h"
+#include "files/json.h"
 #include "unit/validate/cases.h"
 #include "validate/case/selection.h"
 #include "validate/report/charts.h"
