@@ -64,20 +64,24 @@ void check_alone() {
   }
 }
 
-// Half a period, from the first return to the middle, by linear interpolation between steps.
+// Half a period: from the first way through the middle to the second, by linear interpolation between steps. The start
+// is none of these: liquid at rest takes its part of the momentum within the first step, which goes on with the
+// velocity before.
 double half_period(Scene s, double dt) {
   s.time.fixed_step = dt;
   s.time.end = 100;
   s.time.frame_rate = 0.01;
   const auto sim = make_simulation(s, Communicator());
+  std::vector<double> through;
   double before = 0;
-  for (int n = 1; n < 400; ++n) {
+  for (int n = 1; n < 400 && through.size() < 2; ++n) {
     (void)sim->step(100);
     const double x = sim->solids()[0].position[0] - 0.5;
-    if (n > 1 && x < 0) return sim->time() - dt * x / (x - before);
+    if (n > 1 && (x < 0) != (before < 0)) through.push_back(sim->time() - dt * x / (x - before));
     before = x;
   }
-  return 0;
+  REQUIRE(through.size() == 2);
+  return through[1] - through[0];
 }
 
 }  // namespace
@@ -108,7 +112,7 @@ TEST_CASE("a disc on a spring swings slower in liquid by the added mass") {
     const double error = std::abs(found / omega - 1);
     WARN(cells << " cells: omega " << found << " 1/s, exact " << omega << ", in vacuum " << std::sqrt(k / mass)
                << ", off by " << error);
-    if (cells == 64) CHECK(error < 0.01);
+    if (cells == 64) CHECK(error < 0.003);  // found: 0.0006, of which the midpoint rule has 0.0003
     if (cells == 64) CHECK(test::order(coarse, error) > 0.9);
     coarse = error;
   }

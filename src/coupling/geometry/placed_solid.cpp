@@ -1,15 +1,17 @@
 #include "coupling/geometry/placed_solid.h"
 
 #include "coupling/geometry/periodic_places.h"
-#include "grid/loops.h"
 #include "geometry/mesh/segment_crossing.h"
+#include "grid/loops.h"
 #include "solid/body/elastic_motion.h"
 
 namespace seiche {
 namespace {
 
-constexpr int margin = 4;       // cells around a body of known radius within which its distance is known
-constexpr double spread = 1.5;  // cells from a sealed face within which a thin body's surface has part in its velocity
+// Cells around a body of known radius within which its distance is known.
+constexpr int margin = 4;
+// Cells from a sealed face within which a thin body's surface has part in its velocity.
+constexpr double spread = 1.5;
 
 template <int Dim>
 class PosedSolid : public PlacedSolid<Dim> {

@@ -9,8 +9,6 @@
 namespace seiche {
 namespace {
 
-constexpr SolidKind sprung{.name = "sprung", .drive = Drive::forces, .may_turn = false};
-
 // Displacement d and velocity v, Dim unknowns. Implicit midpoint rule, which keeps the spring's energy and is stable
 // for any step: with d where the solve finds the body,
 //   m (v' - v)/dt = m g - k (d + dt/4 (v' - v)) - c (v + v')/2 + loads.
@@ -90,7 +88,8 @@ class SprungParticipant : public Participant<Dim> {
 }  // namespace
 
 SolidKindRow sprung_solid() {
-  return {sprung,
+  const SolidKind kind{.name = "sprung", .drive = Drive::forces, .may_turn = false};
+  return {kind,
           "translated by them, and by a spring that draws it to where it is at rest",
           {{.key = "spring_stiffness",
             .unit = "N/m",
