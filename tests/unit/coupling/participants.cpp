@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "../verification/scenes.h"
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/state.h"
+#include "verification/scenes.h"
 
 using namespace seiche;
 
