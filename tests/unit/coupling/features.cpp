@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../verification/scenes.h"
 #include "coupling/step/half_steps.h"
+#include "verification/scenes.h"
 
 using namespace seiche;
 using Catch::Matchers::Contains;

@@ -1,8 +1,8 @@
 // Formulas that give no finite number, at the start and later.
 #include <catch2/catch.hpp>
 
-#include "../verification/scenes.h"
 #include "unit/coupling/end.h"
+#include "verification/scenes.h"
 
 using namespace seiche;
 

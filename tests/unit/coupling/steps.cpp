@@ -1,8 +1,8 @@
 // Pinned steps, sources that open and close within steps, and what is reported at the start and in the air.
 #include <catch2/catch.hpp>
 
-#include "../verification/scenes.h"
 #include "unit/coupling/end.h"
+#include "verification/scenes.h"
 
 using namespace seiche;
 
