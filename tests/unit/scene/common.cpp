@@ -90,8 +90,9 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           "mass_damping = 0.1 }\n[solid.pinned]\n" +
           placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n[solid.traction]\n" + placed +
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
-  text += "[[solid]]\nname = \"bob\"\nkind = \"sprung\"\nshape = \"sphere\"\ncenter = " + v("0.2", "0.2", "0.2") +
-          "\nradius = 0.05\ndensity = 700\nspring_stiffness = 50\nspring_damping = 0.5\n";
+  if (side != "periodic")
+    text += "[[solid]]\nname = \"bob\"\nkind = \"sprung\"\nshape = \"sphere\"\ncenter = " + v("0.2", "0.2", "0.2") +
+            "\nradius = 0.05\ndensity = 700\nspring_stiffness = 50\nspring_damping = 0.5\n";
   text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
   if (probe == "displacement") text += "solid = \"soft\"\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
