@@ -4,10 +4,12 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/solid_kind.h"
 #include "base/vec.h"
 
 namespace seiche {
@@ -125,7 +127,6 @@ struct GasSpec {
   bool flows() const { return present && bubbles == Bubbles::resolved; }
 };
 
-enum class SolidKind { fixed, kinematic, rigid, elastic };  // "static", "kinematic", "rigid", "elastic"
 enum class Slip { free_slip, no_slip };
 
 // Displacement of a kinematic solid from its rest pose: first rotate about center, then translate.
@@ -173,9 +174,10 @@ struct SolidSpec {
   SolidKind kind = SolidKind::fixed;
   ShapeSpec shape;
   Slip slip = Slip::free_slip;
-  MotionSpec motion;                    // kinematic
-  RigidSpec rigid;                      // rigid and elastic
-  ElasticSpec elastic;                  // elastic
+  MotionSpec motion;                      // kinematic
+  RigidSpec rigid;                        // rigid and elastic
+  ElasticSpec elastic;                    // elastic
+  std::map<std::string, double> numbers;  // of keys that this kind alone has, as its row of the table lists them
   std::optional<double> friction;       // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
   std::optional<double> contact_angle;  // degrees; unset: that of the liquid
 };

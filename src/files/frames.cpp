@@ -158,8 +158,7 @@ void FrameWriter::write_fluid(const vdb::Frame& frame) const {
 
 void FrameWriter::write_solids(const FrameLabel& label, const Simulation& simulation) {
   for (std::size_t n = 0; n < scene_.solids.size(); ++n) {
-    const bool moves = scene_.solids[n].kind != SolidKind::fixed;
-    if (moves || surfaces_[n].points.empty()) surfaces_[n] = simulation.solid_surface(n);
+    if (scene_.solids[n].kind.moves() || surfaces_[n].points.empty()) surfaces_[n] = simulation.solid_surface(n);
   }
   write_file(paths_.frames() / frame_file("solids", label.number, "vtu"),
              vtk::surfaces(surfaces_, names_of(scene_), label.time));
@@ -171,7 +170,6 @@ std::vector<VolumeFrame> FrameWriter::elastic_volumes(const FrameLabel& label, c
   std::vector<VolumeFrame> volumes(scene_.solids.size());
   bool any = false;
   for (std::size_t n = 0; n < volumes.size(); ++n) {
-    if (scene_.solids[n].kind != SolidKind::elastic) continue;
     volumes[n] = simulation.solid_volume(n);
     any = any || !volumes[n].elements.empty();
     const std::string bad = first_not_finite(volumes[n]);

@@ -43,7 +43,7 @@ class PlacedShape {
  public:
   PlacedShape(const SolidSpec& solid, double cell_size, double time)
       : center_(solid.motion.center), shape_(make_shape<3>(solid.shape, {cell_size, nullptr})) {
-    if (solid.kind != SolidKind::kinematic) return;
+    if (!solid.kind.is_prescribed()) return;
     translate_ = VectorExpression(solid.motion.translate)(Vec3::Zero(), time);
     const double degrees = Expression(solid.motion.degrees)(Vec3::Zero(), time);
     back_ = Eigen::AngleAxisd(-degrees * M_PI / 180, solid.motion.axis.normalized()).toRotationMatrix();

@@ -17,10 +17,10 @@ std::vector<Vec3f> solid_colors(const Scene& scene) {
   std::vector<Vec3f> colors;
   std::size_t bodies = 0;
   for (const SolidSpec& solid : scene.solids) {
-    if (solid.kind == SolidKind::rigid || solid.kind == SolidKind::elastic)
+    if (solid.kind.is_free())
       colors.push_back(body_color(bodies++));
     else
-      colors.push_back(Vec3f::Constant(solid.kind == SolidKind::fixed ? 0.52f : 0.28f));
+      colors.push_back(Vec3f::Constant(solid.kind.moves() ? 0.28f : 0.52f));
   }
   return colors;
 }

@@ -34,7 +34,7 @@ std::vector<const ShapeSpec*> shapes_of(const Scene& scene) {
   for (const auto& region : scene.liquid.regions) shapes.push_back(&region.shape);
   for (const auto& source : scene.liquid.sources) shapes.push_back(&source.shape);
   for (const auto& solid : scene.solids) {
-    if (solid.kind != SolidKind::elastic) shapes.push_back(&solid.shape);
+    if (!solid.kind.has_elements) shapes.push_back(&solid.shape);
   }
   return shapes;
 }
@@ -58,7 +58,7 @@ void verify_shapes(const Scene& scene, Verified& found) {
   const ShapeOptions options{scene.domain.cell_size, &found.notes};
   for (const ShapeSpec* shape : shapes_of(scene)) make_shape<Dim>(*shape, options);
   for (const SolidSpec& solid : scene.solids) {
-    if (solid.kind == SolidKind::elastic) verify_elastic<Dim>(scene, solid, options, found);
+    if (solid.kind.has_elements) verify_elastic<Dim>(scene, solid, options, found);
   }
 }
 

@@ -43,10 +43,6 @@ std::string fault(const DomainSpec& domain, const ShapeSpec& shape, const std::s
                      remedy(domain, longest, width, scale));
 }
 
-bool must_fit(const SolidSpec& solid) {
-  return solid.kind == SolidKind::rigid || solid.kind == SolidKind::elastic;
-}
-
 }  // namespace
 
 std::vector<std::string> check_mesh_extents(const Scene& scene) {
@@ -59,7 +55,7 @@ std::vector<std::string> check_mesh_extents(const Scene& scene) {
     if (refuse) faults += (faults.empty() ? "" : "\n") + text;
     if (!refuse) notes.push_back(text);
   };
-  for (const SolidSpec& solid : scene.solids) look_at(solid.shape, "'" + solid.name + "'", must_fit(solid));
+  for (const SolidSpec& solid : scene.solids) look_at(solid.shape, "'" + solid.name + "'", solid.kind.is_free());
   for (const auto& region : scene.liquid.regions) look_at(region.shape, "a region of liquid", false);
   for (const auto& source : scene.liquid.sources) look_at(source.shape, "a source of liquid", false);
   if (!faults.empty()) throw Error(ExitCode::bad_input, faults);

@@ -143,7 +143,7 @@ void check_probes(const Checker& c, const Scene& scene) {
 void check_followed_solids(const Checker& c, const Scene& scene) {
   std::vector<std::string> names;
   for (const SolidSpec& solid : scene.solids) {
-    if (solid.kind == SolidKind::elastic) names.push_back(solid.name);
+    if (solid.kind.has_elements) names.push_back(solid.name);
   }
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const ProbeSpec& probe = scene.probes[i];
@@ -162,11 +162,15 @@ void check_followed_solids(const Checker& c, const Scene& scene) {
 // 1000 discs in 2D were run, with tens of seconds a step.
 constexpr int most_rigid_solids = 1000;
 
+bool has_dense_block(const SolidKind& kind) {
+  return kind.is_free() && !kind.has_elements;
+}
+
 void check_rigid_count(const Checker& c, const Scene& scene) {
   int count = 0;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-    count += scene.solids[i].kind == SolidKind::rigid;
-    if (scene.solids[i].kind != SolidKind::rigid || count != most_rigid_solids + 1) continue;
+    if (!has_dense_block(scene.solids[i].kind)) continue;
+    if (++count != most_rigid_solids + 1) continue;
     c.report(
         fmt::format("solid.{}.kind", i),
         fmt::format("more rigid solids than one contact solve can take: at most {} can be rigid (a few hundred are "
@@ -179,15 +183,17 @@ void check_rigid_count(const Checker& c, const Scene& scene) {
 void check_moving_solids(const Checker& c, const Scene& scene) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const SolidSpec& solid = scene.solids[i];
-    const bool is_rigid = solid.kind == SolidKind::rigid;
-    const bool is_loose = solid.kind == SolidKind::elastic && solid.elastic.pinned.empty();
-    for (int axis = 0; axis < scene.dimension && (is_rigid || is_loose); ++axis) {
+    const bool has_elements = solid.kind.has_elements;
+    const bool is_loose = solid.kind.is_free() && (!has_elements || solid.elastic.pinned.empty());
+    for (int axis = 0; axis < scene.dimension && is_loose; ++axis) {
       if (scene.domain.sides[axis][0].type != SideType::periodic || solid.rigid.fixed_position[axis]) continue;
       c.report(fmt::format("solid.{}.kind", i),
                fmt::format("{0} solid \"{1}\" may move along {2}, but the domain is periodic along {2}, where bodies "
                            "cannot come back; close these sides, or {3}",
-                           is_rigid ? "rigid" : "elastic", solid.name, "xyz"[axis],
-                           is_rigid ? fmt::format("give fixed = [\"{}\"]", "xyz"[axis]) : "pin a part of it"));
+                           solid.kind.name, solid.name, "xyz"[axis],
+                           has_elements          ? "pin a part of it"
+                           : solid.kind.may_turn ? fmt::format("give fixed = [\"{}\"]", "xyz"[axis])
+                                                 : "make it static"));
     }
   }
 }

@@ -71,7 +71,7 @@ std::string fault_of_start(const Moving& moving) {
 std::vector<Moving> motions_of(const SolidSpec& solid, const std::string& path) {
   std::vector<Moving> all;
   const std::string subject = fmt::format("solid \"{}\"", solid.name);
-  if (solid.kind == SolidKind::kinematic) all.push_back({path + ".motion", subject, &solid.motion, Start::anywhere});
+  if (solid.kind.is_prescribed()) all.push_back({path + ".motion", subject, &solid.motion, Start::anywhere});
   const auto& pins = solid.elastic.pinned;
   for (std::size_t n = 0; n < pins.size(); ++n) {
     const std::string entry = pins.size() > 1 ? fmt::format(".{}", n) : "";

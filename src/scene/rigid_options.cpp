@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "coupling/solids/solid_kinds.h"
 #include "scene/options.h"
 
 namespace seiche {
@@ -80,6 +81,15 @@ Key<RigidSpec> fixed_key() {
   return key;
 }
 
+// Of the kinds of solids for which this holds.
+template <class Holds>
+Names names_of_kinds(const Holds& holds) {
+  Names names;
+  for (const SolidKindRow& row : solid_kinds())
+    if (holds(row.kind)) names.push_back(row.kind.name);
+  return names;
+}
+
 // A velocity along or about an axis that is fixed.
 void check_held(SceneContext& c, const Place& p, const std::string& key, const Vec3& velocity, const Axes& held) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -95,7 +105,8 @@ void check_held(SceneContext& c, const Place& p, const std::string& key, const V
 
 Section<RigidSpec> rigid_section() {
   using S = RigidSpec;
-  const Condition moved{"kind", {"rigid", "elastic"}};
+  const Condition moved{"kind", names_of_kinds([](const SolidKind& k) { return k.is_free(); })};
+  const Condition turned{"kind", names_of_kinds([](const SolidKind& k) { return k.is_free() && k.may_turn; })};
   Section<S> s;
   s.keys = {
       value_key<S>({.key = "density",
@@ -115,7 +126,7 @@ Section<RigidSpec> rigid_section() {
       value_key<S>({.key = "angular_velocity",
                     .type = T::spin,
                     .unit = "rad/s",
-                    .only_for = moved,
+                    .only_for = turned,
                     .unset = "no rotation",
                     .doc = "initial rate of rotation about the centre of mass; in 2D a number, counter-clockwise"},
                    &S::angular_velocity),
@@ -136,7 +147,7 @@ void check_bounded(SceneContext& c, const Place& p, const ShapeSpec& shape, cons
 }
 
 void finish_rigid(SceneContext& c, const Place& p, const SolidSpec& solid) {
-  check_bounded(c, p, solid.shape, "a rigid solid");
+  check_bounded(c, p, solid.shape, fmt::format("a {} solid", solid.kind.name));
   check_held(c, p, "velocity", solid.rigid.velocity, solid.rigid.fixed_position);
   check_held(c, p, "angular_velocity", solid.rigid.angular_velocity, solid.rigid.fixed_rotation);
 }

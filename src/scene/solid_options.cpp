@@ -1,4 +1,5 @@
 // Keys of [[solid]].
+#include "coupling/solids/solid_kinds.h"
 #include "scene/options.h"
 
 namespace seiche {
@@ -27,15 +28,31 @@ Section<MotionSpec> motion_rotation_section() {
 }
 
 Key<SolidSpec> kind_key() {
-  return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>(
-      {.key = "kind",
-       .doc = "static: at rest; kinematic: moves as prescribed; rigid: moved by the liquid, gravity and contacts; "
-              "elastic: deformed by them"},
-      &SolidSpec::kind,
-      {{"static", SolidKind::fixed},
-       {"kinematic", SolidKind::kinematic},
-       {"rigid", SolidKind::rigid},
-       {"elastic", SolidKind::elastic}});
+  std::string doc;
+  std::vector<std::pair<std::string, SolidKind>> choices;
+  for (const SolidKindRow& row : solid_kinds()) {
+    doc += (doc.empty() ? "" : "; ") + std::string(row.kind.name) + ": " + row.doc;
+    choices.emplace_back(row.kind.name, row.kind);
+  }
+  return choice_key<SolidSpec, SolidKind SolidSpec::*, SolidKind>({.key = "kind", .doc = doc}, &SolidSpec::kind,
+                                                                  choices);
+}
+
+// A number that one kind alone has.
+Key<SolidSpec> own_key(const SolidKind& kind, Option option) {
+  option.only_for = {"kind", {kind.name}};
+  Key<SolidSpec> key{option, {}, {}};
+  key.read = [option](SceneContext& c, const Place& p, SolidSpec& s) {
+    double value = 0;
+    read_value(c, p, option, value);
+    s.numbers[option.key] = value;
+  };
+  key.write = [option](const SolidSpec& s, int dimension, const std::string& path, SceneLines& lines) {
+    const auto found = s.numbers.find(option.key);
+    if (found == s.numbers.end()) return;
+    lines.push_back({join_path(path, option.key), option.key, to_toml(found->second, option, dimension)});
+  };
+  return key;
 }
 
 }  // namespace
@@ -84,11 +101,13 @@ Section<SolidSpec> solid_section() {
   angle.unset = "that of [liquid]";
   s.keys.push_back(value_key<SolidSpec>(angle, &SolidSpec::contact_angle));
   for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
+  for (const SolidKindRow& row : solid_kinds())
+    for (const Option& option : row.numbers) s.keys.push_back(own_key(row.kind, option));
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
-    const bool is_elastic = solid.kind == SolidKind::elastic;
-    finish_shape(c, p, solid.shape, is_elastic ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
-    if (solid.kind == SolidKind::rigid && c.clean(p.path)) finish_rigid(c, p, solid);
-    if (is_elastic && c.clean(p.path)) finish_elastic(c, p, solid);
+    const bool has_elements = solid.kind.has_elements;
+    finish_shape(c, p, solid.shape, has_elements ? MeshFiles::surfaces_and_elements : MeshFiles::surfaces);
+    if (!solid.kind.is_free() || !c.clean(p.path)) return;
+    has_elements ? finish_elastic(c, p, solid) : finish_rigid(c, p, solid);
   };
   return s;
 }

@@ -94,6 +94,21 @@ SOFT_3D += elastic("lump", 'shape = "box"\nlower = [0.2, 0.003, 0.2]\nupper = [0
 SOFT_3D += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
 
 
+# A ball on a spring in the water of the dam.
+SPRUNG = TWENTY_STEPS + """\
+[[solid]]
+name = "ball"
+kind = "sprung"
+density = 500.0
+shape = "sphere"
+center = [0.2, 0.3]
+radius = 0.07
+velocity = [0.2, 0.1]
+spring_stiffness = 2000.0
+spring_damping = 1.0
+"""
+
+
 def viscous(text, viscosity):
     return text.replace("viscosity = 0.0", f"viscosity = {viscosity}").replace("friction =", 'slip = "no_slip"\nfriction =')
 
@@ -244,6 +259,18 @@ def elastic_ranks_agree_3d(bench):
     expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
 
 
+def sprung_ranks_agree_2d(bench):
+    """A ball on a spring in the flood on 1 and 3 ranks; three ranks go on from a checkpoint with the same bits."""
+    ranks_agree(bench, SPRUNG, (3,))
+    expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "the spring does nothing")
+    text = SPRUNG.replace("frame_rate = 10.0", "frame_rate = 20.0")
+    bench.simulate(text=text, out="whole", ranks=3).needs(0)
+    bench.simulate("--frames", "1", text=text, out="parts", ranks=3).needs(0)
+    bench.run("resume", "parts", "--frames", "2", ranks=3).needs(0)
+    same_tables(bench.path("parts"), bench.path("whole"))
+    same_frames(bench.path("parts"), bench.path("whole"))
+
+
 def viscous_ranks_agree_2d(bench):
     """Thick liquid that bends a gate and drags a box and a ball, on 1, 2 and 3 ranks."""
     ranks_agree(bench, THICK, (2, 3))
@@ -386,7 +413,7 @@ def air_killed_at_random(bench):
 
 
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
-                       elastic_ranks_agree_3d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
+                       elastic_ranks_agree_3d, sprung_ranks_agree_2d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
                        gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, prescribed_ranks_agree, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,

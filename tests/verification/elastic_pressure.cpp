@@ -75,7 +75,7 @@ double error_of(const Projection<Dim>& p, const LinearPressure& linear) {
   double worst = 0;
   for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
     const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
-    const Eigen::VectorXd& u = p.state.elastic[std::size_t(k)].state.u;
+    const Eigen::VectorXd& u = elastic_motions(p.state.solids)[std::size_t(k)]->state.u;
     const Eigen::VectorXd exact = load_by_elements(p.setup.bodies[std::size_t(k)].elastic().body.mesh, u, linear);
     Eigen::VectorXd mine = found.segment(first, n);
     if (!linear.slope.isZero()) mine += p.coupling.buoyancy_correction.segment(first, n);

@@ -5,6 +5,8 @@
 #include <random>
 
 #include "coupling/report/measures.h"
+#include "coupling/solids/kind_elastic.h"
+#include "coupling/solids/kind_rigid.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "coupling/solve/coupled_solve.h"
 #include "grid/loops.h"
@@ -33,15 +35,14 @@ struct Projection {
   State<Dim> state;
   StepGeometry<Dim> geometry;
   FaceField<Dim> u_star;
-  std::vector<RigidState> before;
-  std::vector<ElasticMotion> elastic_before;
+  Participants<Dim> before;
   PressureRows<Dim> rows;
   SolidCoupling<Dim> coupling;
 
   // `deform` may change the state of the elastic bodies first. Without them there is no contact.
   Projection(const Scene& scene, Filling filling, int seed, const std::function<void(ElasticState&)>& deform = {})
       : setup(scene, Communicator()), u_star(setup.layout) {
-    if (!setup.has_elastic()) setup.contact.reset();
+    if (!setup.plans_steps()) setup.contact.reset();
     Dice dice{std::mt19937(unsigned(seed + 1000))};
     state.phi = CellField<Dim>(setup.layout, -1);
     state.pressure = CellField<Dim>(setup.layout);
@@ -49,13 +50,10 @@ struct Projection {
       const Vec<Dim> x = setup.layout.position(i, cell_offset<Dim>());
       if (filling == Filling::surface) state.phi[c] = x[1] - 0.71 + 0.1 * std::sin(7 * x[0]);
     });
-    for (const Body<Dim>& body : setup.bodies) {
-      state.rigid.push_back(initial_rigid_state(body));
-      state.elastic.push_back(initial_elastic_motion(body));
-      if (body.is_elastic()) deform(state.elastic.back().state);
-    }
-    before = state.rigid;
-    elastic_before = state.elastic;
+    state.solids = setup.at_start;
+    for (std::size_t k = 0; k < state.solids.size(); ++k)
+      if (ElasticMotion* motion = elastic_motion(state.solids[k])) deform(motion->state);
+    before = state.solids;
     geometry = setup.solids.measure(place_bodies(setup, state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
@@ -84,10 +82,7 @@ struct Projection {
     Eigen::VectorXd v(coupling.target.size());
     for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
       const int k = coupling.bodies[b], first = coupling.first[b], n = coupling.first[b + 1] - first;
-      const RigidState& r = state.rigid[k];
-      v.segment(first, n) = setup.bodies[k].is_elastic()
-                                ? state.elastic[k].velocity
-                                : Eigen::VectorXd(stacked<Dim>(r.velocity, r.angular_velocity));
+      v.segment(first, n) = state.solids[std::size_t(k)].velocity();
     }
     return v;
   }
@@ -153,11 +148,12 @@ struct Balance {
     for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
       const int k = p.coupling.bodies[b];
       const double m = p.setup.bodies[k].mass().mass;
-      if (p.setup.bodies[k].is_elastic()) {
+      if (p.setup.bodies[k].elements()) {
         add_elastic(p, k, p.coupling.first[b]);
         continue;
       }
-      const RigidState &now = p.state.rigid[k], &old = p.before[k];
+      const RigidState &now = *rigid_state(p.state.solids[std::size_t(k)]),
+                       &old = *rigid_state(p.before[std::size_t(k)]);
       change.add(now.center, m * (now.velocity - old.velocity));
       change.angular += now.angular_momentum - old.angular_momentum;
       gravity.add(now.center, dt * m * g);
@@ -167,7 +163,7 @@ struct Balance {
     }
     const auto solids_now = measure_solids(p.setup, p.state, p.geometry);
     for (std::size_t k = 0; k < solids_now.size(); ++k) {
-      if (p.setup.bodies[k].is_rigid() || p.setup.bodies[k].is_elastic()) continue;
+      if (p.state.solids[k].unknowns() > 0) continue;
       solids.add(solids_now[k].position, -dt * solids_now[k].force);
       solids.angular -= dt * solids_now[k].torque;
     }
@@ -177,9 +173,9 @@ struct Balance {
   // Linear momentum alone: pressure acts at face centres, and the elastic forces balance where the solve leads to.
   void add_elastic(const Projection<Dim>& p, int k, int first) {
     const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
-    const Eigen::VectorXd dv = p.state.elastic[k].velocity - p.elastic_before[k].state.v, momentum = body.mass * dv;
+    const Eigen::VectorXd w = p.state.solids[std::size_t(k)].velocity();
+    const Eigen::VectorXd dv = w - elastic_motions(p.before)[std::size_t(k)]->state.v, momentum = body.mass * dv;
     for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
-    const Eigen::VectorXd& w = p.state.elastic[k].velocity;
     for (int n = 0; n < int(w.size()); ++n) {
       change.linear[n % Dim] += p.coupling.mass_beside[first + n] * w[n] - p.coupling.momentum_beside[first + n];
       correction.linear[n % Dim] += dt * p.coupling.buoyancy_correction[first + n];
@@ -222,13 +218,14 @@ double adjointness_error(Projection<Dim>& p) {
   const double forces = v.dot(multiply_transposed(p.coupling.J, pressure, p.setup.ranks));
   for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
     const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
-    if (p.setup.bodies[k].is_elastic()) {
+    if (p.setup.bodies[k].elements()) {
       p.geometry.cell_fluxes[std::size_t(k)] = p.coupling.cell_fluxes[b];
       set_node_velocity(p.setup.layout, k, v.segment(first, n), p.geometry);
       continue;
     }
     set_twist(p.setup.layout, k, Twist{}, p.geometry);
-    set_twist(p.setup.layout, k, unstacked<Dim>(v, first, p.state.rigid[k].center), p.geometry);
+    set_twist(p.setup.layout, k, unstacked<Dim>(v, first, rigid_state(p.state.solids[std::size_t(k)])->center),
+              p.geometry);
   }
   double fluxes = 0, size = 0;
   for (std::size_t n = 0; n < pressure.size(); ++n) {

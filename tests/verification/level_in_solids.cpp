@@ -25,8 +25,7 @@ void check_sides() {
                           [&](Site c, const IVec<Dim>& i) { phi[c] = place(i) - 0.6; });
   const CellField<Dim> before = phi;
   State<Dim> state;
-  state.rigid.push_back(initial_rigid_state(setup.bodies[0]));
-  state.elastic.push_back(initial_elastic_motion(setup.bodies[0]));
+  state.solids = setup.at_start;
   keep_sides_of_walls(setup, setup.solids.measure(place_bodies(setup, state), 0), phi);
   int wrong = 0, touched = 0;
   for_each_index_in_order(setup.layout, setup.layout.cells(), [&](Site c, const IVec<Dim>& i) {

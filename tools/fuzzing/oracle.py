@@ -102,7 +102,7 @@ def check_volume(scene, folder):
 def check_overlaps(scene, folder):
     """No body that moves freely lies within another solid."""
     solids = scene.get("solid", [])
-    moves = [s["kind"] in ("rigid", "elastic") for s in solids]
+    moves = [s["kind"] in ("rigid", "elastic", "sprung") for s in solids]
     if not any(moves):
         return
     for path in sorted((folder / "frames").glob("solids.*.vtu")):

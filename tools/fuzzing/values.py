@@ -8,6 +8,11 @@ def log_uniform(c, low, high):
     return number(low * (high / low) ** c.rng.random())
 
 
+def spring_scale(c):
+    """The stiffness with which liquid of the solid's size swings about once in the run, N/m."""
+    return number(c.density_scale * c.radius ** c.dim / c.end ** 2)
+
+
 def vector(c, size):
     return point(size * c.rng.random() * x for x in unit_vector(c.rng, c.dim))
 
@@ -296,6 +301,8 @@ VALUES = {
     ("solid[]", "velocity"): lambda c, _: vector(c, 0.3 * c.speed),
     ("solid[]", "angular_velocity"): angular_velocity,
     ("solid[]", "fixed"): fixed,
+    ("solid[]", "spring_stiffness"): lambda c, _: number(log_uniform(c, 0.1, 1e3) * spring_scale(c)),
+    ("solid[]", "spring_damping"): lambda c, _: c.rng.choice([0.0, number(spring_scale(c) * c.end)]),
     ("solid[]", "friction"): lambda c, _: c.rng.choice([0.0, 0.3, 1.0, 1e4]),
     ("solid[]", "contact_angle"): lambda c, _: number(c.rng.uniform(20, 160)),
     ("solid[]", "material"): table_of("solid[].material"),

@@ -38,10 +38,18 @@ void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velo
   present = velocity;
 }
 
+template <int Dim>
+void set_motion(const Layout<Dim>& layout, int body, const Placement& motion, StepGeometry<Dim>& g) {
+  set_twist(layout, body, motion.twist, g);
+  if (g.deforms(body)) set_node_velocity(layout, body, motion.velocity, g);
+}
+
 template double velocity_at<2>(const SurfaceWeights&, int, const Eigen::VectorXd&);
 template double velocity_at<3>(const SurfaceWeights&, int, const Eigen::VectorXd&);
 template void set_node_velocity<2>(const Layout<2>&, int, const Eigen::VectorXd&, StepGeometry<2>&);
 template void set_node_velocity<3>(const Layout<3>&, int, const Eigen::VectorXd&, StepGeometry<3>&);
+template void set_motion<2>(const Layout<2>&, int, const Placement&, StepGeometry<2>&);
+template void set_motion<3>(const Layout<3>&, int, const Placement&, StepGeometry<3>&);
 template void set_twist<2>(const Layout<2>&, int, const Twist&, StepGeometry<2>&);
 template void set_twist<3>(const Layout<3>&, int, const Twist&, StepGeometry<3>&);
 

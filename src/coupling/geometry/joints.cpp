@@ -9,8 +9,7 @@ namespace {
 
 template <int Dim>
 bool moves_alike(const Body<Dim>& other, const MotionSpec& pins) {
-  if (other.is_rigid() || other.is_elastic()) return false;
-  return same_motion(other.moves() ? other.spec().motion : MotionSpec{}, pins);
+  return !other.kind().is_free() && same_motion(other.spec().motion, pins);
 }
 
 // Of each point of the surface, whether these pins hold it and it is as near the other solid at t = 0.
@@ -38,7 +37,7 @@ template <int Dim>
 std::vector<JoinedFacet<Dim>> find_joints(const std::vector<Body<Dim>>& bodies, double clearance) {
   std::vector<JoinedFacet<Dim>> joints;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies[k].is_elastic()) continue;
+    if (!bodies[k].elements()) continue;
     const ElasticSolid<Dim>& solid = bodies[k].elastic();
     for (const PinnedNodes& pins : solid.pins)
       for (const Body<Dim>& other : bodies) {

@@ -1,36 +1,38 @@
 #pragma once
-// A thin solid where it stands at one time: what lies on which side of it.
-#include <optional>
+// A solid where it stands at one time, as the grid sees it: by its pose, or by its deformed surface.
+#include <memory>
 
-#include "levelset/surface_distance.h"
-#include "solid/rigid/state.h"
+#include "coupling/geometry/step_geometry.h"
 
 namespace seiche {
 
 template <int Dim>
 class PlacedSolid {
  public:
-  // Keeps references to layout and body.
-  PlacedSolid(const Layout<Dim>& layout, const Body<Dim>& body, const Placement& placed);
-  PlacedSolid(const PlacedSolid&) = delete;
+  virtual ~PlacedSolid() = default;
 
+  // Writes the signed distance to the nodes of the box that is returned, m. Others are far away.
+  virtual Box<Dim> fill(NodeField<Dim>& distance) const = 0;
+  // Signed, m; of a deformed surface as SurfaceDistance has it.
+  virtual double distance(const Vec<Dim>& x) const = 0;
   // Of a thin solid: whether the segment from x to y, at most two cells along each axis, meets its surface.
-  bool lies_between(const Vec<Dim>& x, const Vec<Dim>& y) const;
-  // The share of the way from x to y, at most two cells along each axis, after which an elastic solid's surface comes;
-  // 2 where none does.
-  double first_crossing(const Vec<Dim>& x, const Vec<Dim>& y) const { return surface_->first_crossing(x, y); }
-  // The normal of an elastic solid's facet that is nearest.
-  Vec<Dim> normal_near(const Vec<Dim>& x) const { return surface_->normal_near(x); }
-  // Signed, m; of an elastic solid as SurfaceDistance has it.
-  double distance(const Vec<Dim>& x) const;
-  // Where a point beside the solid was in another placement: carried along with the nearest point of an elastic one.
-  Vec<Dim> carried_to(const PlacedSolid& other, const Vec<Dim>& x) const;
+  virtual bool lies_between(const Vec<Dim>& x, const Vec<Dim>& y) const = 0;
+  // Where a point beside the solid was in another placement of it.
+  virtual Vec<Dim> carried_to(const PlacedSolid& other, const Vec<Dim>& x) const = 0;
 
- private:
-  const Body<Dim>& body_;
-  Pose pose_;
-  std::vector<Vec<Dim>> points_;  // of an elastic solid's surface
-  std::optional<SurfaceDistance<Dim>> surface_;
+  // Nodes whose velocities its surface has near x; no list at all where it moves as its pose does.
+  virtual bool deforms() const { return false; }
+  virtual SurfaceWeights attach(const Vec<Dim>&) const { return {}; }
+  // Whether it closes faces altogether or not at all. What a thin solid stretches by over a cell could leave it
+  // through a sliver beside sealed faces.
+  virtual bool closes_whole_faces() const { return false; }
+  // Sets gaps and weight of a face that it seals, between the cells with these centres.
+  virtual void measure_gaps(const std::array<Vec<Dim>, 2>& /*centers*/, SealedFace&) const {}
 };
+
+// Keeps references to layout and body.
+template <int Dim>
+std::unique_ptr<PlacedSolid<Dim>> place_solid(const Layout<Dim>& layout, const Body<Dim>& body,
+                                              const Placement& placed);
 
 }  // namespace seiche

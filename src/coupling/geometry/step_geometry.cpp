@@ -17,13 +17,12 @@ constexpr double far_away = 1e30;
 constexpr double snap = 1e-3;
 // The same at joints: contact asks for 2.5e-3 cells between edges at the start.
 constexpr double joint_gap = 1e-2;
-constexpr double spread = 1.5;  // cells from a sealed face within which a thin body's surface has part in its velocity
-constexpr int margin = 4;       // cells around a rigid body within which its distance is known
+constexpr int margin = 4;  // cells from the domain within which a body still counts as near it
 
 // Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
 template <int Dim>
 double surface_radius(const Layout<Dim>& layout, const Body<Dim>& body) {
-  if (body.is_rigid()) return body.radius();
+  if (body.radius() > 0) return body.radius();
   const Geometry<Dim>& g = layout.geometry();
   const Vec3 pivot = body.pose(0).pivot;
   const int step = std::max(1, g.cells.maxCoeff() / 64);
@@ -83,17 +82,6 @@ std::array<Vec<Dim>, 2> centers_beside(const Layout<Dim>& layout, int axis, cons
 }
 
 template <int Dim>
-void measure_gaps(const Layout<Dim>& layout, const PlacedSolid<Dim>& solid, SealedFace& face) {
-  const auto [low, high] = centers_beside(layout, face.axis, layout.index(face.face));
-  const auto gap = [&](const Vec<Dim>& x, const Vec<Dim>& across) {
-    return solid.distance(x) < 0 ? 0 : layout.h() * std::clamp(solid.first_crossing(x, across), 0., 1.);
-  };
-  face.gaps = {gap(low, high), gap(high, low)};
-  const double along = solid.normal_near(0.5 * (low + high))[face.axis];
-  face.weight = along * along;
-}
-
-template <int Dim>
 double fastest_node(const Eigen::VectorXd& velocity) {
   double fastest = 0;
   for (Eigen::Index n = 0; n + Dim <= velocity.size(); n += Dim)
@@ -120,7 +108,7 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   still_.faces = FaceGeometry<Dim>(layout);
   joints_ = find_joints(bodies, joint_gap * layout.h());
   for (const Body<Dim>& body : bodies)
-    radius_.push_back(body.moves() && !body.is_elastic() ? surface_radius(layout, body) : 0);
+    radius_.push_back(body.kind().moves() && !body.elements() ? surface_radius(layout, body) : 0);
   measure_static();
 }
 
@@ -142,13 +130,13 @@ template <int Dim>
 FaceField<Dim, std::int16_t> SolidGeometry<Dim>::seal_static() const {
   FaceField<Dim, std::int16_t> seal(layout_, -1);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (!bodies_[k].is_thin() || bodies_[k].moves()) continue;
-    const PlacedSolid<Dim> solid(layout_, bodies_[k], {});
+    if (!bodies_[k].is_thin() || bodies_[k].kind().moves()) continue;
+    const std::unique_ptr<PlacedSolid<Dim>> solid = place_solid(layout_, bodies_[k], {});
     for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>& i) {
         const double distance =
             least_distance(layout_, i, [&](const Vec<Dim>& x) { return bodies_[k].distance_at_rest(x); });
-        if (seals(solid, distance, a, i)) seal.at(a, f) = std::int16_t(k);
+        if (seals(*solid, distance, a, i)) seal.at(a, f) = std::int16_t(k);
       });
   }
   return seal;
@@ -158,7 +146,7 @@ template <int Dim>
 void SolidGeometry<Dim>::measure_static() {
   bool any = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (bodies_[k].moves()) continue;
+    if (bodies_[k].kind().moves()) continue;
     any = true;
     for_each_index_in_order(layout_, layout_.padded(), [&](Site s, const IVec<Dim>& i) {
       const double d = snapped(
@@ -188,81 +176,44 @@ void SolidGeometry<Dim>::measure_static() {
   for (FaceShares& s : shares) still_.shares.push_back(std::make_shared<const FaceShares>(std::move(s)));
 }
 
-// Nodes that a body in this pose, and a margin around it, can reach.
-template <int Dim>
-Box<Dim> SolidGeometry<Dim>::reach(int body, const Pose& pose) const {
-  if (!bodies_[body].is_rigid()) return layout_.padded();
-  const Vec<Dim> center = truncate<Dim>(pose.apply(pose.pivot));
-  Box<Dim> box = layout_.padded();
-  for (int a = 0; a < Dim; ++a) {
-    const double x = (center[a] - layout_.geometry().lower[a]) / layout_.h(), r = radius_[body] / layout_.h() + margin;
-    const double lowest = box.lower[a], highest = box.upper[a];
-    box.lower[a] = int(std::clamp(std::floor(x - r), lowest, highest));
-    box.upper[a] = int(std::clamp(std::ceil(x + r) + 1, lowest, highest));
-    // What stands at a periodic side is seen from the other one.
-    const bool at_side = x - r <= 0 || x + r >= layout_.geometry().cells[a];
-    if (layout_.geometry().periodic[a] && at_side) box.lower[a] = int(lowest), box.upper[a] = int(highest);
-  }
-  return box;
-}
-
 // Shares as if no other moving body were there.
 template <int Dim>
 FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, NodeField<Dim>& scratch,
                                               StepGeometry<Dim>& g) const {
-  if (bodies_[k].is_elastic()) return measure_elastic(k, placed, scratch, g);
-  const Box<Dim> box = reach(k, placed.pose);
-  for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>& i) {
-    scratch[s] = least_distance(layout_, i, [&](const Vec<Dim>& x) { return bodies_[k].distance_in(placed.pose, x); });
-  });
-  return take_in(k, box, scratch, g);
-}
-
-template <int Dim>
-FaceShares SolidGeometry<Dim>::measure_elastic(int k, const Placement& placed, NodeField<Dim>& scratch,
-                                               StepGeometry<Dim>& g) const {
-  const ElasticSolid<Dim>& solid = bodies_[k].elastic();
-  const std::vector<Vec<Dim>> points = surface_points(solid, placed.displacement);
-  const SurfaceDistance<Dim> surface(layout_, solid.surface.facets, points);
-  surface.fill(scratch);
-  const FaceShares shares = take_in(k, surface.box(), scratch, g);
+  const std::unique_ptr<PlacedSolid<Dim>> solid = place_solid(layout_, bodies_[k], placed);
+  const Box<Dim> box = solid->fill(scratch);
+  FaceShares shares = take_in(k, *solid, box, scratch, g);
+  if (!solid->deforms()) return shares;
   Attachments attached;
-  for (const FaceShare& share : shares) {
-    const Vec<Dim> x = layout_.position(layout_.index(share.face), face_offset<Dim>(share.axis));
-    attached.push_back(bodies_[k].is_thin() ? surface.mean_around(x, spread * layout_.h())
-                                            : surface.nearest_weights(x));
-    for (auto& [node, weight] : attached.back()) node = solid.surface.nodes[std::size_t(node)];
-  }
+  for (const FaceShare& share : shares)
+    attached.push_back(solid->attach(layout_.position(layout_.index(share.face), face_offset<Dim>(share.axis))));
   g.attached[k] = std::make_shared<const Attachments>(std::move(attached));
   return shares;
 }
 
-// Takes the distances of a body to the nodes of a box into psi, and the parts of faces it closes; of a thin elastic one
-// the faces that it seals alone. Leaves the scratch as it was.
+// Takes the distances of a body to the nodes of a box into psi, and the parts of faces it closes. Leaves the scratch as
+// it was.
 template <int Dim>
-FaceShares SolidGeometry<Dim>::take_in(int k, const Box<Dim>& box, NodeField<Dim>& scratch,
-                                       StepGeometry<Dim>& g) const {
+FaceShares SolidGeometry<Dim>::take_in(int k, const PlacedSolid<Dim>& solid, const Box<Dim>& box,
+                                       NodeField<Dim>& scratch, StepGeometry<Dim>& g) const {
   FaceShares shares;
   if (box.empty()) return shares;
-  // What a thin elastic body stretches by over a cell cannot leave it through a sliver beside sealed faces.
-  const bool whole_faces = bodies_[k].is_thin() && bodies_[k].is_elastic();
+  const bool whole_faces = solid.closes_whole_faces(), thin = bodies_[k].is_thin();
   for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>&) {
     scratch[s] = snapped(scratch[s], layout_.h());
     if (whole_faces || scratch[s] >= g.psi[s]) return;
     g.psi[s] = scratch[s];
     g.body[s] = std::int16_t(k);
   });
-  std::optional<PlacedSolid<Dim>> thin;
-  if (bodies_[k].is_thin()) thin.emplace(layout_, bodies_[k], g.placed[k]);
   const Box<Dim> faces = measured_faces(layout_).cut({box.lower, box.upper.array() - 1});
   for (int a = 0; a < Dim && !faces.empty(); ++a)
     for_each_index_in_order(layout_, faces, [&](Site f, const IVec<Dim>& i) {
-      const bool sealed = thin && seals(*thin, scratch[f], a, i);
+      const bool sealed = thin && seals(solid, scratch[f], a, i);
       const double closed = sealed ? 1 : whole_faces ? 0 : 1 - open_part_of_face(layout_, scratch, a, f);
       if (closed > 0) shares.push_back({f, a, closed});
       if (!sealed) return;
       g.sealed.push_back({f, a, k});
-      if (bodies_[k].is_elastic()) measure_gaps(layout_, *thin, g.sealed.back());
+      solid.measure_gaps(centers_beside(layout_, a, i), g.sealed.back());
     });
   for_each_site(layout_, box, [&](Site s) { scratch[s] = far_away; });
   return shares;
@@ -316,14 +267,13 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   NodeField<Dim> scratch(layout_, far_away);
   std::vector<FaceShares> shares(bodies_.size());
   for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (bodies_[k].moves()) shares[k] = measure_moving(int(k), placed[k], scratch, g);
+    if (bodies_[k].kind().moves()) shares[k] = measure_moving(int(k), placed[k], scratch, g);
   close_faces(shares, g);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (bodies_[k].moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
+    if (bodies_[k].kind().moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     g.pivots.push_back(placed[k].pose.apply(bodies_[k].reference_point()));
-    set_twist(layout_, int(k), placed[k].twist, g);
-    if (bodies_[k].is_elastic()) set_node_velocity(layout_, int(k), placed[k].velocity, g);
+    set_motion(layout_, int(k), placed[k], g);
   }
   set_sides(t, g);
   return g;
@@ -348,15 +298,15 @@ void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
     }
 }
 
-// |v| + |w| r, r the largest distance from the pivot at which the body's surface stands in the domain. Rigid bodies
-// that have left the domain may go as fast as they like.
+// |v| + |w| r, r the largest distance from the pivot at which the body's surface stands in the domain. Bodies
+// that have left the domain, and that nothing prescribes, may go as fast as they like.
 template <int Dim>
 double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& placed, double dt) const {
   double largest = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const Twist& v = placed[k].twist;
-    if (bodies_[k].is_elastic()) largest = std::max(largest, dt * fastest_node<Dim>(placed[k].velocity));
-    if (bodies_[k].is_rigid() && is_leaving(placed[k], radius_[k])) continue;
+    largest = std::max(largest, dt * fastest_node<Dim>(placed[k].velocity));
+    if (bodies_[k].kind().is_free() && is_leaving(placed[k], radius_[k])) continue;
     largest = std::max(largest, dt * (v.linear.norm() + v.angular.norm() * radius_[k]));
   }
   return largest;

@@ -50,20 +50,24 @@ struct StepGeometry {
   NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
   FaceGeometry<Dim> faces;
   std::vector<std::shared_ptr<const FaceShares>> shares;       // of each body, on the owned faces and two layers around
-  std::vector<std::shared_ptr<const Attachments>> attached;    // of each elastic body
+  std::vector<std::shared_ptr<const Attachments>> attached;    // of each body that deforms; else null
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // likewise, once they are coupled; else null
   std::vector<SealedFace> sealed;                              // likewise
   // Of each body as the solve finds it; after a step by halves poses and psi are those of its end, while shares, faces
   // and the velocities of twists are those of its middle.
   std::vector<Placement> placed;
   std::vector<Vec3> pivots;  // reference points as the solve finds them
+
+  bool deforms(int k) const { return attached[std::size_t(k)] != nullptr; }
 };
 
-// Lets a body move with a twist: its share of each face pushes volume through it.
+// Lets a body move with a twist and, if it deforms, the velocities of its nodes: its share of each face pushes volume
+// through it.
+template <int Dim>
+void set_motion(const Layout<Dim>& layout, int body, const Placement& motion, StepGeometry<Dim>& g);
 template <int Dim>
 void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeometry<Dim>& g);
 
-// The same of an elastic body and the velocities of its nodes.
 template <int Dim>
 void set_node_velocity(const Layout<Dim>& layout, int body, const Eigen::VectorXd& velocity, StepGeometry<Dim>& g);
 
@@ -87,11 +91,10 @@ class SolidGeometry {
   FaceField<Dim, std::int16_t> seal_static() const;
   bool seals(const PlacedSolid<Dim>& solid, double distance, int axis, const IVec<Dim>& face) const;
   FaceShares measure_moving(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
-  FaceShares measure_elastic(int body, const Placement& placed, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
-  FaceShares take_in(int body, const Box<Dim>& box, NodeField<Dim>& scratch, StepGeometry<Dim>& g) const;
+  FaceShares take_in(int body, const PlacedSolid<Dim>& solid, const Box<Dim>& box, NodeField<Dim>& scratch,
+                     StepGeometry<Dim>& g) const;
   void close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const;
   void set_sides(double t, StepGeometry<Dim>& g) const;
-  Box<Dim> reach(int body, const Pose& pose) const;
   bool is_leaving(const Placement& placed, double radius) const;
 
   const Layout<Dim>& layout_;

@@ -17,8 +17,7 @@ constexpr double still = 1e-3;
 template <int Dim>
 double body_mass(const Setup<Dim>& s) {
   double sum = 0;
-  for (const Body<Dim>& body : s.bodies)
-    if (body.is_rigid() || body.is_elastic()) sum += body.mass().mass;
+  for (const Body<Dim>& body : s.bodies) sum += body.mass().mass;
   return sum;
 }
 
@@ -39,26 +38,15 @@ double surface_energy(const Setup<Dim>& s, const CellField<Dim>& phi) {
   return 2 * s.scene.liquid.surface_tension * s.ranks.global_sum(faces) * s.layout.geometry().face_area();
 }
 
-// The fastest node that pins lead from t to t + dt, m/s.
-template <int Dim>
-double fastest_pin(const ElasticSolid<Dim>& solid, double t, double dt) {
-  const Pins from = pins_at(solid, t), to = pins_at(solid, t + dt);
-  double fastest = 0;
-  for (std::size_t n = 0; n < to.targets.size(); ++n)
-    fastest = std::max(fastest, std::abs(to.targets[n] - from.targets[n]) / dt);
-  return std::sqrt(double(Dim)) * fastest;
-}
-
 // The fastest that prescribed bodies and pins move, m/s.
 template <int Dim>
 double fastest_led(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double span) {
   std::vector<Placement> placed = attempt.geometry.placed;
   double fastest = 0;
   for (std::size_t k = 0; k < placed.size(); ++k) {
-    if (s.bodies[k].spec().kind == SolidKind::kinematic) continue;
-    placed[k].twist = {};
-    placed[k].velocity = Eigen::VectorXd::Zero(placed[k].velocity.size());
-    if (s.bodies[k].is_elastic()) fastest = std::max(fastest, fastest_pin(s.bodies[k].elastic(), t, span));
+    const Participant<Dim>& solid = attempt.state.solids[k];
+    placed[k] = solid.prescribed_part(placed[k]);
+    fastest = std::max(fastest, solid.fastest_prescribed_part(t, span));
   }
   return std::max(fastest, s.solids.largest_displacement(placed, 1));
 }
@@ -85,6 +73,8 @@ double pushed_by_sides(const Setup<Dim>& s, const Attempt<Dim>& attempt) {
 template <int Dim>
 double pushed_by_body(const Setup<Dim>& s, const Attempt<Dim>& attempt, std::size_t k, double pinned) {
   double sum = 0;
+  const Twist led = attempt.state.solids[k].prescribed_part(attempt.geometry.placed[k]).twist;
+  if (led.at_rest() && pinned == 0) return 0;
   for (const FaceShare& share : *attempt.geometry.shares[k]) {
     const IVec<Dim> i = s.layout.index(share.face);
     if (!s.layout.faces(share.axis).contains(i)) continue;
@@ -93,9 +83,7 @@ double pushed_by_body(const Setup<Dim>& s, const Attempt<Dim>& attempt, std::siz
     if (pinned > 0)
       sum += share.closed * std::abs(jump) * pinned;
     else
-      sum += share.closed * jump *
-             attempt.geometry.placed[k].twist.at(
-                 extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))))[share.axis];
+      sum += share.closed * jump * led.at(extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))))[share.axis];
   }
   return sum;
 }
@@ -105,9 +93,8 @@ template <int Dim>
 double pushed(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double dt) {
   double sum = pushed_by_sides(s, attempt);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const bool elastic = s.bodies[k].is_elastic();
-    const double pinned = elastic ? fastest_pin(s.bodies[k].elastic(), t, dt) : 0;
-    if (pinned > 0 || s.bodies[k].spec().kind == SolidKind::kinematic) sum += pushed_by_body(s, attempt, k, pinned);
+    const double pinned = attempt.state.solids[k].fastest_prescribed_part(t, dt);
+    sum += pushed_by_body(s, attempt, k, pinned);
   }
   return std::max(0.0, dt * s.ranks.global_sum(sum) * s.layout.geometry().face_area());
 }
@@ -116,12 +103,7 @@ double pushed(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double
 template <int Dim>
 double pull_of_forces(const Setup<Dim>& s, double t) {
   double sum = 0;
-  for (const Body<Dim>& body : s.bodies) {
-    if (!body.is_elastic()) continue;
-    const Eigen::VectorXd f = applied_force_at(body.elastic(), t);
-    const Eigen::VectorXd& m = body.elastic().body.lumped_mass;
-    for (int n = 0; n < f.size(); ++n) sum += f[n] * f[n] / m[n];
-  }
+  for (std::size_t k = 0; k < s.at_start.size(); ++k) sum += s.at_start[k].pull(t);
   return std::sqrt(sum);
 }
 

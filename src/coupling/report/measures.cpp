@@ -2,12 +2,10 @@
 
 #include <numeric>
 
-#include "coupling/solids/elastic_coupling.h"
 #include "coupling/transport/air_volume.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
-#include "solid/rigid/motion.h"
 
 namespace seiche {
 namespace {
@@ -110,58 +108,9 @@ void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<D
   stats.air_lost = state.lost_air;
 }
 
-// E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x
-// with gravity at that time.
 template <int Dim>
-void measure_rigid(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_rigid()) continue;
-    const RigidState& r = state.rigid[k];
-    const double mass = s.bodies[k].mass().mass;
-    const Vec3 w = angular_velocity(principal_inertia(s.bodies[k].mass().inertia), r.rotation, r.angular_momentum);
-    stats.kinetic_energy += 0.5 * mass * r.velocity.squaredNorm() + 0.5 * w.dot(r.angular_momentum);
-    stats.potential_energy -= mass * s.gravity.at(state.time).dot(r.center);
-    stats.momentum += mass * r.velocity;
-  }
-}
-
-// Displacements and velocities as the last solve found them together with the liquid's: u + H w and the velocity that
-// the scheme has there. Those at the state's time are a step older than the liquid's.
-template <int Dim>
-ElasticState elastic_as_solved(const Setup<Dim>& s, const State<Dim>& state, std::size_t k) {
-  if (state.horizon == 0) return state.elastic[k].state;
-  const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
-  ElasticMotion m = state.elastic[k];
-  advance(solid.body, s.elastic_scheme(), state.horizon, step_load(s, state, state.dt_now, state.horizon, int(k)),
-          pins_at(solid, state.time + state.horizon), m);
-  return m.state;
-}
-
-// E = 1/2 v'Mv + Psi(u) and -g'M x as solved; the momentum is that of w.
-template <int Dim>
-void measure_elastic(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
-    const ElasticBody<Dim>& body = s.bodies[k].elastic().body;
-    const ElasticMotion& m = state.elastic[k];
-    const ElasticState solved = elastic_as_solved(s, state, k);
-    const BodyAverage now = average(body, solved.u, m.velocity);
-    stats.kinetic_energy += kinetic_energy(body, solved.v);
-    stats.elastic_energy += elastic_energy(body, solved.u);
-    stats.potential_energy -= s.bodies[k].mass().mass * s.gravity.at(state.time).dot(now.center);
-    stats.momentum += s.bodies[k].mass().mass * now.velocity;
-  }
-}
-
-// How an elastic body stands and moves on the average.
-template <int Dim>
-void describe_elastic(const Body<Dim>& body, const ElasticMotion& m, SolidState& out) {
-  const BodyAverage now = average(body.elastic().body, m.state.u, m.velocity);
-  const Eigen::Quaterniond q(now.rotation);
-  out.position = now.center;
-  out.orientation = {q.w(), q.x(), q.y(), q.z()};
-  out.velocity = now.velocity;
-  out.angular_velocity = now.angular_velocity;
+void measure_bodies(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
+  for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].measure(s, state, stats);
 }
 
 // Adds force and torque of the pressure on each solid's shares to `loads`, six numbers a solid, of this rank's faces.
@@ -179,13 +128,6 @@ void add_pressure_loads(const Setup<Dim>& s, const State<Dim>& state, const Step
   }
 }
 
-// Adds loads about the origin to force and torque about a point.
-void add_load(const Eigen::VectorXd& load, const Vec3& about, Vec3& force, Vec3& torque) {
-  const Vec3 f = load.head(3), t = load.tail(3);
-  force += f;
-  torque += t - about.cross(f);
-}
-
 // F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
@@ -198,13 +140,10 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
     out.name = s.bodies[k].spec().name;
     out.position = pose.apply(s.bodies[k].reference_point());
     out.orientation = {q.w(), q.x(), q.y(), q.z()};
-    // Before the first step there is no mean over a step; the share of a frame bounds error and cancellation by 1e-8.
-    const bool prescribed = state.step == 0 && s.bodies[k].spec().kind == SolidKind::kinematic;
-    const Twist v = prescribed ? s.bodies[k].velocity(state.time, 1e-4 / s.scene.time.frame_rate) : g.placed[k].twist;
-    out.velocity = v.at(out.position);
-    out.angular_velocity = v.angular;
-    if (s.bodies[k].is_elastic()) describe_elastic(s.bodies[k], state.elastic[k], out);
-    add_pressure_loads(s, state, g, k, s.bodies[k].is_elastic() ? out.position : g.pivots[k], loads);
+    out.velocity = g.placed[k].twist.at(out.position);
+    out.angular_velocity = g.placed[k].twist.angular;
+    state.solids[k].describe(s, state, out);
+    add_pressure_loads(s, state, g, k, g.deforms(int(k)) ? out.position : g.pivots[k], loads);
   }
   if (!loads.empty()) s.ranks.global_sum(loads);
   for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)
@@ -213,13 +152,9 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
       loads[6 * k + 3 + c] += state.viscous_loads[k].torque[c];
     }
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    const RigidState& r = state.rigid[k];
-    solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]) + r.extra_force;
-    solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]) + r.extra_torque +
-                       (r.center - solids[k].position).cross(r.extra_force);
-    if (!s.bodies[k].is_elastic()) continue;
-    add_load(state.elastic[k].extra_load, solids[k].position, solids[k].force, solids[k].torque);
-    add_load(state.elastic[k].reaction, solids[k].position, solids[k].pin_force, solids[k].pin_torque);
+    solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]);
+    solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]);
+    state.solids[k].add_loads(solids[k]);
   }
   return solids;
 }
@@ -228,8 +163,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& st
   template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);        \
   template double kinetic_energy_of_fluids_before<D>(const Setup<D>&, const State<D>&, const NodeField<D>&); \
   template void measure_air<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);           \
-  template void measure_rigid<D>(const Setup<D>&, const State<D>&, StepStats&);                              \
-  template void measure_elastic<D>(const Setup<D>&, const State<D>&, StepStats&);                            \
+  template void measure_bodies<D>(const Setup<D>&, const State<D>&, StepStats&);                             \
   template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -17,13 +17,9 @@ double kinetic_energy_of_fluids_before(const Setup<Dim>& setup, const State<Dim>
 template <int Dim>
 void measure_air(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
 
-// Adds the rigid bodies' energies and momentum.
+// Adds energies and momentum of the solids.
 template <int Dim>
-void measure_rigid(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);
-
-// Adds those of the elastic bodies.
-template <int Dim>
-void measure_elastic(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);
+void measure_bodies(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);
 
 // Pose, velocity and the liquid's force and torque on every solid. Collective.
 template <int Dim>

@@ -125,8 +125,8 @@ std::size_t index_of(const Setup<Dim>& s, const std::string& solid) {
 template <int Dim>
 Vec3 displacement_of(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
   const std::size_t k = index_of(s, probe.solid);
-  return extend<Dim>(
-      interpolate<Dim>(s.bodies[k].elastic().body.mesh, s.followed.at(probe.name), state.elastic[k].state.u));
+  return extend<Dim>(interpolate<Dim>(s.bodies[k].elastic().body.mesh, s.followed.at(probe.name),
+                                      state.solids[k].place(state.time, state.time, state.time).displacement));
 }
 
 }  // namespace

@@ -72,19 +72,6 @@ void account_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeFiel
     account_region(s, k, psi, account);
 }
 
-const char* kind_name(SolidKind kind) {
-  switch (kind) {
-    case SolidKind::rigid:
-      return "rigid";
-    case SolidKind::elastic:
-      return "elastic";
-    case SolidKind::kinematic:
-      return "kinematic";
-    default:
-      return "static";
-  }
-}
-
 // The surface of a solid at the start.
 template <int Dim>
 SurfaceMesh surface_at_start(const Body<Dim>& body) {
@@ -97,7 +84,7 @@ SurfaceMesh surface_at_start(const Body<Dim>& body) {
 template <int Dim>
 void account_solid(const Setup<Dim>& s, const Body<Dim>& body, SceneAccount& account) {
   const SolidSpec& spec = body.spec();
-  const std::string name = fmt::format("solid   '{}', {}", spec.name, kind_name(spec.kind));
+  const std::string name = fmt::format("solid   '{}', {}", spec.name, spec.kind.name);
   if (spec.shape.invert || spec.shape.kind == "plane") {
     account.lines.push_back(name + (spec.shape.invert ? ": all but a hole" : ": a half-space"));
     return;
@@ -109,13 +96,13 @@ void account_solid(const Setup<Dim>& s, const Body<Dim>& body, SceneAccount& acc
   const double volume = mass_of_surface<Dim>(mesh, 1).volume;
   const double share = volume > 0 ? clipped_volume<Dim>(mesh, s.scene.domain.lower, s.scene.domain.upper) / volume : 1;
   std::string line = fmt::format("{}: {}", name, volume_text<Dim>(volume));
-  if (body.is_rigid() || body.is_elastic())
+  if (body.kind().is_free())
     line += fmt::format(", {:.5g} kg{}, centre of mass {}", body.mass().mass, Dim == 2 ? "/m" : "",
                         place_text<Dim>(body.mass().center));
   line += fmt::format(", from {} to {} m", place_text<Dim>(box.min()), place_text<Dim>(box.max()));
   if (share < 1 - all) line += fmt::format("; {:.3g} % of it lies outside of the domain", 100 * (1 - share));
   account.lines.push_back(line);
-  if (share < nothing && spec.kind != SolidKind::kinematic)
+  if (share < nothing && !spec.kind.is_prescribed())
     account.warnings.push_back(fmt::format("{}: solid '{}' lies outside of the domain, from {} to {} m",
                                            spec.shape.where, spec.name, place_text<Dim>(box.min()),
                                            place_text<Dim>(box.max())));

@@ -200,7 +200,7 @@ bool is_fed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<
   fed = s.ranks.any(fed);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
     const Body<Dim>& body = s.bodies[k];
-    if (!body.moves() || body.is_rigid() || body.is_elastic()) continue;
+    if (!body.kind().is_prescribed()) continue;
     fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(s, g, component, cavity.components, k));
   }
   return fed;
@@ -231,14 +231,13 @@ void join(FoundCavity<Dim> found, std::vector<FoundCavity<Dim>>& list) {
 template <int Dim>
 std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& s, const StepGeometry<Dim>& g,
                                             const PressureRows<Dim>& rows, const NullSpace& closed,
-                                            const std::vector<ElasticMotion>& motions,
-                                            const std::vector<BodyEntries>& bodies) {
+                                            const ElasticMotions& motions, const std::vector<BodyEntries>& bodies) {
   std::vector<FoundCavity<Dim>> cavities, joined;
   if (closed.count == 0 || bodies.empty()) return cavities;
   const Components<Dim> component = components_of_cells(s, rows, closed);
   for (const BodyEntries& b : bodies) {
     const ElasticSolid<Dim>& solid = s.bodies[std::size_t(b.body)].elastic();
-    const Eigen::VectorXd& u = motions[std::size_t(b.body)].state.u;
+    const Eigen::VectorXd& u = motions[std::size_t(b.body)]->state.u;
     TouchedBody<Dim> body{s, rows, closed, component, solid};
     body.look(b.entries, u);
     for (std::size_t p = 0; p < body.patches.size(); ++p) {
@@ -256,10 +255,10 @@ std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& s, const StepGeome
   return cavities;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                            \
-  template std::vector<FoundCavity<D>> find_cavities<D>(                                 \
-      const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, const NullSpace&, \
-      const std::vector<ElasticMotion>&, const std::vector<BodyEntries>&);
+#define SEICHE_INSTANTIATE(D)                                                                     \
+  template std::vector<FoundCavity<D>> find_cavities<D>(const Setup<D>&, const StepGeometry<D>&,  \
+                                                        const PressureRows<D>&, const NullSpace&, \
+                                                        const ElasticMotions&, const std::vector<BodyEntries>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -19,7 +19,6 @@ struct FoundCavity {
 template <int Dim>
 std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
                                             const PressureRows<Dim>& rows, const NullSpace& closed,
-                                            const std::vector<ElasticMotion>& motions,
-                                            const std::vector<BodyEntries>& bodies);
+                                            const ElasticMotions& motions, const std::vector<BodyEntries>& bodies);
 
 }  // namespace seiche

@@ -31,33 +31,16 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
   return walls;
 }
 
-// Whether each point of the surface is pinned.
-template <int Dim>
-std::vector<char> pinned_points(const ElasticSolid<Dim>& solid) {
-  std::vector<char> node(solid.body.mesh.nodes.size(), 0), point;
-  for (const int dof : pins_at(solid, 0).dofs) node[std::size_t(dof / Dim)] = 1;
-  for (const int n : solid.surface.nodes) point.push_back(node[std::size_t(n)]);
-  return point;
-}
-
 }  // namespace
 
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies,
-                                     const Tampering& tampering) {
+ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering) {
   std::vector<ContactBody> contact;
-  for (const Body<Dim>& body : bodies) {
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    const Body<Dim>& body = solids[k].body();
     ContactBody& c = contact.emplace_back();
     c.surface = body.contact_surface();
-    c.control = body.is_elastic() ? BodyControl::deformable
-                : body.is_rigid() ? BodyControl::free
-                                  : BodyControl::prescribed;
-    c.mass = body.is_rigid() || body.is_elastic() ? body.mass().mass : 0;
-    if (body.is_elastic()) {
-      c.nodes = body.elastic().surface.nodes;
-      c.node_count = int(body.elastic().body.mesh.nodes.size());
-      c.pinned = pinned_points(body.elastic());
-    }
+    solids[k].describe_contact(c);
     c.friction = body.spec().friction;
     if (c.friction) *c.friction *= tampering.friction;
     c.name = body.spec().name;
@@ -66,17 +49,10 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<
 }
 
 template <int Dim>
-std::vector<ContactMotion> contact_motions(const Setup<Dim>& s, const State<Dim>& state, double horizon) {
+std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horizon) {
   std::vector<ContactMotion> motions;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const Body<Dim>& body = s.bodies[k];
-    if (body.is_elastic())
-      motions.push_back({{}, {}, state.elastic[k].state.u});
-    else if (body.is_rigid())
-      motions.push_back({rigid_pose(body, state.rigid[k]), {}, {}});
-    else
-      motions.push_back({body.pose(state.time), body.pose(state.time + horizon), {}});
-  }
+  for (std::size_t k = 0; k < state.solids.size(); ++k)
+    motions.push_back(state.solids[k].contact_motion(state.time, horizon));
   return motions;
 }
 
@@ -110,34 +86,31 @@ std::string other_name(const Setup<Dim>& s, const Overlap& o) {
 // Pinned solids are often meant to stand on something.
 template <int Dim>
 std::string remedy(const Setup<Dim>& s, const Overlap& o) {
-  const Body<Dim>& body = s.bodies[o.body];
-  const bool moves = o.with == Overlap::With::body && (s.bodies[o.other].is_rigid() || s.bodies[o.other].is_elastic());
-  if (!body.is_elastic() || body.elastic().pins.empty() || moves) return "move them apart";
+  const bool moves = o.with == Overlap::With::body && s.at_start[std::size_t(o.other)].unknowns() > 0;
+  if (!s.at_start[std::size_t(o.body)].is_pinned() || moves) return "move them apart";
   return "move them apart, or let the part that is pinned end at the other's surface";
 }
 
-// Points of the surface of a rigid or elastic body.
+// Points of the surface of a body.
 template <int Dim>
-std::vector<Vec<Dim>> surface_of(const Setup<Dim>& s, const State<Dim>& state, std::size_t k) {
-  const Body<Dim>& body = s.bodies[k];
-  if (body.is_elastic()) return surface_points(body.elastic(), state.elastic[k].state.u);
-  const Pose pose = place_bodies(s, state)[k].pose;
-  std::vector<Vec<Dim>> points;
-  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
+std::vector<Vec3> surface_of(const State<Dim>& state, std::size_t k) {
+  const Participant<Dim>& solid = state.solids[k];
+  std::vector<Vec3> points = solid.body().contact_surface().points;
+  solid.place_points(solid.place(state.time, state.time, state.time), points);
   return points;
 }
 
-// Names of the periodic sides that a rigid or elastic body reaches beyond, or is nearer to than `near` cells.
+// Names of the periodic sides that a body with unknowns reaches beyond, or is nearer to than `near` cells.
 template <int Dim>
 std::vector<std::string> periodic_sides_at(const Setup<Dim>& s, const State<Dim>& state, std::size_t k, double near) {
   const Geometry<Dim>& g = s.layout.geometry();
   std::vector<std::string> sides;
-  if (!s.bodies[k].is_rigid() && !s.bodies[k].is_elastic()) return sides;
-  const std::vector<Vec<Dim>> points = surface_of(s, state, k);
+  if (state.solids[k].unknowns() == 0) return sides;
+  const std::vector<Vec3> points = surface_of(state, k);
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2 && g.periodic[a]; ++side) {
       const double at = g.lower[a] + side * g.h * g.cells[a];
-      const auto reaches = [&](const Vec<Dim>& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
+      const auto reaches = [&](const Vec3& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
       if (std::any_of(points.begin(), points.end(), reaches))
         sides.push_back(fmt::format("{}_{}", "xyz"[a], side ? "upper" : "lower"));
     }
@@ -159,7 +132,7 @@ template <int Dim>
 std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
   std::string names = solids_at_periodic_sides(s, state);
   if (!s.contact) return names;
-  const auto motions = contact_motions(s, state, 0);
+  const auto motions = contact_motions(state, 0);
   for (const Overlap& o : find_initial_overlaps(*s.contact, motions, 0.1 * reach * s.layout.h()))
     names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", s.bodies[o.body].spec().name, other_name(s, o));
   return names;
@@ -210,7 +183,7 @@ std::vector<std::string> faults_at_periodic_sides(const Setup<Dim>& s, const Sta
   constexpr double rounding = 1e-6;  // cells
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
+    if (!s.bodies[k].elements()) continue;
     const SolidSpec& spec = s.bodies[k].spec();
     for (const std::string& side : periodic_sides_at(s, state, k, -rounding))
       lines.push_back(
@@ -226,7 +199,7 @@ void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
   if (!s.contact) return;
   std::vector<std::string> lines = faults_at_periodic_sides(s, state);
   const double least = clearance * reach * s.layout.h();
-  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(s, state, 0), least)) {
+  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(state, 0), least)) {
     const Body<Dim>& body = s.bodies[o.body];
     const std::string misplaced = o.with == Overlap::With::wall ? misplacement(s, body) : "";
     const std::string fault =
@@ -240,16 +213,16 @@ void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
 template <int Dim>
 double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   if (!s.contact) return 1;
-  return largest_safe_fraction(*s.contact, contact_motions(s, state, dt), dt, velocities_over(s, state, dt));
+  return largest_safe_fraction(*s.contact, contact_motions(state, dt), dt, velocities_over(s, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                  \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const std::vector<Body<D>>&, const Tampering&); \
-  template std::string solids_at_periodic_sides<D>(const Setup<D>&, const State<D>&);                          \
-  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                                    \
-  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                                          \
-  template std::vector<ContactMotion> contact_motions<D>(const Setup<D>&, const State<D>&, double);            \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                                 \
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&); \
+  template std::string solids_at_periodic_sides<D>(const Setup<D>&, const State<D>&);                     \
+  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                               \
+  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                                     \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                        \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                            \
   template double safe_share<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

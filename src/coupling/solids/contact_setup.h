@@ -6,23 +6,22 @@ namespace seiche {
 
 // All solids of the scene, and every closed side of the domain as a wall.
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const std::vector<Body<Dim>>& bodies,
-                                     const Tampering& tampering);
+ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering);
 
-// Refuses rigid and elastic bodies that touch or overlap something at the start, and elastic ones that reach beyond a
+// Refuses bodies with unknowns that touch or overlap something at the start, and elastic ones that reach beyond a
 // periodic side: Error(bad_input) naming the pairs and depths.
 template <int Dim>
 void refuse_overlaps(const Setup<Dim>& setup, const State<Dim>& state);
 
 // From where the solids stand to where the prescribed ones stand after the horizon.
 template <int Dim>
-std::vector<ContactMotion> contact_motions(const Setup<Dim>& setup, const State<Dim>& state, double horizon);
+std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horizon);
 
 // Reach, stiffness and speeds of contact on this grid.
 template <int Dim>
 ContactOptions contact_options(const Setup<Dim>& setup);
 
-// Names of the rigid and elastic solids that reach a periodic side, for messages.
+// Names of the solids with unknowns that reach a periodic side, for messages.
 template <int Dim>
 std::string solids_at_periodic_sides(const Setup<Dim>& setup, const State<Dim>& state);
 
@@ -30,7 +29,7 @@ std::string solids_at_periodic_sides(const Setup<Dim>& setup, const State<Dim>& 
 template <int Dim>
 std::string nearest_solids(const Setup<Dim>& setup, const State<Dim>& state);
 
-// The largest share of dt that the solids can move without touching, rigid and elastic ones as the last solve left
+// The largest share of dt that the solids can move without touching, those with unknowns as the last solve left
 // them.
 template <int Dim>
 double safe_share(const Setup<Dim>& setup, const State<Dim>& state, double dt);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "coupling/solids/face_columns.h"
 #include "coupling/solids/facet_fluxes.h"
 #include "coupling/thin/thin_weight.h"
 #include "linalg/core/matrix_entries.h"
@@ -11,21 +12,6 @@
 
 namespace seiche {
 namespace {
-
-// visit(cell, sign, n) of the cells with a row on both sides of each share n.
-template <int Dim, class Visit>
-void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
-                             const Visit& visit) {
-  const Layout<Dim>& l = s.layout;
-  for (std::size_t n = 0; n < shares.size(); ++n) {
-    const IVec<Dim> i = l.index(shares[n].face);
-    IVec<Dim> low = i;
-    low[shares[n].axis] -= 1;
-    const Site behind = shares[n].face - l.stride(shares[n].axis);
-    if (l.cells().contains(i) && rows.row[shares[n].face] >= 0) visit(shares[n].face, -1, n);
-    if (l.cells().contains(low) && rows.row[behind] >= 0) visit(behind, 1, n);
-  }
-}
 
 template <int Dim>
 void add_entries(int row, double value, int axis, const SurfaceWeights& hung, std::vector<FluxEntry>& entries) {
@@ -41,21 +27,6 @@ std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shar
     add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
   });
   return entries;
-}
-
-// Entries from `known` on that belong to regions of air, which may be rows of other ranks, go where their rows are, one
-// a row and column. Collective.
-template <int Dim>
-void bring_home_air(const Setup<Dim>& s, const PressureRows<Dim>& rows, std::size_t known,
-                    std::vector<FluxEntry>& entries) {
-  if (!rows.air) return;
-  const auto of_air = [&](const FluxEntry& e) { return e.row < 0 || e.row >= int(rows.liquid); };
-  std::vector<MatrixEntry> moved;
-  for (std::size_t n = known; n < entries.size(); ++n)
-    if (of_air(entries[n])) moved.push_back({rows.first + entries[n].row, entries[n].column, entries[n].value});
-  entries.erase(std::remove_if(entries.begin() + std::ptrdiff_t(known), entries.end(), of_air), entries.end());
-  for (const MatrixEntry& e : bring_home_sums(moved, rows.first, rows.cells.size(), s.ranks))
-    entries.push_back({int(e.row - rows.first), int(e.column), e.value});
 }
 
 // The shares of one cell.
@@ -112,19 +83,22 @@ bool is_divided(const ElasticSolid<Dim>& solid) {
 // Pressure acts on the facets in each cell: what the shares show is taken back. Liquid at rest is to act as it does on
 // the mesh.
 template <int Dim>
-void hang_on_facets(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                    const State<Dim>& state, const CellField<Dim, char>& open, const Vec<Dim>& gravity, double dt,
-                    BodyEntries& body, SolidCoupling<Dim>& c) {
-  const Eigen::VectorXd& u = state.elastic[std::size_t(body.body)].state.u;
-  const FacetFluxes<Dim> fluxes = facet_fluxes(s, g, open, body.body, u);
+void hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, const Vec<Dim>& gravity, BodyEntries& body,
+                    CouplingParts<Dim>& parts) {
+  const Setup<Dim>& s = step.setup;
+  const StepGeometry<Dim>& g = step.geometry;
+  const PressureRows<Dim>& rows = step.rows;
+  SolidCoupling<Dim>& c = parts.coupling;
+  if (!parts.open) parts.open = open_cells(s, g.faces);
+  const FacetFluxes<Dim> fluxes = facet_fluxes(s, g, *parts.open, body.body, u);
   for (FluxEntry e : spread_shares(s, *g.shares[std::size_t(body.body)], *g.attached[std::size_t(body.body)], rows)) {
     e.value = -e.value;
     body.entries.push_back(e);
   }
   const std::vector<FluxEntry> own = entries_of(s, rows, fluxes);
   body.entries.insert(body.entries.end(), own.begin(), own.end());
-  const Eigen::VectorXd force = missing_buoyancy(s, rows, state.phi, body.body, u, fluxes, gravity);
-  c.push.segment(body.first, u.size()) += dt * force;
+  const Eigen::VectorXd force = missing_buoyancy(s, rows, step.state.phi, body.body, u, fluxes, gravity);
+  c.push.segment(body.first, u.size()) += step.dt * force;
   c.buoyancy_correction.segment(body.first, u.size()) = force;
 }
 
@@ -146,26 +120,6 @@ std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& ent
   for (std::size_t n = known; n < entries.size(); ++n)
     added.push_back({rows.cells[std::size_t(entries[n].row)], entries[n].column, entries[n].value});
   return std::make_shared<const CellFluxes>(std::move(added));
-}
-
-// Columns of unknowns of the other kind are left empty. Entries are sorted by rows.
-ColumnBlock make_block(const std::vector<FluxEntry>& entries, const std::vector<Freedom>& freedom, Freedom kind,
-                       int first, int width) {
-  ColumnBlock block;
-  block.width = width;
-  for (std::size_t n = 0; n < entries.size();) {
-    double sum = 0;
-    const FluxEntry& e = entries[n];
-    for (; n < entries.size() && entries[n].row == e.row && entries[n].column == e.column; ++n) sum += entries[n].value;
-    if (sum != 0 && freedom[std::size_t(first + e.column)] == kind) block.add(e.row, e.column, sum);
-  }
-  return block;
-}
-
-void sort_by_rows(std::vector<FluxEntry>& entries) {
-  std::stable_sort(entries.begin(), entries.end(), [](const FluxEntry& a, const FluxEntry& b) {
-    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
-  });
 }
 
 template <int Dim>
@@ -232,22 +186,6 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
   return body.mass * f;
 }
 
-// J of the elastic bodies, and what their faces do not show.
-template <int Dim>
-void set_columns(const PressureRows<Dim>& rows, const std::vector<std::size_t>& shown, std::vector<BodyEntries> bodies,
-                 SolidCoupling<Dim>& c) {
-  for (std::size_t n = 0; n < bodies.size(); ++n) {
-    const std::size_t b = std::size_t(std::find(c.bodies.begin(), c.bodies.end(), bodies[n].body) - c.bodies.begin());
-    c.cell_fluxes[b] = added_fluxes(bodies[n].entries, shown[n], rows);
-    Eigen::MatrixXd loads = std::move(c.J.blocks[b].loads);
-    const int first = c.first[b], width = c.first[b + 1] - first;
-    sort_by_rows(bodies[n].entries);
-    c.J.blocks[b] = make_block(bodies[n].entries, c.freedom, Freedom::free, first, width);
-    c.J_held.blocks[b] = make_block(bodies[n].entries, c.freedom, Freedom::fixed, first, width);
-    c.J.blocks[b].loads = std::move(loads);
-  }
-}
-
 }  // namespace
 
 // Gravity on each node, and the scene's own forces.
@@ -263,47 +201,57 @@ StepLoad step_load(const Setup<Dim>& s, const State<Dim>& state, double dt, doub
 }
 
 template <int Dim>
-void couple_elastic_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                           const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
-                           CouplingParts<Dim>& parts) {
+void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotion& motion, int block,
+                         CouplingParts<Dim>& parts) {
+  const auto& [s, g, rows, closed, state, dt, horizon] = step;
   SolidCoupling<Dim>& c = parts.coupling;
-  std::vector<ElasticShare<Dim>> shares;
-  std::vector<BodyEntries> entries;
-  std::vector<std::size_t> shown;  // of the entries of each body, by its faces
+  const Body<Dim>& body = s.bodies[std::size_t(k)];
+  const ElasticSolid<Dim>& solid = body.elastic();
+  const ElasticState& e = motion.state;
+  const int first = c.first[std::size_t(block)];
+  const FaceShares& shares = *g.shares[std::size_t(k)];
+  const Attachments& attached = *g.attached[std::size_t(k)];
   const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
-  const CellField<Dim, char> open = s.has_elastic() ? open_cells(s, g.faces) : CellField<Dim, char>();
-  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    const int k = c.bodies[b], first = c.first[b];
-    if (!s.bodies[k].is_elastic()) continue;
-    const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
-    const ElasticState& e = state.elastic[k].state;
-    const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
-    hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
-    const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, step_load(s, state, dt, horizon, k));
-    add_inertia(p, e.u, dt, horizon, first, parts);
-    c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-    if (s.bodies[k].is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
-    entries.push_back({k, first, spread_shares(s, *g.shares[k], *g.attached[k], rows)});
-    bring_home_air(s, rows, 0, entries.back().entries);
-    shown.push_back(entries.back().entries.size());
-    if (s.bodies[k].is_thin() || is_divided(solid))
-      keep_to_own_side(s, solid, *g.shares[k], *g.attached[k], rows, entries.back().entries);
-    else
-      hang_on_facets(s, g, rows, state, open, gravity, dt, entries.back(), c);
-    bring_home_air(s, rows, shown.back(), entries.back().entries);
-    c.J.blocks[b].loads = smooth_loads<Dim>(solid.body, e.u);
-    const double most = highest_pressure_beside(s, *g.shares[std::size_t(k)], rows, state.pressure);
-    shares.push_back({&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)});
-  }
-  c.swept = correct_swept_volume(s, g, rows, closed, state.elastic, horizon, entries);
-  set_columns(rows, shown, std::move(entries), c);
-  if (!shares.empty())
-    c.potential = std::make_shared<ElasticPotential<Dim>>(shares, c.size(), s.tampering.elastic_forces * dt, horizon);
+  const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
+  hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
+  const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, step_load(s, state, dt, horizon, k));
+  add_inertia(p, e.u, dt, horizon, first, parts);
+  c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
+  if (body.is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
+  BodyEntries mine{k, first, spread_shares(s, shares, attached, rows)};
+  bring_home_air(s, rows, 0, mine.entries);
+  mine.shown = mine.entries.size();
+  if (body.is_thin() || is_divided(solid))
+    keep_to_own_side(s, solid, shares, attached, rows, mine.entries);
+  else
+    hang_on_facets(step, e.u, gravity, mine, parts);
+  bring_home_air(s, rows, mine.shown, mine.entries);
+  parts.entries.push_back(std::move(mine));
+  c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
+  const double most = highest_pressure_beside(s, shares, rows, state.pressure);
+  const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)};
+  parts.potentials.push_back(
+      std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(), s.tampering.elastic_forces * dt, horizon));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template void couple_elastic_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,       \
-                                         const NullSpace&, const State<D>&, double, double, CouplingParts<D>&); \
+template <int Dim>
+void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  const auto b = std::size_t(block);
+  BodyEntries& mine = *std::find_if(parts.entries.begin(), parts.entries.end(),
+                                    [&](const BodyEntries& entries) { return entries.body == k; });
+  c.cell_fluxes[b] = added_fluxes(mine.entries, mine.shown, step.rows);
+  Eigen::MatrixXd loads = std::move(c.J.blocks[b].loads);
+  const int width = c.first[b + 1] - mine.first;
+  sort_by_rows(mine.entries);
+  c.J.blocks[b] = make_block(mine.entries, c.freedom, Freedom::free, mine.first, width);
+  c.J_held.blocks[b] = make_block(mine.entries, c.freedom, Freedom::fixed, mine.first, width);
+  c.J.blocks[b].loads = std::move(loads);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template void couple_elastic_body<D>(const CoupledStep<D>&, int, const ElasticMotion&, int, CouplingParts<D>&); \
+  template void set_elastic_columns<D>(const CoupledStep<D>&, int, int, CouplingParts<D>&);                       \
   template StepLoad step_load<D>(const Setup<D>&, const State<D>&, double, double, int);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

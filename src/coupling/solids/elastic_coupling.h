@@ -1,14 +1,18 @@
 #pragma once
-// The part of elastic bodies in the coupling of solids and liquid.
+// The part of an elastic body in the coupling of solids and liquid.
 #include "coupling/solids/solid_coupling.h"
 
 namespace seiche {
 
-// Fills in what concerns the elastic bodies. Their new displacements are u + H w.
+// Adds what concerns the elastic body k; its columns of J go to parts.entries. Its new displacements are u + H w.
+// Collective.
 template <int Dim>
-void couple_elastic_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                           const NullSpace& closed, const State<Dim>& state, double dt, double horizon,
-                           CouplingParts<Dim>& parts);
+void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotion& motion, int block,
+                         CouplingParts<Dim>& parts);
+
+// Sets the columns of J of body k, and what its faces do not show of them, once all entries are there.
+template <int Dim>
+void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, CouplingParts<Dim>& parts);
 
 // What acts on elastic solid k beside liquid and contact in the solve for the horizon that follows `state`, dt the step
 // that led there.

@@ -93,20 +93,19 @@ ColumnBlock make_block(const Setup<Dim>& s, const CellField<Dim>& phi, const Pre
   return block;
 }
 
-// Sums over the ranks of all bodies' volumes, moments and surfaces.
+// What is summed over the ranks, as numbers and back.
 template <int Dim>
-void sum_over_ranks(std::vector<Sums<Dim>>& sums, const Communicator& ranks) {
-  std::vector<double> all;
-  for (const Sums<Dim>& s : sums) {
-    for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
-    all.insert(all.end(), {s.wet, s.surface});
-  }
-  if (!all.empty()) ranks.global_sum(all);
-  const double* next = all.data();
-  for (Sums<Dim>& s : sums) {
-    for (int a = 0; a < Dim; ++a, next += 4) s.volume[a] = next[0], s.moment[a] = Vec3(next[1], next[2], next[3]);
-    s.wet = *next++, s.surface = *next++;
-  }
+void append(const Sums<Dim>& s, std::vector<double>& all) {
+  for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
+  all.insert(all.end(), {s.wet, s.surface});
+}
+
+template <int Dim>
+Sums<Dim> read_sums(const double* next) {
+  Sums<Dim> s;
+  for (int a = 0; a < Dim; ++a, next += 4) s.volume[a] = next[0], s.moment[a] = Vec3(next[1], next[2], next[3]);
+  s.wet = next[0], s.surface = next[1];
+  return s;
 }
 
 template <int Dim>
@@ -175,63 +174,40 @@ Twist unstacked(const Eigen::VectorXd& v, int first, const Vec3& about) {
 }
 
 template <int Dim>
-void couple_rigid_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                         const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts) {
+void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, const RigidState& r, int block,
+                       CouplingParts<Dim>& parts) {
   constexpr int n = twist_size<Dim>;
+  const Setup<Dim>& s = step.setup;
   SolidCoupling<Dim>& c = parts.coupling;
-  const std::vector<RigidState>& rigid = state.rigid;
-  const Vec3 gravity = s.gravity.of_step(state.time, dt);
-  std::vector<Sums<Dim>> sums;
-  std::vector<std::size_t> places;
-  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    const Body<Dim>& body = s.bodies[c.bodies[b]];
-    const RigidState& r = rigid[c.bodies[b]];
-    if (!body.is_rigid()) continue;
-    const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
-    for (int i = 0; i < n; ++i) c.freedom[c.first[b] + i] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
-    sums.push_back(add_up(s, *g.shares[c.bodies[b]], r.center));
-    places.push_back(b);
-    c.J.blocks[b] = make_block(s, state.phi, rows, mask, sums.back());
-    add_mass<Dim>(s.tampering.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, c.first[b],
-                  parts.mass);
-  }
-  sum_over_ranks(sums, s.ranks);
-  for (std::size_t m = 0; m < places.size(); ++m) {
-    const int k = c.bodies[places[m]], first = c.first[places[m]];
-    const Body<Dim>& body = s.bodies[k];
-    const Twist v = free_twist(body, rigid[k], gravity, dt, horizon);
-    c.free.template segment<n>(first) = stacked<Dim>(v.linear, v.angular);
-    if (lies_within<Dim>(s.scene.domain, body, g.placed[std::size_t(k)].pose))
-      c.buoyancy_correction.template segment<n>(first) =
-          buoyancy_difference(sums[m], body.mass().volume, s.density() * gravity)
-              .cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
-  }
+  const int first = c.first[std::size_t(block)];
+  const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
+  for (int i = 0; i < n; ++i) c.freedom[std::size_t(first + i)] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
+  Sums<Dim> sums = add_up(s, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
+  c.J.blocks[std::size_t(block)] = make_block(s, step.state.phi, step.rows, mask, sums);
+  append(sums, parts.sums);
+  add_mass<Dim>(s.tampering.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, first,
+                parts.mass);
+  const Twist v = free_twist(body, r, s.gravity.of_step(step.state.time, step.dt), step.dt, step.horizon);
+  c.free.template segment<n>(first) = stacked<Dim>(v.linear, v.angular);
 }
 
-// L += I (omega - omega*): what liquid and contact added to the free rotation.
 template <int Dim>
-void set_rigid_velocity(const Setup<Dim>& s, const SolidCoupling<Dim>& c, int k, int first, const Eigen::VectorXd& v,
-                        StepGeometry<Dim>& g, RigidState& r) {
-  const Twist now = unstacked<Dim>(v, first, r.center), free = unstacked<Dim>(c.free, first, r.center);
-  const Eigen::Matrix3d inertia = world_inertia(s.bodies[k], r);
-  r.angular_momentum = turns_freely(s.bodies[k].spec().rigid)
-                           ? Vec3(r.angular_momentum + inertia * (now.angular - free.angular))
-                           : Vec3(inertia * now.angular);
-  r.velocity = now.linear;
-  r.angular_velocity = now.angular;
-  const Twist extra = unstacked<Dim>(c.buoyancy_correction, first, r.center);
-  r.extra_force = extra.linear;
-  r.extra_torque = extra.angular;
-  set_twist(s.layout, k, now, g);
+void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, int first, const double* sums,
+                  SolidCoupling<Dim>& c) {
+  const Setup<Dim>& s = step.setup;
+  if (!lies_within<Dim>(s.scene.domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
+  const Vec3 gravity = s.gravity.of_step(step.state.time, step.dt);
+  c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
+      buoyancy_difference(read_sums<Dim>(sums), body.mass().volume, s.density() * gravity)
+          .cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);                          \
-  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                                          \
-  template void couple_rigid_bodies<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,           \
-                                       const State<D>&, double, double, CouplingParts<D>&);                       \
-  template void set_rigid_velocity<D>(const Setup<D>&, const SolidCoupling<D>&, int, int, const Eigen::VectorXd&, \
-                                      StepGeometry<D>&, RigidState&);
+#define SEICHE_INSTANTIATE(D)                                                                       \
+  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);            \
+  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                            \
+  template void couple_rigid_body<D>(const CoupledStep<D>&, const Body<D>&, const RigidState&, int, \
+                                     CouplingParts<D>&);                                            \
+  template void add_buoyancy<D>(const CoupledStep<D>&, const Body<D>&, int, int, const double*, SolidCoupling<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

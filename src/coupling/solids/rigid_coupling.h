@@ -1,23 +1,25 @@
 #pragma once
-// How rigid bodies and liquid act on each other through the faces that the bodies close.
+// How a rigid body and liquid act on each other through the faces that the body closes.
 #include "coupling/solids/solid_coupling.h"
+#include "solid/rigid/state.h"
 
 namespace seiche {
 
-// Fills in what concerns the rigid bodies: their blocks of J, masses, velocities without liquid. Collective.
+// Adds the body's block of J, its mass, its velocity without liquid; and what its faces add up to on this rank to
+// parts.sums. Collective.
 template <int Dim>
-void couple_rigid_bodies(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                         const State<Dim>& state, double dt, double horizon, CouplingParts<Dim>& parts);
+void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, const RigidState& r, int block,
+                       CouplingParts<Dim>& parts);
+
+// What makes up for the difference between the volume of body k and that of its faces; `sums` are those over all ranks.
+template <int Dim>
+void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, int first, const double* sums,
+                  SolidCoupling<Dim>& coupling);
 
 // (v, omega) of a body and back: 3D all six, 2D v_x, v_y, omega_z.
 template <int Dim>
 Eigen::Matrix<double, twist_size<Dim>, 1> stacked(const Vec3& linear, const Vec3& angular);
 template <int Dim>
 Twist unstacked(const Eigen::VectorXd& v, int first, const Vec3& about);
-
-// A rigid body after a solve gave it the velocity v: its twist in the geometry, its momenta in the state.
-template <int Dim>
-void set_rigid_velocity(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, int body, int first,
-                        const Eigen::VectorXd& v, StepGeometry<Dim>& geometry, RigidState& state);
 
 }  // namespace seiche

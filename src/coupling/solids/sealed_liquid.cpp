@@ -1,5 +1,6 @@
 #include "coupling/solids/sealed_liquid.h"
 
+#include "coupling/solids/kind_elastic.h"
 #include "coupling/state/features.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -71,13 +72,14 @@ void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State
     return;  // gas may be sealed in with it: phi alone tells them apart
   bool any = s.may_seal();
   if (any) fill_marked(s, before.sealed, g.faces, phi);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
+  const ElasticMotions old = elastic_motions(before.solids), now = elastic_motions(after.solids);
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    if (!old[k]) continue;
     const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
-    const Eigen::VectorXd& cavity = before.elastic[k].cavity;
+    const Eigen::VectorXd& cavity = old[k]->cavity;
     for (int p = 0; p < int(cavity.size()); ++p) {
       if (!(cavity[p] >= 0) || !solid.patches[std::size_t(p)].is_closed()) continue;
-      fill_cavity(s, solid, p, after.elastic[k].state.u, before.air, phi);
+      fill_cavity(s, solid, p, now[k]->state.u, before.air, phi);
       any = true;
     }
   }

@@ -1,23 +1,15 @@
 #include "coupling/solids/solid_coupling.h"
 
-#include "coupling/solids/elastic_coupling.h"
-#include "coupling/solids/rigid_coupling.h"
-#include "coupling/thin/thin_weight.h"
-#include "solid/body/enclosed_volume.h"
+#include "coupling/solids/potential_sum.h"
 
 namespace seiche {
 namespace {
 
 template <int Dim>
-int unknowns_of(const Body<Dim>& body) {
-  return body.is_rigid() ? twist_size<Dim> : body.is_elastic() ? body.elastic().body.size() : 0;
-}
-
-template <int Dim>
-SolidCoupling<Dim> number_unknowns(const Setup<Dim>& s) {
+SolidCoupling<Dim> number_unknowns(const Participants<Dim>& solids) {
   SolidCoupling<Dim> c;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const int n = unknowns_of(s.bodies[k]);
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    const int n = solids[k].unknowns();
     if (n == 0) continue;
     c.bodies.push_back(int(k));
     c.first.push_back(c.first.back() + n);
@@ -32,17 +24,34 @@ SolidCoupling<Dim> number_unknowns(const Setup<Dim>& s) {
   return c;
 }
 
-// Of rigid bodies.
+// visit(participant, its block) of those with unknowns.
+template <class Solids, int Dim, class Visit>
+void for_each_block(Solids& solids, const SolidCoupling<Dim>& c, const Visit& visit) {
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) visit(solids[std::size_t(c.bodies[b])], int(b));
+}
+
 template <int Dim>
-void set_targets(const Setup<Dim>& s, double dt, SolidCoupling<Dim>& c) {
-  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    if (!s.bodies[c.bodies[b]].is_rigid()) continue;
-    const int first = c.first[b], n = c.first[b + 1] - first;
-    const Eigen::MatrixXd M = c.mass.block(first, first, n, n);
-    c.target.segment(first, n) =
-        c.free.segment(first, n) + dt * M.ldlt().solve(c.buoyancy_correction.segment(first, n));
-    c.push.segment(first, n) = M * c.target.segment(first, n);
-  }
+Eigen::VectorXd segment_of(const SolidCoupling<Dim>& c, const Eigen::VectorXd& all, int block) {
+  const int first = c.first[std::size_t(block)];
+  return all.segment(first, c.first[std::size_t(block) + 1] - first);
+}
+
+// Inertia, columns of J and what is held, of all participants and of what acts between them.
+template <int Dim>
+void gather(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) {
+  SolidCoupling<Dim>& c = parts.coupling;
+  const Participants<Dim>& solids = step.state.solids;
+  std::vector<std::size_t> first_sum;
+  for_each_block(solids, c, [&](const Participant<Dim>& p, int b) {
+    first_sum.push_back(parts.sums.size());
+    p.couple(step, b, parts);
+  });
+  if (!parts.sums.empty()) step.setup.ranks.global_sum(parts.sums);
+  for_each_block(solids, c, [&](const Participant<Dim>& p, int b) {
+    p.take_sums(step, b, parts.sums.data() + first_sum[std::size_t(b)], c);
+  });
+  for (const auto& interaction : step.setup.interactions) interaction->couple(step, parts);
+  for_each_block(solids, c, [&](const Participant<Dim>& p, int b) { p.finish_columns(step, b, parts); });
 }
 
 }  // namespace
@@ -50,87 +59,71 @@ void set_targets(const Setup<Dim>& s, double dt, SolidCoupling<Dim>& c) {
 template <int Dim>
 SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                                  const NullSpace& closed, const State<Dim>& state, double dt, double horizon) {
-  SolidCoupling<Dim> c = number_unknowns(s);
-  CouplingParts<Dim> parts{c, {}};
-  couple_rigid_bodies(s, g, rows, state, dt, horizon, parts);
-  couple_elastic_bodies(s, g, rows, closed, state, dt, horizon, parts);
+  SolidCoupling<Dim> c = number_unknowns(state.solids);
+  CouplingParts<Dim> parts{c};
+  gather({s, g, rows, closed, state, dt, horizon}, parts);
   for (BlockColumns* J : {&c.J, &c.J_held})
     for (ColumnBlock& block : J->blocks)
       for (double& flux : block.value) flux *= s.tampering.solid_flux;
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
   make_identical(c.buoyancy_correction, s.ranks);
-  set_targets(s, dt, c);
+  for_each_block(state.solids, c, [&](const Participant<Dim>& p, int b) { p.set_target(dt, b, c); });
+  c.potential = sum_of(std::move(parts.potentials));
   return c;
 }
 
 template <int Dim>
-void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eigen::VectorXd& v, StepGeometry<Dim>& g,
-                    State<Dim>& state) {
-  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    const int k = c.bodies[b], first = c.first[b];
-    if (s.bodies[k].is_rigid()) {
-      set_rigid_velocity(s, c, k, first, v, g, state.rigid[k]);
-    } else {
-      state.elastic[k].velocity = v.segment(first, c.first[b + 1] - first);
-      set_node_velocity(s.layout, k, state.elastic[k].velocity, g);
-      state.elastic[k].extra_load =
-          total_load(s.bodies[k].elastic(), state.elastic[k].state.u,
-                     Eigen::VectorXd(c.buoyancy_correction.segment(first, c.first[b + 1] - first)));
-      state.elastic[k].kept_volume.setConstant(std::numeric_limits<double>::quiet_NaN());
-      state.elastic[k].cavity = state.elastic[k].kept_volume;
-    }
-  }
-  for (std::size_t n = 0; n < c.swept.size(); ++n)
-    for (const WallPatch<Dim>& wall : c.swept[n].walls) {
-      ElasticMotion& motion = state.elastic[std::size_t(wall.body)];
-      motion.cavity[wall.patch] = double(n);
-      motion.kept_volume[wall.patch] = c.swept[n].volume;
-    }
+void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eigen::VectorXd& v, double horizon,
+                    StepGeometry<Dim>& g, State<Dim>& state) {
+  for_each_block(state.solids, c, [&](Participant<Dim>& p, int b) {
+    p.take(c, b, segment_of(c, v, b), horizon);
+    Placement moving = g.placed[std::size_t(p.index())];
+    p.set_velocity(moving);
+    set_motion(s.layout, p.index(), moving, g);
+  });
+  for (const auto& interaction : s.interactions) interaction->take(c, state);
 }
 
 template <int Dim>
-void set_reactions(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eigen::VectorXd& reactions,
-                   State<Dim>& state) {
-  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    const int k = c.bodies[b], first = c.first[b];
-    if (!s.bodies[k].is_elastic()) continue;
-    const Eigen::VectorXd forces = reactions.segment(first, c.first[b + 1] - first);
-    state.elastic[k].reaction = total_load(s.bodies[k].elastic(), state.elastic[k].state.u, forces);
-  }
+void set_reactions(const SolidCoupling<Dim>& c, const Eigen::VectorXd& reactions, State<Dim>& state) {
+  for_each_block(state.solids, c, [&](Participant<Dim>& p, int b) { p.take_reactions(segment_of(c, reactions, b)); });
 }
 
 template <int Dim>
 void set_held_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, StepGeometry<Dim>& g) {
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
-    if (!s.bodies[c.bodies[b]].is_elastic()) continue;
-    g.cell_fluxes[c.bodies[b]] = c.cell_fluxes[b];
-    set_node_velocity(s.layout, c.bodies[b], c.held.segment(c.first[b], c.first[b + 1] - c.first[b]), g);
+    const int k = c.bodies[b];
+    if (!g.deforms(k)) continue;
+    g.cell_fluxes[std::size_t(k)] = c.cell_fluxes[b];
+    set_node_velocity(s.layout, k, segment_of(c, c.held, int(b)), g);
   }
+}
+
+template <int Dim>
+std::vector<Eigen::VectorXd> each_velocity_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+  std::vector<Eigen::VectorXd> each;
+  for (std::size_t k = 0; k < state.solids.size(); ++k)
+    each.push_back(state.solids[k].velocity_over(state.time, dt, state.horizon));
+  for (const auto& interaction : s.interactions) interaction->keep_over(state, dt, each);
+  return each;
 }
 
 template <int Dim>
 Eigen::VectorXd velocities_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   std::vector<double> all;
-  const auto elastic = elastic_velocities_over(s.bodies, state.elastic, state.time, dt, state.horizon);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (s.bodies[k].is_rigid()) {
-      const auto v = stacked<Dim>(state.rigid[k].velocity, state.rigid[k].angular_velocity);
-      all.insert(all.end(), v.begin(), v.end());
-    } else if (s.bodies[k].is_elastic()) {
-      all.insert(all.end(), elastic[k].begin(), elastic[k].end());
-    }
-  }
+  for (const Eigen::VectorXd& v : each_velocity_over(s, state, dt)) all.insert(all.end(), v.begin(), v.end());
   return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template SolidCoupling<D> couple_solids<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,         \
-                                             const NullSpace&, const State<D>&, double, double);                      \
-  template void set_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, StepGeometry<D>&, \
-                                  State<D>&);                                                                         \
-  template void set_reactions<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, State<D>&);        \
-  template void set_held_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, StepGeometry<D>&);                   \
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template SolidCoupling<D> couple_solids<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
+                                             const NullSpace&, const State<D>&, double, double);              \
+  template void set_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, double,   \
+                                  StepGeometry<D>&, State<D>&);                                               \
+  template void set_reactions<D>(const SolidCoupling<D>&, const Eigen::VectorXd&, State<D>&);                 \
+  template void set_held_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, StepGeometry<D>&);           \
+  template std::vector<Eigen::VectorXd> each_velocity_over<D>(const Setup<D>&, const State<D>&, double);      \
   template Eigen::VectorXd velocities_over<D>(const Setup<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

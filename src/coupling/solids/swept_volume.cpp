@@ -56,27 +56,26 @@ std::set<std::int64_t> correct_wall(const Setup<Dim>& s, const PressureRows<Dim>
 
 // The volume that the cavity's walls keep: what they kept before if they were the walls of one, else what they enclose.
 template <int Dim>
-double volume_to_keep(const CavityWalls<Dim>& walls, const std::vector<ElasticMotion>& motions,
+double volume_to_keep(const CavityWalls<Dim>& walls, const ElasticMotions& motions,
                       const std::vector<CavityWalls<Dim>>& kept, const std::vector<Eigen::VectorXd>& u) {
   const auto same = [](const WallPatch<Dim>& a, const WallPatch<Dim>& b) {
     return a.body == b.body && a.patch == b.patch;
   };
   for (const CavityWalls<Dim>& before : kept)
     if (std::is_permutation(walls.begin(), walls.end(), before.begin(), before.end(), same))
-      return motions[std::size_t(walls[0].body)].kept_volume[walls[0].patch];
+      return motions[std::size_t(walls[0].body)]->kept_volume[walls[0].patch];
   return enclosed_volume(walls, u);
 }
 
 template <int Dim>
-SweptCavity<Dim> make_cavity(const Setup<Dim>& s, const FoundCavity<Dim>& found,
-                             const std::vector<ElasticMotion>& motions, const std::vector<BodyEntries>& bodies,
-                             double horizon) {
+SweptCavity<Dim> make_cavity(const Setup<Dim>& s, const FoundCavity<Dim>& found, const ElasticMotions& motions,
+                             const std::vector<BodyEntries>& bodies, double horizon) {
   SweptCavity<Dim> cavity;
   cavity.walls = found.walls;
   cavity.horizon = horizon;
   cavity.face_area = s.layout.geometry().face_area();
   for (std::size_t n = 0; n < found.walls.size(); ++n) {
-    const ElasticMotion& motion = motions[std::size_t(found.walls[n].body)];
+    const ElasticMotion& motion = *motions[std::size_t(found.walls[n].body)];
     cavity.u.push_back(motion.state.u);
     const Eigen::VectorXd middle = motion.state.u + 0.5 * horizon * motion.velocity;
     cavity.gradient.push_back(enclosed_volume_gradient(found.walls, n, middle));
@@ -108,14 +107,14 @@ double SweptCavity<Dim>::missing_flux(const Eigen::VectorXd& w) const {
 }
 
 template <int Dim>
-std::vector<SweptCavity<Dim>> correct_swept_volume(const Setup<Dim>& s, const StepGeometry<Dim>& g,
-                                                   const PressureRows<Dim>& rows, const NullSpace& closed,
-                                                   const std::vector<ElasticMotion>& motions, double horizon,
+std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step, const ElasticMotions& motions,
                                                    std::vector<BodyEntries>& bodies) {
+  const Setup<Dim>& s = step.setup;
+  const PressureRows<Dim>& rows = step.rows;
   std::vector<SweptCavity<Dim>> cavities;
   const auto kept = kept_cavities(s.bodies, motions);
-  for (const FoundCavity<Dim>& found : find_cavities(s, g, rows, closed, motions, bodies)) {
-    SweptCavity<Dim> cavity = make_cavity(s, found, motions, bodies, horizon);
+  for (const FoundCavity<Dim>& found : find_cavities(s, step.geometry, rows, step.closed, motions, bodies)) {
+    SweptCavity<Dim> cavity = make_cavity(s, found, motions, bodies, step.horizon);
     cavity.volume = volume_to_keep(cavity.walls, motions, kept, cavity.u);
     std::set<std::int64_t> touched;
     for (std::size_t n = 0; n < cavity.walls.size(); ++n)
@@ -125,7 +124,7 @@ std::vector<SweptCavity<Dim>> correct_swept_volume(const Setup<Dim>& s, const St
       if (row >= rows.first && row < rows.first + Row(rows.cells.size())) cavity.rows.push_back(int(row - rows.first));
     cavity.row_count = double(touched.size());
     for (std::size_t n = 0; n < rows.cells.size() && !is_closed(cavity.walls[0]); ++n)
-      if (found.components.contains(closed.component[n])) cavity.cells.push_back(int(n));
+      if (found.components.contains(step.closed.component[n])) cavity.cells.push_back(int(n));
     cavities.push_back(std::move(cavity));
   }
   return cavities;
@@ -149,12 +148,11 @@ void take_prescribed_fluxes(const Setup<Dim>& s, const StepGeometry<Dim>& g, con
   for (std::size_t n = 0; n < cavities.size(); ++n) cavities[n].prescribed = sums[n];
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                              \
-  template struct SweptCavity<D>;                                                                          \
-  template std::vector<SweptCavity<D>> correct_swept_volume<D>(                                            \
-      const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, const NullSpace&,                   \
-      const std::vector<ElasticMotion>&, double, std::vector<BodyEntries>&);                               \
-  template void take_prescribed_fluxes<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template struct SweptCavity<D>;                                                                            \
+  template std::vector<SweptCavity<D>> correct_swept_volume<D>(const CoupledStep<D>&, const ElasticMotions&, \
+                                                               std::vector<BodyEntries>&);                   \
+  template void take_prescribed_fluxes<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,   \
                                           std::vector<SweptCavity<D>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,7 +1,7 @@
 #pragma once
 // The volume that elastic bodies sweep in liquid without a free surface: what their faces show is made to add up to
 // what their surfaces do (docs/method.md, "Sealed liquid").
-#include "coupling/state/state.h"
+#include "coupling/solids/coupled_step.h"
 #include "solid/body/enclosed_volume.h"
 
 namespace seiche {
@@ -12,10 +12,12 @@ struct FluxEntry {
   double value;
 };
 
-// The entries of an elastic body, whose unknowns in the coupling begin with `first`.
+// The entries of an elastic body, whose unknowns in the coupling begin with `first`. Those before `shown` are what its
+// faces show.
 struct BodyEntries {
   int body, first;
   std::vector<FluxEntry> entries;
+  std::size_t shown = 0;
 };
 
 // A cavity with liquid without a free surface in it. The flux of what moves into it adds up to what its walls sweep:
@@ -43,9 +45,7 @@ struct SweptCavity {
 // least change in the sum of squares; where walls are closed forces of a uniform pressure gradient stay as they were.
 // Collective.
 template <int Dim>
-std::vector<SweptCavity<Dim>> correct_swept_volume(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
-                                                   const PressureRows<Dim>& rows, const NullSpace& closed,
-                                                   const std::vector<ElasticMotion>& motions, double horizon,
+std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step, const ElasticMotions& motions,
                                                    std::vector<BodyEntries>& bodies);
 
 // Takes note of what the geometry has of prescribed fluxes. Collective.

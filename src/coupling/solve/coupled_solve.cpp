@@ -11,14 +11,12 @@ namespace {
 
 // Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
 template <int Dim>
-bool iterates_on_bodies(const Setup<Dim>& s) {
+bool iterates_on_bodies(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling) {
   constexpr double most_bytes = 4e9;
   const std::string& choice = s.scene.solver.elastic;
-  const auto is_large = [&](const Body<Dim>& b) {
-    return b.is_elastic() && factor_bytes(Dim, b.elastic().body.size()) > most_bytes;
-  };
-  const bool any_large = std::any_of(s.bodies.begin(), s.bodies.end(), is_large);
-  return s.has_elastic() && (choice == "iterate" || (choice == "auto" && any_large));
+  const bool any_large =
+      s.at_start.any([](const Participant<Dim>& p) { return factor_bytes(Dim, p.unknowns()) > most_bytes; });
+  return coupling.potential && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
 // PFMG takes 24 to 44 iterations where BoomerAMG takes 15, or is not positive definite, where coefficients jump.
@@ -45,7 +43,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
                 s.ranks);
-  if (iterates_on_bodies(s)) problem.solve_together(kkt);
+  if (iterates_on_bodies(s, coupling)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
   set_pressure(input, p, r);
@@ -73,11 +71,10 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
     if (r.failure.empty()) solve_pressure(input, liquid, coupling, r);
   }
   if (r.failure.empty()) {
-    set_velocities(s, coupling, r.solids, input.geometry, input.state);
-    set_reactions(s, coupling, r.reactions, input.state);
+    set_velocities(s, coupling, r.solids, input.horizon, input.geometry, input.state);
+    set_reactions(coupling, r.reactions, input.state);
     mark_sealed(s, r.rows, coupling.swept, input.state);
   }
-  for (RigidState& body : input.state.rigid) body.horizon = input.horizon;
   return r;
 }
 
@@ -100,14 +97,12 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   State<Dim>& state = input.state;
   PartingSearch<Dim> search(in, pull * input.setup.scene.solver.tolerance, state.parting);
   const StepGeometry<Dim> still = input.geometry;
-  const std::vector<RigidState> rigid = state.rigid;
-  const std::vector<ElasticMotion> elastic = state.elastic;
+  const Participants<Dim> solids = state.solids;
   CoupledSolution<Dim> r;
   CellField<Dim> from = input.guess;
   do {
     input.geometry = still;
-    state.rigid = rigid;
-    state.elastic = elastic;
+    state.solids = solids;
     CoupledSolution<Dim> trial =
         solve_once(CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow,
                                      input.u_star, input.horizon, input.viscosity, input.fault});

@@ -1,7 +1,6 @@
 #include "coupling/solve/solids_minimum.h"
 
 #include "coupling/solids/contact_setup.h"
-#include "coupling/solids/rigid_coupling.h"
 #include "coupling/solve/contact_model.h"
 
 namespace seiche {
@@ -10,11 +9,10 @@ namespace {
 // Speed of the farthest point of its body where a degree of freedom is one.
 template <int Dim>
 Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling) {
-  constexpr int n = twist_size<Dim>;
-  Eigen::VectorXd speeds = Eigen::VectorXd::Ones(coupling.size());
+  Eigen::VectorXd speeds(coupling.size());
   for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
-    const Body<Dim>& body = s.bodies[coupling.bodies[b]];
-    if (body.is_rigid()) speeds.segment(coupling.first[b] + Dim, n - Dim).setConstant(body.radius());
+    const Eigen::VectorXd own = s.at_start[std::size_t(coupling.bodies[b])].unit_speeds();
+    speeds.segment(coupling.first[b], own.size()) = own;
   }
   return speeds;
 }
@@ -22,12 +20,13 @@ Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const SolidCoupling<Dim>& coupl
 // The last pressure belongs to the last trial, not to what the line search made of it; and what liquid that bodies
 // close off has as its mean follows from their balance alone. So once more, with the impulses of contact as given.
 template <int Dim>
-std::string settle(const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem, ContactReport& contact) {
-  constexpr int n = twist_size<Dim>;
+std::string settle(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                   ContactReport& contact) {
   Eigen::VectorXd impulse(problem.size());
   for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
-    const BodyImpulse& i = contact.impulses[std::size_t(coupling.bodies[b])];
-    impulse.template segment<n>(coupling.first[b]) = stacked<Dim>(i.linear, i.angular);
+    const auto k = std::size_t(coupling.bodies[b]);
+    const Eigen::VectorXd own = s.at_start[k].generalised(contact.impulses[k]);
+    impulse.segment(coupling.first[b], own.size()) = own;
   }
   const InertiaResponse r = problem.minimise(SparseMatrix(problem.size(), problem.size()), impulse);
   if (r.failure.empty()) contact.velocity = r.velocity;
@@ -42,7 +41,7 @@ ContactReport solve_in_turns(const Setup<Dim>& s, const std::vector<ContactMotio
   ContactReport contact =
       solve_contact(*s.contact, motions, horizon, dt, problem, options, found.velocity, coupling.potential.get());
   const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
-  if (touched && !coupling.potential) contact.failure = settle(coupling, problem, contact);
+  if (touched && !coupling.potential) contact.failure = settle(s, coupling, problem, contact);
   contact.newton_iterations += found.newton_iterations;
   return contact;
 }
@@ -83,7 +82,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
     if (r.failure.empty()) r.velocity = std::move(response.velocity);
     return r;
   }
-  const auto motions = contact_motions(s, state, horizon);
+  const auto motions = contact_motions(state, horizon);
   const ContactOptions options = contact_options(s);
   ContactInLiquid modelled = solve_modelled(s, motions, dt, horizon, coupling, liquid, options);
   ContactReport contact = std::move(modelled.contact);

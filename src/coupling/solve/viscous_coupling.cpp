@@ -1,7 +1,5 @@
 #include "coupling/solve/viscous_coupling.h"
 
-#include <unordered_map>
-
 #include "base/error.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/liquid_viscosity.h"
@@ -9,52 +7,23 @@
 #include "fluid/rheology/rheology.h"
 #include "fluid/viscosity/no_slip_flux.h"
 #include "grid/loops.h"
-#include "solid/body/elastic_motion.h"
 
 namespace seiche {
 namespace {
 
-// Weights of an elastic body's unknowns in the velocity of its surface near a face.
 template <int Dim>
-auto surface_weights(const StepGeometry<Dim>& g, int body) {
-  auto place = std::make_shared<std::array<std::unordered_map<Site, std::size_t>, Dim>>();
-  const FaceShares& shares = *g.shares[std::size_t(body)];
-  for (std::size_t n = 0; n < shares.size(); ++n) (*place)[std::size_t(shares[n].axis)][shares[n].face] = n;
-  const auto attached = g.attached[std::size_t(body)];
-  return [place, attached](int axis, Site face, std::vector<std::pair<int, double>>& weights) {
-    weights.clear();
-    const auto found = (*place)[std::size_t(axis)].find(face);
-    if (found == (*place)[std::size_t(axis)].end()) return;
-    for (const auto& [node, weight] : (*attached)[found->second])
-      if (weight != 0) weights.emplace_back(Dim * node + axis, weight);
-  };
-}
-
-template <int Dim>
-ViscousSolid<Dim> viscous_solid(const Setup<Dim>& s, const StepGeometry<Dim>& g, const State<Dim>& state, int k) {
-  const Body<Dim>& body = s.bodies[std::size_t(k)];
+ViscousSolid<Dim> viscous_solid(const StepGeometry<Dim>& g, const Participant<Dim>& participant) {
   ViscousSolid<Dim> solid;
-  solid.no_slip = body.spec().slip == Slip::no_slip;
-  if (body.is_rigid()) {
-    solid.rigid = true;
-    solid.frame.center = state.rigid[std::size_t(k)].center;
-  } else if (body.is_elastic()) {
-    const ElasticMotion& m = state.elastic[std::size_t(k)];
-    const BodyAverage mean = average(body.elastic().body, m.state.u, m.velocity);
-    solid.frame = {mean.velocity, mean.angular_velocity, mean.center};
-    solid.surface = surface_weights(g, k);
-  } else {
-    const Twist& v = g.placed[std::size_t(k)].twist;
-    solid.frame = {v.linear, v.angular, v.about};
-  }
+  solid.no_slip = participant.body().spec().slip == Slip::no_slip;
+  participant.describe_viscous(g, solid);
   return solid;
 }
 
 template <int Dim>
-std::vector<ViscousSolid<Dim>> make_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const State<Dim>& state,
+std::vector<ViscousSolid<Dim>> make_solids(const StepGeometry<Dim>& g, const Participants<Dim>& participants,
                                            const SolidCoupling<Dim>& coupling) {
   std::vector<ViscousSolid<Dim>> solids;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) solids.push_back(viscous_solid(s, g, state, int(k)));
+  for (std::size_t k = 0; k < participants.size(); ++k) solids.push_back(viscous_solid(g, participants[k]));
   for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
     solids[std::size_t(coupling.bodies[b])].first_unknown = coupling.first[b];
   return solids;
@@ -96,9 +65,8 @@ void take_in_gas(const Setup<Dim>& s, const CellField<Dim>& phi, ViscosityField<
 // (validation/falling_sphere_re11p6).
 template <int Dim>
 bool sticks_to_what_it_moves(const Setup<Dim>& s) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body<Dim>& b) {
-    return (b.is_elastic() || b.is_rigid()) && b.spec().slip == Slip::no_slip;
-  });
+  return std::any_of(s.bodies.begin(), s.bodies.end(),
+                     [](const Body<Dim>& b) { return b.kind().is_free() && b.spec().slip == Slip::no_slip; });
 }
 
 }  // namespace
@@ -141,7 +109,7 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
       geometry_(g),
       coupling_(coupling),
       rows_(rows),
-      solids_(make_solids(s, g, state, coupling)),
+      solids_(make_solids(g, state.solids, coupling)),
       full_(s.layout, -s.band()),
       input_{.layout = s.layout,
              .halo = s.halo,
@@ -166,10 +134,7 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
       J_(scaled(coupling.J, s.layout.geometry().face_area())),
       J_held_(scaled(coupling.J_held, s.layout.geometry().face_area())) {
   separate_held();
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const RigidState& r = state.rigid[k];
-    motion_.push_back(s.bodies[k].is_rigid() ? RigidField{r.velocity, r.angular_velocity, r.center} : solids_[k].frame);
-  }
+  for (std::size_t k = 0; k < state.solids.size(); ++k) motion_.push_back(state.solids[k].viscous_motion(solids_[k]));
 }
 
 template <int Dim>

@@ -105,22 +105,6 @@ Flow<Dim> load_flow(const Setup<Dim>& s, const LevelNames& names, int levels, co
   return flow;
 }
 
-// visit(name, value) of every number of a rigid body's state.
-template <class State, class Visit>
-void for_each_number(State& r, const std::string& body, const Visit& visit) {
-  const auto vector = [&](const char* name, auto& v) {
-    for (int i = 0; i < int(v.size()); ++i) visit(fmt::format("rigid.{}.{}{}", body, name, i), v.data()[i]);
-  };
-  vector("center", r.center);
-  vector("rotation", r.rotation);
-  vector("velocity", r.velocity);
-  vector("angular_velocity", r.angular_velocity);
-  vector("angular_momentum", r.angular_momentum);
-  vector("extra_force", r.extra_force);
-  vector("extra_torque", r.extra_torque);
-  visit(fmt::format("rigid.{}.horizon", body), r.horizon);
-}
-
 // visit(name, value) of every number of the viscous loads.
 template <class Loads, class Visit>
 void for_each_load(Loads& loads, const Visit& visit) {
@@ -131,60 +115,48 @@ void for_each_load(Loads& loads, const Visit& visit) {
     }
 }
 
-// visit(name, vector) of what an elastic body's state is made of.
-template <class Motion, class Visit>
-void for_each_vector(Motion& m, const std::string& body, const Visit& visit) {
-  visit("elastic." + body + ".u", m.state.u);
-  visit("elastic." + body + ".v", m.state.v);
-  visit("elastic." + body + ".u_old", m.state.u_old);
-  visit("elastic." + body + ".v_old", m.state.v_old);
-  visit("elastic." + body + ".velocity", m.velocity);
-  visit("elastic." + body + ".cavity", m.cavity);
-  visit("elastic." + body + ".kept_volume", m.kept_volume);
-  visit("elastic." + body + ".extra_load", m.extra_load);
-  visit("elastic." + body + ".reaction", m.reaction);
-}
-
 // Vectors as texts: their bytes.
-template <int Dim>
-void save_elastic(const Setup<Dim>& s, const State<Dim>& state, CheckpointData& data) {
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
-    data.scalars[fmt::format("elastic.{}.dt_old", k)] = state.elastic[k].state.dt_old;
-    for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, const Eigen::VectorXd& v) {
-      data.texts[name] = std::string(reinterpret_cast<const char*>(v.data()), std::size_t(v.size()) * sizeof(double));
-    });
+class Saver : public StateVisitor {
+ public:
+  explicit Saver(CheckpointData& data) : data_(data) {}
+  void number(const std::string& name, double& value) override { data_.scalars[name] = value; }
+  void vector(const std::string& name, Eigen::VectorXd& v) override {
+    data_.texts[name] = std::string(reinterpret_cast<const char*>(v.data()), std::size_t(v.size()) * sizeof(double));
   }
-}
+
+ private:
+  CheckpointData& data_;
+};
+
+class Loader : public StateVisitor {
+ public:
+  explicit Loader(const CheckpointData& data) : data_(data) {}
+  void number(const std::string& name, double& value) override {
+    const auto found = data_.scalars.find(name);
+    if (found == data_.scalars.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + name + "'");
+    value = found->second;
+  }
+  void vector(const std::string& name, Eigen::VectorXd& v) override {
+    const auto size = std::size_t(v.size());
+    const auto found = data_.texts.find(name);
+    if (found == data_.texts.end() || found->second.size() != size * sizeof(double))
+      throw Error(ExitCode::bad_checkpoint,
+                  fmt::format("the checkpoint lacks '{}' of {} numbers; the solid's mesh is another one", name, size));
+    std::memcpy(v.data(), found->second.data(), found->second.size());
+  }
+
+ private:
+  const CheckpointData& data_;
+};
 
 template <int Dim>
-void load_elastic(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
-  state.elastic.resize(s.bodies.size());
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
-    const std::string dt_old = fmt::format("elastic.{}.dt_old", k);
-    if (!data.scalars.contains(dt_old)) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + dt_old + "'");
-    state.elastic[k] = initial_elastic_motion(s.bodies[k]);
-    state.elastic[k].state.dt_old = data.scalars.at(dt_old);
-    for_each_vector(state.elastic[k], std::to_string(k), [&](const std::string& name, Eigen::VectorXd& v) {
-      const auto size = std::size_t(v.size());
-      const auto found = data.texts.find(name);
-      if (found == data.texts.end() || found->second.size() != size * sizeof(double))
-        throw Error(
-            ExitCode::bad_checkpoint,
-            fmt::format("the checkpoint lacks '{}' of {} numbers; the solid's mesh is another one", name, size));
-      std::memcpy(v.data(), found->second.data(), found->second.size());
-    });
-  }
+void visit_all(Participants<Dim>& solids, StateVisitor&& visitor) {
+  for (std::size_t k = 0; k < solids.size(); ++k) solids[k].visit(visitor);
 }
 
 // What is scalars alone: `scalar(name)` gives one. The step must be known.
 template <int Dim, class Scalar>
-void load_rigid(const Setup<Dim>& s, const Scalar& scalar, State<Dim>& state) {
-  state.rigid.resize(s.bodies.size());
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    if (s.bodies[k].is_rigid())
-      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double& x) { x = scalar(n); });
+void load_viscous_loads(const Setup<Dim>& s, const Scalar& scalar, State<Dim>& state) {
   if (s.is_viscous() && state.step > 0) state.viscous_loads.resize(s.bodies.size());
   for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
 }
@@ -241,11 +213,9 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
                                             : 1.0},
                   {"expected_volume", state.expected_volume},
                   {"corrected_volume", state.corrected_volume}};
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    if (s.bodies[k].is_rigid())
-      for_each_number(state.rigid[k], std::to_string(k), [&](const std::string& n, double x) { data.scalars[n] = x; });
+  Participants<Dim> solids = state.solids;
+  visit_all(solids, Saver(data));
   for_each_load(state.viscous_loads, [&](const std::string& n, double x) { data.scalars[n] = x; });
-  save_elastic(s, state, data);
   data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
   if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
@@ -276,9 +246,10 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.viscous_rate = scalar("viscous_rate");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
-  load_rigid(s, scalar, state);
+  load_viscous_loads(s, scalar, state);
   load_air(s, data, scalar, state);
-  load_elastic(s, data, state);
+  state.solids = s.at_start;
+  visit_all(state.solids, Loader(data));
   state.phi = CellField<Dim>(s.layout);
   state.pressure = CellField<Dim>(s.layout);
   restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);

@@ -21,6 +21,21 @@ struct FeatureText {
 };
 
 template <int Dim>
+bool any_body(const Setup<Dim>& s, bool (*holds)(const Body<Dim>&)) {
+  return std::any_of(s.bodies.begin(), s.bodies.end(), holds);
+}
+
+template <int Dim>
+bool has_kinematic(const Setup<Dim>& s) {
+  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.kind().is_prescribed(); });
+}
+
+template <int Dim>
+bool has_elements(const Setup<Dim>& s) {
+  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.elements() != nullptr; });
+}
+
+template <int Dim>
 bool is_second_order(const Setup<Dim>& s) {
   return s.scene.time.scheme == TimeScheme::second_order && !s.has_prescribed_flow();
 }
@@ -42,20 +57,10 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
        "the surface is interpolated across its medial axis, and thin films are transported less sharply",
        [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
-       "the surface alone tells what a sealed cavity holds", [](S s) { return s.has_elastic(); }},
+       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s); }},
       {F::multigrid, "the program's own multigrid as preconditioner", "algebraic multigrid (BoomerAMG) is used",
        [](S s) { return s.scene.solver.preconditioner == "auto"; }}};
   return table;
-}
-
-template <int Dim>
-bool any_body(const Setup<Dim>& s, bool (*holds)(const Body<Dim>&)) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(), holds);
-}
-
-template <int Dim>
-bool has_kinematic(const Setup<Dim>& s) {
-  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.spec().kind == SolidKind::kinematic; });
 }
 
 template <int Dim>
@@ -92,8 +97,9 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::steps_by_halves, "a prescribed flow", [](S s) { return s.has_prescribed_flow(); }},
       {F::steps_by_halves, "[gas] that flows", [](S s) { return s.has_gas(); }},
       {F::steps_by_halves, "enclosed air that keeps its volume", [](S s) { return s.keeps_air(); }},
-      {F::steps_by_halves, "rigid beside kinematic solids", [](S s) { return s.has_rigid() && has_kinematic(s); }},
-      {F::steps_by_halves, "elastic solids", [](S s) { return s.has_elastic(); }},
+      {F::steps_by_halves, "rigid beside kinematic solids",
+       [](S s) { return s.has_unknowns() && !has_elements(s) && has_kinematic(s); }},
+      {F::steps_by_halves, "elastic solids", [](S s) { return s.plans_steps(); }},
       {F::steps_by_halves, "solids thinner than a cell",
        [](S s) { return any_body<Dim>(s, [](B b) { return b.is_thin(); }); }},
       {F::shared_viscosity, "scheme = \"first_order\"",

@@ -5,12 +5,13 @@
 
 #include "base/gravity.h"
 #include "coupling/geometry/step_geometry.h"
+#include "coupling/state/interaction.h"
 #include "coupling/state/simulation.h"
 #include "coupling/state/tampering.h"
 #include "fluid/pressure/pressure.h"
 #include "fluid/viscosity/viscosity.h"
-#include "solid/body/elastic_motion.h"
 #include "solid/contact/contact.h"
+#include "solid/elastic/step.h"
 #include "solid/mesh/point.h"
 
 namespace seiche {
@@ -35,14 +36,16 @@ struct Setup {
   Sides<Dim> sides;
   std::vector<Body<Dim>> bodies;
   SolidGeometry<Dim> solids;
-  std::optional<ContactScene<Dim>> contact;  // where there are rigid or elastic bodies
+  Participants<Dim> at_start;  // the solids as the scene begins
+  Interactions<Dim> interactions;
+  std::optional<ContactScene<Dim>> contact;  // where solids have unknowns
   std::vector<Source<Dim>> sources;
   std::map<std::string, MaterialPoint> followed;  // by displacement probes, by their names
 
   Setup(const Scene& scene, const Communicator& ranks, const Tampering& tampering = {});
-  bool has_rigid() const;
-  bool has_elastic() const;
-  bool may_seal() const;  // together with other solids, elastic ones that pins divide
+  bool has_unknowns() const;  // of solids
+  bool plans_steps() const;   // Participant::plans_steps
+  bool may_seal() const;      // Participant::may_seal
   bool is_viscous() const { return viscous; }
   bool keeps_air() const { return scene.gas.present && scene.gas.bubbles == Bubbles::volume_conserving; }
   ElasticScheme elastic_scheme() const {
@@ -99,13 +102,12 @@ struct State {
   CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;                             // restored by the volume control so far
-  std::vector<RigidState> rigid;                           // one a solid; of the rigid ones
-  std::vector<ElasticMotion> elastic;                      // one a solid; of the elastic ones
-  double horizon = 0;                                      // s ahead that the solids' velocities were solved for
-  Parting<Dim> parting;                                    // where the scene lets liquid part from solids
-  double viscous_rate = 0;                                 // mu/(rho h^2) of the last solve at its largest, 1/s
-  AirRegions<Dim> air;                                     // where enclosed air keeps its volume
-  double lost_air = 0;                                     // of regions too small for the grid that vanished, m^Dim
+  Participants<Dim> solids;
+  double horizon = 0;           // s ahead that the solids' velocities were solved for
+  Parting<Dim> parting;         // where the scene lets liquid part from solids
+  double viscous_rate = 0;      // mu/(rho h^2) of the last solve at its largest, 1/s
+  AirRegions<Dim> air;          // where enclosed air keeps its volume
+  double lost_air = 0;          // of regions too small for the grid that vanished, m^Dim
   CellField<Dim, char> sealed;  // liquid that elastic walls, their pins and what these stand on seal; may be empty
   std::vector<ViscousLoad> viscous_loads;  // on each solid; empty where the liquid is inviscid
 };
@@ -139,8 +141,8 @@ struct Phases {
   PhaseFault enter(const std::string& name) const { return hook ? hook(name) : PhaseFault::none; }
 };
 
-// All solids at the state's time, those that move as prescribed with their motion over the step that led there; rigid
-// and elastic ones at rest.
+// All solids at the state's time, those that move as prescribed with their motion over the step that led there; others
+// at rest.
 template <int Dim>
 std::vector<Placement> place_bodies(const Setup<Dim>& setup, const State<Dim>& state);
 
@@ -160,7 +162,7 @@ template <int Dim>
 template <int Dim>
 double fastest_component(const Setup<Dim>& setup, const State<Dim>& state);
 
-// With rigid bodies a step is at most this much longer than the last one: contact is solved that far ahead.
+// With bodies in contact a step is at most this much longer than the last one: contact is solved that far ahead.
 constexpr double step_growth = 1.25;
 // Why a pinned step of dt cannot be taken, with figures; empty where it can: for the flow (collective), and for the
 // solids' motions as placed.

@@ -10,8 +10,6 @@
 #include "coupling/state/features.h"
 #include "coupling/thin/thin_weight.h"
 #include "coupling/transport/viscous_transport.h"
-#include "solid/body/enclosed_volume.h"
-#include "solid/elastic/output.h"
 
 namespace seiche {
 namespace {
@@ -91,28 +89,18 @@ class FlowSimulation : public Simulation {
 
   SurfaceMesh solid_surface(std::size_t k) const override {
     SurfaceMesh mesh = surfaces_.at(k);
-    if (setup_.bodies[k].is_elastic()) {
-      const auto points = surface_points(setup_.bodies[k].elastic(), state_.elastic[k].state.u);
-      std::transform(points.begin(), points.end(), mesh.points.begin(), extend<Dim>);
-      return mesh;
-    }
-    const Pose& pose = geometry_.placed[k].pose;
-    for (Vec3& x : mesh.points) x = pose.apply(x);
+    state_.solids[k].place_points(state_.solids[k].place(state_.time, state_.time, state_.time), mesh.points);
     return mesh;
   }
 
-  VolumeFrame solid_volume(std::size_t k) const override {
-    if (!setup_.bodies.at(k).is_elastic()) return {};
-    const ElasticSolid<Dim>& solid = setup_.bodies[k].elastic();
-    return volume_frame(solid.body, solid.surface, state_.elastic[k].state.u, state_.elastic[k].velocity);
-  }
+  VolumeFrame solid_volume(std::size_t k) const override { return state_.solids[k].volume(); }
 
   std::vector<std::string> describe_start() const override {
     std::vector<std::string> lines = account_.lines;
     const std::vector<std::string> features = describe_features(setup_);
     lines.insert(lines.end(), features.begin(), features.end());
-    for (const Body<Dim>& body : setup_.bodies)
-      if (body.is_elastic()) lines.push_back(describe_mesh(body.spec().name, body.elastic().body.mesh));
+    for (std::size_t k = 0; k < state_.solids.size(); ++k)
+      if (std::string line = state_.solids[k].describe_mesh(); !line.empty()) lines.push_back(std::move(line));
     return lines;
   }
 
@@ -140,11 +128,10 @@ class FlowSimulation : public Simulation {
 
   StepGeometry<Dim> measure_geometry() const {
     StepGeometry<Dim> g = setup_.solids.measure(place_bodies(setup_, state_), state_.time);
-    for (std::size_t k = 0; k < setup_.bodies.size(); ++k) {
-      const RigidState& r = state_.rigid[k];
-      if (setup_.bodies[k].is_rigid())
-        set_twist(setup_.layout, int(k), Twist{r.velocity, r.angular_velocity, r.center}, g);
-      if (setup_.bodies[k].is_elastic()) set_node_velocity(setup_.layout, int(k), state_.elastic[k].velocity, g);
+    for (std::size_t k = 0; k < state_.solids.size(); ++k) {
+      Placement moving = g.placed[k];
+      state_.solids[k].set_velocity(moving);
+      set_motion(setup_.layout, int(k), moving, g);
     }
     return g;
   }
@@ -156,20 +143,8 @@ class FlowSimulation : public Simulation {
     std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
     if (state.gas.now) std::tie(state.gas.now, state.gas.before) = inform(*state_.gas.now, *trial.gas.now);
     state.dt_now = dt;
-    take_cavities(trial, state);
+    for (const auto& interaction : setup_.interactions) interaction->inform(trial, state);
     return state;
-  }
-
-  // Walls of cavities that the trial found keep in the first step, too, what they hold at the start.
-  void take_cavities(const State<Dim>& trial, State<Dim>& state) const {
-    state.sealed = trial.sealed;
-    for (std::size_t k = 0; k < setup_.bodies.size(); ++k) state.elastic[k].cavity = trial.elastic[k].cavity;
-    for (const CavityWalls<Dim>& walls : kept_cavities(setup_.bodies, state.elastic)) {
-      std::vector<Eigen::VectorXd> u;
-      for (const WallPatch<Dim>& wall : walls) u.push_back(state.elastic[std::size_t(wall.body)].state.u);
-      const double volume = enclosed_volume(walls, u);
-      for (const WallPatch<Dim>& wall : walls) state.elastic[std::size_t(wall.body)].kept_volume[wall.patch] = volume;
-    }
   }
 
   static std::pair<std::shared_ptr<Level<Dim>>, std::shared_ptr<Level<Dim>>> inform(const Level<Dim>& start,
@@ -230,8 +205,7 @@ class FlowSimulation : public Simulation {
     measure_fluids(setup_, state, geometry.psi, stats);
     measure_air(setup_, state, geometry.psi, stats);
     stats.liquid_volume -= volume_beyond(setup_, geometry, state.phi);
-    measure_rigid(setup_, state, stats);
-    measure_elastic(setup_, state, stats);
+    measure_bodies(setup_, state, stats);
     return stats;
   }
 
@@ -250,23 +224,9 @@ class FlowSimulation : public Simulation {
   }
 
   std::vector<SurfaceMesh> rest_surfaces() const {
-    const DomainSpec& d = setup_.scene.domain;
     std::vector<SurfaceMesh> surfaces;
-    for (const Body<Dim>& body : setup_.bodies) {
-      if (body.is_rigid() || body.is_elastic()) {
-        surfaces.push_back(body.contact_surface());
-        continue;
-      }
-      Vec<Dim> lower = Vec<Dim>::Constant(1e300), upper = -lower;
-      for (int corner = 0; corner < (1 << Dim); ++corner) {
-        Vec3 x = d.lower;
-        for (int a = 0; a < Dim; ++a) x[a] = (corner >> a) & 1 ? d.upper[a] : d.lower[a];
-        const Vec<Dim> rest = truncate<Dim>(body.pose(0).to_rest(x));
-        lower = lower.cwiseMin(rest);
-        upper = upper.cwiseMax(rest);
-      }
-      surfaces.push_back(shape_surface<Dim>(body.spec().shape, {d.cell_size, nullptr}, lower, upper));
-    }
+    for (std::size_t k = 0; k < state_.solids.size(); ++k)
+      surfaces.push_back(state_.solids[k].surface_at_rest(setup_.scene.domain));
     return surfaces;
   }
 

@@ -7,11 +7,6 @@
 namespace seiche {
 namespace {
 
-template <int Dim>
-bool is_kinematic(const Body<Dim>& body) {
-  return body.spec().kind == SolidKind::kinematic;
-}
-
 // What a source brings first has no velocity yet that the other half of the step could go on with.
 template <int Dim>
 bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
@@ -29,7 +24,7 @@ template <int Dim>
 bool goes_by_halves(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   for (const Source<Dim>& source : s.sources)
     if (opens_or_closes(source, state.time, state.time + dt)) return false;
-  return may_go_by_halves(s) && (!s.has_rigid() || safe_share(s, state, 2 * dt) >= 1);
+  return may_go_by_halves(s) && (!s.has_unknowns() || safe_share(s, state, 2 * dt) >= 1);
 }
 
 template <int Dim>
@@ -37,65 +32,39 @@ bool can_go_on(const Setup<Dim>& s, const State<Dim>& halfway, double dt) {
   // Redistancing takes in ceil(cfl) + 1 layers, and there are as many halves with this velocity as with the next.
   const double h = s.layout.h(), most = std::ceil(s.scene.time.cfl) + 1;
   if (fastest_component(s, halfway) * dt > most * h) return false;
-  if (!s.has_rigid()) return true;
+  if (!s.has_unknowns()) return true;
   std::vector<Placement> placed = place_bodies(s, halfway);
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    const RigidState& r = halfway.rigid[k];
-    if (s.bodies[k].is_rigid()) placed[k].twist = {r.velocity, r.angular_velocity, r.center};
-  }
+  for (std::size_t k = 0; k < placed.size(); ++k) halfway.solids[k].set_velocity(placed[k]);
   // One cell a step, and what speeds up within a step or two.
   constexpr double speeding = 1.1;
   return s.solids.largest_displacement(placed, dt) <= speeding * h && safe_share(s, halfway, dt / 2) >= 1;
 }
 
 template <int Dim>
-std::vector<Placement> place_halfway(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  std::vector<Placement> placed = place_bodies(s, state);
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    if (!is_kinematic(s.bodies[k])) continue;
-    Placement& p = placed[k];
-    p.pose = s.bodies[k].pose(state.time - dt / 2);
-    p.twist.about = p.pose.pivot + p.pose.displacement;
-  }
+std::vector<Placement> place_halfway(const State<Dim>& state, double dt) {
+  std::vector<Placement> placed;
+  for (std::size_t k = 0; k < state.solids.size(); ++k)
+    placed.push_back(state.solids[k].place(state.time - state.dt_now, state.time, state.time - dt / 2));
   return placed;
 }
 
 template <int Dim>
-RigidState go_on(const Body<Dim>& body, const RigidState& halfway, const RigidState& led, double dt) {
-  RigidState moving = halfway;
-  moving.velocity = led.velocity;
-  moving.angular_velocity = led.angular_velocity;
-  moving.angular_momentum = led.angular_momentum;
-  moving.horizon = led.horizon;
-  const RigidState there = advance(body, moving, dt);
-  RigidState next = halfway;
-  next.center = there.center;
-  next.rotation = there.rotation;
-  const auto spin = [&](const RigidState& x) { return free_twist(body, x, Vec3::Zero(), 0, x.horizon).angular; };
-  next.angular_velocity += spin(next) - spin(halfway);
-  if (!turns_freely(body.spec().rigid)) next.angular_momentum = world_inertia(body, next) * next.angular_velocity;
-  return next;
-}
-
-template <int Dim>
 StepGeometry<Dim> stand_at_end(const Setup<Dim>& s, const State<Dim>& end, StepGeometry<Dim> solved) {
-  StepGeometry<Dim> g = s.solids.measure(place_bodies(s, end), end.time);
+  const std::vector<Placement> placed = place_bodies(s, end);
+  StepGeometry<Dim> g = s.solids.measure(placed, end.time);
   solved.psi = std::move(g.psi);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    Twist& twist = solved.placed[k].twist;
-    const Pose& pose = solved.placed[k].pose = g.placed[k].pose;
-    if (s.bodies[k].is_rigid()) twist.about = end.rigid[k].center;
-    if (is_kinematic(s.bodies[k])) twist.about = pose.pivot + pose.displacement;
+    solved.placed[k].pose = g.placed[k].pose;
+    solved.placed[k].twist.about = placed[k].twist.about;
   }
   return solved;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                 \
-  template bool may_go_by_halves<D>(const Setup<D>&);                                         \
-  template bool goes_by_halves<D>(const Setup<D>&, const State<D>&, double);                  \
-  template bool can_go_on<D>(const Setup<D>&, const State<D>&, double);                       \
-  template std::vector<Placement> place_halfway<D>(const Setup<D>&, const State<D>&, double); \
-  template RigidState go_on<D>(const Body<D>&, const RigidState&, const RigidState&, double); \
+#define SEICHE_INSTANTIATE(D)                                                \
+  template bool may_go_by_halves<D>(const Setup<D>&);                        \
+  template bool goes_by_halves<D>(const Setup<D>&, const State<D>&, double); \
+  template bool can_go_on<D>(const Setup<D>&, const State<D>&, double);      \
+  template std::vector<Placement> place_halfway<D>(const State<D>&, double); \
   template StepGeometry<D> stand_at_end<D>(const Setup<D>&, const State<D>&, StepGeometry<D>);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

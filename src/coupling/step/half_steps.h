@@ -29,17 +29,12 @@ bool can_go_on(const Setup<Dim>& setup, const State<Dim>& halfway, double dt);
 // The solids where they stand half-way through the step that ends at state.time, prescribed ones with their twists over
 // the whole of it.
 template <int Dim>
-std::vector<Placement> place_halfway(const Setup<Dim>& setup, const State<Dim>& state, double dt);
-
-// A rigid body that stands half-way, after another dt with the velocities of `led` (itself, or the body before the
-// step); its mean angular velocity is that over its horizon from there.
-template <int Dim>
-RigidState go_on(const Body<Dim>& body, const RigidState& halfway, const RigidState& led, double dt);
+std::vector<Placement> place_halfway(const State<Dim>& state, double dt);
 
 // Whether solids move.
 template <int Dim>
 bool any_moves(const Setup<Dim>& setup) {
-  return std::any_of(setup.bodies.begin(), setup.bodies.end(), [](const Body<Dim>& b) { return b.moves(); });
+  return std::any_of(setup.bodies.begin(), setup.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); });
 }
 
 // Of the geometry that was solved with, distances and poses as at the end of the step.

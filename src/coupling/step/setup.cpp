@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/solids/solid_kinds.h"
 #include "coupling/thin/films.h"
 #include "coupling/thin/thin_solids.h"
 #include "coupling/thin/thin_weight.h"
@@ -41,8 +42,7 @@ constexpr double least_density_ratio = 1e-7;
 
 SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std::string>& notes) {
   const double least = least_density_ratio * liquid.density;
-  const bool floats = spec.kind == SolidKind::rigid || spec.kind == SolidKind::elastic;
-  if (!floats || spec.rigid.density >= least) return spec;
+  if (!spec.kind.is_free() || spec.rigid.density >= least) return spec;
   notes.push_back(fmt::format("solid '{}': density {:g} kg/m^3 is taken as {:g}, {:g} of the liquid's", spec.name,
                               spec.rigid.density, least, least_density_ratio));
   spec.rigid.density = least;
@@ -173,37 +173,33 @@ Setup<Dim>::Setup(const Scene& sc, const Communicator& r, const Tampering& t)
       sides(sc.domain, viscous ? WallFlow::sticks : WallFlow::slips),
       bodies(make_bodies<Dim>(sc, notes)),
       solids(layout, sides, bodies),
+      at_start(make_participants(bodies)),
+      interactions(make_interactions(bodies)),
       sources(make_sources<Dim>(sc, notes)) {
-  if (has_rigid() || has_elastic()) contact.emplace(make_contact_scene(sc, bodies, tampering));
+  if (has_unknowns()) contact.emplace(make_contact_scene(sc, at_start, tampering));
   followed = find_followed_points(*this);
 }
 
 template <int Dim>
-bool Setup<Dim>::has_rigid() const {
-  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) { return b.is_rigid(); });
+bool Setup<Dim>::has_unknowns() const {
+  return at_start.any([](const Participant<Dim>& p) { return p.unknowns() > 0; });
 }
 
 template <int Dim>
-bool Setup<Dim>::has_elastic() const {
-  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) { return b.is_elastic(); });
+bool Setup<Dim>::plans_steps() const {
+  return at_start.any([](const Participant<Dim>& p) { return p.plans_steps(); });
 }
 
 template <int Dim>
 bool Setup<Dim>::may_seal() const {
-  return std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& b) {
-    return b.is_elastic() && std::any_of(b.elastic().patches.begin(), b.elastic().patches.end(),
-                                         [](const SurfacePatch<Dim>& p) { return !p.is_closed(); });
-  });
+  return at_start.any([](const Participant<Dim>& p) { return p.may_seal(); });
 }
 
 template <int Dim>
-std::vector<Placement> place_bodies(const Setup<Dim>& s, const State<Dim>& state) {
-  auto placed = place_bodies(s.bodies, state.rigid, state.time - state.dt_now, state.time);
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
-    placed[k].displacement = state.elastic[k].state.u;
-    placed[k].velocity = Eigen::VectorXd::Zero(placed[k].displacement.size());
-  }
+std::vector<Placement> place_bodies(const Setup<Dim>&, const State<Dim>& state) {
+  std::vector<Placement> placed;
+  for (std::size_t k = 0; k < state.solids.size(); ++k)
+    placed.push_back(state.solids[k].place(state.time - state.dt_now, state.time, state.time));
   return placed;
 }
 
@@ -220,11 +216,10 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
   std::string fault = fault_of_pinned_flow(s, start, dt);
   for (int n = 0; fault.empty() && n < looks; ++n) {
     const double t = time.end * n / looks;
-    auto placed = place_bodies(s.bodies, start.rigid, t, t + dt);
-    for (std::size_t k = 0; n == 0 && k < placed.size(); ++k) {
-      if (s.bodies[k].is_rigid())
-        placed[k].twist = {start.rigid[k].velocity, start.rigid[k].angular_velocity, start.rigid[k].center};
-      placed[k].velocity = start.elastic[k].velocity;
+    std::vector<Placement> placed;
+    for (std::size_t k = 0; k < start.solids.size(); ++k) {
+      placed.push_back(start.solids[k].place(t, t + dt, t + dt));
+      if (n == 0) start.solids[k].set_velocity(placed.back());
     }
     fault = fault_of_pinned_solids(s, placed, t, dt);
   }
@@ -241,10 +236,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.pressure = CellField<Dim>(s.layout);
   if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
   if (s.may_seal()) state.sealed = CellField<Dim, char>(s.layout);
-  for (const Body<Dim>& body : s.bodies) {
-    state.rigid.push_back(initial_rigid_state(body));
-    state.elastic.push_back(initial_elastic_motion(body));
-  }
+  state.solids = s.at_start;
   refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
   if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "coupling/solids/elastic_coupling.h"
 #include "coupling/solids/sealed_liquid.h"
+#include "coupling/solids/solid_coupling.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/step/half_steps.h"
@@ -21,7 +21,6 @@
 #include "coupling/transport/viscous_transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
-#include "solid/body/enclosed_volume.h"
 
 namespace seiche {
 namespace {
@@ -139,16 +138,9 @@ struct StepInProgress {
   }
 
   void move_bodies() {
-    for (std::size_t k = 0; k < s.bodies.size(); ++k)
-      if (s.bodies[k].is_rigid()) out.state.rigid[k] = advance(s.bodies[k], before.rigid[k], lead);
-    std::vector<Eigen::VectorXd> w = elastic_velocities_over(s.bodies, before.elastic, before.time, dt, before.horizon);
-    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-      if (!s.bodies[k].is_elastic()) continue;
-      const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
-      out.state.elastic[k].velocity = std::move(w[k]);
-      advance(solid.body, s.elastic_scheme(), dt, step_load(s, before, before.dt_now, before.horizon, int(k)),
-              pins_at(solid, before.time + dt), out.state.elastic[k]);
-    }
+    const std::vector<Eigen::VectorXd> velocities = each_velocity_over(s, before, dt);
+    for (std::size_t k = 0; k < velocities.size(); ++k)
+      out.state.solids[k].advance({s, before, dt, lead, velocities[k]});
   }
 
   void transport_surface() {
@@ -168,7 +160,7 @@ struct StepInProgress {
     const PhaseFault fault = phases.enter("geometry");
     const auto timed = phases.timers.measure("geometry");
     out.geometry =
-        s.solids.measure(by_halves ? place_halfway(s, out.state, dt) : place_bodies(s, out.state), out.state.time);
+        s.solids.measure(by_halves ? place_halfway(out.state, dt) : place_bodies(s, out.state), out.state.time);
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
     out.state.expected_volume += lead * net_inflow(s, out.geometry, before.phi, before.now->u);
@@ -316,7 +308,7 @@ struct StepInProgress {
   void solve_for_a_step_to_come() {
     constexpr int most_plans = 2, most_failures = 2;
     out.state.horizon = choose_horizon(s, out.state, dt);
-    if (!s.has_elastic() || s.scene.time.fixed_step) return solve_and_restore();
+    if (!s.plans_steps() || s.scene.time.fixed_step) return solve_and_restore();
     const State<Dim> moved = out.state;
     const StepGeometry<Dim> measured = out.geometry;
     for (int plans = 1, failures = 0;;) {
@@ -344,8 +336,7 @@ struct StepInProgress {
     const FaceField<Dim> u = flow_at_surface(s, leading);
     next.expected_volume += lead * net_inflow(s, out.geometry, next.phi, leading.now->u);
     next.expected_volume += seiche::transport_surface(s, next, u, before.time + lead, lead, next.phi);
-    for (std::size_t k = 0; k < s.bodies.size(); ++k)
-      if (s.bodies[k].is_rigid()) next.rigid[k] = go_on(s.bodies[k], next.rigid[k], leading.rigid[k], lead);
+    for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], lead);
     if (any_moves(s)) out.geometry = stand_at_end(s, next, std::move(out.geometry));
     const double expected = next.expected_volume + gap_volume(s, next.parting);
     next.corrected_volume += control_volume(s, out.geometry.psi, expected, volume_shift(), next.phi);

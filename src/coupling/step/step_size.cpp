@@ -3,13 +3,13 @@
 
 #include "base/error.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/solids/solid_coupling.h"
 #include "coupling/tension/surface_tension.h"
 #include "coupling/transport/given_motion.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/viscous_transport.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
-#include "solid/body/enclosed_volume.h"
 
 namespace seiche {
 
@@ -83,12 +83,11 @@ std::string pinned_step(const Setup<Dim>& s, double t, double dt) {
 
 // The solids as they will move in the coming dt.
 template <int Dim>
-std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  std::vector<Placement> placed = place_bodies(s.bodies, state.rigid, state.time, state.time + dt);
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    const RigidState& r = state.rigid[k];
-    if (s.bodies[k].is_rigid()) placed[k].twist = {r.velocity, r.angular_velocity, r.center};
-    placed[k].velocity = state.elastic[k].velocity;
+std::vector<Placement> motion_ahead(const State<Dim>& state, double dt) {
+  std::vector<Placement> placed;
+  for (std::size_t k = 0; k < state.solids.size(); ++k) {
+    placed.push_back(state.solids[k].place(state.time, state.time + dt, state.time + dt));
+    state.solids[k].set_velocity(placed.back());
   }
   return placed;
 }
@@ -96,12 +95,9 @@ std::vector<Placement> motion_ahead(const Setup<Dim>& s, const State<Dim>& state
 // How far solids go in dt. Those that move as prescribed may be back where they began by then.
 template <int Dim>
 double largest_way(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  const bool prescribed = std::any_of(s.bodies.begin(), s.bodies.end(),
-                                      [](const Body<Dim>& body) { return body.spec().kind == SolidKind::kinematic; });
-  double largest = s.solids.largest_displacement(motion_ahead(s, state, dt), dt);
-  for (const double part : {0.29, 0.5})
-    if (prescribed)
-      largest = std::max(largest, s.solids.largest_displacement(motion_ahead(s, state, part * dt), part * dt));
+  double largest = 0;
+  for (const double part : {1.0, 0.29, 0.5})
+    largest = std::max(largest, s.solids.largest_displacement(motion_ahead(state, part * dt), part * dt));
   return largest;
 }
 
@@ -131,15 +127,12 @@ double until_frame(const TimeSpec& spec, double t) {
   return t < spec.end * (1 - 1e-12) ? std::min(next, spec.end) - t : next - t;
 }
 
-// Whether no element turns inside out on the straight way of a step other than the one solved for.
+// The share of the straight way of a step other than the one solved for on which no element turns inside out.
 template <int Dim>
-double share_without_inversion(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+double share_without_damage(const Setup<Dim>& s, const State<Dim>& state, double dt) {
   double share = 1;
-  const auto w = elastic_velocities_over(s.bodies, state.elastic, state.time, dt, state.horizon);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    if (s.bodies[k].is_elastic())
-      share = std::min(share, inversion_bound<Dim>(s.bodies[k].elastic().body, state.elastic[k].state.u,
-                                                   Eigen::VectorXd(dt * w[k])));
+  const std::vector<Eigen::VectorXd> v = each_velocity_over(s, state, dt);
+  for (std::size_t k = 0; k < v.size(); ++k) share = std::min(share, state.solids[k].possible_share(dt * v[k]));
   return share;
 }
 
@@ -156,11 +149,11 @@ std::string too_short(double dt, double remaining, double h, const std::string& 
 // it is looked at again.
 template <int Dim>
 double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  if (s.has_elastic() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
+  if (s.plans_steps() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
   constexpr int most_looks = 40;
   constexpr double margin = 0.9;  // so that the next look finds the share of gaps it wants left
   for (int n = 0; n < most_looks; ++n) {
-    const double share = std::min(safe_share(s, state, dt), share_without_inversion(s, state, dt));
+    const double share = std::min(safe_share(s, state, dt), share_without_damage(s, state, dt));
     if (share >= 1) return dt;
     dt *= margin * share;
   }
@@ -195,7 +188,7 @@ std::string fault_of_pinned_solids(const Setup<Dim>& s, const std::vector<Placem
 template <int Dim>
 double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const TimeSpec& spec = s.scene.time;
-  if (!s.has_elastic()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
+  if (!s.plans_steps()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
   const double remaining = until_frame(spec, next.time);
   if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
   constexpr double margin = 0.9;
@@ -217,22 +210,22 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
-  const bool planned = s.has_elastic() && state.step > 0 && !spec.fixed_step;
+  const bool planned = s.plans_steps() && state.step > 0 && !spec.fixed_step;
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
-  if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(s, state, std::min(dt, remaining));
+  if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(state, std::min(dt, remaining));
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
     dt = state.horizon;
   else if (!spec.fixed_step)
     dt = limit_of_solids(s, state, std::min(dt, remaining));
-  if (s.has_elastic() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
+  if (s.plans_steps() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
     std::string fault = fault_of_pinned_flow(s, state, dt);
-    if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(s, state, dt), state.time, dt);
+    if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   }
-  const bool as_planned = s.has_elastic() && dt == state.horizon;
+  const bool as_planned = s.plans_steps() && dt == state.horizon;
   if (!as_planned && !spec.fixed_step) dt = land(dt, remaining);
   const double free = hold_back(s, state, dt);
   if (!(free * double(most_steps_a_frame) > remaining))

@@ -54,7 +54,7 @@ struct ThinSolids {
 
   std::unique_ptr<PlacedSolid<Dim>> place(std::size_t k, const Placement& placed) const {
     if (!s.bodies[k].is_thin()) return nullptr;
-    return std::make_unique<PlacedSolid<Dim>>(s.layout, s.bodies[k], placed);
+    return place_solid(s.layout, s.bodies[k], placed);
   }
 
   // phi of a cell beside body k as its own side allows.

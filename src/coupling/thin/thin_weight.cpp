@@ -51,7 +51,7 @@ template <int Dim>
 LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                            const State<Dim>& state, double dt, int k) {
   const FaceShares& shares = *g.shares[std::size_t(k)];
-  const Eigen::VectorXd& w = state.elastic[std::size_t(k)].velocity;
+  const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
   const auto size = std::size_t(w.size());
   std::vector<double> sums(3 * size);  // mass, what of it weighs, momentum
   std::size_t n = 0;                   // shares and sealed faces are in the same order
@@ -79,8 +79,7 @@ LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
 
 template <int Dim>
 bool has_thin_elastic(const Setup<Dim>& s) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(),
-                     [](const Body<Dim>& b) { return b.is_thin() && b.is_elastic(); });
+  return std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body<Dim>& b) { return b.is_thin() && b.elements(); });
 }
 
 template <int Dim>
@@ -90,7 +89,7 @@ double volume_beyond(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Cell
   double sum = 0;
   for (const SealedFace& f : g.sealed) {
     const std::array<Site, 2> cells = {f.face - l.stride(f.axis), f.face};
-    for (std::size_t side = 0; side < 2 && s.bodies[std::size_t(f.body)].is_elastic(); ++side) {
+    for (std::size_t side = 0; side < 2 && g.deforms(f.body); ++side) {
       const Site c = cells[side];
       if (!l.cells().contains(l.index(c)) || phi[c] >= 0) continue;
       const bool within = f.gaps[side] == 0;

@@ -70,25 +70,16 @@ double limit_of_given_flow(const Setup<Dim>& s, double t, double dt) {
   return dt;
 }
 
-// Psi(dt v) <= 1e-3 v.M v/2.
 template <int Dim>
-double limit_of_given_velocity(const Setup<Dim>& s, const State<Dim>& start, double dt) {
-  constexpr double share = 1e-3;
-  constexpr int most_halves = 60;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].is_elastic()) continue;
-    const ElasticBody<Dim>& body = s.bodies[k].elastic().body;
-    const Eigen::VectorXd& v = start.elastic[k].state.v;
-    const double most = share * kinetic_energy(body, v);
-    for (int n = 0; n < most_halves && !(elastic_energy(body, Eigen::VectorXd(dt * v)) <= most); ++n) dt /= 2;
-  }
+double limit_of_given_velocity(const State<Dim>& start, double dt) {
+  for (std::size_t k = 0; k < start.solids.size(); ++k) dt = start.solids[k].limit_of_start(dt);
   return dt;
 }
 
 #define SEICHE_INSTANTIATE(D)                                              \
   template double fastest_given_flow<D>(const Setup<D>&, double, double);  \
   template double limit_of_given_flow<D>(const Setup<D>&, double, double); \
-  template double limit_of_given_velocity<D>(const Setup<D>&, const State<D>&, double);
+  template double limit_of_given_velocity<D>(const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

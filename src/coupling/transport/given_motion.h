@@ -16,6 +16,6 @@ double fastest_given_flow(const Setup<Dim>& setup, double t, double dt);
 // The longest first step up to dt in which the velocities that elastic bodies begin with strain them by no more than
 // 1e-3 of their kinetic energy.
 template <int Dim>
-double limit_of_given_velocity(const Setup<Dim>& setup, const State<Dim>& start, double dt);
+double limit_of_given_velocity(const State<Dim>& start, double dt);
 
 }  // namespace seiche

@@ -8,20 +8,20 @@
 namespace seiche {
 namespace {
 
-constexpr double depth = 1.5;  // cells; psi of elastic bodies is true to two
+constexpr double depth = 1.5;  // cells; psi of deformed bodies is true to two
 constexpr int layers = 4;      // a wall moves by less than that in a step
 
 template <int Dim>
-bool is_in_elastic(const Setup<Dim>& s, const StepGeometry<Dim>& g, Site cell) {
-  return g.body[cell] >= 0 && s.bodies[std::size_t(g.body[cell])].is_elastic();
+bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
+  return g.body[cell] >= 0 && g.deforms(g.body[cell]);
 }
 
-// 1 in the cells of the domain but for those deeper than that in elastic bodies.
+// 1 in the cells of the domain but for those deeper than that in deformed bodies.
 template <int Dim>
 std::vector<char> cells_near_outside(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
   std::vector<char> near(std::size_t(s.layout.size()), 0);
   for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    const bool deep = is_in_elastic(s, g, c) && distance_at_cell(s.layout, g.psi, c).first <= -depth * s.layout.h();
+    const bool deep = is_in_deformed(g, c) && distance_at_cell(s.layout, g.psi, c).first <= -depth * s.layout.h();
     near[std::size_t(c)] = deep ? 0 : 1;
   });
   return near;
@@ -31,7 +31,7 @@ std::vector<char> cells_near_outside(const Setup<Dim>& s, const StepGeometry<Dim
 
 template <int Dim>
 void keep_sides_of_walls(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (!s.has_elastic()) return;
+  if (std::none_of(g.attached.begin(), g.attached.end(), [](const auto& list) { return list != nullptr; })) return;
   std::vector<char> known = cells_near_outside(s, g);
   std::vector<double> outside(phi.data(), phi.data() + s.layout.size());
   extrapolate(s.layout, s.halo, s.layout.cells(), {layers, 0}, outside, known);

@@ -48,18 +48,23 @@ Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, in
   return v;
 }
 
-// Velocities of elastic solids on the faces that they close, as far in as their surface is near.
+// Velocities of the solids at faces: of what deforms on the faces that it closes, as far in as its surface is near.
 template <int Dim>
-class ElasticVelocities {
+class SolidVelocities {
  public:
-  ElasticVelocities(const Setup<Dim>& s, const StepGeometry<Dim>& g) : g_(g), shares_(s.bodies.size()) {
+  SolidVelocities(const Setup<Dim>& s, const StepGeometry<Dim>& g)
+      : g_(g), layout_(s.layout), shares_(s.bodies.size()) {
     for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-      if (!s.bodies[k].is_elastic()) continue;
+      if (!g.deforms(int(k))) continue;
       for (std::size_t n = 0; n < g.shares[k]->size(); ++n)
         shares_[k][std::size_t((*g.shares[k])[n].axis)][(*g.shares[k])[n].face] = n;
     }
   }
   std::optional<Vec<Dim>> at(int body, int axis, Site face) const {
+    if (!g_.deforms(body)) {
+      const Vec3 x = extend<Dim>(layout_.position(layout_.index(face), face_offset<Dim>(axis)));
+      return truncate<Dim>(g_.placed[std::size_t(body)].twist.at(x));
+    }
     const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
     const auto found = faces.find(face);
     if (found == faces.end()) return {};
@@ -72,17 +77,9 @@ class ElasticVelocities {
 
  private:
   const StepGeometry<Dim>& g_;
+  const Layout<Dim>& layout_;
   std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
 };
-
-// At a face that a thin solid closes.
-template <int Dim>
-Vec<Dim> velocity_of_solid(const Setup<Dim>& s, const StepGeometry<Dim>& g, const ElasticVelocities<Dim>& elastic,
-                           const SealedFace& f) {
-  const Vec3 x = extend<Dim>(s.layout.position(s.layout.index(f.face), face_offset<Dim>(f.axis)));
-  if (!s.bodies[std::size_t(f.body)].is_elastic()) return truncate<Dim>(g.placed[std::size_t(f.body)].twist.at(x));
-  return elastic.at(f.body, f.axis, f.face).value_or(Vec<Dim>::Zero());
-}
 
 // Whether viscous liquid has the velocity of this body (-1: none) at its surface.
 template <int Dim>
@@ -94,19 +91,17 @@ bool liquid_sticks_to(const Setup<Dim>& s, int body) {
 // Where liquid sticks to the solid, what is continued straight passes through the solid's velocity at its surface;
 // farther in than that goes all of it is the solid's.
 template <int Dim>
-void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const ElasticVelocities<Dim>& elastic,
+void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const SolidVelocities<Dim>& solids,
                    const FaceField<Dim, char>& valid, const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
   const FaceField<Dim> old = u;
   for (int a = 0; a < Dim; ++a)
-    for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
       if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
       const FaceDistance<Dim> d = distance_at_face(s.layout, g.psi, a, f);
       const double norm = d.gradient.norm();
       if (d.psi >= 0 || norm == 0) return;
       const Vec<Dim> n = d.gradient / norm;
-      const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(a)));
-      std::optional<Vec<Dim>> v = truncate<Dim>(g.placed[g.body[f]].twist.at(x));
-      if (s.bodies[g.body[f]].is_elastic()) v = elastic.at(g.body[f], a, f);
+      const std::optional<Vec<Dim>> v = solids.at(g.body[f], a, f);
       if (v && liquid_sticks_to(s, g.body[f])) {
         if (d.psi < -straight_layers * s.layout.h()) u.at(a, f) = (*v)[a];
         return;
@@ -131,7 +126,7 @@ template <int Dim>
 void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                        FaceField<Dim>& u) {
   FaceField<Dim, char> reached = valid;
-  const ElasticVelocities<Dim> elastic(s, g);
+  const SolidVelocities<Dim> solids(s, g);
   for (int a = 0; a < Dim; ++a) {
     // Inflow feeds the air before it, too.
     for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
@@ -142,14 +137,14 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
     });
     for (const SealedFace& f : g.sealed)
       if (f.axis == a && !valid.at(a, f.face)) {
-        u.at(a, f.face) = velocity_of_solid(s, g, elastic, f)[a];
+        u.at(a, f.face) = solids.at(f.body, a, f.face).value_or(Vec<Dim>::Zero())[a];
         reached.at(a, f.face) = 1;
       }
     extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), straight_layers}, u[a], reached[a]);
   }
   keep_prescribed(s, g, u);
   if (s.bodies.empty()) return;
-  follow_solids(s, g, elastic, valid, reached, u);
+  follow_solids(s, g, solids, valid, reached, u);
   keep_prescribed(s, g, u);
 }
 

@@ -16,8 +16,7 @@ bool has_uniform_viscosity(const Setup<Dim>& s) {
 }
 
 bool is_known_and_sticks(const SolidSpec& solid) {
-  const bool known = solid.kind == SolidKind::fixed || solid.kind == SolidKind::kinematic;
-  return known && solid.slip == Slip::no_slip;
+  return !solid.kind.is_free() && solid.slip == Slip::no_slip;
 }
 
 }  // namespace

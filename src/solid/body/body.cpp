@@ -24,7 +24,7 @@ Vec3 shape_center(const ShapeSpec& s) {
   return Vec3::Zero();
 }
 
-// Of a solid that is neither rigid nor elastic: the centre of mass of what its surface encloses.
+// Of a solid that no forces move: the centre of mass of what its surface encloses.
 template <int Dim>
 Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
   const TransformSpec& t = spec.transform;
@@ -40,20 +40,20 @@ Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
 template <int Dim>
 Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper)
     : spec_(spec) {
-  if (spec.kind == SolidKind::elastic) {
+  if (spec.kind.has_elements) {
     make_elastic(options, lower, upper);
     return;
   }
   shape_ = make_shape<Dim>(spec.shape, options);
   surface_ = seiche::contact_surface<Dim>(spec.shape, options, lower, upper);
-  if (is_rigid()) {
+  if (spec.kind.is_free()) {
     mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
     for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
   }
-  reference_ = is_rigid() ? mass_.center : center_of<Dim>(spec.shape, surface_);
+  reference_ = spec.kind.is_free() ? mass_.center : center_of<Dim>(spec.shape, surface_);
   thin_ = is_thinner_than(*this, options.cell_size, lower, upper);
   if (thin_) thin_surface_ = std::make_shared<const ThinSurface<Dim>>(surface_);
-  if (spec.kind != SolidKind::kinematic) return;
+  if (!spec.kind.is_prescribed()) return;
   const MotionSpec& m = spec.motion;
   motion_.emplace(Motion{VectorExpression(m.translate), Expression(m.degrees), m.axis.normalized(), m.center});
 }

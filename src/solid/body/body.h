@@ -37,16 +37,15 @@ class Body {
   Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   const SolidSpec& spec() const { return spec_; }
-  bool is_rigid() const { return spec_.kind == SolidKind::rigid; }
-  bool is_elastic() const { return elastic_ != nullptr; }
-  bool moves() const { return motion_.has_value() || is_rigid() || is_elastic(); }
-  const ElasticSolid<Dim>& elastic() const { return *elastic_; }   // of an elastic one
-  const MassProperties& mass() const { return mass_; }             // of a rigid or elastic one at rest
-  const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
-  double radius() const { return radius_; }                        // of a rigid body about its centre of mass, m
+  const SolidKind& kind() const { return spec_.kind; }
+  const ElasticSolid<Dim>* elements() const { return elastic_.get(); }  // null: it does not deform
+  const ElasticSolid<Dim>& elastic() const { return *elastic_; }        // where it has elements
+  const MassProperties& mass() const { return mass_; }                  // at rest; zero unless forces move it
+  const SurfaceMesh& contact_surface() const { return surface_; }       // in the rest pose
+  double radius() const { return radius_; }  // about its centre of mass where forces move it as a whole, m; else 0
   // Whether a grid can miss it (solid/body/thinness.h).
   bool is_thin() const { return thin_; }
-  // Of a thin body in this pose, not of an elastic one: whether the segment from x to y meets its surface.
+  // Of a thin body in this pose that does not deform: whether the segment from x to y meets its surface.
   bool lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const;
   // As prescribed.
   Pose pose(double t) const;
@@ -55,7 +54,7 @@ class Body {
   // Velocity at time t from the motion at t and up to 2 tau later: -3/2, 2, -1/2 (second order, one-sided, since a
   // motion need not be defined before the start).
   Twist velocity(double t, double tau) const;
-  // Signed distance, negative inside (m); not of an elastic one.
+  // Signed distance, negative inside (m); of one that does not deform.
   double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
   double distance_in(const Pose& pose, const Vec<Dim>& x) const;
   // The point that solids.csv reports and torques are taken about, at rest: the centre of mass, of the hole where the

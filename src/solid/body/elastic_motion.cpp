@@ -7,7 +7,6 @@ namespace seiche {
 template <int Dim>
 ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   ElasticMotion m;
-  if (!body.is_elastic()) return m;
   const ElasticSolid<Dim>& solid = body.elastic();
   m.state = at_rest(solid.body);
   const RigidSpec& spec = body.spec().rigid;

@@ -16,6 +16,8 @@ struct ElasticMotion {
   Eigen::VectorXd reaction;  // likewise, from the pins as the last solve found them
 };
 
+using ElasticMotions = std::vector<const ElasticMotion*>;  // of each solid; null: not elastic
+
 // The rest shape, moving as the scene says.
 template <int Dim>
 ElasticMotion initial_elastic_motion(const Body<Dim>& body);

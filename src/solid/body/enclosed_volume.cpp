@@ -119,11 +119,11 @@ Eigen::VectorXd free_normals(const CavityWalls<Dim>& walls, std::size_t n, const
 
 // Displacements of each wall's solid after dt.
 template <int Dim>
-std::vector<Eigen::VectorXd> moved(const CavityWalls<Dim>& walls, const std::vector<ElasticMotion>& motions, double dt,
+std::vector<Eigen::VectorXd> moved(const CavityWalls<Dim>& walls, const ElasticMotions& motions, double dt,
                                    const std::vector<Eigen::VectorXd>& velocities) {
   std::vector<Eigen::VectorXd> u;
   for (const WallPatch<Dim>& wall : walls)
-    u.push_back(motions[std::size_t(wall.body)].state.u + dt * velocities[std::size_t(wall.body)]);
+    u.push_back(motions[std::size_t(wall.body)]->state.u + dt * velocities[std::size_t(wall.body)]);
   return u;
 }
 
@@ -187,12 +187,11 @@ SurfaceMesh wall_of_cavity(const ElasticSolid<Dim>& solid, int patch) {
 }
 
 template <int Dim>
-std::vector<CavityWalls<Dim>> kept_cavities(const std::vector<Body<Dim>>& bodies,
-                                            const std::vector<ElasticMotion>& motions) {
+std::vector<CavityWalls<Dim>> kept_cavities(const std::vector<Body<Dim>>& bodies, const ElasticMotions& motions) {
   std::map<double, CavityWalls<Dim>> cavities;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies[k].is_elastic()) continue;
-    const Eigen::VectorXd& cavity = motions[k].cavity;
+    if (!motions[k]) continue;
+    const Eigen::VectorXd& cavity = motions[k]->cavity;
     for (Eigen::Index p = 0; p < cavity.size(); ++p)
       if (cavity[p] >= 0) cavities[cavity[p]].push_back({&bodies[k].elastic(), int(k), int(p)});
   }
@@ -205,7 +204,7 @@ namespace {
 
 // Newton's method; what is missing is small of second order in the motion, two iterations are enough.
 template <int Dim>
-void keep_in_proportion(const CavityWalls<Dim>& walls, const std::vector<ElasticMotion>& motions, double t, double dt,
+void keep_in_proportion(const CavityWalls<Dim>& walls, const ElasticMotions& motions, double t, double dt,
                         double wanted, std::vector<Eigen::VectorXd>& w) {
   constexpr int iterations = 4;
   for (int i = 0; i < iterations; ++i) {
@@ -225,26 +224,17 @@ void keep_in_proportion(const CavityWalls<Dim>& walls, const std::vector<Elastic
 }  // namespace
 
 template <int Dim>
-std::vector<Eigen::VectorXd> elastic_velocities_over(const std::vector<Body<Dim>>& bodies,
-                                                     const std::vector<ElasticMotion>& motions, double t, double dt,
-                                                     double horizon) {
-  std::vector<Eigen::VectorXd> planned, w;
-  for (const ElasticMotion& m : motions) planned.push_back(m.velocity);
-  if (dt == horizon) return planned;
-  w = planned;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies[k].is_elastic()) continue;
-    const Pins pins = pins_at(bodies[k].elastic(), t + dt);
-    for (std::size_t n = 0; n < pins.dofs.size(); ++n)
-      w[k][pins.dofs[n]] = (pins.targets[n] - motions[k].state.u[pins.dofs[n]]) / dt;
-  }
+void keep_cavities(const std::vector<Body<Dim>>& bodies, const ElasticMotions& motions, const PartOfPlan& part,
+                   std::vector<Eigen::VectorXd>& w) {
+  if (part.dt == part.horizon) return;
+  std::vector<Eigen::VectorXd> planned;
+  for (const ElasticMotion* m : motions) planned.push_back(m ? m->velocity : Eigen::VectorXd());
   for (const CavityWalls<Dim>& walls : kept_cavities(bodies, motions)) {
     const double now = enclosed_volume(walls, moved(walls, motions, 0, planned));
-    const double end = enclosed_volume(walls, moved(walls, motions, horizon, planned));
-    const double share = horizon > 0 ? dt / horizon : 0;
-    keep_in_proportion(walls, motions, t, dt, now + share * (end - now), w);
+    const double end = enclosed_volume(walls, moved(walls, motions, part.horizon, planned));
+    const double share = part.horizon > 0 ? part.dt / part.horizon : 0;
+    keep_in_proportion(walls, motions, part.t, part.dt, now + share * (end - now), w);
   }
-  return w;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \
@@ -252,10 +242,9 @@ std::vector<Eigen::VectorXd> elastic_velocities_over(const std::vector<Body<Dim>
   template double enclosed_volume<D>(const CavityWalls<D>&, const std::vector<Eigen::VectorXd>&);                   \
   template Eigen::VectorXd enclosed_volume_gradient<D>(const CavityWalls<D>&, std::size_t, const Eigen::VectorXd&); \
   template SurfaceMesh wall_of_cavity<D>(const ElasticSolid<D>&, int);                                              \
-  template std::vector<CavityWalls<D>> kept_cavities<D>(const std::vector<Body<D>>&,                                \
-                                                        const std::vector<ElasticMotion>&);                         \
-  template std::vector<Eigen::VectorXd> elastic_velocities_over<D>(                                                 \
-      const std::vector<Body<D>>&, const std::vector<ElasticMotion>&, double, double, double);
+  template std::vector<CavityWalls<D>> kept_cavities<D>(const std::vector<Body<D>>&, const ElasticMotions&);        \
+  template void keep_cavities<D>(const std::vector<Body<D>>&, const ElasticMotions&, const PartOfPlan&,             \
+                                 std::vector<Eigen::VectorXd>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

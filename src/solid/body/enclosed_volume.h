@@ -36,16 +36,17 @@ SurfaceMesh wall_of_cavity(const ElasticSolid<Dim>& solid, int patch);
 
 // The cavities that keep their volume.
 template <int Dim>
-std::vector<CavityWalls<Dim>> kept_cavities(const std::vector<Body<Dim>>& bodies,
-                                            const std::vector<ElasticMotion>& motions);
+std::vector<CavityWalls<Dim>> kept_cavities(const std::vector<Body<Dim>>& bodies, const ElasticMotions& motions);
 
-// The velocities of the nodes of each elastic body (empty for others) over a step of dt that goes only part of the way
-// that was planned for `horizon` at time t: straight, but for pins, which go to where they are prescribed to be at t +
-// dt, and the walls of cavities that must keep their volume. Each of those goes out or in along its normal as far as it
-// takes that its volume changes in proportion to the way.
+// A step of dt from t that goes only part of the way planned for `horizon`, s.
+struct PartOfPlan {
+  double t, dt, horizon;
+};
+
+// Corrects the velocities w of each body's nodes over the step: the walls of each cavity that must keep its volume go
+// out or in along their normals as far as it takes that its volume changes in proportion to the way.
 template <int Dim>
-std::vector<Eigen::VectorXd> elastic_velocities_over(const std::vector<Body<Dim>>& bodies,
-                                                     const std::vector<ElasticMotion>& motions, double t, double dt,
-                                                     double horizon);
+void keep_cavities(const std::vector<Body<Dim>>& bodies, const ElasticMotions& motions, const PartOfPlan& part,
+                   std::vector<Eigen::VectorXd>& w);
 
 }  // namespace seiche

@@ -29,7 +29,6 @@ bool turns_freely(const RigidSpec& spec) {
 template <int Dim>
 RigidState initial_rigid_state(const Body<Dim>& body) {
   RigidState r;
-  if (!body.is_rigid()) return r;
   r.center = body.mass().center;
   r.velocity = body.spec().rigid.velocity;
   r.angular_velocity = body.spec().rigid.angular_velocity;
@@ -67,27 +66,12 @@ Twist free_twist(const Body<Dim>& body, const RigidState& r, const Vec3& gravity
   return v;
 }
 
-template <int Dim>
-std::vector<Placement> place_bodies(const std::vector<Body<Dim>>& bodies, const std::vector<RigidState>& rigid,
-                                    double t0, double t1) {
-  std::vector<Placement> placed;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (bodies[k].is_rigid())
-      placed.push_back({rigid_pose(bodies[k], rigid[k]), Twist{{0, 0, 0}, {0, 0, 0}, rigid[k].center}, {}, {}});
-    else
-      placed.push_back({bodies[k].pose(t1), bodies[k].twist(t0, t1), {}, {}});
-  }
-  return placed;
-}
-
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template RigidState initial_rigid_state<D>(const Body<D>&);                                                          \
-  template Eigen::Matrix3d world_inertia<D>(const Body<D>&, const RigidState&);                                        \
-  template Pose rigid_pose<D>(const Body<D>&, const RigidState&);                                                      \
-  template RigidState advance<D>(const Body<D>&, const RigidState&, double);                                           \
-  template Twist free_twist<D>(const Body<D>&, const RigidState&, const Vec3&, double, double);                        \
-  template std::vector<Placement> place_bodies<D>(const std::vector<Body<D>>&, const std::vector<RigidState>&, double, \
-                                                  double);
+#define SEICHE_INSTANTIATE(D)                                                   \
+  template RigidState initial_rigid_state<D>(const Body<D>&);                   \
+  template Eigen::Matrix3d world_inertia<D>(const Body<D>&, const RigidState&); \
+  template Pose rigid_pose<D>(const Body<D>&, const RigidState&);               \
+  template RigidState advance<D>(const Body<D>&, const RigidState&, double);    \
+  template Twist free_twist<D>(const Body<D>&, const RigidState&, const Vec3&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -48,10 +48,4 @@ RigidState advance(const Body<Dim>& body, const RigidState& r, double dt);
 template <int Dim>
 Twist free_twist(const Body<Dim>& body, const RigidState& r, const Vec3& gravity, double dt, double horizon);
 
-// All bodies at time t1; twists are those over [t0, t1] of prescribed motions (t0 = t1: at rest), zero for rigid and
-// elastic bodies.
-template <int Dim>
-std::vector<Placement> place_bodies(const std::vector<Body<Dim>>& bodies, const std::vector<RigidState>& rigid,
-                                    double t0, double t1);
-
 }  // namespace seiche

@@ -58,6 +58,12 @@ const std::string liquid_text =
     "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
     "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = ";
 
+// A solid on a spring.
+static std::string bob(const std::string& center) {
+  return "[[solid]]\nname = \"bob\"\nkind = \"sprung\"\nshape = \"sphere\"\ncenter = " + center +
+         "\nradius = 0.05\ndensity = 700\nspring_stiffness = 50\nspring_damping = 0.5\n";
+}
+
 std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe) {
   const auto v = [&](const char* x, const char* y, const char* z) { return vector_text(dimension, {x, y, z}); };
   const std::string form = geometry(dimension, shape);
@@ -90,6 +96,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           "mass_damping = 0.1 }\n[solid.pinned]\n" +
           placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n[solid.traction]\n" + placed +
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
+  if (side != "periodic") text += bob(v("0.2", "0.2", "0.2"));
   text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
   if (probe == "displacement") text += "solid = \"soft\"\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";

@@ -202,10 +202,13 @@ TEST_CASE("what this version does not have is refused with what it has") {
   check_all({{small_scene + "[liquid]\nseparates = true\n[gas]\nbubbles = \"volume_conserving\"\n",
               "liquid.separates = true and gas.bubbles = \"volume_conserving\" exclude each other"},
              {small_scene + "[tracking]\nmethod = \"apic\"\n", "this version has \"level_set\""}});
-  for (const char* key : {"density", "velocity", "angular_velocity"}) {
+  for (const char* key : {"density", "velocity"}) {
     check_all({{solid(fmt::format("kind = \"static\"\n{}{} = 1\n", ball, key)),
-                "is only for kind = \"rigid\" or \"elastic\""}});
+                "is only for kind = \"rigid\", \"elastic\" or \"sprung\""}});
   }
+  check_all(
+      {{solid("kind = \"static\"\n" + ball + "angular_velocity = 1\n"), "is only for kind = \"rigid\" or \"elastic\""},
+       {solid("kind = \"rigid\"\n" + ball + "spring_stiffness = 1\n"), "is only for kind = \"sprung\""}});
   check_all({{solid("kind = \"kinematic\"\nmotion = {}\nfixed = []\n" + ball), "is only for kind = \"rigid\""}});
   for (const char* key : {"material", "element_size", "pinned"}) {
     check_all({{solid(fmt::format("kind = \"rigid\"\n{}{} = 1\n", ball, key)), "is only for kind = \"elastic\""}});

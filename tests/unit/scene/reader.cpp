@@ -33,7 +33,7 @@ TEST_CASE("a full scene is read as it is written") {
   CHECK(s.liquid.sources.at(0).from == 0.5);
   CHECK(s.liquid.sources.at(0).until == 1.5);
   CHECK(s.liquid.separates);
-  REQUIRE(s.solids.size() == 4);
+  REQUIRE(s.solids.size() == 5);
   CHECK(s.solids[0].slip == Slip::no_slip);
   CHECK(s.solids[1].name == "solid2");
   CHECK(s.solids[1].kind == SolidKind::kinematic);
@@ -41,6 +41,9 @@ TEST_CASE("a full scene is read as it is written") {
   CHECK(s.solids[2].kind == SolidKind::rigid);
   CHECK(s.solids[2].rigid.density == 400);
   CHECK(s.solids[2].friction == 0.3);
+  CHECK(s.solids[4].kind.name == std::string("sprung"));
+  CHECK(s.solids[4].numbers.at("spring_stiffness") == 50);
+  CHECK(s.solids[4].numbers.at("spring_damping") == 0.5);
   CHECK_THAT(s.solids[1].shape.where, StartsWith("scene.toml:"));
   CHECK(s.probes.at(0).every == 0.01);
   CHECK(s.solver.tolerance == 1e-9);

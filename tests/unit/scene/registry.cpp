@@ -24,7 +24,7 @@ namespace {
 using T = OptionType;
 
 // The path with entry 0 of each list; motions belong to the second solid of the rich scene, inertia to the third, what
-// deforms to the fourth.
+// deforms to the fourth, springs to the fifth.
 std::string concrete_path(const Option& option) {
   std::string path = option.path;
   const auto& kinds = option.only_for.values;
@@ -32,6 +32,7 @@ std::string concrete_path(const Option& option) {
   const bool is_inside = path.rfind("solid[].material", 0) == 0 || path.rfind("solid[].pinned", 0) == 0 ||
                          path.rfind("solid[].traction", 0) == 0;
   if (is_inside || kinds == std::vector<std::string>{"elastic"}) path.replace(0, 7, "solid.3");
+  if (kinds == std::vector<std::string>{"sprung"}) path.replace(0, 7, "solid.4");
   if (path.rfind("solid[].motion", 0) == 0) path.replace(0, 7, "solid.1");
   for (std::size_t at = path.find("[]"); at != std::string::npos; at = path.find("[]")) path.replace(at, 2, ".0");
   return path;

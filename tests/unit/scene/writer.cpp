@@ -92,6 +92,6 @@ TEST_CASE("changed keys are named by their path") {
   CHECK(changed_keys(a, a).empty());
   CHECK(changed_keys(a, b) == std::vector<std::string>{"time.max_step", "liquid.density", "solid.0.radius"});
   const Scene more = parse(text + "[[solid]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n");
-  CHECK(changed_keys(a, more) == std::vector<std::string>{"solid.4"});
-  CHECK(changed_keys(more, a) == std::vector<std::string>{"solid.4"});
+  CHECK(changed_keys(a, more) == std::vector<std::string>{"solid.5"});
+  CHECK(changed_keys(more, a) == std::vector<std::string>{"solid.5"});
 }

@@ -1,0 +1,31 @@
+#pragma once
+// A kind of solid as scenes, files and pictures see it. Its class does the rest (coupling/participant.h).
+#include <string_view>
+
+namespace seiche {
+
+enum class Drive : char { none, prescribed, forces };  // what moves a solid
+
+// One row of the table of kinds (coupling/solid_kinds.h).
+struct SolidKind {
+  const char* name;  // in scenes
+  Drive drive;
+  bool has_elements = false;  // its shape is meshed by finite elements, and deforms
+  bool may_turn = true;       // false: forces only translate it
+
+  constexpr bool moves() const { return drive != Drive::none; }
+  constexpr bool is_prescribed() const { return drive == Drive::prescribed; }
+  constexpr bool is_free() const { return drive == Drive::forces; }  // it has mass and unknowns
+  friend constexpr bool operator==(const SolidKind& a, const SolidKind& b) {
+    return std::string_view(a.name) == b.name;
+  }
+
+  static const SolidKind fixed, kinematic, rigid, elastic;
+};
+
+inline constexpr SolidKind SolidKind::fixed{"static", Drive::none};
+inline constexpr SolidKind SolidKind::kinematic{"kinematic", Drive::prescribed};
+inline constexpr SolidKind SolidKind::rigid{"rigid", Drive::forces};
+inline constexpr SolidKind SolidKind::elastic{"elastic", Drive::forces, true};
+
+}  // namespace seiche

@@ -1,0 +1,63 @@
+// Liquid without a free surface within elastic walls, which keep its volume.
+#include "coupling/solids/kind_elastic.h"
+#include "coupling/solids/solid_coupling.h"
+#include "coupling/state/interaction.h"
+
+namespace seiche {
+namespace {
+
+template <int Dim>
+class Cavities : public Interaction<Dim> {
+ public:
+  explicit Cavities(const std::vector<Body<Dim>>& bodies) : bodies_(bodies) {}
+
+  void couple(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) const override {
+    parts.coupling.swept = correct_swept_volume(step, elastic_motions(step.state.solids), parts.entries);
+  }
+
+  void keep_over(const State<Dim>& state, double dt, std::vector<Eigen::VectorXd>& velocities) const override {
+    keep_cavities(bodies_, elastic_motions(state.solids), {state.time, dt, state.horizon}, velocities);
+  }
+
+  void take(const SolidCoupling<Dim>& c, State<Dim>& state) const override {
+    for (std::size_t n = 0; n < c.swept.size(); ++n)
+      for (const WallPatch<Dim>& wall : c.swept[n].walls) {
+        ElasticMotion& motion = *elastic_motion(state.solids[std::size_t(wall.body)]);
+        motion.cavity[wall.patch] = double(n);
+        motion.kept_volume[wall.patch] = c.swept[n].volume;
+      }
+  }
+
+  // Walls of cavities that the trial found keep in the first step, too, what they hold at the start.
+  void inform(const State<Dim>& trial, State<Dim>& state) const override {
+    state.sealed = trial.sealed;
+    const ElasticMotions tried = elastic_motions(trial.solids);
+    for (std::size_t k = 0; k < tried.size(); ++k)
+      if (tried[k]) elastic_motion(state.solids[k])->cavity = tried[k]->cavity;
+    const ElasticMotions motions = elastic_motions(state.solids);
+    for (const CavityWalls<Dim>& walls : kept_cavities(bodies_, motions)) {
+      std::vector<Eigen::VectorXd> u;
+      for (const WallPatch<Dim>& wall : walls) u.push_back(motions[std::size_t(wall.body)]->state.u);
+      const double volume = enclosed_volume(walls, u);
+      for (const WallPatch<Dim>& wall : walls)
+        elastic_motion(state.solids[std::size_t(wall.body)])->kept_volume[wall.patch] = volume;
+    }
+  }
+
+ private:
+  const std::vector<Body<Dim>>& bodies_;
+};
+
+}  // namespace
+
+template <int Dim>
+Interactions<Dim> make_interactions(const std::vector<Body<Dim>>& bodies) {
+  Interactions<Dim> list;
+  list.push_back(std::make_unique<Cavities<Dim>>(bodies));
+  return list;
+}
+
+template Interactions<2> make_interactions<2>(const std::vector<Body<2>>&);
+template Interactions<3> make_interactions<3>(const std::vector<Body<3>>&);
+
+}  // namespace seiche

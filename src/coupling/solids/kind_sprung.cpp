@@ -1,0 +1,108 @@
+// Solids on a spring: a body that forces only translate, drawn to its place at rest. docs/adding-a-solid.md walks
+// through this file.
+#include <fmt/format.h>
+
+#include "coupling/solids/face_columns.h"
+#include "coupling/solids/solid_coupling.h"
+#include "coupling/solids/solid_kinds.h"
+
+namespace seiche {
+namespace {
+
+// Displacement d and velocity v, Dim unknowns. Implicit midpoint rule, which keeps the spring's energy and is stable
+// for any step: with d where the solve finds the body,
+//   m (v' - v)/dt = m g - k (d + dt/4 (v' - v)) - c (v + v')/2 + loads.
+template <int Dim>
+class SprungParticipant : public Participant<Dim> {
+ public:
+  SprungParticipant(const Body<Dim>& body, int index)
+      : Participant<Dim>(body, index), velocity_(truncate<Dim>(body.spec().rigid.velocity)) {}
+  using Participant<Dim>::body;
+  std::unique_ptr<Participant<Dim>> copy() const override { return std::make_unique<SprungParticipant>(*this); }
+
+  Placement place(double, double, double) const override {
+    const Vec3 center = body().mass().center, there = center + extend<Dim>(displacement_);
+    return {Pose{Eigen::Matrix3d::Identity(), center, there - center}, Twist{{0, 0, 0}, {0, 0, 0}, there}, {}, {}};
+  }
+  void set_velocity(Placement& placed) const override { placed.twist.linear = extend<Dim>(velocity_); }
+
+  int unknowns() const override { return Dim; }
+  Eigen::VectorXd velocity() const override { return velocity_; }
+  Eigen::VectorXd generalised(const BodyImpulse& impulse) const override { return truncate<Dim>(impulse.linear); }
+
+  void couple(const CoupledStep<Dim>& step, int block, CouplingParts<Dim>& parts) const override {
+    SolidCoupling<Dim>& c = parts.coupling;
+    const int first = c.first[std::size_t(block)];
+    const double dt = step.dt, m = mass(), k = stiffness(), damping = number("spring_damping");
+    const Vec<Dim> g = truncate<Dim>(step.setup.gravity.of_step(step.state.time, dt));
+    const double kept = m + dt * dt * k / 4, damped = dt * damping / 2;
+    for (int a = 0; a < Dim; ++a) parts.mass.emplace_back(first + a, first + a, kept + damped);
+    c.push.segment(first, Dim) = (kept - damped) * velocity_ + dt * (m * g - k * displacement_);
+    c.free.segment(first, Dim) = c.push.segment(first, Dim) / (kept + damped);
+    c.J.blocks[std::size_t(block)] = translation_columns(step, this->index(), c.freedom, first);
+  }
+  void take(const SolidCoupling<Dim>&, int, const Eigen::VectorXd& v, double) override { velocity_ = v; }
+  void advance(const Stride<Dim>& stride) override { displacement_ += stride.lead * velocity_; }
+  void go_on(const Participant<Dim>& leading, double dt) override {
+    displacement_ += dt * Vec<Dim>(leading.velocity());
+  }
+
+  // One node that carries all of the surface.
+  void describe_contact(ContactBody& contact) const override {
+    contact.control = BodyControl::deformable;
+    contact.mass = mass();
+    contact.nodes.assign(contact.surface.points.size(), 0);
+    contact.node_count = 1;
+  }
+  ContactMotion contact_motion(double, double) const override { return {{}, {}, displacement_}; }
+  void describe_viscous(const StepGeometry<Dim>&, ViscousSolid<Dim>& solid) const override {
+    solid.frame = {extend<Dim>(velocity_), Vec3::Zero(), body().mass().center + extend<Dim>(displacement_)};
+    solid.surface = [](int axis, Site, std::vector<std::pair<int, double>>& weights) { weights = {{axis, 1.0}}; };
+  }
+
+  void measure(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) const override {
+    const Vec3 x = body().mass().center + extend<Dim>(displacement_);
+    stats.kinetic_energy += 0.5 * mass() * velocity_.squaredNorm();
+    stats.elastic_energy += 0.5 * stiffness() * displacement_.squaredNorm();
+    stats.potential_energy -= mass() * s.gravity.at(state.time).dot(x);
+    stats.momentum += mass() * extend<Dim>(velocity_);
+  }
+  void visit(StateVisitor& visitor) override {
+    for (int a = 0; a < Dim; ++a) {
+      visitor.number(fmt::format("sprung.{}.displacement{}", this->index(), a), displacement_[a]);
+      visitor.number(fmt::format("sprung.{}.velocity{}", this->index(), a), velocity_[a]);
+    }
+  }
+
+ private:
+  double mass() const { return body().mass().mass; }
+  double stiffness() const { return number("spring_stiffness"); }
+  double number(const std::string& key) const {
+    const auto found = body().spec().numbers.find(key);
+    return found == body().spec().numbers.end() ? 0 : found->second;
+  }
+
+  Vec<Dim> displacement_ = Vec<Dim>::Zero(), velocity_;
+};
+
+}  // namespace
+
+SolidKindRow sprung_solid() {
+  const SolidKind kind{.name = "sprung", .drive = Drive::forces, .may_turn = false};
+  return {kind,
+          "translated by them, and by a spring that draws it to where it is at rest",
+          {{.key = "spring_stiffness",
+            .unit = "N/m",
+            .range = between(0, number_limit),
+            .presence = Presence::required,
+            .doc = "force of the spring over displacement; 2D: per metre of depth"},
+           {.key = "spring_damping",
+            .unit = "N s/m",
+            .range = between(0, number_limit),
+            .unset = "none",
+            .doc = "force of a damper over velocity; 2D: per metre of depth"}},
+          make_participant<SprungParticipant<2>>,
+          make_participant<SprungParticipant<3>>};
+}
+
+}  // namespace seiche

@@ -1,0 +1,40 @@
+#include "coupling/solids/potential_sum.h"
+
+#include <algorithm>
+
+namespace seiche {
+
+double PotentialSum::energy(const Eigen::VectorXd& v) const {
+  double sum = 0;
+  for (const auto& part : parts_) sum += part->energy(v);
+  return sum;
+}
+
+void PotentialSum::add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const {
+  for (const auto& part : parts_) part->add_gradient(v, gradient);
+}
+
+void PotentialSum::add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+                             std::vector<Eigen::Triplet<double>>& hessian) const {
+  for (const auto& part : parts_) part->add_terms(v, curvature, gradient, hessian);
+}
+
+double PotentialSum::step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const {
+  double bound = 1;
+  for (const auto& part : parts_) bound = std::min(bound, part->step_bound(v, dv));
+  return bound;
+}
+
+double PotentialSum::round_off() const {
+  double sum = 0;
+  for (const auto& part : parts_) sum += part->round_off();
+  return sum;
+}
+
+std::shared_ptr<const VelocityPotential> sum_of(PotentialSum::Parts parts) {
+  if (parts.empty()) return nullptr;
+  if (parts.size() == 1) return parts.front();
+  return std::make_shared<PotentialSum>(std::move(parts));
+}
+
+}  // namespace seiche
