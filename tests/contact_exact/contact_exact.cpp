@@ -52,7 +52,7 @@ TEST_CASE("the exact test sees an intersection") {
   CHECK(intersections(world) == 0);
 }
 
-TEST_CASE("a tumbling pile never intersects") {
+TEST_CASE("a tumbling pile never intersects", "[long]") {
   DryWorld<3> world = pile(21);
   int contacts = 0;
   for (int i = 0; i < 110; ++i) {

@@ -240,7 +240,7 @@ TEST_CASE("the exact tests see what intersects, what is outside and what has got
   CHECK(exact::points_outside({square(0.1, 0.999)}, scene) == 0);
 }
 
-TEST_CASE("no accepted state of the scenes has solids that intersect") {
+TEST_CASE("no accepted state of the scenes has solids that intersect", "[long]") {
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(SEICHE_SCENES))
     if (entry.path().extension() == ".toml") files.insert(entry.path());
@@ -258,7 +258,7 @@ TEST_CASE("no accepted state of the scenes has solids that intersect") {
   }
 }
 
-TEST_CASE("no accepted state of random dam breaks onto bodies has solids that intersect") {
+TEST_CASE("no accepted state of random dam breaks onto bodies has solids that intersect", "[long]") {
   for (int dim : {2, 3})
     for (unsigned seed = 1; seed <= 3; ++seed) DYNAMIC_SECTION(dim << "D, seed " << seed) {
         check(fmt::format("{}D, seed {}", dim, seed), random_scene(dim, seed), dim == 2 ? 150 : 80);

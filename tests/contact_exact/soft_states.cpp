@@ -104,7 +104,7 @@ TEMPLATE_TEST_CASE_SIG("a strip folded onto itself never intersects", "", ((int 
   CHECK(strip.world.report.active > 3);
 }
 
-TEMPLATE_TEST_CASE_SIG("a heap of soft and rigid bodies never intersects", "", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a heap of soft and rigid bodies never intersects", "[long]", ((int Dim), Dim), 2, 3) {
   SoftWorld<Dim> world = heap<Dim>();
   REQUIRE(intersections(world) == 0);
   int active = 0, most = 0;

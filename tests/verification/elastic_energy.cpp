@@ -126,8 +126,7 @@ TEST_CASE("an elastic body thrown at a wall never has more energy than it came w
   });
 }
 
-TEST_CASE("elastic and rigid bodies that collide without friction never have more energy than they came with",
-          "[elastic]") {
+TEST_CASE("elastic and rigid bodies that collide without friction never have more energy than they came with", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     const Energies e = energies(collisions(dim, scheme), dim == 2 ? 300 : 60);
     report(name, e);
@@ -138,7 +137,7 @@ TEST_CASE("elastic and rigid bodies that collide without friction never have mor
 
 // What the liquid loses to the flap's edges and to numerical viscosity outweighs what its transport, which conserves no
 // energy, may gain.
-TEST_CASE("liquid that goes round a light flap and this never gain energy in a step", "[elastic]") {
+TEST_CASE("liquid that goes round a light flap and this never gain energy in a step", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     for (const double stiffness : {1e4, 1e8}) {
       const Energies e = energies(vortices_about_flap(dim, scheme, stiffness), dim == 2 ? 25 : 8);
@@ -177,7 +176,7 @@ TEST_CASE("an elastic body set going in liquid at rest has its energy booked at 
 
 // Its stiffness against bending, some E (t/L)^2 = 8 kPa, is little above the pressure of 5 to 8 kPa around it. Without
 // the held pressure the 2D flap moves by more than a cell in a step of 0.02 s before 1.5 s are over.
-TEST_CASE("a soft flap deep under water comes to rest", "[elastic]") {
+TEST_CASE("a soft flap deep under water comes to rest", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     Scene s = box_scene(dim, dim == 2 ? 24 : 12);
     const bool flat = dim == 2;

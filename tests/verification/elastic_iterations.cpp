@@ -71,16 +71,16 @@ void check_block(int cells) {
 
 }  // namespace
 
-TEST_CASE("iterations depend little on the stiffness and density of an immersed block", "[elastic][ranks]") {
+TEST_CASE("iterations depend little on the stiffness and density of an immersed block", "[elastic][ranks][long]") {
   check_block(32);
   check_block(48);
 }
 
-TEST_CASE("iterations depend little on the stiffness and density of an immersed block in 64^3 cells", "[elastic]") {
+TEST_CASE("iterations depend little on the stiffness and density of an immersed block in 64^3 cells", "[elastic][long]") {
   check_block(64);
 }
 
-TEST_CASE("without factors of the block iterations depend little on stiffness and density either", "[elastic]") {
+TEST_CASE("without factors of the block iterations depend little on stiffness and density either", "[elastic][long]") {
   const std::array<std::pair<double, int>, 3> bars{{{1, 50}, {0.1, 55}, {0.01, 70}}};
   for (const int cells : {24, 48})
     for (const auto& [ratio, bar] : bars)
@@ -97,7 +97,7 @@ TEST_CASE("without factors of the block iterations depend little on stiffness an
       }
 }
 
-TEST_CASE("a run without factors follows the run with them, in contact too", "[elastic]") {
+TEST_CASE("a run without factors follows the run with them, in contact too", "[elastic][long]") {
   const int dim = GENERATE(2, 3);
   Scene scene = test::box_scene(dim, dim == 2 ? 24 : 12);
   scene.gravity = {0, -9.81, 0};

@@ -80,7 +80,7 @@ void add_bubble(std::string& liquid, const Vec3& x, double radius) {
 
 }  // namespace
 
-TEST_CASE("air in a glass under water rests at the pressure of its depth") {
+TEST_CASE("air in a glass under water rests at the pressure of its depth", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = glass_scene(dim, dim == 2 ? 48 : 32);
     s.solver.tolerance = 1e-13;  // the bar is a speed, as in rest.cpp
@@ -186,7 +186,7 @@ TEST_CASE("as much flows into a bubble as out of it, to rounding") {
 
 // From 0.4 s on, when the rim is under water, to 2 s, when the glass has come to rest, water closing over the glass
 // catches small pockets that come and go; they are not the glass's.
-TEST_CASE("an upturned glass pushed under water keeps its air for five seconds") {
+TEST_CASE("an upturned glass pushed under water keeps its air for five seconds", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = pool_scene(dim, dim == 2 ? 40 : 24);
     test::add_liquid(s, "y-0.55");
@@ -232,7 +232,7 @@ TEST_CASE("a ball in a bubble feels nothing of the liquid around it") {
 
 // A grid of bubbles a few cells wide, in liquid that is stirred: all are kept, and the solve takes no more than half as
 // many iterations again as without them.
-TEST_CASE("ten thousand bubbles") {
+TEST_CASE("ten thousand bubbles", "[long]") {
   const int n = 100;
   Scene s = pool_scene(2, 6 * n);
   test::add_liquid(s,

@@ -41,7 +41,7 @@ void fill_half(Scene& s, Vec3 down) {
 
 }  // namespace
 
-TEST_CASE("liquid rests in a tilted box") {
+TEST_CASE("liquid rests in a tilted box", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, dim == 2 ? 48 : 24);
     fill_half(s, {0.31, -1, 0.17});
@@ -58,7 +58,7 @@ TEST_CASE("liquid rests in a tilted box") {
   }
 }
 
-TEST_CASE("liquid rests in a sphere") {
+TEST_CASE("liquid rests in a sphere", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, dim == 2 ? 48 : 24);
     fill_half(s, {0.1, -1, 0.2});
@@ -72,7 +72,7 @@ TEST_CASE("liquid rests in a sphere") {
   }
 }
 
-TEST_CASE("liquid rests among 20 random spheres") {
+TEST_CASE("liquid rests among 20 random spheres", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, dim == 2 ? 48 : 24);
     fill_half(s, {0, -1, 0});

@@ -54,7 +54,7 @@ double exact_acceleration(int dim, double ratio) {
 
 }  // namespace
 
-TEST_CASE("a ball in a closed container starts as its added mass says") {
+TEST_CASE("a ball in a closed container starts as its added mass says", "[long]") {
   for (int dim : {2, 3})
     for (double ratio : {1e-9, 0.1, 0.5, 2.0, 7.8}) {
       const double exact = exact_acceleration(dim, ratio);
@@ -67,7 +67,7 @@ TEST_CASE("a ball in a closed container starts as its added mass says") {
     }
 }
 
-TEST_CASE("neutrally buoyant bodies stay at rest in liquid at rest") {
+TEST_CASE("neutrally buoyant bodies stay at rest in liquid at rest", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, dim == 2 ? 47 : 23);
     s.gravity = dim == 2 ? Vec3(1.7, -9.6, 0) : Vec3(1.7, -9.6, 2.2);

@@ -54,7 +54,7 @@ TEST_CASE("a block slides down an incline as Coulomb says") {
     }
 }
 
-TEST_CASE("a block sticks or slides on the right side of tan theta = mu") {
+TEST_CASE("a block sticks or slides on the right side of tan theta = mu", "[long]") {
   for (int dim : {2, 3})
     for (double mu : {0.1, 0.3, 1.0}) {
       const double angle = std::atan(mu) * 180 / test::pi;
@@ -136,7 +136,7 @@ double creep(const Stack& stack, int& newton, int& steps) {
 
 }  // namespace
 
-TEST_CASE("stacks of ten stand still") {
+TEST_CASE("stacks of ten stand still", "[long]") {
   for (const Stack& stack :
        {Stack{"in air", 2, Around::air, 1500, 1500, 10}, Stack{"in air, 1e4:1 on top", 2, Around::air, 1500, 1.5e7, 10},
         Stack{"under water", 2, Around::water, 1500, 1500, 10},
@@ -152,7 +152,7 @@ TEST_CASE("stacks of ten stand still") {
 
 // Edges 0.2, 0.3, 0.4: the middle axis is that of 0.3, about which free rotation is unstable: it turns over again and
 // again.
-TEST_CASE("a body that spins about its middle axis keeps energy and angular momentum over 100 turns") {
+TEST_CASE("a body that spins about its middle axis keeps energy and angular momentum over 100 turns", "[long]") {
   Scene s = test::box_scene(3, 8);
   s.gravity = Vec3::Zero();
   s.solids.push_back(test::rigid_box("box", {0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 700));

@@ -81,7 +81,7 @@ TEST_CASE("iterations do not depend on the density of a sphere", "[ranks]") {
   check_ratios({32, 64});
 }
 
-TEST_CASE("iterations do not depend on the density of a sphere in 96^3 cells") {
+TEST_CASE("iterations do not depend on the density of a sphere in 96^3 cells", "[long]") {
   check_ratios({96});
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("light spheres beside periodic sides cost no more iterations than besi
   CHECK(periodic.coupled <= walls.coupled + 5);
 }
 
-TEST_CASE("27 light spheres cost three static solves to set up and thirty iterations", "[ranks]") {
+TEST_CASE("27 light spheres cost three static solves to set up and thirty iterations", "[ranks][long]") {
   const Effort e = measure(many_spheres(64));
   if (Communicator().is_root())
     WARN(e.coupled << " iterations (bar 30), set-up " << e.setup << " cycles, static solve " << e.fixed

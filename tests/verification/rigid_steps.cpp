@@ -152,7 +152,7 @@ TEST_CASE("liquid around a disc that moves as prescribed is the same if the disc
 }
 
 // A raft among sloshing water: 15 s of waves that its time-mean height must not depend on.
-TEST_CASE("a raft floats equally high at Courant numbers 0.5, 1, 2 and 5") {
+TEST_CASE("a raft floats equally high at Courant numbers 0.5, 1, 2 and 5", "[long]") {
   std::vector<double> heights;
   for (double cfl : {0.5, 1.0, 2.0, 5.0}) {
     Scene s = test::box_scene(2, 40);

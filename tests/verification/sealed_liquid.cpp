@@ -261,11 +261,11 @@ TEST_CASE("what a body in closed liquid pushes out adds up to what its surface s
   CHECK(solid.second <= 1e-3);  // displacements of 1e-3 m: (1e-3/0.2)^2 is far below
 }
 
-TEST_CASE("a ring full of liquid keeps what it holds while plates squeeze it", "[elastic][sealed]") {
+TEST_CASE("a ring full of liquid keeps what it holds while plates squeeze it", "[elastic][sealed][long]") {
   check_kept(squeeze(squeezed_bag(2, 40, 0.15, 0.5, 4e-3)));
 }
 
-TEST_CASE("a hollow ball full of liquid keeps what it holds while plates squeeze it", "[elastic][sealed]") {
+TEST_CASE("a hollow ball full of liquid keeps what it holds while plates squeeze it", "[elastic][sealed][long]") {
   check_kept(squeeze(squeezed_bag(3, 20, 0.15, 0.2, 2e-3)));
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("exact curvature is balanced exactly") {
   CHECK(solid <= 1e-12);
 }
 
-TEST_CASE("a drop at rest comes to rest at La = 12000, and its energy does not grow") {
+TEST_CASE("a drop at rest comes to rest at La = 12000, and its energy does not grow", "[long]") {
   const double mu = std::sqrt(0.8 / 12000);
   Scene s = drop_scene(2, 32, 1, "sqrt((x-0.503)^2+(y-0.494)^2)-0.4", mu);
   const auto sim = make_simulation(s, Communicator());
@@ -112,7 +112,7 @@ TEST_CASE("the pressure in a drop is sigma kappa") {
   }
 }
 
-TEST_CASE("a sessile drop settles to the circle of its contact angle") {
+TEST_CASE("a sessile drop settles to the circle of its contact angle", "[long]") {
   for (const double degrees : {60.0, 90.0, 120.0}) {
     // A half disc of radius 0.25 on the floor.
     Scene s = drop_scene(2, 48, 1.2, "sqrt((x-0.6)^2+y^2)-0.25", 0.15);

@@ -42,14 +42,14 @@ double error_at(int n, double carry_x, double carry_y, double end) {
 
 }  // namespace
 
-TEST_CASE("resting Taylor-Green vortices keep their velocity to t = 2") {
+TEST_CASE("resting Taylor-Green vortices keep their velocity to t = 2", "[long]") {
   const double e64 = error_at(64, 0, 0, 2), e128 = error_at(128, 0, 0, 2);
   WARN("resting Taylor-Green L2: 64^2 " << e64 << ", 128^2 " << e128);
   CHECK(e64 <= 9e-4);  // the bars of the validation page, 1.1 B
   CHECK(e128 <= 1.2e-4);
 }
 
-TEST_CASE("carried Taylor-Green vortices converge at second order") {
+TEST_CASE("carried Taylor-Green vortices converge at second order", "[long]") {
   const double e64 = error_at(64, 1, 0.7, 1), e128 = error_at(128, 1, 0.7, 1);
   WARN("carried Taylor-Green L2: 64^2 " << e64 << ", 128^2 " << e128 << ", order " << test::order(e64, e128));
   CHECK(e64 <= 1.3e-3);

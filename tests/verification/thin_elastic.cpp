@@ -147,7 +147,7 @@ double sag(int dim, int cells, double thickness) {
 }  // namespace
 
 // All three in 2D, one each in 3D; the nearest point's velocity in place of the mean had passed all of them.
-TEST_CASE("an elastic sheet thinner than a cell holds back the liquid on one side of it", "[elastic][thin]") {
+TEST_CASE("an elastic sheet thinner than a cell holds back the liquid on one side of it", "[elastic][thin][long]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses) {
       if (dim == 3 && thickness != 0.3) continue;
@@ -159,7 +159,7 @@ TEST_CASE("an elastic sheet thinner than a cell holds back the liquid on one sid
     }
 }
 
-TEST_CASE("an elastic sheet that is moved takes the liquid before it along", "[elastic][thin]") {
+TEST_CASE("an elastic sheet that is moved takes the liquid before it along", "[elastic][thin][long]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses) {
       if (dim == 3 && thickness != 0.05) continue;
@@ -182,7 +182,7 @@ TEST_CASE("elastic sheets thinner than a cell and liquid pass on momentum as it 
   CHECK(momentum <= 1e-11);
 }
 
-TEST_CASE("a thin elastic sheet under water sags as a plate does", "[elastic][thin]") {
+TEST_CASE("a thin elastic sheet under water sags as a plate does", "[elastic][thin][long]") {
   for (double thickness : thicknesses) {
     const double flat = sag(2, 24, thickness);
     WARN("2D, " << thickness << " cells: " << flat << " of plate theory");

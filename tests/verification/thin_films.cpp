@@ -80,7 +80,7 @@ TEST_CASE("a light box that is thrown onto the floor comes up again") {
 }
 
 // Pressure reaches all of its surface through the film: the water carries rho g V of it, contact the rest.
-TEST_CASE("a heavy box sinks to the floor and comes to lie on it") {
+TEST_CASE("a heavy box sinks to the floor and comes to lie on it", "[long]") {
   for (int dim : {2, 3}) {
     const double volume = thickness * std::pow(width, dim - 1);
     const auto sim = make_simulation(box_near_floor(dim, 2000, 6.0 * cells_of(dim) / 32), Communicator());

@@ -87,7 +87,7 @@ double still(double) {
 
 }  // namespace
 
-TEST_CASE("a plate thinner than a cell holds back the liquid on one side of it") {
+TEST_CASE("a plate thinner than a cell holds back the liquid on one side of it", "[long]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses)
       for (double degrees : {0.0, 17.0}) {
@@ -104,7 +104,7 @@ TEST_CASE("a plate thinner than a cell holds back the liquid on one side of it")
       }
 }
 
-TEST_CASE("a paddle thinner than a cell takes the liquid before it along, and leaves none behind") {
+TEST_CASE("a paddle thinner than a cell takes the liquid before it along, and leaves none behind", "[long]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses)
       for (double degrees : {0.0, 17.0}) {
@@ -122,7 +122,7 @@ TEST_CASE("a paddle thinner than a cell takes the liquid before it along, and le
 
 // Heavier than water by half, in water: never faster than it would fall through nothing, and the water keeps its
 // volume.
-TEST_CASE("a rigid sheet thinner than a cell sinks in water and stays stable") {
+TEST_CASE("a rigid sheet thinner than a cell sinks in water and stays stable", "[long]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses)
       for (double degrees : {0.0, 20.0}) {

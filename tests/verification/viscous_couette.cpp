@@ -103,7 +103,7 @@ double film(const Incline& c, int turns) {
 }  // namespace
 
 // At 45 degrees errors depend on how the walls lie between the nodes, hence the order over two halvings.
-TEST_CASE("inclined channels and films", "[viscous]") {
+TEST_CASE("inclined channels and films", "[viscous][long]") {
   const Incline coarse{3, 11, 4}, middle{6, 11, 4}, fine{12, 11, 4};
   CHECK(order(poiseuille(coarse, 1), poiseuille(middle, 1)) >= 1.9);
   CHECK(order(poiseuille(middle, 1), poiseuille(fine, 1)) >= 1.9);

@@ -36,7 +36,7 @@ double largest_rise(const Scene& scene) {
 }  // namespace
 
 // Gradients of pressure do no work on flow without divergence, walls that rest none, and viscosity takes energy away.
-TEST_CASE("kinetic energy of unforced viscous liquid falls in every step", "[viscous]") {
+TEST_CASE("kinetic energy of unforced viscous liquid falls in every step", "[viscous][long]") {
   for (const double viscosity : {1e-5, 1e-3, 1.0})
     for (const double cfl : {0.3, 1.0, 2.0, 4.0}) {
       CAPTURE(viscosity, cfl);

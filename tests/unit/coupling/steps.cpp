@@ -91,7 +91,7 @@ TEST_CASE("steps that are hopelessly short are refused with the limit") {
   check_end(s, ExitCode::cannot_continue, {"are too short", "(limit 1000000 steps)"});
 }
 
-TEST_CASE("a source brings its shape and what flows through it while it is open, whatever the steps are") {
+TEST_CASE("a source brings its shape and what flows through it while it is open, whatever the steps are", "[long]") {
   for (int dim : {2, 3}) {
     const double expected = 0.25 + 0.014;
     const double within = volume_brought(dim, 0.1), split = volume_brought(dim, 0.02),

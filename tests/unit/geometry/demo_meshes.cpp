@@ -194,7 +194,7 @@ void check_committed(const std::string& name, const SurfaceMesh& made) {
 
 }  // namespace
 
-TEST_CASE("the demo meshes are those that their formulas give") {
+TEST_CASE("the demo meshes are those that their formulas give", "[long]") {
   for (const DemoMesh& demo : demo_meshes()) check_committed(demo.name, build(demo));
   check_committed("wheel", wheel());
 }

@@ -100,7 +100,7 @@ TEST_CASE("saddle: iterations stay where they are on finer grids") {
   }
 }
 
-TEST_CASE("saddle: iterations in 3D") {
+TEST_CASE("saddle: iterations in 3D", "[long]") {
   const double viscosity = GENERATE(1e-3, 1.0, 1e5);
   CAPTURE(viscosity);
   SECTION("a light ball") {

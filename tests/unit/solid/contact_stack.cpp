@@ -55,7 +55,7 @@ TEST_CASE("ten boxes stand for ten seconds, 2D") {
   check_that_it_stands<2>(1e4, 10);
 }
 
-TEST_CASE("ten boxes stand, 3D") {
+TEST_CASE("ten boxes stand, 3D", "[long]") {
   check_that_it_stands<3>(1, 3);
   check_that_it_stands<3>(1e4, 10);
 }

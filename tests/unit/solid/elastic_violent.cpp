@@ -37,7 +37,7 @@ int failures(const char* material, double E, double reach, ElasticScheme scheme)
 // The volume guard gives every material, also those whose own energy stays finite, a minimum with det F > 0. Thrown by
 // up to a third of an element a step, Newton always finds it. Three elements a step (3D: one) is beyond any sensible
 // step: there the bodies that are not soft find it too.
-TEMPLATE_TEST_CASE_SIG("Violent motion never inverts an element", "[elastic]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("Violent motion never inverts an element", "[elastic][long]", ((int Dim), Dim), 2, 3) {
   const double wild = Dim == 2 ? 3 : 1;
   for (const auto& row : elastic_materials<Dim>()) {
     const std::string name(row.name);

@@ -81,7 +81,7 @@ Pressed measure(const SoftWorld<Dim>& world, double a) {
 
 }  // namespace
 
-TEST_CASE("Hertz: a cylinder pressed into an elastic half-space", "[soft]") {
+TEST_CASE("Hertz: a cylinder pressed into an elastic half-space", "[soft][long]") {
   const double R = 1, E = 1e6, nu = 0.3, aimed = 0.05, size = 1;
   SoftWorld<2> world;
   world.options.reach = 5e-5;
@@ -118,7 +118,7 @@ TEST_CASE("Hertz: a cylinder pressed into an elastic half-space", "[soft]") {
 }
 
 // A quarter of the half-space between its planes of symmetry.
-TEST_CASE("Hertz: a sphere pressed into an elastic half-space", "[soft]") {
+TEST_CASE("Hertz: a sphere pressed into an elastic half-space", "[soft][long]") {
   const double R = 1, E = 1e6, nu = 0.3, aimed = 0.1, size = 1;
   SoftWorld<3> world;
   world.options.reach = 2e-4;
