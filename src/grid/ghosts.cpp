@@ -19,20 +19,71 @@ double beyond(Extension rule, double on_side, double steepest, int k, int inside
   return 0;
 }
 
+// The stored sites beyond a side; may be empty.
+template <int Dim>
+Box<Dim> box_beyond(const Layout<Dim>& layout, int axis, int side, double offset) {
+  const int n = layout.geometry().cells[axis];
+  const int edge = side == 0 ? 0 : (offset == 0 ? n : n - 1);  // outermost index inside or on the side
+  Box<Dim> box = layout.padded();
+  if (side == 0) box.upper[axis] = std::min(box.upper[axis], edge);
+  if (side == 1) box.lower[axis] = std::max(box.lower[axis], edge + 1);
+  return box;
+}
+
 template <int Dim>
 void extend_one_side(const Layout<Dim>& layout, double* f, int axis, int side, double offset, double steepest,
                      Extension rule) {
   const int n = layout.geometry().cells[axis];
   const int last = offset == 0 ? n : n - 1;  // highest index inside or on the side
   const int edge = side == 0 ? 0 : last;
-  Box<Dim> box = layout.padded();
-  if (side == 0) box.upper[axis] = std::min(box.upper[axis], edge);
-  if (side == 1) box.lower[axis] = std::max(box.lower[axis], edge + 1);
+  const Box<Dim> box = box_beyond(layout, axis, side, offset);
   if (box.empty()) return;
   const Site inward = side == 0 ? layout.stride(axis) : -layout.stride(axis);
   for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
     const int k = std::abs(i[axis] - edge);
     f[s] = beyond(rule, offset, steepest, k, last + 1, [&](int m) { return f[s + (k + m) * inward]; });
+  });
+}
+
+// Steps from s to the nearest site inside; 0 along axes along which s is inside, and periodic ones.
+template <int Dim>
+IVec<Dim> steps_beyond(const Layout<Dim>& layout, const IVec<Dim>& i, const Vec<Dim>& offset) {
+  IVec<Dim> steps = IVec<Dim>::Zero();
+  for (int a = 0; a < Dim; ++a) {
+    const int n = layout.geometry().cells[a];
+    if (!layout.geometry().periodic[a]) steps[a] = i[a] - std::clamp(i[a], 0, offset[a] == 0 ? n : n - 1);
+  }
+  return steps;
+}
+
+// A site beyond several sides, all of them continued in straight lines:
+//   f(s) = f(p) + sum_a k_a clamp(slope_a(p)),  p the nearest site inside, k_a the steps from it along axis a.
+// Continued axis by axis, limited slopes would make it depend on the order of the axes.
+template <int Dim>
+void extend_edge(const Layout<Dim>& layout, double* f, Site s, const IVec<Dim>& steps, const Extensions<Dim>& rules,
+                 double steepest) {
+  Site nearest = s;
+  for (int a = 0; a < Dim; ++a) {
+    if (steps[a] != 0 && rules[a][steps[a] > 0] != Extension::linear) return;
+    nearest -= steps[a] * layout.stride(a);
+  }
+  f[s] = f[nearest];
+  for (int a = 0; a < Dim; ++a) {
+    const Site inward = steps[a] > 0 ? -layout.stride(a) : layout.stride(a);
+    if (steps[a] != 0 && layout.geometry().cells[a] > 1)
+      f[s] += std::abs(steps[a]) * std::clamp(f[nearest] - f[nearest + inward], -steepest, steepest);
+  }
+}
+
+// The sites beyond a side and another one.
+template <int Dim>
+void extend_edges(const Layout<Dim>& layout, double* f, int axis, int side, const Vec<Dim>& offset, double steepest,
+                  const Extensions<Dim>& rules) {
+  const Box<Dim> box = box_beyond(layout, axis, side, offset[axis]);
+  if (box.empty()) return;
+  for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
+    const IVec<Dim> steps = steps_beyond<Dim>(layout, i, offset);
+    if ((steps.array() != 0).count() > 1) extend_edge<Dim>(layout, f, s, steps, rules, steepest);
   });
 }
 
@@ -45,6 +96,9 @@ void extend_beyond_sides(const Layout<Dim>& layout, double* f, const Vec<Dim>& o
     if (layout.geometry().periodic[a]) continue;
     for (int side = 0; side < 2; ++side) extend_one_side(layout, f, a, side, offset[a], steepest, rules[a][side]);
   }
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2 && !layout.geometry().periodic[a]; ++side)
+      extend_edges<Dim>(layout, f, a, side, offset, steepest, rules);
 }
 
 template void extend_beyond_sides<2>(const Layout<2>&, double*, const Vec<2>&, const Extensions<2>&, double);

@@ -1,5 +1,10 @@
 #include "levelset/extrapolate.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
 #include "grid/loops.h"
 
 namespace seiche {
@@ -41,16 +46,44 @@ struct Predictor {
   }
 };
 
-}  // namespace
-
+// Continues straight lines alone, of values below the limit.
 template <int Dim>
-void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
-                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known) {
-  halo.fill_ghosts({f.data()});
-  halo.fill_ghosts({known.data()});
-  const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
+struct StraightPredictor {
+  const Layout<Dim>& layout;
+  const std::vector<double>& f;
+  const std::vector<char>& known;
+  double limit;
+
+  bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
+
+  bool tells(Site at, char layer) const { return earlier(at, layer) && std::abs(f[at]) < limit; }
+
+  double along(Site s, Site d, char layer) const {
+    const double slope = f[s] - f[s + d];
+    if (tells(s + 2 * d, layer)) return f[s] + minmod(slope, f[s + d] - f[s + 2 * d]);
+    return f[s] + std::clamp(slope, -layout.h(), layout.h());
+  }
+
+  // Mean over the lines, added in the order of their values: turned scenes round alike.
+  bool predict(Site s, char layer, double& value) const {
+    std::array<double, 2 * Dim> said;
+    said.fill(std::numeric_limits<double>::infinity());  // behind all others
+    int count = 0;
+    for (int a = 0; a < Dim; ++a)
+      for (const Site d : {-layout.stride(a), layout.stride(a)})
+        if (tells(s + d, layer) && tells(s + 2 * d, layer)) said[std::size_t(count++)] = along(s + d, d, layer);
+    std::sort(said.begin(), said.end());
+    if (count > 0) value = std::accumulate(said.begin(), said.begin() + count, 0.0) / count;
+    return count > 0;
+  }
+};
+
+// Layer by layer what the predictor says.
+template <int Dim, class Predictor>
+void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
+                 const Predictor& predictor, std::vector<double>& f, std::vector<char>& known) {
   std::vector<char> next = known;  // neighbours still read `known` while this is written
-  for (int n = 0; n < options.layers; ++n) {
+  for (int n = 0; n < layers; ++n) {
     const char layer = char(n + 2);
     for_each_site(layout, box, [&](Site s) {
       double value;
@@ -65,9 +98,33 @@ void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
   }
 }
 
+}  // namespace
+
+template <int Dim>
+void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
+                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known) {
+  halo.fill_ghosts({f.data()});
+  halo.fill_ghosts({known.data()});
+  const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
+  fill_layers(layout, halo, box, options.layers, predictor, f, known);
+}
+
+template <int Dim>
+void extrapolate_straight(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
+                          double limit, std::vector<double>& f, std::vector<char>& known) {
+  halo.fill_ghosts({f.data()});
+  halo.fill_ghosts({known.data()});
+  const StraightPredictor<Dim> predictor{layout, f, known, limit};
+  fill_layers(layout, halo, box, layers, predictor, f, known);
+}
+
 template void extrapolate<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, const ExtrapolateOptions&,
                              std::vector<double>&, std::vector<char>&);
 template void extrapolate<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, const ExtrapolateOptions&,
                              std::vector<double>&, std::vector<char>&);
+template void extrapolate_straight<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, int, double, std::vector<double>&,
+                                      std::vector<char>&);
+template void extrapolate_straight<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, int, double, std::vector<double>&,
+                                      std::vector<char>&);
 
 }  // namespace seiche

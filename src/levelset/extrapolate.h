@@ -15,4 +15,11 @@ template <int Dim>
 void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
                  const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known);
 
+// The same along straight lines alone, for distances in metres. Values of magnitude `limit` and more do not count: they
+// may be cut off. Sites with no two known ones in a line behind them are left to later layers, and in the end as they
+// are.
+template <int Dim>
+void extrapolate_straight(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
+                          double limit, std::vector<double>& f, std::vector<char>& known);
+
 }  // namespace seiche

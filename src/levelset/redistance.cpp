@@ -46,14 +46,13 @@ double smooth_norm(const Layout<Dim>& layout, const double* f) {
 }
 
 // phi <- phi + w (d - phi), d the distance of the nearest point of the zero, w from 0 to 1 as phi or its slope there is
-// off; marks what relaxation is to leave alone. phi in cells, ghosts filled.
+// off, but for fixed cells; marks the cells that relaxation is to leave alone. phi in cells, ghosts filled.
 template <int Dim>
-CellField<Dim, char> settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi) {
+void settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi, CellField<Dim, char>& fixed) {
   constexpr double none = 0.02, all = 0.1;
-  CellField<Dim, char> fixed(layout, 0);
   const CellField<Dim> start = phi;
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
-    if (std::abs(start[s]) >= reach) return;
+    if (fixed[s] || std::abs(start[s]) >= reach) return;
     const auto foot = foot_on_zero(layout, start, i, reach);
     if (!foot) {
       fixed[s] = std::abs(smooth_norm(layout, start.data() + s) - 1) < all;
@@ -64,7 +63,6 @@ CellField<Dim, char> settle_near_zero(const Layout<Dim>& layout, double reach, C
     const double off = std::max(std::abs(foot->slope - 1), std::abs(start[s] - d) / std::max(1.0, std::abs(d)));
     phi[s] += std::clamp((off - none) / (all - none), 0.0, 1.0) * (d - start[s]);
   });
-  return fixed;
 }
 
 // What the relaxation needs of a band cell's initial values: for each neighbour, the distance in cells to the zero
@@ -206,22 +204,24 @@ void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, Cel
 }
 
 template <int Dim>
-void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
-                CellField<Dim>& phi) {
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
+                const CellField<Dim, char>* kept) {
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  CellField<Dim, char> fixed(layout, 0);
+  CellField<Dim, char> fixed = kept ? *kept : CellField<Dim, char>(layout, 0);
   if (options.settled > 0) {
-    fixed = settle_near_zero(layout, options.settled, phi);
+    settle_near_zero(layout, options.settled, phi, fixed);
     fill_ghosts(layout, halo, 1.0, phi);
   }
   Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }
 
-template void redistance<2>(const Layout<2>&, const Halo<2>&, const RedistanceOptions&, CellField<2>&);
-template void redistance<3>(const Layout<3>&, const Halo<3>&, const RedistanceOptions&, CellField<3>&);
+template void redistance<2>(const Layout<2>&, const Halo<2>&, const RedistanceOptions&, CellField<2>&,
+                            const CellField<2, char>*);
+template void redistance<3>(const Layout<3>&, const Halo<3>&, const RedistanceOptions&, CellField<3>&,
+                            const CellField<3, char>*);
 template void fill_level_set_ghosts<2>(const Layout<2>&, const Halo<2>&, CellField<2>&);
 template void fill_level_set_ghosts<3>(const Layout<3>&, const Halo<3>&, CellField<3>&);
 

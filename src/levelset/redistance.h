@@ -13,14 +13,15 @@ struct RedistanceOptions {
 };
 
 // Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka
-// 2000; du Chene, Min, Gibou 2008). Fills ghosts. Collective. The relaxation moves the zero by some 1e-3 cells a call,
-// by another amount at each place, which adds up to volume and which curvature feels. Within `settled` cells phi goes
-// over to its distance from the nearest point of the zero of its cubic interpolant instead (levelset/closest_point.h),
-// none of the way where it is 2 % off, all of it from 10 % on: what strains phi sets how much of it is done, not the
-// number of calls. Where that finds no foot, phi stays if |grad phi| is within a tenth of 1 and is relaxed otherwise.
+// 2000; du Chene, Min, Gibou 2008). Cells where `kept` is set are read but keep phi. Fills ghosts. Collective. The
+// relaxation moves the zero by some 1e-3 cells a call, by another amount at each place, which adds up to volume and
+// which curvature feels. Within `settled` cells phi goes over to its distance from the nearest point of the zero of its
+// cubic interpolant instead (levelset/closest_point.h), none of the way where it is 2 % off, all of it from 10 % on:
+// what strains phi sets how much of it is done, not the number of calls. Where that finds no foot, phi stays if |grad
+// phi| is within a tenth of 1 and is relaxed otherwise.
 template <int Dim>
-void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
-                CellField<Dim>& phi);
+void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
+                const CellField<Dim, char>* kept = nullptr);
 
 // Halo exchange and straight continuation beyond the sides, as level sets need it.
 template <int Dim>

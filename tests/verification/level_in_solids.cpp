@@ -36,7 +36,43 @@ void check_sides() {
   CHECK(touched == 0);
 }
 
+// A leaning slab of some six cells; whatever phi is within, it becomes that of the plane outside.
+template <int Dim>
+void check_continuation() {
+  Scene scene = box_scene(Dim, 24);
+  SolidSpec slab;
+  slab.name = "slab";
+  slab.shape.kind = "expression";
+  slab.shape.phi = "abs(0.8*x-0.6*y-0.1)-0.13";
+  slab.shape.where = "test";
+  scene.solids.push_back(slab);
+  const Setup<Dim> setup(scene, Communicator());
+  State<Dim> state;
+  state.solids = setup.at_start;
+  const auto closed = closed_cells(setup, setup.solids.measure(place_bodies(setup, state), 0));
+  CellField<Dim> phi(setup.layout);
+  const auto plane = [&](const IVec<Dim>& i) {
+    return std::clamp(setup.layout.position(i, cell_offset<Dim>())[1] - 0.47, -setup.band(), setup.band());
+  };
+  for_each_index_in_order(setup.layout, setup.layout.padded(),
+                          [&](Site c, const IVec<Dim>& i) { phi[c] = closed[c] ? 0.3 : plane(i); });
+  continue_level_set(setup, closed, phi);
+  double worst = 0;
+  int count = 0;
+  for_each_index_in_order(setup.layout, setup.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (std::abs(plane(i)) < setup.band() - 2 * setup.layout.h()) worst = std::max(worst, std::abs(phi[c] - plane(i)));
+    count += closed[c];
+  });
+  CHECK(count > 60);
+  CHECK(worst < 1e-12);
+}
+
 }  // namespace
+
+TEST_CASE("phi is continued straight into static solids") {
+  check_continuation<2>();
+  check_continuation<3>();
+}
 
 TEST_CASE("what phi says within a wall is that of the nearer side") {
   check_sides<2>();

@@ -232,13 +232,13 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   for (const auto& region : s.scene.liquid.regions)
     shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.layout.h(), nullptr}));
   State<Dim> state;
-  state.phi = initial_surface(s, shapes);
   state.pressure = CellField<Dim>(s.layout);
   if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
   if (s.may_seal()) state.sealed = CellField<Dim, char>(s.layout);
   state.solids = s.at_start;
   refuse_overlaps(s, state);
   const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  state.phi = initial_surface(s, g, shapes);
   if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);
   state.expected_volume = liquid_volume(s, state.phi, g.psi) - volume_beyond(s, g, state.phi);
   if (s.keeps_air()) state.air = initial_air(s, g, state.phi);

@@ -1,4 +1,4 @@
-// One time step, as the algorithm reads: transport, measure geometry, solve, restore.
+// One time step, as the algorithm reads: move bodies, measure geometry, transport, solve, restore.
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -143,19 +143,6 @@ struct StepInProgress {
       out.state.solids[k].advance({s, before, dt, lead, velocities[k]});
   }
 
-  void transport_surface() {
-    const PhaseFault fault = phases.enter("transport");
-    const auto timed = phases.timers.measure("surface");
-    const FaceField<Dim> u =
-        s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
-    CellField<Dim>& phi = out.state.phi;
-    // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
-    if (!by_halves && may_go_by_halves(s) && s.scene.time.cfl > 2) make_distance(s, phi);
-    out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
-    make_distance(s, phi);
-    inject(s, fault, out.state.phi.data());
-  }
-
   void measure_geometry() {
     const PhaseFault fault = phases.enter("geometry");
     const auto timed = phases.timers.measure("geometry");
@@ -163,6 +150,24 @@ struct StepInProgress {
         s.solids.measure(by_halves ? place_halfway(out.state, dt) : place_bodies(s, out.state), out.state.time);
     check_geometry_of_step(s, out.geometry, before.time, out.state.time);
     inject(s, fault, out.geometry.faces.closed_flux[0].data());
+  }
+
+  void transport_surface() {
+    const PhaseFault fault = phases.enter("transport");
+    const auto timed = phases.timers.measure("surface");
+    const FaceField<Dim> u =
+        s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
+    CellField<Dim>& phi = out.state.phi;
+    const CellField<Dim, char> closed = closed_cells(s, out.geometry);
+    // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
+    if (!by_halves && may_go_by_halves(s) && s.scene.time.cfl > 2) make_distance(s, closed, phi);
+    out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
+    make_distance(s, closed, phi);
+    inject(s, fault, out.state.phi.data());
+  }
+
+  void keep_volumes() {
+    const auto timed = phases.timers.measure("surface");
     out.state.expected_volume += lead * net_inflow(s, out.geometry, before.phi, before.now->u);
     keep_sides_of_walls(s, out.geometry, out.state.phi);
     keep_sealed_full(s, before, out.state, out.geometry, out.state.phi);
@@ -362,8 +367,9 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& state, double d
   if (s.has_prescribed_flow()) step.out.failure = fault_of_prescribed(s, state, dt);
   if (!step.out.failure.empty()) return std::move(step.out);
   step.move_bodies();
-  step.transport_surface();
   step.measure_geometry();
+  step.transport_surface();
+  step.keep_volumes();
   if (s.has_prescribed_flow())
     step.prescribe_velocity();
   else if (step.transport_velocity())

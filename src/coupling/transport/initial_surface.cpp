@@ -1,8 +1,8 @@
 #include "coupling/transport/initial_surface.h"
 
+#include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
-#include "levelset/redistance.h"
 
 namespace seiche {
 namespace {
@@ -51,15 +51,17 @@ class Regions {
 };
 
 // body(axis, site of the neighbour, step to it) for the neighbours of a cell within the domain on the surface's other
-// side.
+// side. Neither is closed: where a formula jumps within a solid does not tell where the surface is outside.
 template <int Dim, class Body>
-void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, Site c, const IVec<Dim>& i,
-                     const Body& body) {
+void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, const CellField<Dim, char>& closed, Site c,
+                     const IVec<Dim>& i, const Body& body) {
+  if (closed[c]) return;
   for (int a = 0; a < Dim; ++a)
     for (const int way : {-1, 1}) {
       const Site other = c + way * layout.stride(a);
       const int there = i[a] + way;
-      if (there < 0 || there >= layout.geometry().cells[a] || (phi[c] < 0) == (phi[other] < 0)) continue;
+      if (there < 0 || there >= layout.geometry().cells[a] || closed[other]) continue;
+      if ((phi[c] < 0) == (phi[other] < 0)) continue;
       Vec<Dim> step = Vec<Dim>::Zero();
       step[a] = way * layout.h();
       body(a, other, step);
@@ -69,12 +71,13 @@ void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, Site 
 // Whether a formula jumps and its values at cell centres misplace its zero. Distances change by a cell from one to the
 // next; what changes by more than two has jumped. Collective.
 template <int Dim>
-bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim>& phi) {
+bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
+                    const CellField<Dim>& phi) {
   bool misplaced = false;
   for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     if (misplaced) return;
     const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
-    for_each_across(s.layout, phi, c, i, [&](int, Site other, const Vec<Dim>& step) {
+    for_each_across(s.layout, phi, closed, c, i, [&](int, Site other, const Vec<Dim>& step) {
       const bool jumps = std::abs(phi[c] - phi[other]) > 2 * s.layout.h();
       misplaced = misplaced || (jumps && !regions.is_straight(x, step, phi[c], phi[other]));
     });
@@ -85,13 +88,14 @@ bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const Cell
 // Distance of the cells beside the zero from the plane through the zeros theta_a h away along the axes,
 // d = h / sqrt(sum 1/theta_a^2); the band elsewhere. What a jump leaves farther off would draw the zero along.
 template <int Dim>
-void place_zero(const Setup<Dim>& s, const Regions<Dim>& regions, CellField<Dim>& phi) {
+void place_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
+                CellField<Dim>& phi) {
   constexpr double least = 1e-3;
   const CellField<Dim> old = phi;
   for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
     Vec<Dim> inverse = Vec<Dim>::Zero();
-    for_each_across(s.layout, old, c, i, [&](int a, Site, const Vec<Dim>& step) {
+    for_each_across(s.layout, old, closed, c, i, [&](int a, Site, const Vec<Dim>& step) {
       inverse[a] = std::max(inverse[a], 1 / std::max(least, regions.crossing(x, step, old[c] < 0)));
     });
     phi[c] = std::copysign(inverse.isZero(0) ? s.band() : s.layout.h() / inverse.norm(), old[c]);
@@ -102,7 +106,8 @@ void place_zero(const Setup<Dim>& s, const Regions<Dim>& regions, CellField<Dim>
 }  // namespace
 
 template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
+CellField<Dim> initial_surface(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+                               const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
   CellField<Dim> phi(s.layout, s.band());
   const Regions<Dim> distance(s, shapes);
   for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
@@ -110,14 +115,18 @@ CellField<Dim> initial_surface(const Setup<Dim>& s, const std::vector<std::uniqu
   });
   fill_level_set_ghosts(s.layout, s.halo, phi);
   const auto& regions = s.scene.liquid.regions;
+  const CellField<Dim, char> closed = closed_cells(s, g);
   if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); })) {
-    if (misplaces_zero(s, distance, phi)) place_zero(s, distance, phi);
-    redistance(s.layout, s.halo, {s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)}, phi);
+    if (misplaces_zero(s, distance, closed, phi)) place_zero(s, distance, closed, phi);
+    const RedistanceOptions options{s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)};
+    redistance_beside_solids(s, closed, options, 20, phi);
   }
   return phi;
 }
 
-template CellField<2> initial_surface<2>(const Setup<2>&, const std::vector<std::unique_ptr<ShapeField<2>>>&);
-template CellField<3> initial_surface<3>(const Setup<3>&, const std::vector<std::unique_ptr<ShapeField<3>>>&);
+template CellField<2> initial_surface<2>(const Setup<2>&, const StepGeometry<2>&,
+                                         const std::vector<std::unique_ptr<ShapeField<2>>>&);
+template CellField<3> initial_surface<3>(const Setup<3>&, const StepGeometry<3>&,
+                                         const std::vector<std::unique_ptr<ShapeField<3>>>&);
 
 }  // namespace seiche

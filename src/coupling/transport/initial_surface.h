@@ -1,11 +1,13 @@
 #pragma once
 // The level set that a run begins with.
+#include "coupling/geometry/step_geometry.h"
 #include "coupling/state/state.h"
 
 namespace seiche {
 
 // Distance to the union of the regions' shapes, within the band; ghosts filled. Collective.
 template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& setup, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes);
+CellField<Dim> initial_surface(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                               const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes);
 
 }  // namespace seiche

@@ -1,9 +1,10 @@
 #include "coupling/transport/level_in_solids.h"
 
+#include <algorithm>
+
 #include "coupling/geometry/cell_distance.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
-#include "levelset/redistance.h"
 
 namespace seiche {
 namespace {
@@ -27,7 +28,75 @@ std::vector<char> cells_near_outside(const Setup<Dim>& s, const StepGeometry<Dim
   return near;
 }
 
+// 1 for the bodies that have not moved since the start; none of those that forces move.
+template <int Dim>
+std::vector<char> unmoved_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
+  std::vector<char> unmoved;
+  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const Body<Dim>& body = s.bodies[k];
+    const Pose start = body.pose(0), &now = g.placed[k].pose;
+    const bool same = start.displacement == now.displacement && start.rotation == now.rotation;
+    unmoved.push_back(same && g.placed[k].twist.at_rest() && !body.kind().is_free());
+  }
+  return unmoved;
+}
+
+// Whether unmoved solids fill a cell wholly.
+template <int Dim>
+bool is_closed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::vector<char>& unmoved, Site cell) {
+  bool closed = true;
+  for_each_face_of(s.layout, cell, [&](int a, Site f, int, Site) { closed = closed && g.faces.open.at(a, f) == 0; });
+  for (int k = 0; k < (1 << Dim) && closed; ++k) {
+    Site node = cell;
+    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * s.layout.stride(a);
+    closed = g.psi[node] <= 0 && unmoved[std::size_t(g.body[node])];
+  }
+  return closed;
+}
+
 }  // namespace
+
+template <int Dim>
+CellField<Dim, char> closed_cells(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
+  CellField<Dim, char> closed(s.layout, 0);
+  if (s.bodies.empty()) return closed;
+  const std::vector<char> unmoved = unmoved_bodies(s, g);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { closed[c] = is_closed(s, g, unmoved, c) ? 1 : 0; });
+  s.halo.fill_ghosts({closed.data()});
+  return closed;
+}
+
+template <int Dim>
+void continue_level_set(const Setup<Dim>& s, const CellField<Dim, char>& closed, CellField<Dim>& phi) {
+  if (s.bodies.empty()) return;
+  std::vector<char> known(std::size_t(s.layout.size()), 0);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[std::size_t(c)] = closed[c] ? 0 : 1; });
+  std::vector<double> f(phi.data(), phi.data() + s.layout.size());
+  extrapolate_straight(s.layout, s.halo, s.layout.cells(), layers, (1 - 1e-9) * s.band(), f, known);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { phi[c] = f[std::size_t(c)]; });
+  fill_level_set_ghosts(s.layout, s.halo, phi);
+}
+
+template <int Dim>
+void redistance_beside_solids(const Setup<Dim>& s, const CellField<Dim, char>& closed, const RedistanceOptions& options,
+                              int passes, CellField<Dim>& phi) {
+  const Site cells = s.layout.size();
+  if (!s.ranks.any(std::any_of(closed.data(), closed.data() + cells, [](char c) { return c != 0; })))
+    return redistance(s.layout, s.halo, options, phi);
+  const CellField<Dim> within = phi;
+  RedistanceOptions outside = options;
+  outside.iterations /= passes;
+  for (int n = 0; n < passes; ++n) {
+    continue_level_set(s, closed, phi);
+    redistance(s.layout, s.halo, outside, phi, &closed);
+  }
+  CellField<Dim, char> open(s.layout, 0);
+  for (Site c = 0; c < cells; ++c) {
+    open[c] = closed[c] ? 0 : 1;
+    if (closed[c]) phi[c] = within[c];
+  }
+  redistance(s.layout, s.halo, options, phi, &open);
+}
 
 template <int Dim>
 void keep_sides_of_walls(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
@@ -42,6 +111,14 @@ void keep_sides_of_walls(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellFi
   fill_level_set_ghosts(s.layout, s.halo, phi);
 }
 
+template CellField<2, char> closed_cells<2>(const Setup<2>&, const StepGeometry<2>&);
+template CellField<3, char> closed_cells<3>(const Setup<3>&, const StepGeometry<3>&);
+template void continue_level_set<2>(const Setup<2>&, const CellField<2, char>&, CellField<2>&);
+template void continue_level_set<3>(const Setup<3>&, const CellField<3, char>&, CellField<3>&);
+template void redistance_beside_solids<2>(const Setup<2>&, const CellField<2, char>&, const RedistanceOptions&, int,
+                                          CellField<2>&);
+template void redistance_beside_solids<3>(const Setup<3>&, const CellField<3, char>&, const RedistanceOptions&, int,
+                                          CellField<3>&);
 template void keep_sides_of_walls<2>(const Setup<2>&, const StepGeometry<2>&, CellField<2>&);
 template void keep_sides_of_walls<3>(const Setup<3>&, const StepGeometry<3>&, CellField<3>&);
 

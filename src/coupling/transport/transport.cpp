@@ -2,6 +2,7 @@
 
 #include "coupling/state/features.h"
 #include "coupling/transport/formula_checks.h"
+#include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/path_origins.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/shear_jump.h"
@@ -289,9 +290,9 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
 }
 
 template <int Dim>
-void make_distance(const Setup<Dim>& s, CellField<Dim>& phi) {
+void make_distance(const Setup<Dim>& s, const CellField<Dim, char>& closed, CellField<Dim>& phi) {
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
-  redistance(s.layout, s.halo, {s.band() / s.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s)}, phi);
+  redistance_beside_solids(s, closed, {s.band() / s.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s)}, 1, phi);
 }
 
 template <int Dim>
@@ -352,7 +353,7 @@ double control_volume(const Setup<Dim>& s, const NodeField<Dim>& psi, double exp
   template double liquid_volume<D>(const Setup<D>&, const CellField<D>&, const NodeField<D>&);                \
   template double transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double, \
                                        CellField<D>&);                                                        \
-  template void make_distance<D>(const Setup<D>&, CellField<D>&);                                             \
+  template void make_distance<D>(const Setup<D>&, const CellField<D, char>&, CellField<D>&);                  \
   template FaceField<D, char> faces_near_liquid<D>(const Setup<D>&, const CellField<D>&);                     \
   template FaceField<D, char> faces_near_gas<D>(const Setup<D>&, const CellField<D>&);                        \
   template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,  \

@@ -10,9 +10,9 @@ template <int Dim>
 double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double t, double dt,
                          CellField<Dim>& phi);
 
-// Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells.
+// Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells (coupling/level_in_solids.h).
 template <int Dim>
-void make_distance(const Setup<Dim>& setup, CellField<Dim>& phi);
+void make_distance(const Setup<Dim>& setup, const CellField<Dim, char>& closed, CellField<Dim>& phi);
 
 // Cells from the surface that are taken to their distance from it by its nearest points (levelset/redistance.h).
 // Curvature reads them, and where two fluids flow nothing tells their volumes apart but the surface.
