@@ -43,7 +43,7 @@ struct ContactMotion {
 
 struct ContactOptions {
   double reach = 1e-3;            // d^ (m), the distance below which the barrier acts; meant as 0.02 to 0.1 of a cell
-  double acceleration = 9.81;     // m/s^2, as a body's weight has it; sets the stiffness
+  double acceleration = 9.81;     // m/s^2: kappa holds the heaviest body's weight at half the reach
   double creep_speed = 1e-4;      // eps_v (m/s): velocity below which friction is static, apart from creep of this size
   double usual_speed = 1;         // m/s: velocity scale of convergence tests when everything is at rest
   double speed_tolerance = 1e-5;  // m/s: Newton stops when its step moves no point faster
