@@ -22,7 +22,7 @@ Section<LiquidRegionSpec> region_section() {
   return s;
 }
 
-// A source without an end is written without this key.
+// A source without an end (until = infinity) is written without this key.
 Key<LiquidSourceSpec> until_key() {
   const Option option{.key = "until",
                       .unit = "s",
