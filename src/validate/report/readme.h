@@ -1,11 +1,11 @@
 #pragma once
-// A case's own page as part of another.
+// Embeds a case's README in another page.
 #include <string>
 
 namespace seiche {
 
-// Headings two levels deeper, and links to files as seen from a page in a folder beside that of the cases: those of
-// `folder`, such as "validation/fsi3", become "../validation/fsi3/...". Blocks of code stay as they are.
+// Moves headings two levels deeper. Rewrites links to files as seen from a folder beside that of the cases: links
+// relative to `folder`, such as "validation/fsi3", become "../validation/fsi3/...". Blocks of code are unchanged.
 std::string embed_readme(const std::string& text, const std::string& folder);
 
 // "../validation/fsi1/scene.toml" from "validation/fsi3" and "../fsi1/scene.toml".
