@@ -18,9 +18,9 @@ struct CheckpointLabel {
   std::string scene_hash;
 };
 
-// Writes NNNNNNNN.tmp/, waits for all ranks, renames it and commits it; then removes all but the newest two. Does
-// nothing if that step is committed already. Throws on all ranks: Error(output_failed), older checkpoints then remain;
-// Error(cannot_continue) naming field and index if a value is not finite.
+// Writes NNNNNNNN.tmp/, makes sure that all ranks succeeded, renames it and commits it; then removes all but the newest
+// two. Does nothing if that step is committed already. Throws on all ranks: Error(output_failed), older checkpoints
+// then remain; Error(cannot_continue) naming field and index if a value is not finite.
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointLabel& label, const CheckpointData& data,
                       const Communicator& ranks);
 

@@ -116,7 +116,7 @@ void RunLoop::begin() {
   checkpoint();
 }
 
-// With a tolerance for rounding of 1e-10 of the time between frames.
+// True at `target`, with a tolerance for rounding of 1e-10 of the time between frames.
 bool RunLoop::is_reached(double target) const {
   return simulation_.time() >= target - 1e-10 / context_.scene.time.frame_rate;
 }

@@ -66,9 +66,9 @@ def periodic_along(scene, g):
 def check_energy(scene, stats):
     """E = E_kin + E_pot + E_el of a closed scene must stay below its initial value.
 
-    Margin: a twentieth of the initial kinetic energy, plus the following. The surface is known to about a cell: all mass is
-    lifted by half a cell, and the volume error is lifted through the domain. Surface tension adds at most sigma per
-    cell face."""
+    Margin: a twentieth of the initial kinetic energy, plus the following. The surface is known to about a cell:
+    all mass is lifted by half a cell, and the volume error is lifted through the domain. Surface tension adds
+    at most sigma per cell face."""
     g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0])][:scene["dimension"]]
     if periodic_along(scene, g):
         return

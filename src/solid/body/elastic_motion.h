@@ -8,8 +8,8 @@ namespace seiche {
 struct ElasticMotion {
   ElasticState state;        // displacements and velocities now, and one step earlier
   Eigen::VectorXd velocity;  // w: mean velocity of the nodes over the coming step, m/s
-  // Per patch of the surface: the number of the cavity of sealed liquid that the patch encloses, and the volume to keep
-  // (m^Dim). Both are NaN for patches without such a cavity.
+  // Per patch of the surface: the number of the cavity of sealed liquid that the patch is a wall of, and the volume to
+  // keep (m^Dim). Both are NaN for patches without such a cavity.
   Eigen::VectorXd cavity, kept_volume;
   // Force and torque about the origin (N, N m, stacked) from the liquid, without the pressure on the faces.
   Eigen::VectorXd extra_load;

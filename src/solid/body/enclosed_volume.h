@@ -19,9 +19,9 @@ using CavityWalls = std::vector<WallPatch<Dim>>;
 template <int Dim>
 bool can_be_closed(const CavityWalls<Dim>& walls);
 
-// Volume (m^Dim) enclosed at displacements u[k] of the nodes of wall k's solid; negative if the solids lie inside. Each
-// loop at pins of one motion is closed by facets to its middle. The volume between these facets and the true closing
-// surface is constant, since both move rigidly together.
+// Volume (m^Dim) enclosed at displacements u[k] of the nodes of wall k's solid; negative if the solids lie around it.
+// Each loop at pins of one motion is closed by facets to its middle. The volume between these facets and the true
+// closing surface is constant, since both move rigidly together.
 template <int Dim>
 double enclosed_volume(const CavityWalls<Dim>& walls, const std::vector<Eigen::VectorXd>& u);
 

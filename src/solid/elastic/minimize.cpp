@@ -41,7 +41,7 @@ Eigen::VectorXd hold(SparseMatrix& H, const std::vector<int>& dofs, const Eigen:
 }
 
 // The Newton step: H d = -g at free degrees of freedom, d = the missing displacement at pins. The exact stiffness is
-// tried first, since it converges quadratically even for thin bodies that are much stiffer along than across. False if
+// tried first: it converges quadratically also for bending of bodies that are far stiffer along than across. False if
 // no stiffness can be factored.
 template <int Dim>
 bool newton_step(const Descent<Dim>& s, const Eigen::VectorXd& u, const Eigen::VectorXd& g, Eigen::VectorXd& d) {

@@ -20,7 +20,7 @@ struct PrincipalInertia {
 };
 inline constexpr double thinnest_moment = 1e-12;  // well above the round-off of an inertia tensor, 1e-16
 
-// From a symmetric tensor in any axes, positive semi-definite up to round-off.
+// inertia: symmetric tensor in any axes, positive semi-definite up to round-off.
 PrincipalInertia principal_inertia(const Eigen::Matrix3d& inertia);
 
 // Angular velocity for angular momentum l (world axes) of a body rotated by r since its inertia was computed.

@@ -104,7 +104,7 @@ constexpr UnitRow stats_units[] = {{"time", {"s", "s"}},
                                    {"max_speed", {"m/s", "m/s"}},
                                    {"max_divergence", {"1/s", "1/s"}}};
 
-// By the first letter of a column of solids.csv, after a leading "pin_".
+// Units by the first letter of a column of solids.csv, after a leading "pin_".
 constexpr UnitRow solids_units[] = {
     {"xyz", {"m", "m"}}, {"v", {"m/s", "m/s"}}, {"w", {"1/s", "1/s"}}, {"f", {"N/m", "N"}}, {"t", {"N", "N m"}}};
 

@@ -60,8 +60,8 @@ std::string summary_value(const fs::path& run, const char* key) {
   }
 }
 
-// True if a run may be resumed. One that could not continue would fail again; a finished one without a complete
-// identity may be of any build.
+// True if a run may be resumed. One that could not continue would fail again; one finished outside of a validation may
+// be of any build.
 bool may_go_on(const fs::path& run) {
   const std::string code = summary_value(run, "exit_code");
   const auto is = [&](ExitCode one) { return code == std::to_string(int(one)); };
