@@ -121,7 +121,7 @@ ElasticMesh<3> elements_of(const Complex& complex) {
 }  // namespace
 
 ElasticMesh<2> triangulate(const SurfaceMesh& outline, double size) {
-  constexpr double least_sine_squared = 0.125;  // of an angle, 20.7 degrees: with it refinement is proven to terminate
+  constexpr double least_sine_squared = 0.125;  // of an angle, 20.7 degrees: termination is proven up to it
   plane::Triangulation t;
   try {
     for (const auto& [i, j] : outline.segments)

@@ -17,7 +17,8 @@ struct TetrahedraOptions {
 };
 
 // Tetrahedra inside a closed surface, by Delaunay refinement with sliver perturbation and exudation (Cheng et al.
-// 2000). Edges sharper than 60 degrees are kept on request. Throws Error(bad_input) without a location.
+// 2000). Edges of more than 60 degrees (between normals) are kept on request. Throws Error(bad_input) without a
+// location.
 ElasticMesh<3> tetrahedralize(const SurfaceMesh& surface, const TetrahedraOptions& options);
 
 }  // namespace seiche::cgal

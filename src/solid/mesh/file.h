@@ -35,7 +35,7 @@ RawMesh parse_msh(const mesh::Source& source);
 RawMesh parse_vtu(const mesh::Source& source);
 RawMesh parse_medit(const mesh::Source& source);
 
-// Reads a count of items of at least two bytes each, so it is never more than the rest of the file allows.
+// Reads a count of items of at least two bytes each; fails if the rest of the file cannot hold them.
 long long count_token(const mesh::Source& source, mesh::Tokens& tokens, const char* what);
 // Read a whole token that must be a number.
 double number_token(const mesh::Source& source, mesh::Tokens& tokens);
