@@ -5,8 +5,8 @@
 namespace seiche {
 namespace {
 
-// y_new = now y + old y_old + gamma dy/dt_new. BDF2 with r = dt / dt_old: now = (1 + r)^2 / (1 + 2 r), old = -r^2 / (1
-// + 2 r), gamma = dt (1 + r) / (1 + 2 r). Without an earlier step: backward Euler.
+// y_new = now y + old y_old + gamma dy/dt_new. BDF2 with r = dt / dt_old: now = (1 + r)^2 / (1 + 2 r),
+// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Without an earlier step: backward Euler.
 struct Weights {
   double now = 1, old = 0, gamma = 0;
 };

@@ -23,8 +23,8 @@ double factorial(int n) {
   return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-// dim + 1 points at the permutations of lambda = (b, a, ..., a), exact to degree 2: b = (1 + dim c)/(dim + 1), a = (1 -
-// c)/(dim + 1) with c = 1/sqrt(dim + 2).
+// dim + 1 points at the permutations of lambda = (b, a, ..., a), exact to degree 2:
+// b = (1 + dim c)/(dim + 1), a = (1 - c)/(dim + 1) with c = 1/sqrt(dim + 2).
 std::vector<QuadraturePoint> second_degree(int dim) {
   const double c = 1 / std::sqrt(dim + 2.), a = (1 - c) / (dim + 1), b = 1 - dim * a;
   std::vector<QuadraturePoint> r;
