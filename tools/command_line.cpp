@@ -19,7 +19,7 @@ const CLI::App* find_verb(const CLI::App& program, const std::string& name) {
   return nullptr;
 }
 
-// Long options that --help lists.
+// Long options listed by --help.
 std::vector<std::string> options_of(const CLI::App& verb) {
   std::vector<std::string> names;
   for (const CLI::Option* option : verb.get_options()) {

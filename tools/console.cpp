@@ -10,8 +10,8 @@
 namespace seiche {
 namespace {
 
-// Whether the user reads stdout on a terminal. mpirun hands each rank a pseudo-terminal whatever its own output is, so
-// there its own decides: the rank's parent.
+// True if stdout is a terminal of the user. mpirun gives each rank a pseudo-terminal, whatever its own output is; so
+// under mpirun the output of the parent process decides.
 bool is_terminal() {
   if (::isatty(STDOUT_FILENO) == 0) return false;
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return true;
@@ -20,7 +20,7 @@ bool is_terminal() {
   return !failed && (out.starts_with("/dev/pts/") || out.starts_with("/dev/tty"));
 }
 
-// Ends a live line before other text follows it.
+// Ends a live line before other output.
 void finish_live(bool& live) {
   if (live) std::fputs("\n", stdout);
   live = false;

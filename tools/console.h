@@ -1,5 +1,5 @@
 #pragma once
-// What the program prints.
+// Console output of the program.
 #include <fmt/format.h>
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace seiche {
 
-void print_error(const std::string& message);  // "seiche: ..." on the error output
+void print_error(const std::string& message);  // "seiche: ..." on stderr
 
-// Ordinary lines go to the output, warnings to the error output; a live line where the output is a terminal.
+// Ordinary lines go to stdout, warnings to stderr; the live line only to a terminal.
 Console terminal_console();
 
 }  // namespace seiche

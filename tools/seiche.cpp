@@ -34,7 +34,7 @@ Failure current_failure(int rank) {
     return {ExitCode::machine, fmt::format("rank {}: out of memory", rank)};
   } catch (const std::exception& error) {
     const auto* system = dynamic_cast<const std::system_error*>(&error);
-    if (system && system->code() == std::errc::resource_unavailable_try_again)  // of a thread, say
+    if (system && system->code() == std::errc::resource_unavailable_try_again)  // for instance of a thread
       return {ExitCode::machine, fmt::format("rank {}: {}", rank, error.what())};
     return {ExitCode::bug, fmt::format("this is a bug of Seiche {} (rank {}): {}", version(), rank, error.what())};
   } catch (...) {
@@ -42,7 +42,7 @@ Failure current_failure(int rank) {
   }
 }
 
-// Rank 0 speaks for an error that all ranks met. A rank that is alone with its error ends the whole job.
+// Rank 0 reports an error that all ranks have. A rank that is alone with its error aborts the whole job.
 int end_with(const Failure& failure, const Communicator& ranks, const EmergencyChannel& emergency) {
   const auto codes = emergency.meet(int(failure.code), patience);
   if (!codes) {
@@ -53,7 +53,7 @@ int end_with(const Failure& failure, const Communicator& ranks, const EmergencyC
   return codes->front();
 }
 
-// No option means anything by an empty text, such as that of a shell variable without a value.
+// Refuses empty option values, such as those of unset shell variables.
 void require_words(const CLI::App& program) {
   for (const CLI::App* verb : program.get_subcommands()) {
     for (const CLI::Option* option : verb->get_options()) {
@@ -64,7 +64,7 @@ void require_words(const CLI::App& program) {
   }
 }
 
-// The exit code when the command line alone decides it (help, version, mistakes), else -1.
+// The exit code if the command line alone decides it (help, version, mistakes), else -1.
 int parse(CLI::App& program, int argc, char** argv, const Communicator& ranks) {
   try {
     program.parse(argc, argv);
@@ -96,10 +96,10 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
   }
 }
 
-// Libraries of MPI and threads end without a word, or crash, where the limit of address space (ulimit -v) stops them.
-// Called before any library sets itself up: with what the C library has by then.
+// MPI and thread libraries end silently, or crash, at the limit of address space (ulimit -v). Called before any library
+// is initialised, so it may use the C library only.
 void require_room_to_begin() {
-  constexpr rlim_t least = rlim_t(300) << 20;  // a scene of 100 cells takes 260, most of it libraries and threads
+  constexpr rlim_t least = rlim_t(300) << 20;  // a scene of 100 cells takes 260, mostly for libraries and threads
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least) return;
   std::array<char, 160> text{};
@@ -111,7 +111,7 @@ void require_room_to_begin() {
   _exit(int(ExitCode::machine));
 }
 
-// The dynamic linker calls what stands here before the libraries' own initialisers, some of which start threads.
+// The dynamic linker calls this before the libraries' own initialisers, some of which start threads.
 [[gnu::section(".preinit_array"), gnu::used]] void (*before_libraries)() = require_room_to_begin;
 
 }  // namespace

@@ -1,10 +1,10 @@
 # shellcheck shell=sh
-# What ./demo and ./check share: packages, environment, build. Sourced by them from the top folder, not run.
+# Shared by ./demo and ./check: packages, environment, build. Source it from the top folder; do not run it.
 
 say() { printf '\n== %s\n' "$*"; }
 note() { printf '   %s\n' "$*"; }
 
-# packages SECTION...: the names under these sections of packages.txt.
+# packages SECTION...: names in these sections of packages.txt.
 packages() {
   awk -v wanted=" $* " '
     { sub(/#.*/, ""); gsub(/[ \t]+/, "") }
@@ -18,7 +18,7 @@ missing_packages() {
   done
 }
 
-# Runs a command as root, saying which.
+# Runs a command as root and prints it.
 as_root() {
   [ "$(id -u)" -eq 0 ] || set -- sudo "$@"
   note "running: $*"
@@ -33,7 +33,7 @@ require_root() {
   fi
 }
 
-# install_packages SECTION...: installs what is missing, and nothing where all is there.
+# install_packages SECTION...: installs missing packages only.
 install_packages() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     note "no apt here: the equivalents of packages.txt are taken to be installed"
@@ -49,14 +49,14 @@ install_packages() {
     -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 $absent
 }
 
-# Cores this process may use; hyper-threads count once, as they do for mpirun.
+# Cores available to this process, without hyper-threads, as mpirun counts them.
 core_count() {
   allowed=$(nproc)
   physical=$(lscpu -p=CORE,SOCKET 2>/dev/null | grep -v '^#' | sort -u | wc -l)
   if [ "$physical" -gt 0 ] && [ "$physical" -lt "$allowed" ]; then echo "$physical"; else echo "$allowed"; fi
 }
 
-# Compilers that run at once: one a core, and 2 GB of memory each.
+# Number of parallel compilers: one a core, with 2 GB of memory each.
 job_count() {
   memory=$(awk '/^MemAvailable/ { print int($2 / 2000000) }' /proc/meminfo)
   cores=$(nproc)
@@ -74,7 +74,7 @@ mpi_environment() {
   export OMPI_MCA_hwloc_base_binding_policy="${OMPI_MCA_hwloc_base_binding_policy:-none}"
 }
 
-# configure OPTION...: the release preset with these options; ccache where there is one.
+# configure OPTION...: configures the release preset with these options, and with ccache if installed.
 configure() {
   launcher=$(command -v ccache || true)
   cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" >build/configure.log 2>&1 ||

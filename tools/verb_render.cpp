@@ -7,7 +7,7 @@
 namespace seiche {
 namespace {
 
-// The options as typed.
+// Options as typed.
 struct RenderWords {
   std::string run, out, size = "1280x720", camera, sheet, animation;
   render::RenderOptions options;

@@ -12,7 +12,7 @@ struct ValidateWords {
   Task task = Task::run;
 };
 
-// What is read and written.
+// Options for input and output files.
 void add_files(CLI::App* verb, ValidateOptions& options) {
   const CLI::Validator named([](const std::string& text) { return text.empty() ? "an empty name" : ""; }, "", "named");
   verb->add_option("--out", options.out, "Folder for the runs, validation.json and report.html")

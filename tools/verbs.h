@@ -1,7 +1,7 @@
 #pragma once
-// The verbs of the command line. A verb is one file tools/verb_<name>.cpp with an add_<name> function, declared here
-// and listed in the table of tools/verbs.cpp. It adds its subcommand and options to the program's parser and, in the
-// subcommand's callback, hands over what to do: `context.action = [options, &context] { return ...; };`.
+// Verbs of the command line. A verb is one file tools/verb_<name>.cpp with a function add_<name>, which is declared
+// here and listed in the table of tools/verbs.cpp. The function adds the subcommand and its options to the program's
+// parser. The subcommand's callback sets the action: `context.action = [options, &context] { return ...; };`.
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
@@ -13,21 +13,21 @@
 
 namespace seiche {
 
-// When a signal ends a verb: at once, or where the verb itself looks for one.
+// Effect of a stop signal on a verb: it ends at once, or at a point that the verb chooses.
 enum class Stops { at_once, when_safe };
 
 struct VerbContext {
   const Communicator& ranks;
   const EmergencyChannel& emergency;
-  // Set by the verb that was chosen. Runs on every rank; returns the exit code or throws Error (the main program prints
-  // it once and ends all ranks with its code).
+  // Action of the chosen verb. Runs on every rank; returns the exit code or throws Error. The main program prints an
+  // error once and ends all ranks with its code.
   std::function<ExitCode()> action;
   Stops stops = Stops::at_once;
 };
 
 using AddVerb = void (*)(CLI::App&, VerbContext&);
 
-// The table, in the order of --help.
+// Table of verbs in the order of --help.
 const std::vector<AddVerb>& verbs();
 
 void add_run(CLI::App& program, VerbContext& context);

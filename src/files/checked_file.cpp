@@ -21,7 +21,7 @@ namespace {
   throw Error(ExitCode::output_failed, describe_failure(path, action, error_number));
 }
 
-// A file handle that is closed, unchecked, when an error unwinds; close_checked() is the ordinary way out.
+// File handle that is closed without a check when an error unwinds; close_checked() is the ordinary way.
 class Handle {
  public:
   explicit Handle(int number) : number_(number) {}
@@ -45,7 +45,7 @@ int open_retrying(const fs::path& path, int flags) {
   return number;
 }
 
-// Zero, or errno. Short writes go on where they stopped; interrupted ones are repeated.
+// Returns zero or errno. Continues after short writes, repeats interrupted ones.
 int write_all(int handle, std::string_view bytes) {
   constexpr std::size_t largest_write = std::size_t(1) << 30;
   while (!bytes.empty()) {
@@ -188,7 +188,7 @@ void AppendFile::flush() {
   size_ += text.size();
 }
 
-// A file that was removed or replaced behind the run's back takes in all that is written and keeps nothing.
+// Fails if the file was removed or replaced during the run: writes would then succeed and be lost.
 void AppendFile::check_name() const {
   struct stat held {
   }, named{};

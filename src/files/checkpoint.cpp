@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t checkpoints_kept = 2;
 constexpr const char* writing = "writing a checkpoint";
 
-// Every rank's line of the COMMIT file, by rank.
+// Lines of the COMMIT file from all ranks, by rank.
 std::vector<CommittedFile> exchange(const CommittedFile& mine, const Communicator& ranks) {
   std::vector<CommittedFile> files;
   for (const std::string& text : ranks.all_gather(fmt::format("{} {}", mine.bytes, mine.checksum))) {

@@ -18,7 +18,7 @@ std::size_t offset_in(const FieldRecord& field, const Index& i) {
          extent(0) * (std::size_t(i[1] - field.lower[1]) + extent(1) * std::size_t(i[2] - field.lower[2]));
 }
 
-// Copies the common box of `from` and `to` row by row; returns its number of entries.
+// Copies the intersection of `from` and `to` row by row; returns its number of entries.
 std::int64_t copy_common(const FieldRecord& from, FieldRecord& to, std::size_t components) {
   FieldRecord common;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
 #pragma once
-// Fields of a checkpoint, cut anew when the ranks of a resumed run own other boxes than those that wrote it.
+// Redistribution of checkpoint fields if a resumed run's ranks own other boxes than those of the run that wrote it.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace seiche {
 
-// Fills `wanted` (boxes without values) piece by piece.
+// Fills the boxes of `wanted` (given without values) piece by piece.
 class BoxFiller {
  public:
   explicit BoxFiller(const std::vector<FieldRecord>& wanted);
-  // Copies what `source` and the wanted boxes of the same name have in common.
-  // Throws Error(bad_checkpoint) when the number of values does not fit the box.
+  // Copies the intersection of `source` with the wanted boxes of the same name. Throws Error(bad_checkpoint) if the
+  // number of values does not match the box.
   void take(const FieldRecord& source);
   bool complete() const;
-  // The name of the first field with entries missing.
+  // Name of the first field with missing entries.
   std::string first_incomplete() const;
   std::vector<FieldRecord> result() && { return std::move(fields_); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The COMMIT file of a checkpoint: what the checkpoint consists of, with a checksum over itself.
+// The COMMIT file: the list of a checkpoint's files, with a checksum over itself.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ std::string checkpoint_rank_file(int rank);             // "rank.00003"
 std::string checkpoint_folder_name(std::int64_t step);  // "00000120"
 
 std::string format_commit(const Commit& commit);
-// Nothing when the text is not a COMMIT file or does not match its own checksum.
+// Empty if the text is not a COMMIT file or does not match its own checksum.
 std::optional<Commit> parse_commit(const std::string& text);
 
 }  // namespace seiche

@@ -44,7 +44,7 @@ class Writer {
   std::string bytes_;
 };
 
-// Every length is checked against the bytes that are there before anything is allocated.
+// Checks every length against the available bytes before allocating.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
 #pragma once
-// One rank's file of a checkpoint as bytes: a fixed header (magic, endianness, format version, precision), the named
-// data, and a CRC-32C over all of it at the end.
+// One rank's checkpoint file as bytes: fixed header (magic, endianness, format version, precision), named data, and a
+// final CRC-32C over everything.
 #include <cstdint>
 #include <string>
 
@@ -21,16 +21,16 @@ struct CheckpointFile {
 
 std::string encode_checkpoint_file(const CheckpointFile& file);
 
-// Why bytes are not a checkpoint file that this program can use.
+// Reason why a checkpoint file is unusable.
 struct CheckpointDefect {
   enum class Kind { none, damaged, foreign } kind = Kind::none;  // foreign: intact, but of another version or machine
   std::string text;
 };
 
-// Looks at header and checksum only.
+// Checks header and checksum only.
 CheckpointDefect examine_checkpoint_file(const std::string& bytes);
 
-// Throws Error(bad_checkpoint) when examine_checkpoint_file() finds a defect or the contents do not hold together.
+// Throws Error(bad_checkpoint) if examine_checkpoint_file() finds a defect or the contents are inconsistent.
 CheckpointFile decode_checkpoint_file(const std::string& bytes);
 
 }  // namespace seiche

@@ -31,7 +31,7 @@ void remove_old_checkpoints(const fs::path& folder, std::size_t keep) {
     const bool complete = fs::exists(folder / name / "COMMIT");
     if (!complete || ++committed > keep) remove_checkpoint(folder / name);
   }
-  // What a killed run was writing.
+  // Remains of a killed run.
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".tmp") remove_checkpoint(entry.path());

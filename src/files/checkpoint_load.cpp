@@ -1,4 +1,4 @@
-// Finding and loading checkpoints.
+// Finds and loads checkpoints.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ CheckpointDefect examine_file(const fs::path& folder, const CommittedFile& expec
   }
 }
 
-// This rank's share of the files of one checkpoint.
+// Examines this rank's share of a checkpoint's files.
 CheckpointDefect examine_share(const fs::path& folder, const Communicator& ranks) {
   const std::optional<Commit> commit = read_commit(folder);
   if (!commit) return damaged("its COMMIT file is missing or damaged");
@@ -63,7 +63,7 @@ CheckpointDefect examine_share(const fs::path& folder, const Communicator& ranks
   return {};
 }
 
-// The worst of all ranks' findings, the same on all of them.
+// The worst defect found by any rank; the same on all of them.
 CheckpointDefect examine(const fs::path& folder, const Communicator& ranks) {
   std::string mine;
   agree(ranks, "verifying a checkpoint", [&] {
@@ -138,7 +138,7 @@ CheckpointData load_checkpoint(const FoundCheckpoint& found, const std::vector<F
   CheckpointData data{found.data.scalars, found.data.texts, {}};
   agree(ranks, "loading a checkpoint", [&] {
     BoxFiller filler(boxes);
-    // With the same ranks as before, the first file already holds everything.
+    // With an unchanged number of ranks, the first file already holds everything.
     for (int n = 0; n < found.ranks && (n == 0 || !filler.complete()); ++n) {
       const CheckpointFile file = read_rank_file(found.folder, (ranks.rank() + n) % found.ranks);
       for (const FieldRecord& field : file.data.fields) filler.take(field);

@@ -17,7 +17,7 @@ struct Column {
   Number value;
 };
 
-// One table gives both the header and the rows. The contract fixes the columns up to wall_seconds and their order.
+// One table for both header and rows. The documented format fixes the columns up to wall_seconds and their order.
 std::vector<Column> columns(const StepStats& s) {
   return {{"step", s.step},
           {"time", s.time},
@@ -79,7 +79,7 @@ std::string text_of(const Number& value) {
   return fmt::format("{:.17g}", std::get<double>(value));
 }
 
-// Names with commas, quotes or line ends are quoted (RFC 4180).
+// Quotes names with commas, quotes or line ends (RFC 4180).
 std::string quoted(const std::string& name) {
   if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
   std::string result = "\"";

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of stats.csv, solids.csv and probes.csv. Numbers carry 17 digits, so that they read back to the same bits.
+// Rows of stats.csv, solids.csv and probes.csv. Numbers have 17 digits, so they read back bit for bit.
 #include <string>
 
 #include "coupling/state/simulation.h"
@@ -13,10 +13,10 @@ std::string solids_header();
 std::string solids_row(double time, const SolidState& solid);
 
 std::string probes_header();
-// Scalars fill `value`, vectors x, y, z; the rest stays empty, and all of it for an undefined sample.
+// Scalars fill `value`, vectors x, y, z; other fields stay empty, and all of them for an undefined sample.
 std::string probes_row(double time, const ProbeSample& sample);
 
-// The name of the first number of the row that is not finite, or "".
+// Name of the row's first non-finite number, or "".
 std::string not_finite(const StepStats& stats);
 std::string not_finite(const SolidState& solid);
 std::string not_finite(const ProbeSample& sample);

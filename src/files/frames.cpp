@@ -37,7 +37,7 @@ vdb::Block unpack(const std::string& bytes) {
   return block;
 }
 
-// On rank 0 all ranks' bytes, in as many rounds as the size of an exchange allows.
+// Gathers all ranks' bytes on rank 0, in as many rounds as the limit of an exchange requires.
 std::vector<std::string> gather_large(const std::string& bytes, const Communicator& ranks) {
   const std::size_t piece = largest_gather / std::size_t(ranks.size());
   const std::int64_t rounds = ranks.global_max(std::int64_t((bytes.size() + piece - 1) / piece));
@@ -67,7 +67,7 @@ std::vector<std::string> names_of(const Scene& scene) {
   return names;
 }
 
-// "displacement at node 3" of the first value that is not finite, or "".
+// "displacement at node 3" for the first non-finite value, or "".
 std::string first_not_finite(const VolumeFrame& solid) {
   for (std::size_t n = 0; n < solid.rest.size(); ++n) {
     if (!solid.displacement[n].allFinite()) return fmt::format("displacement at node {}", n);
@@ -165,7 +165,7 @@ void FrameWriter::write_solids(const FrameLabel& label, const Simulation& simula
   write_file(paths_.frames() / "solids.pvd", vtk::series("solids", "vtu", label.number, scene_.time.frame_rate));
 }
 
-// One entry a solid of the scene, or none at all if nothing is elastic. Checked before anything is written.
+// One entry a solid of the scene; empty if no solid is elastic. Values are checked before anything is written.
 std::vector<VolumeFrame> FrameWriter::elastic_volumes(const FrameLabel& label, const Simulation& simulation) const {
   std::vector<VolumeFrame> volumes(scene_.solids.size());
   bool any = false;

@@ -1,6 +1,6 @@
 #pragma once
-// Frames of a run: the fields of all ranks gathered on rank 0 and written as one OpenVDB file, with solid surfaces and,
-// on request, fluid fields for ParaView.
+// Frames of a run: fields of all ranks, gathered on rank 0 into one OpenVDB file, with solid surfaces and, on request,
+// fluid fields for ParaView.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,11 +20,11 @@ struct FrameLabel {
 
 std::string frame_file(const std::string& stem, int number, const std::string& extension);  // "frame.0012.vdb"
 
-// The name under which the simulation and the frames know a name of `output.frames` ("velocity" -> "vel"); "" for
-// "solids", which is no field.
+// Name of a field in the simulation and the frames for a name of `output.frames` ("velocity" -> "vel"); "" for
+// "solids", which is not a field.
 std::string field_of_output(const std::string& name);
 
-// "field at cell (i, j, k)" of the first value that is not finite, or "".
+// "field at cell (i, j, k)" for the first non-finite value, or "".
 std::string first_not_finite(const FrameField& field);
 
 class FrameWriter {
@@ -32,8 +32,8 @@ class FrameWriter {
   FrameWriter(const Scene& scene, const RunPaths& paths, const Communicator& ranks)
       : scene_(scene), paths_(paths), ranks_(ranks), surfaces_(scene.solids.size()) {}
 
-  // Writes frame `label` and all that goes with it. Collective. Throws on all ranks: Error(output_failed), or
-  // Error(cannot_continue) naming field and cell when a value is not a number; nothing of that frame is then written.
+  // Writes frame `label` with all its files. Collective. Throws on all ranks: Error(output_failed), or
+  // Error(cannot_continue) naming field and cell if a value is not finite; then nothing of that frame is written.
   void write(const FrameLabel& label, const Simulation& simulation, PhaseFault fault);
 
  private:
@@ -47,7 +47,7 @@ class FrameWriter {
   const Scene& scene_;
   RunPaths paths_;
   const Communicator& ranks_;
-  std::vector<SurfaceMesh> surfaces_;  // as last written; those of solids that never move are kept (rank 0)
+  std::vector<SurfaceMesh> surfaces_;  // as last written; reused for solids that never move (rank 0)
 };
 
 }  // namespace seiche

@@ -1,14 +1,13 @@
 #pragma once
-// JSON as far as summaries and reports of runs need it.
+// The parts of JSON that summaries and reports of runs need.
 #include <string>
 
 namespace seiche {
 
-// The text in double quotes with JSON's escapes.
+// The text in double quotes with JSON escapes.
 std::string json_string(const std::string& text);
 
-// The value of a key at the top level of a JSON object as it stands there, strings without their quotes and escapes;
-// empty if there is no such key.
+// Raw value of a top-level key of a JSON object; strings without quotes and escapes. Empty if there is no such key.
 std::string json_value(const std::string& json, const std::string& key);
 
 }  // namespace seiche

@@ -18,13 +18,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PC2 files are little-endian");
 
-// The 32 bytes at the start of a PC2 file.
+// 32-byte header of a PC2 file.
 struct Header {
   std::array<char, 12> magic{'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
   std::int32_t version = 1;
   std::int32_t points = 0;
   float start = 0;  // frame of the first sample
-  float rate = 1;   // frames a sample
+  float rate = 1;   // frames per sample
   std::int32_t samples = 0;
 };
 static_assert(sizeof(Header) == 32);
@@ -41,7 +41,8 @@ std::optional<Header> read_header(const std::filesystem::path& file) {
   return is_ours ? std::optional(h) : std::nullopt;
 }
 
-// The header of a cache of these points that holds all samples from its start up to frame `number`, without it.
+// Header of a usable cache: it has these points and all samples from its start up to, but not including, frame
+// `number`.
 std::optional<Header> usable_header(const std::filesystem::path& file, int number, std::size_t points) {
   const std::optional<Header> found = read_header(file);
   if (!found || found->points != std::int32_t(points)) return std::nullopt;
@@ -119,7 +120,7 @@ void add_sample(const std::filesystem::path& file, int number, const std::vector
     return write_file(file, bytes_of(header) + bytes_of(points));
   }
   const int earlier = number - int(header.start);
-  // The header never tells of samples that are not there.
+  // The header never counts samples that are not in the file.
   if (header.samples > earlier) {
     header.samples = earlier;
     overwrite_start(file, bytes_of(header));

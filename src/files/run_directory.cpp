@@ -21,7 +21,7 @@ namespace seiche {
 namespace fs = std::filesystem;
 namespace {
 
-// Does a file of this name, relative to the run's folder, belong to a run?
+// True if a file of this name, relative to the run's folder, belongs to a run.
 bool is_ours(const std::string& name) {
   static const std::regex pattern(
       "(scene\\.toml|stats\\.csv|solids\\.csv|probes\\.csv|summary\\.json|log\\.txt|validate\\.txt|stop|lock)(\\.tmp)?"
@@ -49,7 +49,7 @@ RemovedFiles remove_run(const fs::path& folder) {
   for (const fs::path& file : files) {
     if (::unlink(file.c_str()) != 0) fail(file, "remove");
   }
-  // Deepest first; those that still hold other people's files stay.
+  // Deepest first; folders with foreign files remain.
   std::sort(folders.begin(), folders.end(), std::greater<>());
   for (const fs::path& empty : folders) ::rmdir(empty.c_str());
   return removed;
@@ -62,7 +62,7 @@ bool holds_output(const fs::path& folder) {
   return false;
 }
 
-// A scene's name in place of the folder of its run is the likely slip.
+// Likely mistake: the scene's name instead of the folder of its run.
 [[noreturn]] void refuse_to_resume(const fs::path& given) {
   std::error_code ignored;
   if (!fs::exists(given, ignored))
@@ -120,7 +120,7 @@ void RunDirectory::take_lock() {
   const fs::path file = paths_.lock();
   struct stat held {
   }, named{};
-  do {  // again when another job removed the file between opening and locking it
+  do {  // again if another job removed the file between open and lock
     if (lock_ >= 0) ::close(lock_);
     lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock_ < 0) fail(file, "open");

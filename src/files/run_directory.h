@@ -1,5 +1,5 @@
 #pragma once
-// The folder of one run: its layout, its lock, and what may happen to what is already there.
+// The folder of one run: layout, lock, and treatment of existing contents.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,20 +23,19 @@ struct RunPaths {
 
 enum class ExistingOutput { refuse, overwrite, resume };
 
-// Files that overwriting took away.
+// Counts of files removed by overwriting.
 struct RemovedFiles {
   int pictures = 0, others = 0;
 };
 
-// Holds the folder for the life of the object (an flock on `lock`, which also holds the process id). Rank 0 owns the
-// only one of a run.
+// Locks the folder for the life of the object (flock on `lock`, which also holds the process id). Only rank 0 has one.
 class RunDirectory {
  public:
-  // Creates the folder where missing and locks it. Throws Error(output_failed) when it cannot be written or another job
-  // holds it, and Error(bad_input) when it holds output already (refuse) or holds no run (resume). Overwriting removes
-  // the files of a run and nothing else.
+  // Creates the folder if missing and locks it. Overwriting removes files of a run and nothing else. Throws
+  // Error(output_failed) if the folder is not writable or locked by another job, Error(bad_input) if it already holds
+  // output (refuse) or no run (resume).
   RunDirectory(const std::filesystem::path& folder, ExistingOutput policy);
-  // Releases the lock; folders that this object created and nothing was put into are removed again.
+  // Releases the lock and removes folders that this object created and that are still empty.
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;

@@ -1,12 +1,12 @@
 #pragma once
-// The solid surfaces of a frame.
+// Surfaces of the solids in a frame.
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
 
 namespace seiche::render {
 
-// A surface piece of a solid; `solid` counts from zero in the order of the scene.
+// Surface mesh with the solid of each element; `solid` counts from zero in the order of the scene.
 struct SolidMesh {
   SurfaceMesh mesh;
   std::vector<int> solid;  // one an element (triangle or segment)

@@ -14,7 +14,7 @@ namespace seiche {
 namespace fs = std::filesystem;
 namespace {
 
-// Hands out the first bytes of the file piece by piece; returns how many there were.
+// Passes the first bytes of the file to `take` in pieces; returns their number.
 std::uint64_t read_start(const fs::path& path, std::uint64_t bytes, const std::function<void(std::string_view)>& take) {
   constexpr std::uint64_t piece = 1 << 20;
   std::ifstream in(path, std::ios::binary);
@@ -50,7 +50,7 @@ void TableFile::append(const std::string& text) {
 std::string fault_of_table(const fs::path& path, const TableMark& mark) {
   std::error_code error;
   if (!fs::exists(path, error)) return fmt::format("{} is missing", path.string());
-  if (!fs::is_regular_file(path, error)) return {};  // a device keeps nothing to compare
+  if (!fs::is_regular_file(path, error)) return {};  // a device stores nothing to compare
   std::uint32_t sum = 0;
   const std::uint64_t there = read_start(path, mark.bytes, [&](std::string_view part) { sum = crc32c(part, sum); });
   if (there < mark.bytes)

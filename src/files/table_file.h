@@ -1,5 +1,5 @@
 #pragma once
-// A table that grows during a run, and how it stood when a checkpoint was written.
+// A table that grows during a run, and its length and checksum as stored in checkpoints.
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,15 +9,15 @@
 
 namespace seiche {
 
-// The first bytes of a table as a checkpoint knows them.
+// Length and checksum of a table at a checkpoint.
 struct TableMark {
   std::uint64_t bytes = 0;
-  std::optional<std::uint32_t> checksum;  // CRC-32C; checkpoints of earlier builds have none
+  std::optional<std::uint32_t> checksum;  // CRC-32C; absent in checkpoints of earlier builds
 };
 
 class TableFile {
  public:
-  // Opens the table, cut to `keep` bytes, or begins it with its header. Throws Error(output_failed).
+  // Opens the table, truncated to `keep` bytes, or starts it with its header. Throws Error(output_failed).
   TableFile(const std::filesystem::path& path, std::uint64_t keep, const std::string& header);
 
   void append(const std::string& text);
@@ -30,10 +30,10 @@ class TableFile {
   std::uint32_t checksum_;
 };
 
-// Why the table is not the one that was marked, or "".
+// Reason why the table differs from the mark, or "".
 std::string fault_of_table(const std::filesystem::path& path, const TableMark& mark);
 
-// Bytes of the whole lines among the first `most` bytes; 0 where there is no file.
+// Number of bytes of the complete lines among the first `most` bytes; 0 if there is no file.
 std::uint64_t whole_lines(const std::filesystem::path& path, std::uint64_t most);
 
 }  // namespace seiche

@@ -46,7 +46,7 @@ std::string array(const std::string& name, const std::vector<T>& values, int com
                      type_name<T>(), name, components, base64(bytes));
 }
 
-// Texts are written as their bytes, each text ended by a zero.
+// Texts as their bytes, each ended by a zero.
 std::string text_array(const std::string& name, const std::vector<std::string>& texts) {
   std::string codes;
   for (const std::string& text : texts) {
@@ -70,7 +70,7 @@ std::size_t flat(const Cells& cells, int i, int j, int k) {
   return std::size_t(i) + std::size_t(cells[0]) * (std::size_t(j) + std::size_t(cells[1]) * std::size_t(k));
 }
 
-// The blocks of one grid as one array over the domain.
+// Assembles the blocks of one grid into one array over the domain.
 std::vector<float> assemble(const vdb::Grid& grid, const Cells& cells, std::size_t components) {
   std::vector<float> whole(flat(cells, 0, 0, cells[2]) * components, grid.background);
   for (const vdb::Block& block : grid.blocks) {
@@ -85,7 +85,7 @@ std::vector<float> assemble(const vdb::Grid& grid, const Cells& cells, std::size
   return whole;
 }
 
-// u_c = (u_low + u_high) / 2 along each axis, where the high face of a cell is the low face of the next one.
+// u_c = (u_low + u_high) / 2 along each axis; the high face of a cell is the low face of the next one.
 std::vector<float> centred(const std::vector<float>& faces, const Cells& cells, int dimension) {
   std::vector<float> result = faces;
   const std::array<std::size_t, 3> stride{1, std::size_t(cells[0]), std::size_t(cells[0]) * std::size_t(cells[1])};

@@ -1,5 +1,5 @@
 #pragma once
-// Files for ParaView: VTK's XML formats with the numbers base64-coded inline.
+// Files for ParaView: VTK's XML formats with inline base64 data.
 #include <array>
 #include <string>
 #include <vector>
@@ -10,20 +10,20 @@
 
 namespace seiche::vtk {
 
-// A .vti with every grid of the frame as cell data over the whole domain; staggered vectors are averaged to cell
-// centres (on the last cell of an axis, where the high face is not stored, the low face stands for both).
+// A .vti with all grids of the frame as cell data over the whole domain. Staggered vectors are averaged to cell
+// centres; the last cell of an axis uses its low face only, since its high face is not stored.
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells);
 
-// A .vtu with the surfaces of all solids; the cell array `solid` counts them from 0, the field array `solid_names` has
+// A .vtu with the surfaces of all solids. The cell array `solid` counts them from 0, the field array `solid_names` has
 // their names in that order.
 std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<std::string>& names, double time);
 
-// A .vtu with the elements of elastic solids, deformed; point arrays `displacement` (m), `velocity` (m/s) and
-// `von_mises` (Pa), the cell array `solid` counts all solids of the scene from 0, the field array `solid_names` has
-// their names. Entries without elements are left out.
+// A .vtu with the deformed elements of elastic solids. Point arrays: `displacement` (m), `velocity` (m/s), `von_mises`
+// (Pa). The cell array `solid` counts all solids of the scene from 0, the field array `solid_names` has their names.
+// Entries without elements are skipped.
 std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<std::string>& names, double time);
 
-// A .pvd that names the files <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
+// A .pvd that lists <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate);
 
 std::string base64(const std::string& bytes);

@@ -44,7 +44,7 @@ std::map<std::string, std::string> parse_attributes(std::string_view tag) {
   return attributes;
 }
 
-// All elements of this name; `after` bounds the search.
+// All elements of this name within `xml`.
 std::vector<Element> find_elements(std::string_view xml, const std::string& name) {
   std::vector<Element> found;
   const std::string open = "<" + name, close = "</" + name + ">";
@@ -61,7 +61,7 @@ std::vector<Element> find_elements(std::string_view xml, const std::string& name
   return found;
 }
 
-// Decodes base64 up to the first character that does not belong to it; stops after each padded group only if asked for.
+// Decodes base64 up to `limit` bytes, ignoring characters outside of its alphabet.
 std::string decode_base64(std::string_view text, std::size_t limit) {
   std::string bytes;
   unsigned group = 0;
@@ -73,7 +73,7 @@ std::string decode_base64(std::string_view text, std::size_t limit) {
     if (c >= '0' && c <= '9') value = c - '0' + 52;
     if (c == '+') value = 62;
     if (c == '/') value = 63;
-    if (c == '=') group = 0, bits = 0;  // header and data may be padded apart
+    if (c == '=') group = 0, bits = 0;  // header and data may be padded separately
     if (value < 0) continue;
     group = group << 6 | unsigned(value);
     bits += 6;
@@ -108,12 +108,12 @@ std::vector<double> convert(const std::string& type, std::string_view bytes) {
   fail(fmt::format("numbers of type '{}'", type));
 }
 
-// The parts of a file that its arrays refer to.
+// A file's parts that its arrays refer to.
 struct Document {
   std::string_view xml;       // without appended data
   std::string_view appended;  // after the underscore
   bool appended_raw = false;
-  std::size_t header = 4;  // bytes of the length before each binary array
+  std::size_t header = 4;  // bytes of the length field before each binary array
 };
 
 Document open_document(std::string_view bytes) {
@@ -168,7 +168,8 @@ std::vector<double> read_array(const Document& document, const Element& array) {
   return numbers;
 }
 
-// The array of this name (or the first one if the name is empty) within the first element `section`; empty: none.
+// Values of the array with this name (the first one for an empty name) in the first element `section`; empty if there
+// is none.
 std::vector<double> find_array(const Document& document, const std::string& section, const std::string& name) {
   const auto sections = find_elements(document.xml, section);
   if (sections.empty()) return {};
@@ -202,7 +203,7 @@ SolidMesh assemble(const Document& document) {
   return solids;
 }
 
-// The texts that text_array of vtk.cpp wrote: codes of bytes, each text ended by a zero.
+// Texts as text_array() of vtk.cpp writes them: codes of bytes, each text ended by a zero.
 std::vector<std::string> read_texts(const Document& document, const std::string& name) {
   std::vector<std::string> texts{""};
   for (const Element& array : find_elements(document.xml, "Array")) {

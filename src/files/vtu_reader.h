@@ -8,14 +8,14 @@
 
 namespace seiche::render {
 
-// Understands VTK XML unstructured grids with ascii, inline base64, and appended raw or base64 arrays, uncompressed.
-// Elements other than triangles and segments are left out; without "solid" all belong to solid 0.
-// Throws Error(bad_input) with the path and what is wrong.
+// Supports VTK XML unstructured grids with ascii, inline base64 and appended raw or base64 arrays, uncompressed.
+// Elements other than triangles and segments are skipped. Without the array "solid" all belong to solid 0. Throws
+// Error(bad_input) naming the path and the fault.
 SolidMesh read_solids(const std::filesystem::path& file);
 
-// What there is of one solid in a grid of cells.
+// Contents of one solid in a grid of cells.
 struct SolidSummary {
-  std::string name;  // "" where the file does not say
+  std::string name;  // "" if the file has no names
   std::size_t cells = 0, points = 0;
   double largest_displacement = 0, largest_speed = 0, largest_stress = 0;  // m, m/s, Pa; 0 without these fields
 };
@@ -26,7 +26,7 @@ struct GridSummary {
   std::vector<SolidSummary> solids;  // those with cells
 };
 
-// Of frames/solids.NNNN.vtu or frames/elastic.NNNN.vtu. Throws Error(bad_input) with the path and what is wrong.
+// For frames/solids.NNNN.vtu and frames/elastic.NNNN.vtu. Throws Error(bad_input) naming the path and the fault.
 GridSummary summarize_grid(const std::filesystem::path& file);
 
 }  // namespace seiche::render

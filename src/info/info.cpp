@@ -32,8 +32,8 @@ std::string kind_name(vdb::GridKind kind) {
   return kind == vdb::GridKind::staggered_vector ? "staggered vectors" : "scalars";
 }
 
-// The share of each cell below the contour as if it were flat and across the cell: exact to about one percent of the
-// cells at the surface.
+// Liquid volume with a flat interface in each cell: the share of a cell is clamp(1/2 - phi/h). Exact to about one
+// percent of the surface cells.
 double volume_below(const vdb::Grid& grid, const vdb::Frame& frame) {
   double cells = 0;
   for (const float phi : grid.blocks.at(0).values) cells += std::clamp(0.5 - phi / frame.cell_size, 0.0, 1.0);
@@ -47,7 +47,7 @@ std::vector<std::string> cells_of(const std::string& row) {
   return cells;
 }
 
-// The liquid's volume in the row of stats.csv at time t; empty where there is none.
+// Liquid volume in the row of stats.csv at time t; empty if there is no such row.
 std::optional<double> volume_in_stats(const fs::path& file, double t) {
   constexpr double same_time = 1e-12;  // relative
   std::ifstream in(file);
@@ -68,7 +68,7 @@ std::optional<double> volume_in_stats(const fs::path& file, double t) {
   return found;
 }
 
-// A frame's surface goes on within solids, where there is no liquid: the run's own table knows how much there is.
+// A frame's surface continues within solids, where there is no liquid, so the volume is taken from the run's table.
 std::string describe_volume(const fs::path& file, const vdb::Grid& grid, const vdb::Frame& frame) {
   const char* unit = frame.dimension == 3 ? "m^3" : "m^3 per metre of depth";
   const auto known = volume_in_stats(fs::absolute(file).parent_path().parent_path() / "stats.csv", frame.time);
@@ -85,14 +85,14 @@ std::string describe_values(const fs::path& file, const vdb::Grid& grid, const v
   return fmt::format("{} {:.6g} to {:.6g}", vectors ? "length at cell centres" : "values", *low, *high);
 }
 
-// A committed checkpoint as far as it verifies.
+// A committed checkpoint and its verified contents.
 struct Verified {
   Commit commit;
   CheckpointFile first;
   std::uint64_t bytes = 0;
 };
 
-// Throws Error(bad_checkpoint) on the first thing that is wrong.
+// Throws Error(bad_checkpoint) at the first fault.
 Verified verify(const fs::path& folder) {
   const auto fail = [&](const std::string& what) {
     throw Error(ExitCode::bad_checkpoint, fmt::format("{}: {}", folder.string(), what));
@@ -189,7 +189,7 @@ void add_scene(const fs::path& file, Lines& lines) {
   }
 }
 
-// Surfaces of elastic solids over time.
+// Point caches of elastic solids' surfaces.
 Lines list_caches(const fs::path& folder) {
   Lines lines;
   std::error_code missing;

@@ -1,5 +1,5 @@
 #pragma once
-// What a frame, a checkpoint or a run directory holds, in words.
+// Describes the contents of a frame, a checkpoint or a run directory in words.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,10 +7,10 @@
 namespace seiche {
 
 // Lines of text about the path: a .vdb frame, a folder checkpoints/NNNNNNNN (or a file in it), or a run directory.
-// Throws Error(bad_input) when it is none of these, Error(bad_checkpoint) when a checkpoint does not verify.
+// Throws Error(bad_input) if it is none of these, Error(bad_checkpoint) if a checkpoint does not verify.
 std::vector<std::string> describe_path(const std::filesystem::path& path);
 
-// The three kinds.
+// The three kinds of describe_path().
 std::vector<std::string> describe_frame(const std::filesystem::path& file);
 std::vector<std::string> describe_checkpoint(const std::filesystem::path& folder);
 std::vector<std::string> describe_run(const std::filesystem::path& folder);

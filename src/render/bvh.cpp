@@ -30,7 +30,7 @@ Box bounds(const std::vector<Triangle>& triangles, std::uint32_t begin, std::uin
 bool crosses(const Ray& ray, const Vec3f& inverse, const Box& box, float t0, float t1) {
   for (int a = 0; a < 3; ++a) {
     const float x = (box.lower[a] - ray.origin[a]) * inverse[a], y = (box.upper[a] - ray.origin[a]) * inverse[a];
-    // max/min in this order drop the NaN of 0 * inf, a ray within a face
+    // max/min in this order ignore the NaN of 0 * inf (a ray within a face)
     t0 = std::max(t0, std::min(x, y));
     t1 = std::min(t1, std::max(x, y) * 1.000001f);
   }
@@ -46,7 +46,7 @@ Hit intersect(const Ray& ray, const Triangle& triangle) {
   const float inverse = 1 / determinant;
   const Vec3f s = ray.origin - triangle.corner, q = s.cross(triangle.edge1);
   const float u = s.dot(p) * inverse, v = ray.direction.dot(q) * inverse;
-  const float slack = 1e-6f;  // closes the cracks that rounding opens along shared edges
+  const float slack = 1e-6f;  // closes cracks by rounding along shared edges
   if (u < -slack || v < -slack || u + v > 1 + slack) return {};
   return {triangle.edge2.dot(q) * inverse, u, v, 0};
 }
@@ -55,7 +55,7 @@ Bvh::Bvh(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   if (!triangles_.empty()) build(0, std::uint32_t(triangles_.size()));
 }
 
-// Nodes in depth-first order: the low child follows its parent. Splits at the median along the longest axis.
+// Nodes in depth-first order: the low child follows its parent. Split at the median along the longest axis.
 void Bvh::build(std::uint32_t begin, std::uint32_t end) {
   const std::size_t self = nodes_.size();
   nodes_.push_back({bounds(triangles_, begin, end), begin, end - begin});
@@ -73,7 +73,7 @@ void Bvh::build(std::uint32_t begin, std::uint32_t end) {
   nodes_[self].count = 0;
 }
 
-// Calls visit(index) for the triangles of leaves that the ray crosses before t1, until it returns false.
+// Calls visit(index) for the triangles in leaves that the ray crosses before t1, until visit returns false.
 template <class Visit>
 void Bvh::walk(const Ray& ray, float t0, float& t1, Visit visit) const {
   if (nodes_.empty()) return;
@@ -123,7 +123,7 @@ bool Bvh::any(const Ray& ray, float t0, float t1) const {
 std::vector<Triangle> smooth_triangles(const SolidMesh& solids) {
   const auto& points = solids.mesh.points;
   const auto& corners = solids.mesh.triangles;
-  std::vector<Vec3f> area;  // normals times area
+  std::vector<Vec3f> area;  // normals scaled by area
   std::vector<std::vector<std::uint32_t>> around(points.size());
   for (std::uint32_t i = 0; i < corners.size(); ++i) {
     const auto& [a, b, c] = corners[i];

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles of the solids of a frame in a bounding volume hierarchy.
+// Bounding volume hierarchy of the triangles of a frame's solids.
 #include <cstdint>
 #include <vector>
 
@@ -24,7 +24,7 @@ class Bvh {
  public:
   Bvh() = default;
   explicit Bvh(std::vector<Triangle> triangles);
-  // The nearest hit with t0 < t < t1.
+  // Nearest hit with t0 < t < t1.
   Hit closest(const Ray& ray, float t0, float t1) const;
   bool any(const Ray& ray, float t0, float t1) const;
   const Triangle& triangle(std::uint32_t index) const { return triangles_[index]; }
@@ -46,7 +46,7 @@ class Bvh {
 // Ray against one triangle, both sides (Moller, Trumbore 1997).
 Hit intersect(const Ray& ray, const Triangle& triangle);
 
-// Triangles with normals averaged at each corner over those neighbours that meet it at less than 40 degrees.
+// Triangles with vertex normals averaged over adjacent triangles at less than 40 degrees.
 std::vector<Triangle> smooth_triangles(const SolidMesh& solids);
 
 }  // namespace seiche::render

@@ -12,7 +12,7 @@ Camera orient(const Vec3f& eye, const Vec3f& forward, const Vec3f& up, float deg
   camera.eye = eye;
   camera.forward = forward.normalized();
   Vec3f side = camera.forward.cross(up);
-  if (side.norm() < 1e-4f) side = camera.forward.unitOrthogonal();  // looking straight up or down
+  if (side.norm() < 1e-4f) side = camera.forward.unitOrthogonal();  // view straight up or down
   camera.side = side.normalized();
   camera.up = camera.side.cross(camera.forward);
   camera.slope = std::tan(degrees * 3.14159265f / 360);
@@ -27,8 +27,8 @@ Vec3f corner_of(const Box& box, int index) {
   return x;
 }
 
-// The eye from which all corners just fit into the given slopes, along the orientation of the camera: each corner at
-// (s, u, f) seen from the box's centre demands |s - shift| <= slope (f + distance); two directions, solved apart.
+// The nearest eye, for the camera's orientation, from which all corners fit into the given slopes. A corner at (s, u,
+// f) relative to the box's centre requires |s - shift| <= slope (f + distance). Both directions are solved separately.
 Vec3f fitting_eye(const Camera& camera, const Box& box, float slope_side, float slope_up) {
   const float slopes[2] = {slope_side, slope_up};
   const Vec3f axes[2] = {camera.side, camera.up};
@@ -72,7 +72,7 @@ Camera make_camera(const CameraSpec& spec, const Vec3f& up, int width, int heigh
 }
 
 Camera frame_box(const Box& box, int up_axis, int width, int height) {
-  // horizontal axes such that across x away = up
+  // horizontal axes with across x away = up
   int across = (up_axis + 2) % 3, away = (up_axis + 1) % 3;
   float away_sign = -1;
   if (box.size()[away] > box.size()[across]) std::swap(across, away), away_sign = 1;

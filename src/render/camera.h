@@ -1,5 +1,5 @@
 #pragma once
-// Where a picture is taken from.
+// Camera of a picture: position, orientation and projection.
 #include <optional>
 
 #include "render/volume.h"
@@ -11,7 +11,7 @@ struct Camera {
   float slope = 0.3f;                                                 // tangent of half the vertical field of view
   int width = 1280, height = 720;
 
-  // The ray through pixel coordinates (from the top low corner; pixel centres at + 1/2).
+  // Ray through pixel coordinates (from the top left; pixel centres at + 1/2).
   Ray ray(float x, float y) const;
   // Pixel coordinates and, as third component, the distance along `forward` (<= 0: behind the eye).
   Vec3f project(const Vec3f& x) const;
@@ -22,10 +22,10 @@ struct CameraSpec {
   float degrees = 35;  // vertical field of view
 };
 
-// The camera that was asked for. Throws Error(bad_input) if eye and look coincide or the angle is not in (0, 170).
+// The requested camera. Throws Error(bad_input) if eye and look coincide or the angle is not in (0, 170).
 Camera make_camera(const CameraSpec& spec, const Vec3f& up, int width, int height);
 
-// From a three-quarter view above, the longer horizontal side of the box across the picture, all of it in view.
+// Three-quarter view from above with the whole box in view; its longer horizontal side runs across the picture.
 Camera frame_box(const Box& box, int up_axis, int width, int height);
 
 }  // namespace seiche::render

@@ -10,7 +10,7 @@
 namespace seiche::render {
 namespace {
 
-// Six sRGB colours of evenly rising lightness, joined by Catmull-Rom curves.
+// Six sRGB colours of evenly increasing lightness, interpolated by Catmull-Rom curves.
 Vec3f map_formula(float t) {
   static const std::array<Vec3f, 6> knots{Vec3f{0.26f, 0.02f, 0.34f}, Vec3f{0.24f, 0.25f, 0.53f},
                                           Vec3f{0.15f, 0.45f, 0.56f}, Vec3f{0.15f, 0.64f, 0.51f},

@@ -19,13 +19,13 @@ extern char** environ;
 namespace seiche::render {
 namespace {
 
-constexpr int gap = 6;  // pixels between the pictures of a sheet
+constexpr int gap = 6;  // pixels between the tiles of a sheet
 
 [[noreturn]] void fail(const std::filesystem::path& film, const std::string& why) {
   throw Error(ExitCode::output_failed, fmt::format("{}: the film was not made: {}", film.string(), why));
 }
 
-// Writing to a reader that has gone gives an error instead of ending the program, while this lives.
+// Ignores SIGPIPE during its life: writing to a closed pipe then returns an error instead of ending the program.
 class IgnoredPipeSignal {
  public:
   IgnoredPipeSignal() { before_ = signal(SIGPIPE, SIG_IGN); }
@@ -46,7 +46,7 @@ bool write_all(int handle, const std::string& bytes) {
   return true;
 }
 
-// Starts the program with `input` as its standard input; 0 or the error number.
+// Starts the program with `input` as its standard input; returns 0 or the error number.
 int start(std::vector<std::string> words, int input, int to_close, pid_t& child) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -108,7 +108,7 @@ std::string encode_animation(const std::vector<std::filesystem::path>& pictures,
   if (failed != 0) fail(film, std::strerror(failed));
   const IgnoredPipeSignal guard;
   for (const auto& picture : pictures) {
-    if (!write_all(ends[1], read_whole_file(picture))) break;  // ffmpeg has ended; its status tells
+    if (!write_all(ends[1], read_whole_file(picture))) break;  // ffmpeg has ended; its status gives the reason
   }
   close(ends[1]);
   int status = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What is made of a series of pictures: one sheet with several of them, and a film.
+// Products of a series of pictures: a contact sheet and a film.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace seiche::render {
 
-// Up to twelve evenly chosen pictures of a series, the first and the last among them, in rows of up to four.
+// Contact sheet of up to twelve evenly spaced pictures of a series, including first and last, in rows of up to four.
 class ContactSheet {
  public:
   ContactSheet(int pictures, int width, int height);
-  // Takes picture `index` of the series (from zero, ascending) if it is one of the chosen, and prints the label on it
-  // in letters that stay readable.
+  // Adds picture `index` of the series (from zero, ascending) if it is selected, and prints the label on it in a
+  // readable size.
   void offer(int index, const Image& picture, const std::string& label);
   const Image& image() const { return image_; }
 
@@ -22,8 +22,8 @@ class ContactSheet {
   Image image_;
 };
 
-// Encodes PNG pictures of one size to an H.264 film with ffmpeg. Returns "" or, where there is no ffmpeg, a line that
-// says so. Throws Error(output_failed) when ffmpeg fails.
+// Encodes PNG pictures of equal size as an H.264 film with ffmpeg. Returns "", or a message if ffmpeg is not installed.
+// Throws Error(output_failed) if ffmpeg fails.
 std::string encode_animation(const std::vector<std::filesystem::path>& pictures, double rate,
                              const std::filesystem::path& film);
 

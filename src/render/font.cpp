@@ -7,7 +7,7 @@
 namespace seiche::render {
 namespace {
 
-// Seven rows from the top, five bits each, the highest bit at the start of the row.
+// Seven rows from the top, five bits each; the highest bit is the leftmost.
 struct Glyph {
   char character;
   std::array<std::uint8_t, 7> rows;

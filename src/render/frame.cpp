@@ -21,8 +21,7 @@ ScalarVolume empty_volume(const vdb::Frame& frame, const vdb::Block& block) {
   return volume;
 }
 
-// Lengths of the vectors averaged from the faces of each cell; on the last cell of an axis its low face stands for
-// both.
+// Lengths of the vectors averaged from the faces of each cell. The last cell of an axis uses its low face only.
 std::vector<float> lengths(const std::vector<float>& faces, const std::array<int, 3>& cells) {
   const std::array<std::size_t, 3> stride{1, std::size_t(cells[0]), std::size_t(cells[0]) * cells[1]};
   std::vector<float> result(faces.size() / 3);
@@ -38,7 +37,7 @@ std::vector<float> lengths(const std::vector<float>& faces, const std::array<int
   return result;
 }
 
-// The displaced shape of a solid at one time: x -> rest pose -> shape.
+// A moving shape at one time: maps x to the rest pose and evaluates the shape there.
 class PlacedShape {
  public:
   PlacedShape(const SolidSpec& solid, double cell_size, double time)
@@ -135,7 +134,7 @@ void clip_to_containers(LoadedFrame& frame, const Scene& scene) {
       const Vec3 index(double(c % phi.cells[0]), double(c / phi.cells[0] % phi.cells[1]),
                        double(c / (std::size_t(phi.cells[0]) * phi.cells[1])));
       const Vec3 x = phi.lower.cast<double>() + phi.h * (index + Vec3::Constant(0.5));
-      // half a cell into the solid, so that the liquid still reaches its surface
+      // cut half a cell inside the solid, so that the liquid still reaches the solid's surface
       phi.values[c] = std::max(phi.values[c], std::min(float(-shape(x) - 0.5 * phi.h), 3 * phi.h));
     }
   }

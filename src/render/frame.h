@@ -1,5 +1,5 @@
 #pragma once
-// One frame of a run, as far as a picture needs it.
+// The parts of a run's frame that a picture needs.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,26 +16,26 @@ struct LoadedFrame {
   double time = 0;
   Box domain;
   std::optional<ScalarVolume> phi;       // the level set; unset if the frame holds none
-  std::optional<ScalarVolume> quantity;  // what is shown in false colours
+  std::optional<ScalarVolume> quantity;  // shown in false colours
   SolidMesh solids;
 };
 
-// Reads frames/frame.NNNN.vdb and, if it is there, frames/solids.NNNN.vtu. `quantity` is "none", "speed", or the name
-// of a grid (vectors give their length). Throws Error(bad_input), for an unknown quantity with the names there are.
+// Reads frames/frame.NNNN.vdb and, if present, frames/solids.NNNN.vtu. `quantity` is "none", "speed", or the name of a
+// grid (the length for vectors). Throws Error(bad_input); for an unknown quantity it lists the available ones.
 LoadedFrame load_frame(const std::filesystem::path& frames, int number, const std::string& quantity);
 
-// The level set of a decoded frame, if any, and a quantity of it at cell centres.
+// Level set of a decoded frame, if any, and a quantity of it at cell centres.
 std::optional<ScalarVolume> level_set_of(const vdb::Frame& frame);
 ScalarVolume quantity_of(const vdb::Frame& frame, const std::string& quantity);
 
-// "speed m/s"; the bare name of quantities of unknown unit.
+// "speed m/s"; only the name if the unit is unknown.
 std::string label_of(const std::string& quantity);
 
-// The numbers of the frames in the folder, ascending.
+// Numbers of the frames in the folder, ascending.
 std::vector<int> list_frames(const std::filesystem::path& frames);
 
-// Takes the liquid away where an inverted solid (a container) is: the level set goes on into solids, and containers
-// are drawn without their outside.
+// Removes the liquid inside inverted solids (containers). The level set continues into solids, and containers are drawn
+// without their outside.
 void clip_to_containers(LoadedFrame& frame, const Scene& scene);
 
 }  // namespace seiche::render

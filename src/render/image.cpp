@@ -13,7 +13,7 @@ float decode_srgb(float v) {
   return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
-// A table is exact enough for 8 bits: 4096 steps of sqrt(v), which is nearly even in sRGB.
+// Table of 4096 steps of sqrt(v), which is nearly uniform in sRGB; accurate enough for 8 bits.
 std::array<std::uint8_t, 4097> srgb_table() {
   std::array<std::uint8_t, 4097> table{};
   for (int i = 0; i <= 4096; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures: 8-bit images for files and linear-light canvases to paint on.
+// 8-bit images for files, and linear-light canvases to draw on.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ struct Canvas {
   const Vec3f& at(int x, int y) const { return pixels[std::size_t(y) * width + x]; }
 };
 
-// Mixes the colour into the pixel with weight alpha; outside of the canvas nothing happens.
+// Mixes the colour into the pixel with weight alpha; ignores pixels outside of the canvas.
 void blend(Canvas& canvas, int x, int y, const Vec3f& color, float alpha);
 
 // A filled rectangle x0 <= x < x1, y0 <= y < y1.
@@ -40,7 +40,7 @@ void fill(Canvas& canvas, const std::array<int, 4>& x0y0x1y1, const Vec3f& color
 void draw_line(Canvas& canvas, const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width, const Vec3f& color,
                float alpha);
 
-// The same with a weight of its own at every pixel: fade(x, y, s), s in [0, 1] along the line.
+// The same with a weight per pixel: fade(x, y, s), s in [0, 1] along the line.
 template <class Fade>
 void stroke(Canvas& canvas, const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width, const Vec3f& color,
             const Fade& fade) {
@@ -64,7 +64,7 @@ void stroke(Canvas& canvas, const Eigen::Vector2f& from, const Eigen::Vector2f& 
 Image to_image(const Canvas& canvas);
 Vec3f from_srgb(float r, float g, float b);
 
-// Averages blocks of pixels down to the given size (neither larger than the image).
+// Averages blocks of pixels down to the given size (not larger than the image).
 Image shrink(const Image& image, int width, int height);
 
 }  // namespace seiche::render

@@ -1,4 +1,4 @@
-// The texts of the options of `seiche render`.
+// Parses the options of `seiche render`.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -29,7 +29,7 @@ std::optional<Number> read_number(const std::string& text) {
   return value;
 }
 
-// "0-24" or "0-24 and 30" style description of ascending numbers.
+// Describes ascending numbers, like "0-24, 30".
 std::string describe(const std::vector<int>& numbers) {
   std::string text;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -43,7 +43,7 @@ std::string describe(const std::vector<int>& numbers) {
   return text;
 }
 
-// The range of one part, both ends included.
+// Parses a range, both ends included.
 std::optional<std::array<int, 2>> read_range(const std::string& part) {
   const auto ends = split(part, '-');
   if (ends.size() > 2) return std::nullopt;
@@ -71,7 +71,7 @@ CameraSpec parse_camera(const std::string& text) {
     if (number && std::isfinite(*number))
       numbers.push_back(*number);
     else
-      numbers.resize(100);  // no camera has that many
+      numbers.resize(100);  // invalid: no camera has that many
   }
   if (numbers.size() != 6 && numbers.size() != 7) {
     throw Error(ExitCode::bad_input,

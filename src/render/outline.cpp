@@ -11,7 +11,7 @@ Vec2f corner(const Box& box, int s) {
   return {along_x[s & 3] ? box.upper[0] : box.lower[0], along_y[s & 3] ? box.upper[1] : box.lower[1]};
 }
 
-// The place of a point near the border as side + share of it, in [0, 4); negative if it is not at the border.
+// Position of a point on the border as side + share of the side, in [0, 4); negative if it is not near the border.
 float border_place(const Box& box, const Vec2f& x) {
   const float slack = 1e-4f * box.size().head<2>().norm();
   for (int s = 0; s < 4; ++s) {
@@ -28,7 +28,7 @@ float walk_length(float from, float to) {
   return to >= from ? to - from : to - from + 4;
 }
 
-// Appends the corners passed on the way round from one place to another.
+// Appends the corners passed on the border from one position to another.
 void walk_border(const Box& box, float from, float to, Polygon& polygon) {
   const float end = from + walk_length(from, to);
   for (int s = int(from) + 1; float(s) < end; ++s) polygon.push_back(corner(box, s));
@@ -79,7 +79,8 @@ Box enlarge(Box box, const std::vector<Polygon>& chains) {
   return box;
 }
 
-// From the end of a chain round the border to the nearest start of one, until the first chain is met again.
+// Closes chains along the border: from each chain's end to the nearest start of a chain, until the first one is
+// reached.
 void close_along_border(std::vector<Polygon> open, const Box& box, std::vector<Polygon>& closed) {
   while (!open.empty()) {
     Polygon polygon = open.front();
@@ -103,7 +104,7 @@ void close_along_border(std::vector<Polygon> open, const Box& box, std::vector<P
   }
 }
 
-// Twice the area that lies to the left of closed polygons; negative where all beyond them does.
+// Twice the area to the left of closed polygons; negative if their outside lies to the left.
 float left_area(const std::vector<Polygon>& polygons) {
   float sum = 0;
   for (const Polygon& polygon : polygons) {
@@ -125,10 +126,10 @@ std::vector<Polygon> close_outlines(const SolidMesh& solids, int solid, const Bo
   Chains chains = join(solids, solid);
   if (!chains.open.empty()) {
     const Box border = enlarge(box, chains.open);
-    // a closed hole of an outline without open chains needs none; with them the rule stays even-odd
+    // with open chains, closed hole outlines need no border: the even-odd rule still holds
     close_along_border(std::move(chains.open), border, chains.closed);
   } else if (left_area(chains.closed) < 0) {
-    chains.closed.push_back(border_of(enlarge(box, chains.closed)));  // what is left of them fills the domain
+    chains.closed.push_back(border_of(enlarge(box, chains.closed)));  // the outside of the polygons fills the domain
   }
   return std::move(chains.closed);
 }

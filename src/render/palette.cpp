@@ -3,7 +3,7 @@
 namespace seiche::render {
 namespace {
 
-// Away from the blue of the water, and apart from their neighbours in hue or lightness.
+// Distinct from the blue of the water, and from their neighbours in hue or lightness.
 Vec3f body_color(std::size_t n) {
   static const std::array<Vec3f, 8> colors{
       Vec3f{0.85f, 0.52f, 0.04f}, Vec3f{0.72f, 0.20f, 0.03f}, Vec3f{0.55f, 0.05f, 0.06f}, Vec3f{0.30f, 0.15f, 0.06f},

@@ -1,15 +1,15 @@
 #pragma once
-// Which solid has which colour.
+// Colours of the solids.
 #include "base/scene.h"
 #include "render/image.h"
 
 namespace seiche::render {
 
-// A light grey for solids at rest, a dark one for those that a formula moves, and a colour each for rigid bodies, by
-// their order in the scene; linear light.
+// Light grey for static solids, dark grey for prescribed ones, and a colour for each rigid body in the order of the
+// scene; linear light.
 std::vector<Vec3f> solid_colors(const Scene& scene);
 
-// That of one solid; solids the list does not know have the colours of rigid bodies in turn.
+// Colour of one solid. Solids missing in the list get the colours of rigid bodies in turn.
 Vec3f solid_color(const std::vector<Vec3f>& colors, int solid);
 
 }  // namespace seiche::render

@@ -13,7 +13,7 @@ namespace {
 
 const Vec3f ink{0.05f, 0.06f, 0.08f};
 
-// World and pixel coordinates of a plot.
+// Maps between world and pixel coordinates of a plot.
 struct Mapping {
   std::array<int, 4> rectangle;
   Vec2f lower;

@@ -14,7 +14,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   header.width = png_uint_32(image.width);
   header.height = png_uint_32(image.height);
   header.format = PNG_FORMAT_RGB;
-  header.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time for pictures a tenth larger
+  header.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time for files a tenth larger
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) {

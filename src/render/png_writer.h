@@ -1,12 +1,12 @@
 #pragma once
-// The only door to libpng.
+// The only adapter to libpng.
 #include <filesystem>
 
 #include "render/image.h"
 
 namespace seiche::render {
 
-// Written whole or not at all (files/checked_file). Throws Error(output_failed) with the path and the cause.
+// Written completely or not at all (files/checked_file). Throws Error(output_failed) with the path and the cause.
 void write_png(const std::filesystem::path& file, const Image& image);
 
 // Reads any PNG as 8-bit RGB. Throws Error(bad_input).

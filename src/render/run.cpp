@@ -22,7 +22,7 @@ namespace {
 
 using Say = std::function<void(const std::string&)>;
 
-// What all pictures of a run share.
+// Settings shared by all pictures of a run.
 struct Job {
   RenderOptions options;
   Scene scene;
@@ -32,7 +32,7 @@ struct Job {
   ColorScale scale;
 };
 
-// The scene matters for what is up, for containers and for the frame rate; pictures are possible without it.
+// The scene gives the up axis, the containers and the frame rate; pictures are possible without it.
 Scene scene_of_run(const std::filesystem::path& run, const Say& say) {
   try {
     return read_scene(run / "scene.toml", {});
@@ -50,8 +50,8 @@ int axis_upwards(const Job& job) {
   return axis;
 }
 
-// From the quantity's values in the liquid of all chosen frames: zero or the lowest half percent, the highest half
-// percent. So single cells do not wash out the rest.
+// Scale from the quantity's values in the liquid of all chosen frames: zero or the lowest half percent, to the highest
+// half percent. So single cells do not determine the scale.
 ColorScale measure_scale(const Job& job) {
   ColorScale scale{0, 0, label_of(job.quantity)};
   for (const int number : job.chosen) {
@@ -72,7 +72,7 @@ ColorScale measure_scale(const Job& job) {
 }
 
 Canvas picture_2d(const Job& job, LoadedFrame& frame) {
-  if (!frame.phi) {  // no surface was written: all of the domain counts as liquid
+  if (!frame.phi) {  // no surface in the frame: the whole domain counts as liquid
     frame.phi = frame.quantity;
     if (!frame.phi) throw Error(ExitCode::bad_input, "the frames hold neither a surface nor what --color names");
     std::fill(frame.phi->values.begin(), frame.phi->values.end(), -frame.phi->h);

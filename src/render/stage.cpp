@@ -10,14 +10,14 @@ namespace {
 
 const Vec3f sun_color{1.0f, 0.96f, 0.88f};
 
-// Colour of the hazy distance, where ground and sky meet.
+// Colour of the horizon.
 const Vec3f haze{0.80f, 0.85f, 0.90f};
 
 bool is_container(const Stage& stage, int solid) {
   return std::size_t(solid) < stage.containers.size() && stage.containers[solid];
 }
 
-// Whether a solid that is no container stands in the way.
+// True if a solid other than a container blocks the ray.
 bool is_blocked(const Stage& stage, const Ray& ray, float t) {
   if (!stage.solids.any(ray, t, 1e30f)) return false;
   Hit hit = stage.solids.closest(ray, t, 1e30f);
@@ -27,7 +27,7 @@ bool is_blocked(const Stage& stage, const Ray& ray, float t) {
   return hit.t >= 0;
 }
 
-// How much light reaches a point of the ground: none past solids, tinted past liquid.
+// Light that reaches a point of the ground: none behind solids, tinted behind liquid.
 Vec3f ground_light(const Stage& stage, const Vec3f& x) {
   const Ray ray{x, stage.to_light};
   if (is_blocked(stage, ray, 1e-4f * stage.reach)) return Vec3f::Zero();
@@ -45,7 +45,7 @@ Vec3f ground_light(const Stage& stage, const Vec3f& x) {
   return path > 0 ? Vec3f(0.82f * transmitted(stage, 0.7f * path)) : Vec3f::Ones();
 }
 
-// Three passes of a 3-point box along each side: shadows with soft edges.
+// Three passes of a 3-point box filter along each side: soft shadow edges.
 void soften(GroundShadow& shadow) {
   const int n = shadow.size;
   for (int pass = 0; pass < 6; ++pass) {
@@ -91,7 +91,7 @@ Vec3f light_on_ground(const Stage& stage, const Vec3f& x) {
   return (1 - q) * ((1 - p) * low[0] + p * low[1]) + q * ((1 - p) * low[n] + p * low[n + 1]);
 }
 
-// Soft tiles, the finer the nearer; beyond the tiles' reach their mean.
+// Soft tile pattern, finer near the eye; its mean beyond the tiles' reach.
 float tiles(const Stage& stage, const Vec3f& x, float t) {
   const int a = (stage.up_axis + 1) % 3, b = (stage.up_axis + 2) % 3;
   const float side = stage.reach / 10;
@@ -171,7 +171,7 @@ Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
   return solid_color(stage.colors, hit.solid).cwiseProduct(ambient + 0.95f * sun * sun_color);
 }
 
-// The liquid is as deeply coloured whatever the size of the scene: lengths count in diagonals of the domain.
+// Colour depth independent of the scene's size: lengths are relative to the domain's diagonal.
 Vec3f transmitted(const Stage& stage, float length) {
   const Vec3f rate(8.0f, 2.3f, 1.2f);
   return (-rate * (length / stage.reach)).array().exp();

@@ -1,5 +1,5 @@
 #pragma once
-// What is in a 3D picture: the liquid, the solids, the ground, the light, and how each of them looks.
+// Contents of a 3D picture: liquid, solids, ground and light, and their appearance.
 #include <memory>
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace seiche::render {
 
-// Light that reaches the ground: a map of factors over a rectangle of it, 1 beyond.
+// Light on the ground: factors on a rectangular map, 1 outside.
 struct GroundShadow {
   int size = 0;
   Vec3f lower{0, 0, 0};  // of the rectangle
@@ -24,7 +24,7 @@ struct Stage {
   std::optional<ScalarVolume> quantity;   // for false colours
   ColorScale scale;
   Bvh solids;
-  std::vector<char> containers;  // by solid: seen from outside, it is left away
+  std::vector<char> containers;  // by solid: not drawn from outside
   std::vector<Vec3f> colors;     // by solid
   float ground = 0;              // its height along the up axis
   float reach = 1;               // diagonal of the domain, m
@@ -34,26 +34,27 @@ struct Stage {
   Vec3f up() const { return Vec3f::Unit(up_axis); }
 };
 
-// Sets ground, light and reach from the domain, and measures the shadow on the ground. Liquid and solids are in place.
+// Sets ground, light and reach from the domain and computes the shadow on the ground. Call it after liquid and solids
+// are set.
 void light_stage(Stage& stage, const Vec3f& toward_eye);
 
 // The nearest opaque thing along a ray.
 struct OpaqueHit {
   enum class Kind { sky, ground, solid } kind = Kind::sky;
   float t = 1e30f;
-  Vec3f normal{0, 1, 0};  // against the ray
+  Vec3f normal{0, 1, 0};  // towards the ray's origin
   int solid = 0;
 };
 OpaqueHit find_opaque(const Stage& stage, const Ray& ray, float t0);
 
-// Linear light from it.
+// Linear light from the hit.
 Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit);
 Vec3f sky(const Stage& stage, const Vec3f& direction);
 
-// Factor of the key light that gets to x past the solids.
+// Share of the key light that reaches x past the solids.
 float sun_at(const Stage& stage, const Vec3f& x);
 
-// The part of light that is left after a path of this length in the liquid, by channel (Beer-Lambert).
+// Transmitted share of light after a path of this length in the liquid, by channel (Beer-Lambert).
 Vec3f transmitted(const Stage& stage, float length);
 
 }  // namespace seiche::render

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float refraction = 1.33f;  // index of water
 
-// What one ray saw: light, distance of the first thing, and which one (edges between things are smoothed).
+// Result of one ray: light, distance of the first object, and which one (edges between objects are anti-aliased).
 struct Sample {
   Vec3f light{0, 0, 0};
   float t = 1e30f;
@@ -20,7 +20,7 @@ Vec3f reflect(const Vec3f& d, const Vec3f& n) {
   return d - 2 * d.dot(n) * n;
 }
 
-// Snell's law for a ray d against the normal n; eta = index before / index behind. False: total reflection.
+// Snell's law for a ray d at the normal n; eta = index before / index behind. False for total reflection.
 bool refract(const Vec3f& d, const Vec3f& n, float eta, Vec3f& out) {
   const float cosine = -d.dot(n), k = 1 - eta * eta * (1 - cosine * cosine);
   if (k < 0) return false;
@@ -39,13 +39,13 @@ Vec3f outside(const Stage& stage, const Ray& ray) {
 
 Sample trace(const Stage& stage, const Ray& ray, int depth);
 
-// Light the liquid itself scatters towards the eye.
+// Light that the liquid itself scatters towards the eye.
 Vec3f scattered(const Stage& stage, const Vec3f& x) {
   const float height = (x[stage.up_axis] - stage.ground) / stage.domain.size()[stage.up_axis];
   return Vec3f(0.010f, 0.115f, 0.185f) * (0.8f + 0.9f * std::clamp(height, 0.0f, 1.0f));
 }
 
-// Light along a ray that starts within the liquid.
+// Light along a ray that starts in the liquid.
 Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
   const float h = stage.liquid->phi().h;
   const Span span = clip(ray, stage.domain);
@@ -54,12 +54,12 @@ Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
   const bool through_wall = leave < 0;
   if (through_wall) leave = std::max(span.t1, 0.0f);
   const float path = std::min(leave, opaque.t);
-  const float film = depth == 0 ? 0.03f * stage.reach : 0.0f;  // a least tint, so that thin sheets are seen
+  const float film = depth == 0 ? 0.03f * stage.reach : 0.0f;  // least tint, so that thin sheets are visible
   const Vec3f left = transmitted(stage, path + film);
   const Vec3f glow = (Vec3f::Ones() - left).cwiseProduct(scattered(stage, ray.at(0.5f * path)));
   if (opaque.t <= leave) return left.cwiseProduct(shade_opaque(stage, ray, opaque)) + glow;
   const Vec3f x = ray.at(leave);
-  Vec3f direction = ray.direction;  // the walls do not refract: what is behind them stays recognisable
+  Vec3f direction = ray.direction;  // walls do not refract, so objects behind them stay recognisable
   if (!through_wall && !refract(ray.direction, -stage.liquid->normal(x), refraction, direction)) {
     const Vec3f mirrored = reflect(ray.direction, stage.liquid->normal(x)).normalized();
     const Vec3f beyond =
@@ -72,7 +72,7 @@ Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
          glow;
 }
 
-// Where the ray meets liquid before `limit`: at its surface or at a wall that it touches; negative t: nowhere.
+// First liquid along the ray before `limit`: at its surface or at a wall that it touches. Negative t: none.
 struct LiquidHit {
   float t = -1;
   Vec3f normal{0, 1, 0};
@@ -81,7 +81,7 @@ struct LiquidHit {
 
 Vec3f shade_clear(const Stage& stage, const Vec3f& x, const LiquidHit& hit, const Vec3f& direction, int depth) {
   const Vec3f& normal = hit.normal;
-  const float dullness = hit.at_wall ? 0.35f : 1.0f;  // walls mirror less, to let the eye in
+  const float dullness = hit.at_wall ? 0.35f : 1.0f;  // reduced mirroring at walls, so that the inside is visible
   const float mirror = dullness * fresnel(-direction.dot(normal));
   Vec3f inward = direction;
   refract(direction, normal, 1 / refraction, inward);
@@ -116,7 +116,7 @@ LiquidHit find_liquid(const Stage& stage, const Ray& ray, float limit) {
 
 Sample trace(const Stage& stage, const Ray& ray, int depth) {
   const OpaqueHit opaque = find_opaque(stage, ray, 0);
-  // where solid and liquid touch the same wall, the solid is seen
+  // where solid and liquid touch the same wall, the solid is shown
   const float limit = stage.liquid ? opaque.t - 0.05f * stage.liquid->phi().h : opaque.t;
   const LiquidHit liquid = find_liquid(stage, ray, limit);
   if (liquid.t < 0) {
@@ -128,12 +128,12 @@ Sample trace(const Stage& stage, const Ray& ray, int depth) {
   return {shade_clear(stage, x, liquid, ray.direction, depth), liquid.t, -1};
 }
 
-// Films the highlights: what is brighter than 0.8 is bent towards 1.
+// Compresses highlights: light above 0.8 approaches 1 smoothly.
 Vec3f expose(const Vec3f& light) {
   return light.unaryExpr([](float v) { return v < 0.8f ? v : 0.8f + 0.2f * (v - 0.8f) / (v - 0.8f + 0.2f); });
 }
 
-// Whether a neighbour of the pixel shows another thing or a clearly different light.
+// True if a neighbour of the pixel shows another object or clearly different light.
 bool is_rough(const std::vector<Sample>& samples, const Camera& camera, int x, int y) {
   const Sample& here = samples[std::size_t(y) * camera.width + x];
   const int x1 = std::min(x + 1, camera.width - 1), y1 = std::min(y + 1, camera.height - 1);
@@ -154,7 +154,7 @@ Vec3f four_rays(const Stage& stage, const Camera& camera, int x, int y) {
   return sum / 4;
 }
 
-// The twelve edges of the domain, faint behind things.
+// Draws the twelve edges of the domain, faint behind objects.
 void draw_domain(Canvas& canvas, const Stage& stage, const Camera& camera, const std::vector<Sample>& samples) {
   for (int edge = 0; edge < 12; ++edge) {
     const int axis = edge / 4, a = (axis + 1) % 3, b = (axis + 2) % 3;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int block_cells = 8;
 
-// Index of the low sample and weight of the high one along an axis.
+// Interpolation along an axis: the index of the low sample, and the weight of the high one.
 struct Weight {
   int low, high;
   float share;
@@ -76,7 +76,7 @@ LiquidSurface::LiquidSurface(ScalarVolume phi) : phi_(std::move(phi)) {
   }
 }
 
-// Whether both signs occur among the samples that interpolation within the block uses.
+// True if both signs occur among the samples for interpolation within the block.
 bool LiquidSurface::near_surface(const std::array<int, 3>& block) const {
   std::array<int, 3> low, high;
   for (int a = 0; a < 3; ++a) {
@@ -93,7 +93,7 @@ bool LiquidSurface::near_surface(const std::array<int, 3>& block) const {
 }
 
 float LiquidSurface::bisect(const Ray& ray, float same, float other, float sign) const {
-  for (int i = 0; i < 10; ++i) {  // the bracket is under 3 h: ends below h/300
+  for (int i = 0; i < 10; ++i) {  // the bracket is at most 3 h and ends below h/300
     const float middle = 0.5f * (same + other);
     (sign * phi_.sample(ray.at(middle)) > 0 ? same : other) = middle;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Sampled fields of a frame and the search for the liquid surface along rays.
+// Sampled fields of a frame, and intersection of rays with the liquid surface.
 #include <array>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace seiche::render {
 
-// x(t) = origin + t direction; direction of length 1, so t is in metres.
+// x(t) = origin + t direction; direction has length 1, so t is in metres.
 struct Ray {
   Vec3f origin, direction;
   Vec3f at(float t) const { return origin + t * direction; }
@@ -19,7 +19,7 @@ struct Box {
   Vec3f size() const { return upper - lower; }
 };
 
-// The part t0 <= t <= t1 of a ray within a box, and the axes of the faces it enters and leaves by; t0 > t1: none.
+// Part t0 <= t <= t1 of a ray within a box, and the axes of the faces where it enters and leaves; t0 > t1: none.
 struct Span {
   float t0 = 0, t1 = -1;
   int enter_axis = 0, leave_axis = 0;
@@ -35,21 +35,21 @@ struct ScalarVolume {
   std::vector<float> values;
 
   float at(int i, int j, int k) const { return values[(std::size_t(k) * cells[1] + j) * cells[0] + i]; }
-  // Trilinear between centres, constant beyond the outermost ones.
+  // Trilinear between centres, constant outside of the outermost ones.
   float sample(const Vec3f& x) const;
   Vec3f gradient(const Vec3f& x) const;
   Box box() const;
 };
 
-// A level set (negative in the liquid) with the blocks of 8^3 cells that hold its zero contour.
+// A level set (negative in the liquid) with flags for blocks of 8^3 cells that contain its zero contour.
 class LiquidSurface {
  public:
   explicit LiquidSurface(ScalarVolume phi);
   const ScalarVolume& phi() const { return phi_; }
   bool inside(const Vec3f& x) const { return phi_.sample(x) < 0; }
-  // The first t in (t0, t1) at which the sign of phi differs from that at t0; negative if there is none.
+  // First t in (t0, t1) at which phi has another sign than at t0; negative if there is none.
   float first_crossing(const Ray& ray, float t0, float t1) const;
-  Vec3f normal(const Vec3f& x) const;  // out of the liquid, length 1
+  Vec3f normal(const Vec3f& x) const;  // out of the liquid, unit length
 
  private:
   bool near_surface(const std::array<int, 3>& block) const;

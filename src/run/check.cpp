@@ -1,4 +1,4 @@
-// `seiche check`: everything that can be known about a scene without running it.
+// `seiche check`: examines a scene without running it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 namespace seiche {
 namespace {
 
-// Cells that one core advances in a second, roughly; measured on dam breaks.
+// Rough number of cells that one core advances per second; measured on dam breaks.
 constexpr double cells_a_core_second = 3e5;
 
-// Grids up to this size are set up as a run would, within a few seconds.
+// Grids up to this size are set up as for a run, within a few seconds.
 constexpr std::int64_t most_cells_set_up = 2'000'000;
 
-// What the solids of a scene turned out to be.
+// Findings about the solids of a scene.
 struct Verified {
   std::vector<std::string> notes, meshes, factors;
 };
@@ -39,7 +39,7 @@ std::vector<const ShapeSpec*> shapes_of(const Scene& scene) {
   return shapes;
 }
 
-// Meshes an elastic solid as a run would, and finds the points of it that probes follow.
+// Meshes an elastic solid as a run would, and finds the points of its displacement probes.
 template <int Dim>
 void verify_elastic(const Scene& scene, const SolidSpec& solid, const ShapeOptions& options, Verified& found) {
   const Vec<Dim> lower = truncate<Dim>(scene.domain.lower), upper = truncate<Dim>(scene.domain.upper);
@@ -68,7 +68,8 @@ Verified verify_solids(const Scene& scene) {
   return found;
 }
 
-// Steps if the liquid falls freely through the domain: v = sqrt(2 g H), dt = cfl h / v. At least one step a frame.
+// Number of steps for liquid in free fall through the domain: v = sqrt(2 g H), dt = cfl h / v. At least one step a
+// frame.
 double expected_steps(const Scene& scene) {
   const Gravity gravity(scene.gravity);
   const Vec3 start = gravity.at(0);
@@ -99,12 +100,12 @@ std::string report(const Scene& scene, const Cost& cost, int ranks) {
                             ranks == 1 ? "" : "s");
 }
 
-// What is told of the initial state.
+// Description of the initial state.
 struct Start {
   std::vector<std::string> lines, warnings;
 };
 
-// The initial state evaluates the formulas wherever a run would, and tells what liquid and solids there are.
+// Sets up the initial state, which evaluates the formulas as a run would, and describes liquid and solids.
 Start look_at_start(const Scene& scene, const Cost& cost, const Verified& found, const Communicator& ranks) {
   if (cost.cells <= most_cells_set_up) {
     const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);

@@ -24,7 +24,7 @@ void check_test_options(const SessionOptions& session) {
   parse_tampering(session.tampering);
 }
 
-// A scene as all ranks read it.
+// Reads the scene; the same on all ranks.
 Scene read_together(const fs::path& file, const std::vector<Override>& overrides, const Communicator& ranks) {
   Scene scene;
   agree(ranks, "reading the scene", [&] { scene = read_scene(file, overrides); });
@@ -37,7 +37,7 @@ void check_machine(const Scene& scene, const Communicator& ranks) {
         [&] { check_memory(estimate_cost(scene, ranks.size()), ranks.size(), here, machine_memory()); });
 }
 
-// `--frames N`: the last frame is number N.
+// End time for `--frames N`: the last frame has number N.
 double end_of_frames(int frames, const Scene& scene) {
   return frames / scene.time.frame_rate;
 }
@@ -53,7 +53,7 @@ fs::path output_folder(const RunOptions& options) {
   return options.out.value_or(fs::path("out") / options.scene.stem());
 }
 
-// Throws Error(bad_input) where a change stands in the way; the others are told.
+// Throws Error(bad_input) if a change forbids resuming; permitted changes are logged.
 void accept_changed_scene(const Scene& scene, const Scene& before, EditPolicy edits, const fs::path& folder,
                           RunLog& log) {
   const std::vector<std::string> changed = changed_keys(before, scene), keys = forbidden_changes(changed, edits);
@@ -79,7 +79,7 @@ bool is_finished(const RunState& state, const Scene& scene) {
   return state.frame >= last_frame(scene.time) && state.time >= scene.time.end * (1 - 1e-12);
 }
 
-// What resume found in the run directory.
+// Contents of the run directory that resume continues from.
 struct Continuation {
   Scene scene;
   FoundCheckpoint checkpoint;

@@ -1,5 +1,5 @@
 #pragma once
-// What the verbs run, resume and check do.
+// Implements the verbs run, resume and check.
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -18,9 +18,9 @@ namespace seiche {
 // Options that run and resume share.
 struct SessionOptions {
   std::optional<int> frames;       // number of the last frame
-  std::optional<int> threads;      // of this rank; unset: the machine's, shared among its ranks
+  std::optional<int> threads;      // of this rank; unset: the machine's processors, shared among its ranks
   std::optional<double> walltime;  // s
-  double watchdog = 600;           // s without progress after which the run is ended
+  double watchdog = 600;           // s without progress before the run is aborted
   std::string inject;              // see fault.h
   std::string tampering;           // see coupling/state/tampering.h
   Verbosity verbosity = Verbosity::normal;
@@ -47,17 +47,17 @@ struct CheckOptions {
   std::vector<Override> overrides;
 };
 
-// The surroundings of a command.
+// Environment of a command.
 struct Surroundings {
   const Communicator& ranks;
   const EmergencyChannel& emergency;
   Console console;
 };
 
-// A note where the end time leaves nothing to simulate, else "".
+// A note if the end time leaves nothing to simulate, else "".
 std::string note_of_end(const Scene& scene);
 
-// All are collective, return ExitCode::done or ExitCode::stopped and throw Error otherwise.
+// All are collective. They return ExitCode::done or ExitCode::stopped, or throw Error.
 ExitCode run_command(const RunOptions& options, const Surroundings& around);
 ExitCode resume_command(const ResumeOptions& options, const Surroundings& around);
 ExitCode check_command(const CheckOptions& options, const Surroundings& around);

@@ -1,5 +1,5 @@
 #pragma once
-// What a run tells: to the terminal through the given console, and to log.txt once the run directory exists.
+// Messages of a run: to the terminal through the given console, and to log.txt once the run directory exists.
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,11 +11,11 @@ namespace seiche {
 
 enum class Verbosity { normal, quiet };
 
-// Where text for the user goes; given by tools/. Called on rank 0 only.
+// Output for the user, supplied by tools/. Called on rank 0 only.
 struct Console {
   std::function<void(const std::string&)> line;     // one finished line of ordinary output
-  std::function<void(const std::string&)> warning;  // one line of warnings
-  std::function<void(const std::string&)> live;     // replaces the live line; unset when the output is not a terminal
+  std::function<void(const std::string&)> warning;  // one finished line
+  std::function<void(const std::string&)> live;     // replaces the live line; unset if the output is not a terminal
 };
 
 class RunLog {
@@ -23,7 +23,7 @@ class RunLog {
   RunLog(const Communicator& ranks, Console console, Verbosity verbosity)
       : ranks_(ranks), console_(std::move(console)), verbosity_(verbosity) {}
 
-  // From now on everything also goes to this file (rank 0 opens it); what was said before is written first.
+  // From now on everything also goes to this file (rank 0 opens it); earlier messages are written first.
   void open(const std::filesystem::path& file);
   void note(const std::string& text);
   void warn(const std::string& text);

@@ -16,7 +16,7 @@
 namespace seiche {
 namespace {
 
-constexpr auto patience = std::chrono::seconds(3);  // for other ranks to report the same error
+constexpr auto patience = std::chrono::seconds(3);  // wait for other ranks to report the same error
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -27,7 +27,7 @@ ProgressScale progress_scale(const Scene& scene, double start) {
   return {std::int64_t(n[0]) * n[1] * n[2], last_frame(scene.time), start, scene.time.end};
 }
 
-// A run that failed before its first frame begins its tables anew.
+// A run that failed before its first frame starts its tables anew.
 RunState without_rows_before_first_frame(RunState state) {
   if (state.frame < 0) state.stats_bytes = state.solids_bytes = state.probes_bytes = 0;
   return state;
@@ -73,14 +73,14 @@ RunEnd RunLoop::run() {
     checkpoint();
     return end;
   } catch (const Error& error) {
-    // All ranks have to be here before anything is done together.
+    // Collective work needs all ranks here first.
     if (!context_.emergency.meet(int(error.code()), patience)) throw;
     save_after(error);
     throw;
   }
 }
 
-// The state is the one before the failed step. What fails now must not hide the first error.
+// Saves the state before the failed step. Another failure here must not hide the first error.
 void RunLoop::save_after(const Error& error) {
   if (error.code() != ExitCode::cannot_continue && error.code() != ExitCode::output_failed) return;
   try {
@@ -116,12 +116,12 @@ void RunLoop::begin() {
   checkpoint();
 }
 
-// But for rounding: a ten-billionth of the time between frames.
+// True at `target`, with a tolerance for rounding of 1e-10 of the time between frames.
 bool RunLoop::is_reached(double target) const {
   return simulation_.time() >= target - 1e-10 / context_.scene.time.frame_rate;
 }
 
-// Steps until `target` is reached or a stop is asked for; returns the reason of the stop or "".
+// Steps until `target` is reached or a stop is requested; returns the reason of the stop or "".
 std::string RunLoop::advance_to(double target) {
   for (int steps = 0; !is_reached(target); ++steps) {
     if (steps == most_steps_a_frame) {
@@ -207,13 +207,13 @@ std::string RunLoop::own_stop_request() const {
   if (!context_.ranks.is_root()) return {};
   std::error_code ignored;
   if (std::filesystem::exists(context_.paths.stop(), ignored)) return "stop file";
-  // The next step and the checkpoint must still fit into what is left.
+  // The next step and the checkpoint must still fit into the remaining time.
   const double ahead = session_seconds() + longest_step_ + longest_checkpoint_;
   if (context_.walltime && ahead >= *context_.walltime) return fmt::format("wall time of {:g} s", *context_.walltime);
   return {};
 }
 
-// The request of the lowest rank that has one, agreed on by all.
+// Stop request of the lowest rank that has one; the same on all ranks.
 std::string RunLoop::stop_request() {
   const std::string mine = own_stop_request();
   if (!context_.ranks.any(!mine.empty())) return {};

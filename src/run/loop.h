@@ -1,5 +1,5 @@
 #pragma once
-// Advances a simulation from frame to frame and keeps its run directory.
+// Advances a simulation from frame to frame and writes its run directory.
 #include <chrono>
 #include <optional>
 #include <string>
@@ -19,10 +19,11 @@
 
 namespace seiche {
 
-// Frame n is at t = n / frame_rate; the last one is at or, within rounding, just above `end`. -1 for end < 0.
+// Number of the last frame. Frame n is at t = n / frame_rate; the last one is at `end` or, within rounding, just above.
+// -1 for end < 0.
 int last_frame(const TimeSpec& time);
 
-// What a run works with; all of it outlives the loop.
+// References that a run uses; they must outlive the loop.
 struct RunContext {
   const Scene& scene;
   const Communicator& ranks;
@@ -43,15 +44,15 @@ struct RunEnd {
 
 class RunLoop {
  public:
-  // `state` is that of the simulation: fresh (frame -1) or restored. Collective.
+  // `state` belongs to the simulation: fresh (frame -1) or restored. Collective.
   RunLoop(Simulation& simulation, const RunContext& context, RunState state);
 
   ~RunLoop();
   RunLoop(const RunLoop&) = delete;
   RunLoop& operator=(const RunLoop&) = delete;
 
-  // Runs to the end or to a request to stop, with a checkpoint in either case. Throws Error: cannot_continue and
-  // output_failed after an attempt to checkpoint the last good state. Collective.
+  // Runs to the end or to a stop request, with a checkpoint in both cases. Throws Error; for cannot_continue and
+  // output_failed after trying to checkpoint the last good state. Collective.
   RunEnd run();
   const RunState& state() const { return state_; }
 
@@ -79,11 +80,11 @@ class RunLoop {
   FrameWriter frames_;
   Progress progress_;
   StepStats last_;
-  double earlier_seconds_ = 0;  // of wall time, in earlier sessions
+  double earlier_seconds_ = 0;  // wall time of earlier sessions
   std::map<std::string, double> earlier_phases_;
   Timers own_timers_;
   bool told_of_volume_ = false;
-  double longest_step_ = 0, longest_checkpoint_ = 0;  // s of wall time, to stop in good time
+  double longest_step_ = 0, longest_checkpoint_ = 0;  // s of wall time, to stop before the limit
 };
 
 }  // namespace seiche

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kibibyte = 1024;
 
-// "Name:   123 kB" lines, in bytes.
+// Values of "Name:   123 kB" lines, in bytes.
 std::map<std::string, double> kilobyte_lines(const char* file) {
   std::map<std::string, double> values;
   std::ifstream in(file);

@@ -11,7 +11,7 @@
 namespace seiche {
 namespace {
 
-constexpr double too_wide = 4;  // domains; millimetres and inches for metres are 1000 and 39
+constexpr double too_wide = 4;  // domain widths; millimetres and inches taken for metres are wrong by 1000 and 39
 
 struct Unit {
   double scale;
@@ -24,7 +24,7 @@ bool is_surface_file(const ShapeSpec& shape) {
   return shape.kind == "mesh" && !holds_elements(shape.file);
 }
 
-// A unit in which the mesh would fit the domain and be seen by its cells.
+// Suggests a unit in which the mesh fits the domain and is resolved by its cells.
 std::string remedy(const DomainSpec& domain, double longest, double width, double scale) {
   for (const Unit& unit : units) {
     const double fitting = width * unit.scale;
@@ -34,7 +34,7 @@ std::string remedy(const DomainSpec& domain, double longest, double width, doubl
   return "give it a smaller scale";
 }
 
-// Empty where the width is plausible.
+// Empty if the width is plausible.
 std::string fault(const DomainSpec& domain, const ShapeSpec& shape, const std::string& name) {
   const double longest = (domain.upper - domain.lower).maxCoeff(), scale = shape.transform.scale;
   const double width = scale * mesh_extent(shape.file).maxCoeff();

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes in the wrong unit, found by their bounding boxes before anything is computed from them.
+// Detects meshes in the wrong unit by their bounding boxes, before any computation with them.
 #include <string>
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace seiche {
 
-// A mesh that is many times as wide as the domain was likely written in another unit. Throws Error(bad_input) naming
-// the line where it is that of a rigid or elastic solid, which could not lie in the domain; else says so in a note.
+// A mesh many times as wide as the domain is probably in another unit. Throws Error(bad_input) naming the line for
+// rigid and elastic solids, which must lie in the domain; returns a note for other uses.
 std::vector<std::string> check_mesh_extents(const Scene& scene);
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #pragma once
-// The progress of a run for the person who waits for it: a live line on a terminal, else one line a frame.
+// Progress display of a run: a live line on a terminal, else one line a frame.
 #include <chrono>
 #include <cstdint>
 #include <string>

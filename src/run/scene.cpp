@@ -18,7 +18,7 @@ std::uint64_t fingerprint(const std::string& text) {
   return h;
 }
 
-// What decides how a step is solved, not what is simulated; each step may have its own.
+// Keys that only affect how a step is solved. They may differ from step to step.
 bool is_numerical(const std::string& key) {
   static constexpr std::array<const char*, 3> steps{"time.cfl", "time.max_step", "time.fixed_step"};
   return key.starts_with("solver.") || std::find(steps.begin(), steps.end(), key) != steps.end();

@@ -1,5 +1,5 @@
 #pragma once
-// The scene of a run as it is kept beside the run: what may change before it is resumed, and what changed.
+// The scene file kept in the run directory: permitted and actual changes before a resume.
 #include <string>
 #include <vector>
 
@@ -7,13 +7,13 @@
 
 namespace seiche {
 
-// Of the normalised scene without the keys that a resume may always change (time.end, output.checkpoint_every).
+// Hash of the normalised scene without the keys that may always change (time.end, output.checkpoint_every).
 std::string scene_hash(const Scene& scene);
 
 enum class EditPolicy { refuse, force };
 
-// Which of these changed keys stand in the way of resuming: all but time.end, output.checkpoint_every, [solver],
-// time.cfl, time.max_step and time.fixed_step; forcing lets output and probes pass, too.
+// The changed keys that forbid resuming: all but time.end, output.checkpoint_every, [solver], time.cfl, time.max_step
+// and time.fixed_step. `force` also permits output and probes.
 std::vector<std::string> forbidden_changes(const std::vector<std::string>& changed, EditPolicy policy);
 
 }  // namespace seiche

@@ -18,14 +18,14 @@
 namespace seiche {
 namespace {
 
-// As it is typed: in quotes where a shell would split it or read a sign in it.
+// Quotes the text if a shell would split or interpret it.
 std::string shell_word(const std::string& text) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%=";
   return text.find_first_not_of(plain) == std::string::npos ? text : "'" + text + "'";
 }
 
 std::string end_of(const RunSummary& summary, const RunPaths& paths) {
-  // A failure's message is the program's last word, not repeated here.
+  // The message of a failure is printed last by the program, so it is not repeated here.
   const std::string ended = summary.ended.starts_with("failed") ? "failed" : summary.ended;
   std::string text = fmt::format("{} at t = {:g} s after {} steps and {} frames in {} ({} rank{}, {} thread{} each)\n",
                                  ended, summary.state.time, summary.state.step, summary.state.frame + 1,
@@ -65,7 +65,7 @@ void write_summary(const Session& session, const RunSummary& summary) {
   });
 }
 
-// The summary of a failed run must not replace its error.
+// Failure to write the summary must not replace the run's own error.
 void write_failed_summary(const Session& session, RunSummary summary, const Error& error) {
   summary.code = error.code();
   summary.ended = std::string("failed: ") + error.what();

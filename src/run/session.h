@@ -1,5 +1,5 @@
 #pragma once
-// One session of a run: what is set up around the run loop, and the account that is given at its end.
+// One session of a run: set-up around the run loop, and the summary at its end.
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,18 +19,18 @@ struct Session {
   RunPaths paths;
 };
 
-// Puts the simulation's state back and returns the run loop's.
+// Restores the simulation's state and returns that of the run loop.
 using Restore = std::function<RunState(Simulation&)>;
 
 // Locks the run directory on rank 0; null elsewhere. Collective.
 std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
                                              const Communicator& ranks);
 
-// Whether a rank got a signal to stop since the program began; the log then says so. Collective.
+// True if a rank received a stop signal since the program began; the log then says so. Collective.
 bool stopped_early(const Communicator& ranks, RunLog& log);
 
-// Builds the simulation, restores it where `restore` is given, writes scene.toml, runs the loop and writes
-// summary.json. Collective; throws what the loop throws, after the summary is written.
+// Creates the simulation, restores it if `restore` is given, writes scene.toml, runs the loop and writes summary.json.
+// Rethrows the loop's errors after writing the summary. Collective.
 ExitCode run_session(const Session& session, const Restore& restore);
 
 }  // namespace seiche

@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// A signal handler can reach nothing but a variable of this kind.
+// Signal handlers may only write to variables of this type.
 volatile std::sig_atomic_t received_signal = 0;
 
 extern "C" void note_signal(int number) {
@@ -42,7 +42,7 @@ StopSignals::StopSignals() {
 }
 
 StopSignals::~StopSignals() {
-  // A late SIGUSR1 must not end a program that is about to end well.
+  // A late SIGUSR1 must not end a program that is finishing normally.
   handle(SIGUSR1, SIG_IGN, 0);
   handle(SIGINT, SIG_DFL, 0);
   handle(SIGTERM, SIG_DFL, 0);

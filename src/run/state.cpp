@@ -7,10 +7,10 @@
 namespace seiche {
 namespace {
 
-constexpr const char* unsettled_partings = "run.unsettled_partings";  // which older checkpoints lack: none then
+constexpr const char* unsettled_partings = "run.unsettled_partings";  // missing in older checkpoints: then zero
 const std::string probe_prefix = "run.probe_due.", phase_prefix = "run.phase.", checksum_prefix = "run.table_checksum.";
 
-// One list serves both directions: f(name, number) for every plain number of the state.
+// One list for both directions: f(name, number) for every plain number of the state.
 template <class State, class F>
 void for_each_number(State& s, F&& f) {
   f("run.step", s.step);

@@ -11,7 +11,7 @@
 namespace seiche {
 namespace {
 
-// JSON has no word for infinities.
+// JSON has no infinities.
 std::string json_number(double value) {
   return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
 }

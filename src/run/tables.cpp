@@ -24,7 +24,7 @@ void set_mark(const TableMark& mark, const std::string& name, std::uint64_t& byt
   if (mark.checksum) state.table_checksums[name] = *mark.checksum;
 }
 
-// The damage of one table, or "". What is kept of a damaged one ends with a line.
+// Damage of one table, or "". `bytes` of a damaged one shrinks to its complete lines.
 std::string verify_table(const std::filesystem::path& path, const std::string& name, RunState& state,
                          std::uint64_t& bytes) {
   const std::string fault = fault_of_table(path, mark_of(state, name, bytes));
@@ -43,7 +43,7 @@ void check_finite(const std::string& culprit, const std::string& owner, const St
                           stats.step, stats.time, culprit, owner));
 }
 
-// A sample is due at the first step end at or after its time; times that rounding splits from it still count.
+// A sample is due at the first step end at or after its time, with a tolerance for rounding.
 bool is_due(double due, double time, double every) {
   return time >= due - 1e-9 * every;
 }
@@ -52,7 +52,7 @@ bool is_due(double due, double time, double every) {
 
 std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy, RunState& state) {
   std::vector<std::string> faults;
-  if (state.frame < 0) return faults;  // they begin anew
+  if (state.frame < 0) return faults;  // they start anew
   for (const std::string& fault : {verify_table(paths.stats(), stats_name, state, state.stats_bytes),
                                    verify_table(paths.solids(), solids_name, state, state.solids_bytes),
                                    verify_table(paths.probes(), probes_name, state, state.probes_bytes)})

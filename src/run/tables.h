@@ -1,5 +1,5 @@
 #pragma once
-// The growing tables of a run: stats.csv, solids.csv and probes.csv.
+// The tables of a run: stats.csv, solids.csv and probes.csv.
 #include <memory>
 #include <vector>
 
@@ -12,19 +12,19 @@
 
 namespace seiche {
 
-// Compares the tables with the checkpoint they belong to. Damage is an Error(bad_checkpoint); forced, it is returned as
-// warnings, and `state` is changed so that the run goes on after the whole lines that are left. Not collective.
+// Compares the tables with their checkpoint. Damage throws Error(bad_checkpoint). With `force` it is returned as
+// warnings, and `state` is changed to continue after the remaining complete lines. Not collective.
 std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy, RunState& state);
 
 class RunTables {
  public:
-  // Opens the tables on rank 0, cut to the sizes in `state`, and begins new ones with their headers. Collective.
+  // Opens the tables on rank 0, truncated to the sizes in `state`; new ones get their headers. Collective.
   RunTables(const Scene& scene, const RunPaths& paths, const Communicator& ranks, RunState& state);
 
-  // Appends the rows of one step and of the probes that are due. Collective. Throws on all ranks: Error(output_failed),
-  // or Error(cannot_continue) naming the number that is not finite; no row is then written.
+  // Appends the rows of one step and of the due probes. Collective. Throws on all ranks: Error(output_failed), or
+  // Error(cannot_continue) naming the number that is not finite; then no row is written.
   void add(const StepStats& stats, const Simulation& simulation, RunState& state);
-  void sync();  // to the disk; collective
+  void sync();  // flushes to the disk; collective
 
  private:
   std::vector<ProbeSample> due_samples(double time, const Simulation& simulation, RunState& state) const;

@@ -16,7 +16,7 @@ std::string environment(const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-// The first number of a list such as "4,2"; 0 for what is none.
+// First number of a list such as "4,2"; 0 if it is not a number.
 long leading_number(const std::string& text) {
   return std::strtol(text.c_str(), nullptr, 10);
 }
@@ -42,7 +42,7 @@ std::string counted(int n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-// Tells of the machine where most threads share a processor.
+// Warns about the machine with most threads per processor.
 void warn_about_crowding(int here, int threads, int processors, const Communicator& ranks, RunLog& log) {
   const double crowding = double(here) * threads / processors, most = ranks.global_max(crowding);
   if (most <= 1) return;

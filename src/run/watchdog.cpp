@@ -28,8 +28,8 @@ std::string Watchdog::phase() const {
 }
 
 void Watchdog::watch() {
-  // Idle time is summed over short naps, each counted at most twice its length: a process that was itself suspended
-  // (Ctrl-Z, a laptop's lid) has then not used up its patience when it wakes.
+  // Idle time is summed over short naps, each counted at most twice its length. So the limit is not used up while the
+  // process itself is suspended (Ctrl-Z, a closed laptop).
   const std::chrono::duration<double> nap = limit_ / 20;
   std::unique_lock guard(mutex_);
   while (!end_) {

@@ -1,5 +1,5 @@
 #pragma once
-// Notices when a rank makes no progress any more (a hang, a stopped process, a dead peer).
+// Detects a rank without progress (a hang, a stopped process, a dead peer).
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -11,13 +11,13 @@ namespace seiche {
 
 class Watchdog {
  public:
-  // `expired` is called once, on the watchdog's thread, when no beat came for `limit`, with the phase of the last beat.
+  // Calls `expired` once, on the watchdog's thread, if no beat() came for `limit`, with the phase of the last one.
   Watchdog(std::chrono::duration<double> limit, std::function<void(const std::string& phase)> expired);
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // This rank has come to the named phase.
+  // Heartbeat: this rank has reached the named phase.
   void beat(const std::string& phase);
   std::string phase() const;
 

@@ -15,7 +15,7 @@
 namespace seiche {
 namespace {
 
-constexpr double whole_cells = 1e-6;  // relative; below it an extent is taken as rounded in the scene's decimals
+constexpr double whole_cells = 1e-6;  // relative tolerance for extents that the scene's decimals round
 
 struct Checker {
   SceneContext& context;
@@ -25,7 +25,7 @@ struct Checker {
   }
 };
 
-// True if the extent along the axis is right; sets cells[axis].
+// True if the extent along the axis is valid; sets cells[axis].
 void check_extent(const Checker& c, DomainSpec& d, int axis) {
   const char name = "xyz"[axis];
   const double extent = d.upper[axis] - d.lower[axis], cells = extent / d.cell_size, whole = std::round(cells);
@@ -95,7 +95,7 @@ void check_time(const Checker& c, TimeSpec& t) {
   t.end = std::max(t.end, 0.0);
 }
 
-// Names go into CSV columns as they are.
+// Names are written to CSV columns unchanged.
 void check_name(const Checker& c, const std::string& path, const std::string& name, const TomlNode* given) {
   if (!given) return;
   const bool awkward = name.empty() || name.size() > 200 || name.find_first_of(",\"") != std::string::npos;
@@ -139,7 +139,7 @@ void check_probes(const Checker& c, const Scene& scene) {
   }
 }
 
-// A displacement probe names an elastic solid.
+// A displacement probe must name an elastic solid.
 void check_followed_solids(const Checker& c, const Scene& scene) {
   std::vector<std::string> names;
   for (const SolidSpec& solid : scene.solids) {
@@ -158,8 +158,8 @@ void check_followed_solids(const Checker& c, const Scene& scene) {
   }
 }
 
-// Contact in liquid factors matrices of all rigid bodies together, dense ones of up to 6000 x 6000 in 3D: a GB or two.
-// 1000 discs in 2D were run, with tens of seconds a step.
+// Contact in liquid factors matrices of all rigid bodies together; dense ones of up to 6000 x 6000 in 3D take a GB or
+// two. Tested with 1000 discs in 2D, at tens of seconds a step.
 constexpr int most_rigid_solids = 1000;
 
 bool has_dense_block(const SolidKind& kind) {
@@ -179,7 +179,7 @@ void check_rigid_count(const Checker& c, const Scene& scene) {
   }
 }
 
-// Bodies do not come back on the other side.
+// Bodies cannot cross periodic sides.
 void check_moving_solids(const Checker& c, const Scene& scene) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const SolidSpec& solid = scene.solids[i];
@@ -198,7 +198,7 @@ void check_moving_solids(const Checker& c, const Scene& scene) {
   }
 }
 
-// Writes the regularisation out; with it the viscosity must be one that the solver can take.
+// Resolves the regularisation. With it, the viscosity must be within the range of the solver.
 void check_rheology(const Checker& c, Scene& scene) {
   RheologySpec& spec = scene.liquid.rheology;
   spec = resolve_rheology(scene);
@@ -210,7 +210,7 @@ void check_rheology(const Checker& c, Scene& scene) {
                        viscosity(spec, 0), number_limit, remedy));
 }
 
-// Gas beside what it does not go together with.
+// Features that exclude gas.
 void check_gas(const Checker& c, const Scene& scene) {
   if (!scene.gas.present || !scene.liquid.separates) return;
   c.report("liquid.separates", scene.gas.flows()

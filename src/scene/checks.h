@@ -1,19 +1,19 @@
 #pragma once
-// What must hold between the keys of a scene, once each has been read.
+// Checks between the keys of a scene, after each has been read.
 #include "base/scene.h"
 #include "scene/context.h"
 
 namespace seiche {
 
-// Reports extents that are no whole number of cells, grids too small or too large, one-sided periodicity, times that do
-// not fit together, names used twice, probes outside the domain, more rigid solids than can be solved for and motions
-// that jump. Fills domain.cells and the default names. Groups with problems of their own are left out.
+// Reports extents that are not a whole number of cells, too small or too large grids, one-sided periodicity,
+// inconsistent times, duplicate names, probes outside the domain, too many rigid solids, and motions that jump. Sets
+// domain.cells and the default names. Skips groups that already have problems.
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene);
 
-// Part of the above: prescribed motions must be finite and must not leap further than the domain is long.
+// Part of check_scene(): prescribed motions must be finite and must not jump by more than the domain's length.
 void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene);
 
-// Part of the above: where the flow is prescribed there must be nothing that acts on a flow.
+// Part of check_scene(): a prescribed flow excludes everything that acts on a flow.
 void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Scene& scene);
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #pragma once
-// What reading a scene knows and has found wrong.
+// State of reading a scene: location, options and the problems found.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,9 +20,9 @@ class SceneContext {
  public:
   SceneContext(std::string name, std::filesystem::path folder) : name_(std::move(name)), folder_(std::move(folder)) {}
 
-  int dimension = 0;  // 0 until it is known: vectors may then have 2 or 3 components
+  int dimension = 0;  // 0 until known; vectors may then have 2 or 3 components
   FileAccess access = FileAccess::scene_folder;
-  std::vector<std::string> override_paths;  // number n is named by line -n - 1
+  std::vector<std::string> override_paths;  // line -n - 1 refers to override number n
 
   const std::string& name() const { return name_; }
   const std::filesystem::path& folder() const { return folder_; }
@@ -31,9 +31,9 @@ class SceneContext {
   void report(const Place& place, const std::string& text) { report(place.path, place.node->line, text); }
   void report(const std::string& path, int line, const std::string& text);
   std::size_t problem_count() const { return count_; }
-  // Nothing was reported for this path or below it.
+  // True if nothing was reported for this path or below it.
   bool clean(const std::string& path) const;
-  // Throws Error(bad_input) with a line for each problem, in the order of the file, if there are any.
+  // Throws Error(bad_input) with a line for each problem, in the order of the file. Returns if there are none.
   void throw_problems() const;
 
  private:
@@ -48,9 +48,9 @@ class SceneContext {
 };
 
 std::string join_path(const std::string& path, const std::string& key);
-// The table of a path as the file writes it: "liquid.region.0" is [[liquid.region]], "" is the top level.
+// A path's table as written in the file: "liquid.region.0" is [[liquid.region]], "" is the top level.
 std::string section_title(const std::string& path);
-// The line of a path, or of the nearest table above it that the file has.
+// Line of a path, or of the nearest enclosing table in the file.
 int line_of(const TomlNode& root, const std::string& path);
 
 }  // namespace seiche

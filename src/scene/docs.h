@@ -3,7 +3,7 @@
 
 namespace seiche {
 
-// The reference of all scene keys as Markdown, made from the table that the reader uses.
+// Reference of all scene keys as Markdown, generated from the reader's table.
 std::string scene_reference();
 
 }  // namespace seiche

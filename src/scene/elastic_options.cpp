@@ -1,4 +1,4 @@
-// Keys of [[solid]] that elastic solids have.
+// Keys of [[solid]] for elastic solids.
 #include <fmt/format.h>
 
 #include "scene/options.h"
@@ -17,7 +17,7 @@ std::vector<std::string> model_names() {
   return names;
 }
 
-// At 1/2 the material keeps its volume exactly, and lambda = E nu / ((1 + nu)(1 - 2 nu)) is infinite.
+// At 1/2 the material is incompressible: lambda = E nu / ((1 + nu)(1 - 2 nu)) is infinite.
 Key<S> poisson_key() {
   Key<S> key = value_key<S>({.key = "poisson_ratio",
                              .range = {0, 0.5, Bound::included, Bound::excluded},
@@ -87,7 +87,7 @@ Section<TractionSpec> traction_section() {
   return s;
 }
 
-// One table, or a list of tables.
+// Reads one table or a list of tables.
 template <class Entry>
 void read_tables(SceneContext& c, const Place& p, const Option& option, const Section<Entry>& section,
                  const std::vector<Option>& options, std::vector<Entry>& entries) {
@@ -104,7 +104,7 @@ void read_tables(SceneContext& c, const Place& p, const Option& option, const Se
   }
 }
 
-// Nothing, one table, or a list of tables on one line.
+// Writes nothing, one table, or a list of tables on one line.
 template <class Entry>
 std::string tables_text(const std::vector<Entry>& entries, int dimension, const std::string& path,
                         const Section<Entry>& section) {
@@ -168,7 +168,7 @@ Key<S> element_size_key() {
   return key;
 }
 
-// Elements come from a file or are made, not both.
+// element_size is required, except if a file gives the elements.
 void check_element_size(SceneContext& c, const Place& p, const SolidSpec& solid) {
   const bool from_file = solid.shape.kind == "mesh" && holds_elements(solid.shape.file);
   const std::string path = join_path(p.path, "element_size");

@@ -1,4 +1,4 @@
-// Paths of a scene's meshes and level sets.
+// Paths of meshes and level sets in a scene.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-// Why the file cannot be read, or nothing.
+// Reason why the file cannot be read, or empty.
 std::string fault_of_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);

@@ -1,4 +1,4 @@
-// What a scene whose flow is prescribed must not have.
+// Features that a scene with prescribed flow must not have.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ bool is_zero(const VectorFormula& formula) {
   return std::all_of(formula.begin(), formula.end(), [](const Formula& text) { return is_zero(Expression(text)); });
 }
 
-// By their keys.
+// Keys of features that a prescribed flow excludes.
 std::vector<std::string> beside_prescribed_flow(const Scene& scene) {
   const LiquidSpec& liquid = scene.liquid;
   const auto moves = [](const auto& list) {

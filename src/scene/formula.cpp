@@ -12,7 +12,7 @@
 namespace seiche {
 namespace {
 
-// The first of x, y, z, t in the text that the option does not offer, or nothing.
+// First of x, y, z, t in the text that the option does not allow, or empty.
 std::optional<std::string> strange_variable(const std::string& text, const std::string& allowed) {
   for (const NameInText& found : names_in(text)) {
     const bool coordinate = found.name.size() == 1 && std::string("xyzt").find(found.name) != std::string::npos;

@@ -1,4 +1,4 @@
-// A look over scene text before it is parsed: nesting and amount are bounded, so that no text can exhaust the parser.
+// Limits on scene text before parsing: bounded nesting and size, so that no input can exhaust the parser.
 #include <fmt/format.h>
 
 #include <string_view>
@@ -23,7 +23,7 @@ void skip_comment(Scan& s) {
   while (s.at < s.text.size() && s.text[s.at] != '\n') ++s.at;
 }
 
-// Leaves the string that opens here; one of a single quote ends with its line at the latest.
+// Skips the string that starts here; one of a single quote ends with its line at the latest.
 void skip_string(Scan& s) {
   const char quote = s.text[s.at];
   const std::string three(3, quote);

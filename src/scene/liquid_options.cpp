@@ -22,7 +22,7 @@ Section<LiquidRegionSpec> region_section() {
   return s;
 }
 
-// The end of time is written by leaving the key out.
+// A source without an end (until = infinity) is written without this key.
 Key<LiquidSourceSpec> until_key() {
   const Option option{.key = "until",
                       .unit = "s",
@@ -39,7 +39,7 @@ Key<LiquidSourceSpec> until_key() {
   return key;
 }
 
-// `from` is a point of cylinders and capsules, so their sources begin at `start`.
+// Sources begin at `start`, since `from` is a point of cylinders and capsules.
 Section<LiquidSourceSpec> source_section() {
   using S = LiquidSourceSpec;
   Section<S> s;

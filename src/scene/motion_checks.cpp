@@ -1,4 +1,4 @@
-// Prescribed motions looked at over the whole run, before it starts.
+// Checks prescribed motions over the whole run before it starts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 namespace seiche {
 namespace {
 
-// The fewest samples see a leap that lasts; the most bound the time it takes to look.
+// fewest_samples detects jumps that last; most_samples bounds the time of the check.
 constexpr int most_samples = 2000, fewest_samples = 50;
 constexpr double start_tolerance = 1e-9;  // m, degrees; round-off of formulas that are zero at t = 0
 constexpr int sample_budget = 2'000'000;  // of all solids together
 
 struct Sampling {
-  double end = 0, reach = 0;  // s; the longest displacement between two samples, m
+  double end = 0, reach = 0;  // end: s; reach: longest displacement between two samples, m
   int count = most_samples;
 };
 
-// What is wrong with the motion, or an empty text.
+// Fault of the motion, or "".
 std::string fault_of_motion(const MotionSpec& motion, const Sampling& sampling) {
   const VectorExpression translate(motion.translate);
   const Expression degrees(motion.degrees);
@@ -56,7 +56,7 @@ struct Moving {
   Start start;
 };
 
-// An elastic solid is at rest in shape as the run begins, its pinned part too.
+// An elastic solid starts undeformed, so its pins must start at rest positions.
 std::string fault_of_start(const Moving& moving) {
   if (moving.start == Start::anywhere) return "";
   const Vec3 moved = VectorExpression(moving.motion->translate)(Vec3::Zero(), 0);
@@ -67,7 +67,7 @@ std::string fault_of_start(const Moving& moving) {
       turned);
 }
 
-// The motions of a kinematic solid or of an elastic one's pins.
+// Motions of a kinematic solid or of an elastic solid's pins.
 std::vector<Moving> motions_of(const SolidSpec& solid, const std::string& path) {
   std::vector<Moving> all;
   const std::string subject = fmt::format("solid \"{}\"", solid.name);

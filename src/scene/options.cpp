@@ -7,7 +7,7 @@ namespace {
 
 using T = OptionType;
 using Sides = std::array<std::array<SideSpec, 2>, 3>;
-constexpr double shortest_time = 1e-12;  // s; steps below this never end a run
+constexpr double shortest_time = 1e-12;  // s; shorter steps would never finish a run
 
 Section<SideSpec> side_section() {
   using S = SideSpec;
@@ -41,7 +41,7 @@ Section<SideSpec> side_section() {
   return s;
 }
 
-// A name alone stands for a table that has only a type.
+// A string stands for a table with only a type.
 TomlNode side_table(const TomlNode& node) {
   if (!is_text(node)) return node;
   TomlNode table;
@@ -229,7 +229,7 @@ Section<OutputSpec> output_section() {
   return s;
 }
 
-// Everything that needs the number of dimensions comes after this key.
+// All keys that depend on the number of dimensions come after this one.
 Key<Scene> dimension_key() {
   Key<Scene> key = value_key<Scene>({.key = "dimension", .type = T::integer, .range = between(2, 3), .doc = "2 or 3"},
                                     &Scene::dimension);
@@ -249,7 +249,7 @@ bool has_files(const Scene& scene) {
          std::any_of(scene.solids.begin(), scene.solids.end(), has_pin);
 }
 
-// A normalised scene names its files by absolute paths, so it asks for the permission if it has any.
+// A normalised scene has absolute paths, so it must permit outside files if it names any.
 Key<Scene> access_key() {
   const Option option{.key = "allow_outside_files",
                       .type = T::boolean,
@@ -313,7 +313,7 @@ Section<Scene> build_scene_section() {
 }  // namespace
 
 const Section<Scene>& scene_section() {
-  static const Section<Scene> section = build_scene_section();  // the table never changes
+  static const Section<Scene> section = build_scene_section();  // the table is constant
   return section;
 }
 

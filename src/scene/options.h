@@ -1,5 +1,5 @@
 #pragma once
-// The one table of every key a scene may have.
+// The table of all keys of a scene.
 #include <vector>
 
 #include "base/options.h"
@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// The top level; everything else hangs below it.
+// The top level; all other keys are below it.
 const Section<Scene>& scene_section();
 Section<ShapeSpec> shape_section();
 Section<LiquidSpec> liquid_section();
@@ -16,36 +16,36 @@ Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
 
-// Of viscous liquid.
+// Keys of viscous liquid.
 Key<LiquidSpec> viscosity_key();
 Key<LiquidSpec> rheology_key();
 std::vector<Key<SolverSpec>> viscous_solver_keys();
-// Of surface tension. `where` ends the angle's description.
+// Keys of surface tension. `where` completes the description of the angle.
 Key<LiquidSpec> surface_tension_key();
 Key<LiquidSpec> tension_scheme_key();
 Option contact_angle_option(const std::string& where);
-// Reports a liquid that gives both viscosity and rheology.
+// Reports a liquid with both viscosity and rheology.
 void check_one_viscosity(SceneContext& context, const Place& place);
 
 Key<Scene> gas_key();
-// Of liquid and gas alike.
+// Common to liquid and gas.
 Option density_option();
 Option initial_velocity_option();
 
 // Reports a rotation axis that is missing (3D), zero or not along z (2D) in the table at `place`.
 void check_axis(SceneContext& context, const Place& place, const Vec3& axis);
 
-// What a shape's mesh file may hold: a closed surface alone, or also the elements of an elastic solid.
+// Permitted contents of a shape's mesh file: a closed surface only, or also the elements of an elastic solid.
 enum class MeshFiles { surfaces, surfaces_and_elements };
 
-// Sets shape.where and checks what concerns several keys of a shape.
+// Sets shape.where and checks keys of a shape against each other.
 void finish_shape(SceneContext& context, const Place& place, ShapeSpec& shape, MeshFiles files = MeshFiles::surfaces);
 
-// Check what concerns several keys of a rigid or an elastic solid.
+// Check keys of a rigid or elastic solid against each other.
 void finish_rigid(SceneContext& context, const Place& place, const SolidSpec& solid);
 void finish_elastic(SceneContext& context, const Place& place, const SolidSpec& solid);
 
-// Reports shapes that have no bounds: planes and inverted ones. `what` is "a rigid solid".
+// Reports unbounded shapes: planes and inverted ones. `what` is "a rigid solid".
 void check_bounded(SceneContext& context, const Place& place, const ShapeSpec& shape, const std::string& what);
 
 // Every key with its full path ("solid[].rotate.degrees"), in the order of the scene file.

@@ -6,8 +6,8 @@
 
 namespace seiche {
 
-// Sets the values in the tree; override number n (from 0) gets the line -n - 1. Throws Error(bad_input) for a path that
-// leads nowhere and for values that are not TOML.
+// Sets the values in the tree; override number n (from 0) gets line -n - 1. Throws Error(bad_input) for paths that do
+// not exist and values that are not TOML.
 void apply_overrides(TomlNode& root, const std::vector<Override>& overrides);
 
 }  // namespace seiche

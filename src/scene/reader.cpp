@@ -33,7 +33,7 @@ class OpenFile {
   throw Error(ExitCode::bad_input, "cannot read the scene '" + file.string() + "': " + std::strerror(errno));
 }
 
-// The file's bytes, at most one more than a scene may have.
+// Bytes of the file, at most one more than the limit for scenes.
 std::string read_bytes(const std::filesystem::path& file) {
   const OpenFile open_file(file);
   if (open_file.handle() < 0) fail_to_read(file);

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// --set key.path=value: the value is TOML, bare words and formulas are taken as text, entries of arrays are counted
-// from 0 (solid.0.radius).
+// --set key.path=value. The value is TOML; bare words and formulas count as text. Array entries count from 0
+// (solid.0.radius).
 struct Override {
   std::string path, value;
 };
@@ -18,11 +18,11 @@ struct Override {
 // Splits "key.path=value" at the first '='. Throws Error(bad_input) if there is none.
 Override parse_override(const std::string& text);
 
-// Reads and checks a scene. Throws Error(bad_input) with all problems, one line each ("scene.toml:14: ..."); syntax
+// Reads and checks a scene. Throws Error(bad_input) with all problems, one line each ("scene.toml:14: ..."). Syntax
 // errors and unreadable files are reported alone.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
-// The same from text. `name` stands in messages for the file; paths in the scene are relative to `folder`.
+// The same from text. `name` replaces the file in messages; paths in the scene are relative to `folder`.
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                   const std::vector<Override>& overrides = {});
 

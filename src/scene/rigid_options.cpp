@@ -1,4 +1,4 @@
-// Keys of [[solid]] that rigid solids have.
+// Keys of [[solid]] for rigid solids.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool lists(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// What a solid may be held by; in 2D it turns about z alone.
+// Permitted values of `fixed`; in 2D rotation is about z only.
 Names fixed_names(int dimension) {
   Names names;
   for (int axis = 0; axis < dimension; ++axis) names.push_back(axis_name(axis));
@@ -81,7 +81,7 @@ Key<RigidSpec> fixed_key() {
   return key;
 }
 
-// Of the kinds of solids for which this holds.
+// Names of the kinds of solids with this property.
 template <class Holds>
 Names names_of_kinds(const Holds& holds) {
   Names names;
@@ -90,7 +90,7 @@ Names names_of_kinds(const Holds& holds) {
   return names;
 }
 
-// A velocity along or about an axis that is fixed.
+// Reports a velocity along or about a fixed axis.
 void check_held(SceneContext& c, const Place& p, const std::string& key, const Vec3& velocity, const Axes& held) {
   for (int axis = 0; axis < 3; ++axis) {
     if (velocity[axis] == 0 || !held[std::size_t(axis)]) continue;

@@ -9,7 +9,7 @@
 namespace seiche {
 namespace {
 
-// The value that decides which keys a table may have, as written or by default; empty if it is of no use.
+// Value of the key that decides on the table's other keys, as written or by default; empty if unusable.
 std::string decider_text(const TomlNode& table, const std::string& key, const std::vector<Option>& options) {
   const auto option = std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.key == key; });
   if (option == options.end()) return "";
@@ -29,7 +29,7 @@ std::string plain_list(const std::vector<std::string>& names) {
   return text;
 }
 
-// The keys that this table may have, each once.
+// Keys permitted in this table, each once.
 std::vector<std::string> allowed_keys(const TomlNode& table, const std::vector<Option>& options) {
   std::vector<std::string> names;
   for (const Option& option : options) {

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of keys bound to the data they fill: one row a key serves reading, writing and documentation.
+// Tables of keys bound to the data they fill: one row per key serves reading, writing and documentation.
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ template <class Spec>
 struct Key {
   Option option;
   std::function<void(SceneContext&, const Place&, Spec&)> read;
-  // Appends this key's lines, none if it is unset. `path` is that of the table that holds the key.
+  // Appends this key's lines; none if it is unset. `path`: of the table that holds the key.
   std::function<void(const Spec&, int dimension, const std::string& path, SceneLines&)> write;
   std::function<std::vector<Option>()> inner{};  // the options of a table's own keys
 };
@@ -29,22 +29,22 @@ struct Key {
 template <class Spec>
 struct Section {
   std::vector<Key<Spec>> keys;
-  // Checks that concern several keys; runs after all keys of a table are read.
+  // Checks several keys against each other; runs after all keys of a table are read.
   std::function<void(SceneContext&, const Place&, Spec&)> finish{};
 };
 
 enum class Relevance { relevant, irrelevant, unknown };
 
-// Whether the option's condition holds in this table.
+// Evaluates the option's condition in this table.
 Relevance relevance(const TomlNode& table, const Option& option, const std::vector<Option>& options);
-// Reports keys of the table that no option allows, misplaced ones, and required ones that are missing.
+// Reports unknown and misplaced keys, and missing required ones.
 void check_keys(SceneContext& context, const Place& place, const std::vector<Option>& options);
-// False, and reported, if the node is no table (no array of tables).
+// Return false and report if the node is not a table (not an array of tables).
 bool check_is_table(SceneContext& context, const Place& place, const Option& option);
 bool check_is_table_list(SceneContext& context, const Place& place, const Option& option);
-// Whether the option's condition holds by the lines written so far (the deciding key comes first in its table).
+// Evaluates the option's condition from the lines written so far (the deciding key comes first in its table).
 bool applies_to(const Option& option, const SceneLines& lines);
-// "{ a = 1, b = 2 }" of lines written flat.
+// Writes lines as an inline table, "{ a = 1, b = 2 }".
 std::string inline_table(const SceneLines& lines);
 
 template <class Spec>
@@ -92,7 +92,7 @@ SceneLines write_section(const Section<Spec>& section, const Spec& spec, int dim
   return lines;
 }
 
-// A key that holds one value. `member` is a pointer to a member of Spec, or a function giving a reference to it.
+// A key with one value. `member`: a pointer to a member of Spec, or a function that returns a reference to it.
 template <class Spec, class Member>
 Key<Spec> value_key(Option option, Member member) {
   if (option.presence == Presence::optional && option.only_for.key.empty()) {
@@ -109,7 +109,7 @@ Key<Spec> value_key(Option option, Member member) {
   return key;
 }
 
-// A key that holds one of some names, each standing for a value of an enumeration.
+// A key with one of several names, each for a value of an enumeration.
 template <class Spec, class Member, class Value>
 Key<Spec> choice_key(Option option, Member member, const std::vector<std::pair<std::string, Value>>& names) {
   option.type = OptionType::choice;
@@ -137,7 +137,7 @@ Key<Spec> choice_key(Option option, Member member, const std::vector<std::pair<s
   return key;
 }
 
-// A key of the contract that this version does not have; option.doc says what is there instead.
+// A documented key that this version does not implement; option.doc names the alternative.
 template <class Spec>
 Key<Spec> later_key(Option option) {
   option.availability = Availability::later;
@@ -148,7 +148,7 @@ Key<Spec> later_key(Option option) {
   return key;
 }
 
-// The part of a section's keys that concern a member of Spec.
+// Turns a section's keys into keys of Spec that act on one of its members.
 template <class Spec, class Inner, class Member>
 std::vector<Key<Spec>> lift(const Section<Inner>& section, Member member) {
   std::vector<Key<Spec>> keys;
@@ -163,7 +163,7 @@ std::vector<Key<Spec>> lift(const Section<Inner>& section, Member member) {
   return keys;
 }
 
-// A key that holds a table of its own, written on one line.
+// A key with a table, written inline.
 template <class Spec, class Member, class Inner>
 Key<Spec> inline_key(Option option, Member member, const Section<Inner>& section) {
   option.type = OptionType::table;
@@ -179,7 +179,7 @@ Key<Spec> inline_key(Option option, Member member, const Section<Inner>& section
   return key;
 }
 
-// A key that holds a table of its own, written as a block.
+// A key with a table, written as a block.
 template <class Spec, class Member, class Inner>
 Key<Spec> block_key(Option option, Member member, const Section<Inner>& section) {
   Key<Spec> key = inline_key<Spec>(option, member, section);
@@ -192,7 +192,7 @@ Key<Spec> block_key(Option option, Member member, const Section<Inner>& section)
   return key;
 }
 
-// A key that holds an array of tables.
+// A key with an array of tables.
 template <class Spec, class Inner>
 Key<Spec> list_key(Option option, std::vector<Inner> Spec::*member, const Section<Inner>& section) {
   option.type = OptionType::table_list;

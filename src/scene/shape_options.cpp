@@ -1,4 +1,4 @@
-// Keys of shapes: which a shape takes, and what they must hold.
+// Keys of shapes: permitted and required ones of each shape.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Section<RotationSpec> rotation_section() {
   return s;
 }
 
-// A key that the named shapes need and the others must not have.
+// A key that is required for the named shapes and forbidden for others.
 template <class Member>
 Key<ShapeSpec> geometry_key(const std::vector<std::string>& shapes, Option option, Member member) {
   option.only_for = {"shape", shapes};
@@ -91,7 +91,7 @@ void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape, Me
                        files == MeshFiles::surfaces ? "" : ", or elements in .msh, .vtu or .mesh"));
 }
 
-// There are no surfaces of triangles in 2D, but elements.
+// 2D has no triangle surfaces, but elements.
 void check_flat_mesh(SceneContext& c, const Place& p, const ShapeSpec& shape, MeshFiles files) {
   const bool may_hold_elements = files == MeshFiles::surfaces_and_elements;
   if (may_hold_elements && (shape.file.empty() || holds_elements(shape.file))) return;

@@ -38,7 +38,7 @@ Key<SolidSpec> kind_key() {
                                                                   choices);
 }
 
-// A number that one kind alone has.
+// A number that belongs to one kind only.
 Key<SolidSpec> own_key(const SolidKind& kind, Option option) {
   option.only_for = {"kind", {kind.name}};
   Key<SolidSpec> key{option, {}, {}};

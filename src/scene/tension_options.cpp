@@ -20,8 +20,8 @@ Key<LiquidSpec> tension_scheme_key() {
       {{"explicit", TensionScheme::explicit_steps}, {"semi_implicit", TensionScheme::semi_implicit}});
 }
 
-// In flatter wedges of liquid or air than 20 degrees the surface goes on behind the wall farther along than ranks share
-// cells.
+// Lower bound: in wedges of liquid or air below 20 degrees the surface continues behind the wall further than the
+// ranks' overlap of cells.
 Option contact_angle_option(const std::string& where) {
   return {.key = "contact_angle",
           .unit = "degrees",

@@ -1,4 +1,4 @@
-// Values of a scene as TOML text.
+// Writes values of a scene as TOML text.
 #include <fmt/format.h>
 
 #include "scene/formula.h"
@@ -14,7 +14,7 @@ std::string array_text(const Items& items, std::size_t count, Function text_of) 
   return text + "]";
 }
 
-// Constant formulas as plain numbers.
+// Writes constant formulas as plain numbers.
 std::string formula_text(const Formula& formula) {
   const auto number = plain_number(formula);
   return number ? number_text(*number) : quote_toml(formula);

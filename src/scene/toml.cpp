@@ -1,4 +1,4 @@
-// Uses the toml++ of the system's shared library; header-only it would cost seconds to compile.
+// Uses the shared library of toml++; header-only it would take seconds to compile.
 #define TOML_HEADER_ONLY 0
 #define TOML_SHARED_LIB 1
 #include <toml++/toml.h>

@@ -34,7 +34,7 @@ std::string range_text(const Option& option) {
   return fmt::format("a finite number below {} in magnitude", number_limit);
 }
 
-// A finite number within the option's range, -0 taken as 0.
+// A finite number within the option's range; -0 becomes 0.
 std::optional<double> checked_number(SceneContext& c, const Place& p, const Option& option) {
   if (!is_number(*p.node)) {
     Option one = option;
@@ -69,7 +69,7 @@ std::optional<Formula> checked_formula(SceneContext& c, const Place& p, const Op
   return number ? number_text(*number) : p.node->text;
 }
 
-// The node is an array with the right number of components, else reported.
+// True if the node is an array with the right number of components; reports otherwise.
 bool check_length(SceneContext& c, const Place& p, const Option& option) {
   if (p.node->kind != Kind::array) {
     report_type(c, p, option);
@@ -89,7 +89,7 @@ Place item(const Place& p, std::size_t index) {
   return {&p.node->items[index], fmt::format("{}.{}", p.path, index)};
 }
 
-// In 2D a spin is one number about z: alone, in an array of one, or after two zeros as 3D scenes write it.
+// Angular velocity in 2D: one number about z, given alone, in an array of one, or after two zeros as in 3D scenes.
 void read_flat_spin(SceneContext& c, const Place& p, const Option& option, Vec3& out) {
   const bool array = p.node->kind == Kind::array;
   const std::size_t size = array ? p.node->items.size() : 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Single values of a scene: read from TOML with every check their option asks for, and written back as TOML text.
+// Single values of a scene: reads them from TOML with all checks of their option, and writes them as TOML text.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace seiche {
 
-// Each reads place.node into `out`, or reports what is wrong with it and leaves `out` alone.
+// Each reads place.node into `out`, or reports its fault and leaves `out` unchanged.
 void read_value(SceneContext& context, const Place& place, const Option& option, double& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, int& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, bool& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, Vec3& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, VectorFormula& out);
-// By option.type a text, a choice or a formula.
+// A text, a choice or a formula, by option.type.
 void read_value(SceneContext& context, const Place& place, const Option& option, std::string& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, std::vector<std::string>& out);
-// An existing file, resolved against the scene's folder and inside it unless the scene allows others.
+// An existing file, resolved against the scene's folder, and inside it unless the scene permits others.
 void read_value(SceneContext& context, const Place& place, const Option& option, std::filesystem::path& out);
 
 template <class T>
@@ -31,7 +31,7 @@ void read_value(SceneContext& context, const Place& place, const Option& option,
   if (context.problem_count() == before) out = value;
 }
 
-// As TOML text; empty for an optional that is not set. Vectors have `dimension` components.
+// TOML text; empty for an unset optional. Vectors have `dimension` components.
 std::string to_toml(double value, const Option& option, int dimension);
 std::string to_toml(int value, const Option& option, int dimension);
 std::string to_toml(bool value, const Option& option, int dimension);
@@ -49,7 +49,7 @@ std::string to_toml(const std::optional<T>& value, const Option& option, int dim
 std::string quote_toml(const std::string& text);
 bool is_text(const TomlNode& node);
 
-// Reports a value that is not one of option.choices. False if it did.
+// Reports a value that is not in option.choices and then returns false.
 bool check_choice(SceneContext& context, const Place& place, const Option& option, const std::string& value);
 
 }  // namespace seiche

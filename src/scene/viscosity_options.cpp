@@ -1,4 +1,4 @@
-// Keys of [liquid] and [solver] that viscous liquid has.
+// Keys of [liquid] and [solver] for viscous liquid.
 #include <fmt/format.h>
 
 #include "fluid/rheology/rheology.h"
@@ -15,7 +15,7 @@ std::vector<std::string> model_names() {
   return names;
 }
 
-// Binds a key to the models that the table gives it; all but the regularisation are required there.
+// Binds a key to the models that have it in the table; all keys but the regularisation are required.
 template <class Member>
 Key<RheologySpec> parameter(Option option, Member member) {
   option.only_for.key = "model";
@@ -25,7 +25,7 @@ Key<RheologySpec> parameter(Option option, Member member) {
   return value_key<RheologySpec>(option, member);
 }
 
-// Of the models whose stress is a yield stress and a power of the shear rate.
+// Keys of models with a yield stress and a power law of the shear rate.
 std::vector<Key<RheologySpec>> keys_of_stress() {
   using S = RheologySpec;
   return {

@@ -18,7 +18,7 @@ std::map<std::string, std::string> by_path(const SceneLines& lines) {
   return texts;
 }
 
-// Appends the paths of `lines` that `other` lacks or has with another text; of a missing table only its own.
+// Appends the paths of lines that are missing in `other` or differ there. For a missing table, only the table's path.
 void compare(const SceneLines& lines, const std::map<std::string, std::string>& other,
              std::vector<std::string>& changed) {
   std::string missing_table;

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes as text.
+// Writes scenes as text.
 #include <string>
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace seiche {
 
-// The scene as normalised TOML with every default written out; reads back to the same scene. Files are named by their
-// absolute paths.
+// The scene as normalised TOML with all defaults written out; reads back to the same scene. File names are absolute
+// paths.
 std::string write_scene(const Scene& scene);
 
-// The keys in which two scenes differ ("solid.0.radius"), in the order of the file; an entry that only one scene has is
-// named once ("solid.2").
+// Keys in which two scenes differ ("solid.0.radius"), in the order of the file. An entry that exists in one scene only
+// is named once ("solid.2").
 std::vector<std::string> changed_keys(const Scene& a, const Scene& b);
 
 }  // namespace seiche

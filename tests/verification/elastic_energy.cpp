@@ -126,7 +126,8 @@ TEST_CASE("an elastic body thrown at a wall never has more energy than it came w
   });
 }
 
-TEST_CASE("elastic and rigid bodies that collide without friction never have more energy than they came with", "[elastic][long]") {
+TEST_CASE("elastic and rigid bodies that collide without friction never have more energy than they came with",
+          "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     const Energies e = energies(collisions(dim, scheme), dim == 2 ? 300 : 60);
     report(name, e);

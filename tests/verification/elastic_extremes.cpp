@@ -98,7 +98,8 @@ void check(const std::string& name, SolidSpec (*make)(const Stiffness&)) {
 
 }  // namespace
 
-TEST_CASE("a flap of density ratio 0.01 in a full channel moves at bounded speeds at any stiffness", "[elastic][long]") {
+TEST_CASE("a flap of density ratio 0.01 in a full channel moves at bounded speeds at any stiffness",
+          "[elastic][long]") {
   check("flap", flap);
 }
 

@@ -76,7 +76,8 @@ TEST_CASE("iterations depend little on the stiffness and density of an immersed 
   check_block(48);
 }
 
-TEST_CASE("iterations depend little on the stiffness and density of an immersed block in 64^3 cells", "[elastic][long]") {
+TEST_CASE("iterations depend little on the stiffness and density of an immersed block in 64^3 cells",
+          "[elastic][long]") {
   check_block(64);
 }
 

@@ -1,1 +1,1 @@
-"""The parts of tools/fuzz: random scenes, damaged files and kills for the built program."""
+"""Parts of tools/fuzz: random scenes, damaged files and kills for the built program."""

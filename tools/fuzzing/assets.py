@@ -1,4 +1,4 @@
-"""Good files for scenes to name: surfaces, elements and a level set of a body of size 1 about the origin."""
+"""Valid files for scenes: surfaces, elements and a level set of a body of size 1 about the origin."""
 import itertools
 import pathlib
 import struct
@@ -21,7 +21,7 @@ radius = 0.8
 
 
 def ball_points(cells):
-    """Corners of a cube's surface in cells x cells squares a side, pulled half-way to a ball; quadrilaterals of it."""
+    """Points and quadrilaterals of a cube's surface, cells x cells squares a side, moved half-way towards a ball."""
     index, points, squares = {}, [], []
 
     def corner(i):
@@ -44,13 +44,13 @@ def ball_points(cells):
 
 
 def surface(cells=3):
-    """Points and triangles of a closed surface, outward."""
+    """Points and triangles of a closed surface, oriented outward."""
     points, squares = ball_points(cells)
     return points, [t for s in squares for t in ((s[0], s[1], s[2]), (s[0], s[2], s[3]))]
 
 
 def elements(dim, cells=2):
-    """Points and triangles or tetrahedra (Kuhn's six a cube) of a square or cube."""
+    """Points and triangles or tetrahedra (Kuhn's six per cube) of a square or cube."""
     index = {i: n for n, i in enumerate(itertools.product(range(cells + 1), repeat=dim))}
     points = [[1.4 * v / cells - 0.7 for v in i] + [0.0] * (3 - dim) for i in index]
     found = []
@@ -116,7 +116,7 @@ def vtu(points, cells):
 
 
 def make_level_set(program: Program, folder: pathlib.Path, dim):
-    """The first frame of a run with a ball of liquid."""
+    """First frame of a run with a ball of liquid."""
     at = folder / f"level_set{dim}"
     at.mkdir()
     scene = LEVEL_SET_SCENE.format(dim=dim, lower=[-1.5] * dim, upper=[1.5] * dim, center=[0.0] * dim)
@@ -128,7 +128,7 @@ def make_level_set(program: Program, folder: pathlib.Path, dim):
 
 
 def make_assets(program, folder):
-    """Bytes by name: "ball.obj", "block2.msh", ..."""
+    """Contents of the files by name: "ball.obj", "block2.msh", ..."""
     files = {"ball.obj": obj(*surface()), "ball.ply": ply(*surface()), "ball.stl": stl(*surface())}
     for dim in (2, 3):
         for ending, write in (("msh", msh), ("mesh", medit), ("vtu", vtu)):

@@ -1,4 +1,4 @@
-"""Mode `checkpoints`: a run killed midway is damaged and resumed: refused, right to the last bit, or with a warning."""
+"""Mode `checkpoints`: damages a killed run and resumes it. Resume must refuse, warn, or be right to the last bit."""
 import shutil
 import threading
 
@@ -8,7 +8,7 @@ from fuzzing.oracle import check_end
 from fuzzing.tables import Fault
 
 COPIES = 8       # damaged copies of one killed run
-MOST_KILLS = 8   # until one leaves two checkpoints and steps to do
+MOST_KILLS = 8   # until a kill leaves two checkpoints and remaining steps
 OTHERS = ("scene.toml", "stats.csv", "solids.csv", "probes.csv", "log.txt", "summary.json")
 
 
@@ -17,7 +17,7 @@ def prepare(bench):
 
 
 def killed_run(bench, number):
-    """The run that cases of this number damage: killed at a random step with a checkpoint and steps to do."""
+    """Killed run for cases of this number: stopped at a random step with a checkpoint and remaining steps."""
     with bench.things["lock"]:
         if number not in bench.things["runs"]:
             bench.things["runs"][number] = kill_a_run(bench, number)
@@ -40,7 +40,7 @@ def kill_a_run(bench, number):
 
 
 def harm(rng, out):
-    """Damages or removes one or two files; (what was done, whether it was to a checkpoint)."""
+    """Damages or removes one or two files; returns (description, True if a checkpoint was hit)."""
     checkpoints = sorted(p for p in out.glob("checkpoints/*/*"))
     newest = [p for p in checkpoints if p.parent == checkpoints[-1].parent]
     others = [out / name for name in OTHERS if (out / name).exists()]

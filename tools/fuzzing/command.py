@@ -16,12 +16,12 @@ from fuzzing.scenes import uncovered
 from fuzzing.tables import Fault
 
 MODES = {"scenes": scene_mode, "meshes": meshes, "frames": frames, "checkpoints": checkpoints, "kills": kills}
-# Of `all`: one in so many cases of a count is of this mode.
+# Shares of the modes in the count of mode `all`.
 SHARES = {"scenes": 0.55, "meshes": 0.2, "frames": 0.15, "checkpoints": 0.05, "kills": 0.05}
 
 
 class Bench:
-    """What the cases of a mode share: the program, the options, a scratch folder with its own things in it."""
+    """Shared by the cases of a mode: program, options, scratch folder and the mode's own data."""
 
     def __init__(self, mode, options, scratch):
         self.mode, self.options = mode, options
@@ -34,7 +34,7 @@ class Bench:
         return random.Random(f"{self.mode}:{self.options.seed}:{index}")
 
     def attempt(self, index):
-        """(word for the outcome, fault or None); a failed case is kept, made small where the mode knows how."""
+        """(outcome, fault or None); keeps a failed case, shrunk if the mode supports it."""
         folder = self.folder / str(index)
         folder.mkdir()
         fault = None

@@ -1,4 +1,4 @@
-"""Ways in which the bytes of a file go wrong."""
+"""Random damage to the bytes of a file."""
 import re
 
 WORDS = (b"nan", b"-nan", b"inf", b"1e999", b"-1", b"0", b"4294967295", b"2147483648", b"9223372036854775807",
@@ -7,7 +7,7 @@ INTEGERS = (0, 1, 0x7F, 0x80, 0xFF, 0x7FFFFFFF, 0xFFFFFFFF, 1 << 40, (1 << 63) -
 
 
 def somewhere(rng, data):
-    """Every second time near the beginning, where files say how much there is of what."""
+    """Random position; every second time near the beginning, where files store counts and sizes."""
     end = len(data) if rng.random() < 0.5 else min(len(data), 400)
     return rng.randrange(end) if end else 0
 
@@ -51,7 +51,7 @@ def append(rng, data):
 
 
 def set_word(rng, data):
-    """Another number in place of one of a text."""
+    """Replaces a number in a text by another one."""
     words = list(re.finditer(rb"[-+]?[0-9][-+0-9.eE]*", data[:200000]))
     if not words:
         return flip_bit(rng, data)
@@ -77,7 +77,7 @@ TEXT = (set_word, set_word, set_word, swap_lines, drop_line)
 
 
 def damage(rng, data, text=False):
-    """(what was done, other bytes than those given), by one to three faults."""
+    """(description, damaged bytes) after one to three kinds of damage."""
     out, done = data, []
     for _ in range(rng.choice([1, 1, 1, 2, 3])):
         way = rng.choice(BYTES + TEXT * text)

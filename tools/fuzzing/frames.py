@@ -1,4 +1,4 @@
-"""Mode `frames`: damaged frames come to a good end in `info`, `render` and as level sets, in bounded time and space."""
+"""Mode `frames`: `info`, `render` and level sets must handle damaged frames in bounded time and memory."""
 import shutil
 
 from fuzzing.damage import damage
@@ -72,7 +72,7 @@ def attempt(bench, index, folder):
     out = folder / "out"
     shutil.copytree(bench.things[dim], out)
     files = sorted(out.glob("frames/*.vdb"))
-    if rng.random() < 0.25:   # what render and info read beside
+    if rng.random() < 0.25:   # files that render and info also read
         files = [p for p in sorted(out.glob("frames/*")) + sorted(out.glob("*.*")) if p.is_file()]
     file = rng.choice(files)
     done, data = damage(rng, file.read_bytes(), text=file.suffix != ".vdb")

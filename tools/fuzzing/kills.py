@@ -1,4 +1,4 @@
-"""Mode `kills`: SIGKILL at random moments, resume, and the same tables to the last bit as of an unbroken run."""
+"""Mode `kills`: SIGKILL at random moments, then resume. The tables must equal those of an unbroken run bit for bit."""
 import os
 import pathlib
 import signal
@@ -25,7 +25,7 @@ def children(pid):
 
 
 def strike(rng, process, ranks):
-    """The whole job, or one of its ranks, whose death `mpirun` has to pass on."""
+    """Kills the whole job, or one of its ranks, whose death `mpirun` must propagate."""
     own = children(process.pid) if ranks > 1 else []
     if not own or rng.random() < 0.5:
         return kill(process)
@@ -43,7 +43,7 @@ def strike(rng, process, ranks):
 
 
 def next_words(out):
-    """A run that was killed before its first checkpoint has to begin anew."""
+    """A run killed before its first checkpoint must start anew."""
     return ("resume", "out") if any(out.glob("checkpoints/*/COMMIT")) else RUN
 
 

@@ -1,4 +1,4 @@
-"""Mode `meshes`: files of shapes that are broken, or whole and strange; `check` and `run` say so, in bounded time."""
+"""Mode `meshes`: broken or unusual mesh files. `check` and `run` must report them in bounded time."""
 import math
 
 from fuzzing.assets import make_assets, obj, ply, stl, surface
@@ -6,7 +6,7 @@ from fuzzing.damage import damage
 from fuzzing.oracle import check_end, check_result
 from fuzzing.tables import Fault
 
-SECONDS = 20   # of processor time that a check may take
+SECONDS = 20   # processor time limit of a check
 WRITERS = {"obj": obj, "ply": ply, "stl": stl}
 
 
@@ -68,7 +68,7 @@ def fine(rng, points, triangles):
 
 
 def two_bodies(rng, points, triangles):
-    """Another copy: apart, touching or inside."""
+    """Adds a second body: apart, touching or inside."""
     by, factor = rng.choice([(5, 1), (1.8, 1), (0.3, 1), (0, 0.5), (0, 1)])
     more = [[factor * v + by for v in p] for p in points]
     return [*points, *more], [*triangles, *([n + len(points) for n in t] for t in triangles)]
@@ -100,7 +100,7 @@ USES = {"region": ("[[liquid.region]]\n", ""), "static": ('[[solid]]\nkind = "st
 
 
 def make_file(bench, rng):
-    """(name, bytes, what was done to them)."""
+    """(name, bytes, description of the change)."""
     name = rng.choice([n for n in bench.things])
     ending = name.split(".")[1]
     if ending in WRITERS and rng.random() < 0.5:
@@ -133,7 +133,7 @@ def attempt(bench, index, folder):
     ran = bench.program.run("run", "scene.toml", "--out", "out", "--threads", "1", folder=folder)
     check_end(ran, (0, 3), f"run ({done} of {name}, {use})")
     if ran.code == 0:
-        fed = {"cell_size": 0.25, "boundary": {"x_lower": "outflow"}}   # energy is not looked at
+        fed = {"cell_size": 0.25, "boundary": {"x_lower": "outflow"}}   # disables the check of energy
         check_result({"domain": fed, "dimension": dim}, folder / "out")
     return "done" if ran.code == 0 else "stopped with figures"
 

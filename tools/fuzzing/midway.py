@@ -1,4 +1,4 @@
-"""Runs that are ended by force while steps are still to do, beside the same run that nothing disturbed."""
+"""Runs that are killed before their end, and the same runs undisturbed."""
 import os
 import signal
 import time
@@ -35,7 +35,7 @@ RUN = ("run", "scene.toml", "--out", "out", "--overwrite")
 
 
 def scene_text(rng):
-    """A run of some tens of steps and many frames."""
+    """A run of some tens of steps with many frames."""
     dim, kind = rng.choice([2, 2, 2, 3]), rng.choice(list(KINDS))
     cells, end = (16, 0.4) if dim == 2 else (8, 0.3)
     more = KINDS[kind].format(low=[0.6, 0.55, 0.4][:dim], high=[0.8, 0.75, 0.6][:dim]) + PROBE.format(place=[0.2] * dim)
@@ -50,7 +50,7 @@ def steps_done(out):
 
 
 def kill(process, how=signal.SIGKILL):
-    """Ends a run and all its ranks at once; `mpirun` and its ranks are one session."""
+    """Kills a run and all its ranks at once; `mpirun` and its ranks are one session."""
     try:
         os.killpg(process.pid, how)
     except ProcessLookupError:
@@ -59,7 +59,7 @@ def kill(process, how=signal.SIGKILL):
 
 
 def kill_after(bench, folder, words, steps=None, seconds=None, ranks=None):
-    """Starts the program and kills it after so many steps of the run or seconds; True if it was still running."""
+    """Starts the program and kills it after a number of steps or seconds; True if it was still running."""
     process = bench.program.start(*words, "--threads", "1", folder=folder, ranks=ranks)
     started = time.monotonic()
     while process.poll() is None:
@@ -77,7 +77,7 @@ def kill_after(bench, folder, words, steps=None, seconds=None, ranks=None):
 
 
 def unbroken(bench, folder, ranks=None):
-    """The same scene from beginning to end; (folder of the run, seconds)."""
+    """The same scene without interruption; (folder of the run, seconds)."""
     done = bench.program.run("run", "scene.toml", "--out", "whole", "--threads", "1", folder=folder, ranks=ranks)
     if done.code != 0:
         raise Fault(f"code {done.code}", f"the run that nothing disturbs: {done.errors[-500:]}")

@@ -1,4 +1,4 @@
-"""What must hold of every scene and every run, whatever is in it."""
+"""Properties that must hold for every scene and every run."""
 import re
 import sys
 import pathlib
@@ -11,14 +11,14 @@ from fuzzing.tables import Fault, check_finite, overlap, read_stats, read_summar
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "faults"))
 from read_frames import frame_faults  # noqa: E402
 
-DEEPEST = 0.02        # cells; surfaces of frames are drawn with facets, contact is exact
-LOST_VOLUME = 0.05    # of the liquid, and so many cells' worth besides: a tiny scene is mostly surface
+DEEPEST = 0.02        # cells; frames show faceted surfaces, while contact is exact
+LOST_VOLUME = 0.05    # relative; LOST_CELLS is allowed in addition, since tiny scenes are mostly surface
 LOST_CELLS = 3
-MEMORY = 2 << 30      # bytes, of a scene of a few hundred cells
+MEMORY = 2 << 30      # bytes, for a scene of a few hundred cells
 
 
 def check_end(done, codes, verb):
-    """An exit code that the contract allows, with one message where it is no success."""
+    """Requires a documented exit code, and exactly one message unless it is a success."""
     if done.code is None:
         raise Fault("time", f"{verb} did not end within {done.cpu:.0f} s of processor time")
     if "ERROR: AddressSanitizer" in done.said or "runtime error:" in done.said or "LeakSanitizer" in done.said:
@@ -41,7 +41,7 @@ def is_constant(value):
 
 
 def is_fed(scene):
-    """Whether anything may bring energy in from outside."""
+    """True if energy may enter from outside."""
     sides = scene["domain"].get("boundary", {})
     kinds = {s if isinstance(s, str) else s["type"] for s in sides.values()}
     liquid = scene.get("liquid", {})
@@ -64,10 +64,11 @@ def periodic_along(scene, g):
 
 
 def check_energy(scene, stats):
-    """E = E_kin + E_pot + E_el of a closed scene stays below that of the start.
+    """E = E_kin + E_pot + E_el of a closed scene must stay below its initial value.
 
-    Margin: a twentieth of the kinetic energy. A surface is known to about a cell: all mass lifted by half of one, and
-    the volume that is amiss lifted through the domain. Surface tension holds sigma a face of a cell at most."""
+    Margin: a twentieth of the initial kinetic energy, plus the following. The surface is known to about a cell:
+    all mass is lifted by half a cell, and the volume error is lifted through the domain. Surface tension adds
+    at most sigma per cell face."""
     g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0])][:scene["dimension"]]
     if periodic_along(scene, g):
         return
@@ -88,7 +89,7 @@ def check_energy(scene, stats):
 
 
 def check_volume(scene, folder):
-    """The liquid follows what is booked, or the run says that it does not."""
+    """The liquid's volume must follow the account of sources and flow through the sides, or the run must warn."""
     summary = read_summary(folder)
     amiss = abs(summary["liquid_volume"] - summary["expected_volume"])
     cell = scene["domain"]["cell_size"] ** scene["dimension"]
@@ -100,7 +101,7 @@ def check_volume(scene, folder):
 
 
 def check_overlaps(scene, folder):
-    """No body that moves freely lies within another solid."""
+    """No freely moving body may lie within another solid."""
     solids = scene.get("solid", [])
     moves = [s["kind"] in ("rigid", "elastic", "sprung") for s in solids]
     if not any(moves):
@@ -116,7 +117,7 @@ def check_overlaps(scene, folder):
 
 
 def no_field_asked(scene):
-    """Frames of solids alone hold no grid: solids go to files of their own."""
+    """Frames of solids only hold no grid: solids go to files of their own."""
     return scene.get("output", {}).get("frames") == ["solids"]
 
 
@@ -130,7 +131,7 @@ def check_frames(scene, folder):
 
 
 def check_result(scene, folder):
-    """Everything that a run has left behind."""
+    """Checks all output of a run."""
     for name in ("stats.csv", "solids.csv", "probes.csv"):
         if (folder / name).exists():
             check_finite(folder / name)
@@ -144,7 +145,7 @@ def check_result(scene, folder):
 
 
 def check_repeated(program, folder, name):
-    """The same run beside other rubbish in fresh memory takes the same steps, bit for bit."""
+    """A second run with other values in fresh memory must take the same steps, bit for bit."""
     done = program.run("run", name, "--out", "again", "--threads", "1", folder=folder, heap=OTHER_HEAP)
     if done.code not in (0, 3) or not same_stats(folder / "out", folder / "again"):
         raise Fault("repeat", f"the same run a second time ended with {done.code}, with other rows in stats.csv")

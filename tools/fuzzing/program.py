@@ -1,4 +1,4 @@
-"""Runs the program under test with bounds on time, memory and output."""
+"""Runs the program under test with limits on time, memory and output."""
 import dataclasses
 import os
 import pathlib
@@ -11,20 +11,20 @@ import time
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
        "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
        "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_mpi_yield_when_idle": "1"}
-SHOWN = 4000            # characters of what was printed that are read
-MOST_OUTPUT = 256 << 20   # bytes; a program that writes more into one file is ended
-MOST_MEMORY = 6 << 30     # bytes of address space; the sanitizers take terabytes of it and go without
-FRESH_HEAP, OTHER_HEAP = 0x7F, 0x01   # doubles of fresh memory are then -3e-306 or -5e303
+SHOWN = 4000            # number of final characters of the output that are read
+MOST_OUTPUT = 256 << 20   # bytes in one file; the limit ends the program
+MOST_MEMORY = 6 << 30     # bytes of address space; unlimited for sanitizers, which take terabytes
+FRESH_HEAP, OTHER_HEAP = 0x7F, 0x01   # fresh memory then holds doubles of -3e-306 or -5e303
 
 
 @dataclasses.dataclass
 class Done:
-    """How a run of the program ended; `code` is negative for a signal, None where it was stopped for its time."""
+    """End of a run of the program; `code` is negative for a signal, None after a timeout."""
     code: int
     output: str
     errors: str
     printed: int     # bytes on both streams
-    seconds: float   # of the clock
+    seconds: float   # wall time
     cpu: float       # s, of the program and its children
     memory: int      # bytes, largest resident set
 
@@ -34,7 +34,7 @@ class Done:
 
 
 class Program:
-    """`scratch` takes what Open MPI keeps of a session; that of killed runs would be in the way of others."""
+    """`scratch` takes Open MPI's session files; those of killed runs would disturb other runs."""
 
     def __init__(self, path, scratch, ranks=1, cpu=60.0, nice=5):
         self.path, self.scratch = str(pathlib.Path(path).resolve()), str(scratch)
@@ -60,7 +60,7 @@ class Program:
                                 stdin=subprocess.DEVNULL, stdout=out, stderr=err, preexec_fn=self.prepare)
 
     def run(self, *arguments, folder, ranks=None, heap=FRESH_HEAP):
-        """Waits for the end; one that takes eight times its share of processor time on the clock is ended.
+        """Runs to the end; a run that takes eight times its limit of processor time in wall time is killed.
 
         Memory that the program has not written to holds the complement of `heap` in every byte."""
         with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
@@ -80,7 +80,7 @@ def tail(stream):
 
 
 def wait(process, until):
-    """(exit code or None, usage); wait4 tells what this child and its children used."""
+    """(exit code or None, usage); wait4 reports the usage of this child and its children."""
     while True:
         done, status, usage = os.wait4(process.pid, os.WNOHANG)
         if done:

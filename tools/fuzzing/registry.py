@@ -1,4 +1,4 @@
-"""The program's list of scene keys, read from docs/scene-reference.md, which a unit test keeps true to the reader."""
+"""The scene keys, read from docs/scene-reference.md. A unit test keeps that page equal to the reader's table."""
 import dataclasses
 import pathlib
 import re
@@ -13,17 +13,17 @@ class Key:
     table: str          # "liquid.region[]"
     name: str
     kind: str           # the column "value"
-    choices: tuple      # words it may be, empty if it is no choice
+    choices: tuple      # permitted words; empty if it is not a choice
     required: bool
-    decided_by: str     # key of the same table on which this one depends, or ""
-    for_values: tuple   # values of that key which allow this one
+    decided_by: str     # key of the same table that decides whether this one is permitted, or ""
+    for_values: tuple   # values of that key which permit this one
 
     @property
     def takes_many(self):
         return self.kind.startswith("any of")
 
     def applies(self, table):
-        """Whether the key may stand beside what the table (a dict) holds; keys that decide come first in a table."""
+        """True if the table (a dict) permits the key; deciding keys come first in a table."""
         return not self.decided_by or table.get(self.decided_by) in self.for_values
 
     @property
@@ -32,7 +32,7 @@ class Key:
 
 
 def table_name(title):
-    """"`[[liquid.region]]`" -> "liquid.region[]"; sides of the domain go by "side"."""
+    """Maps "`[[liquid.region]]`" to "liquid.region[]"; sides of the domain to "side"."""
     if title == "Top level":
         return ""
     name = title.split("`")[1]

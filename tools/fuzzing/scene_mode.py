@@ -1,4 +1,4 @@
-"""Mode `scenes`: random scenes, run and judged; those that fail are made small."""
+"""Mode `scenes`: runs and judges random scenes; shrinks those that fail."""
 import copy
 import shutil
 
@@ -10,8 +10,8 @@ from fuzzing.tables import Fault
 from fuzzing.toml import to_toml
 
 NAMES = {0: "done", 2: "refused", 3: "stopped with figures"}
-REPEATED = 5      # each fifth scene is run twice
-MOST_TRIES = 80   # of making one scene smaller
+REPEATED = 5      # every fifth scene is run twice
+MOST_TRIES = 80   # attempts to shrink one scene
 
 
 def prepare(bench):
@@ -20,7 +20,7 @@ def prepare(bench):
 
 
 def lay_out(bench, scene, folder):
-    """The scene and the files it names, in a folder without a run."""
+    """Writes the scene and its files into a folder without a run."""
     for run in ("out", "again"):
         shutil.rmtree(folder / run, ignore_errors=True)
     text = to_toml(scene)
@@ -40,7 +40,7 @@ def attempt(bench, index, folder):
 
 
 def paths(value, here=()):
-    """Where something may be left out, what holds much before what it holds."""
+    """Paths of removable parts of a scene, larger parts before the parts they contain."""
     entries = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, inner in entries:
         if isinstance(value, dict) or isinstance(inner, dict):
@@ -50,7 +50,7 @@ def paths(value, here=()):
 
 
 def without(scene, path):
-    """The scene less what is there, and less tables and lists that are empty then."""
+    """The scene without the part at this path, and without tables and lists that become empty."""
     smaller = copy.deepcopy(scene)
     owner = smaller
     for key in path[:-1]:
@@ -65,13 +65,13 @@ def still_fails(bench, scene, folder, fault):
         judge(bench.program, scene, folder, twice=fault.what == "repeat")
     except Fault as found:
         return found.what == fault.what
-    except KeyError:   # what the oracle reads of a scene is left out
+    except KeyError:   # the removed part is needed by the oracle
         pass
     return False
 
 
 def shrink(bench, index, folder, fault):
-    """Leaves out what the failure does not need; the smallest scene that still fails in the same way stays."""
+    """Removes everything that the failure does not need; keeps the smallest scene with the same failure."""
     scene, _ = make_scene(bench.things["registry"], bench.random(index))
     (folder / "as_found.toml").write_text(to_toml(scene), encoding="utf-8")
     tries, shrunk = 0, True
@@ -89,7 +89,7 @@ def shrink(bench, index, folder, fault):
 
 
 def remarks(bench):
-    """Words and keys of the registry that no scene that ran has had."""
+    """Words and keys of the registry that no scene has used."""
     used = bench.things["used"]
     keys, words = {(t, n) for t, n, _ in used}, used
     unused = []

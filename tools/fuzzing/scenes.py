@@ -6,7 +6,7 @@ from fuzzing import shapes
 from fuzzing.shapes import AXES, fit_shape, number, point
 from fuzzing.values import VALUES, table_of
 
-# Keys that a scene's own plan sets: the dimension, the grid and how long it runs.
+# Keys that the plan of a scene sets: dimension, grid and duration.
 PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "probe"),
            ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("time", "end"), ("time", "frame_rate"),
@@ -16,7 +16,7 @@ MAKEABLE = {*shapes.GEOMETRY}
 
 
 def uncovered(registry):
-    """Keys that no generator makes: what is new in the program has to be given one."""
+    """Keys without a generator: a new key of the program needs one."""
     for table, keys in registry.items():
         for key in keys:
             simple = key.choices or key.kind == "true or false"
@@ -28,16 +28,16 @@ def uncovered(registry):
                 yield key.label
 
 
-SIZES = ("0.05", "0.0625", "0.01", "1", "30", "0.0005")   # m, of cells
+SIZES = ("0.05", "0.0625", "0.01", "1", "30", "0.0005")   # cell sizes, m
 
 
 class Case:
-    """One random scene in the making: its grid, its scales, and what stands where."""
+    """A random scene under construction: grid, scales, and positions of its objects."""
 
     def __init__(self, registry, rng):
         self.registry, self.rng, self.used = registry, rng, set()
         self.dim = rng.choice([2, 2, 3])
-        self.often = rng.choice([0.1, 0.3, 0.5])   # how often a key that may be left out is given
+        self.often = rng.choice([0.1, 0.3, 0.5])   # probability of an optional key
         most = 20 if self.dim == 2 else 8
         self.cells = [rng.randint(6 if self.dim == 2 else 4, most) for _ in range(self.dim)]
         self.h = float(rng.choice(SIZES))
@@ -73,7 +73,7 @@ class Case:
         return self.rng.choice(key.choices or [True, False])
 
     def fill(self, table, here):
-        """Adds keys of the table to `here`, in the order in which they decide about each other."""
+        """Adds keys of the table to `here`; deciding keys come first."""
         for key in sorted(self.registry[table], key=lambda k: (k.table, k.name) in LAST):
             made_by_shape = table in SHAPES and key.name in shapes.KEYS and (table, key.name) not in VALUES
             if key.name in here or made_by_shape or (table, key.name) in PLANNED or not key.applies(here):
@@ -87,16 +87,16 @@ class Case:
                     self.use(table, key.name, word)
 
 
-# Values that depend on those of keys further down.
+# Keys whose values depend on keys further down.
 LAST = {("probe[]", "position")}
-# Asked for a value each time; these say themselves how often they are there.
+# Keys with generators that decide themselves whether to omit the key.
 ALWAYS = {("solid[]", "fixed"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
           ("liquid", "prescribed_velocity"), ("liquid", "density"), ("domain", "boundary"),
           *((f"solid[].{t}motion.rotate", key) for t in ("", "pinned.") for key in ("axis", "center"))}
 
 
 def slots(c):
-    """Places for up to three solids beside one another along the longest axis, and the radius that each may have."""
+    """Positions for up to three solids side by side along the longest axis, and the radius available to each."""
     count = c.rng.choice([0, 1, 1, 2, 3]) if not c.prescribes else 0
     count = min(count, max(c.cells) // 4)
     along = c.extent.index(max(c.extent))
@@ -105,7 +105,7 @@ def slots(c):
     for n in range(count):
         center = [l + e * c.rng.uniform(0.45, 0.55) for l, e in zip(c.lower, c.extent)]
         center[along] = c.lower[along] + (n + 0.5) * width
-        yield center, radius * c.rng.choice([0.4, 0.6, 0.8, 1.15])   # the last all but touch
+        yield center, radius * c.rng.choice([0.4, 0.6, 0.8, 1.15])   # the last one almost touches
 
 
 def solid(c, center, radius):
@@ -122,7 +122,7 @@ def solid(c, center, radius):
     files += shapes.SURFACES if c.dim == 3 else ()
     kind = c.rng.choice(kinds)
     shape = fit_shape(c.rng, c.dim, kind, center, radius, files)
-    if kind == "plane":   # a corner of the domain; it would cut into others in the middle
+    if kind == "plane":   # at a corner of the domain, since in the middle it would cut into other solids
         at = point(l + 0.1 * e for l, e in zip(c.lower, c.extent))
         shape = {"shape": "plane", "point": at, "normal": [1.0] * c.dim}
     c.use_shape("solid[]", shape)
@@ -141,7 +141,7 @@ def solid(c, center, radius):
 
 
 def container(c):
-    """An inverted static ball or box around everything else, at times."""
+    """Sometimes an inverted static ball or box around everything else."""
     middle = [l + e / 2 for l, e in zip(c.lower, c.extent)]
     kind = c.rng.choice(["sphere", "box", "expression"])
     shape = fit_shape(c.rng, c.dim, kind, middle, 0.75 * max(c.extent))
@@ -161,7 +161,7 @@ def probes(c):
 
 
 def make_scene(registry, rng: random.Random):
-    """(scene, what of the registry it uses, the case)."""
+    """(scene, used keys and words of the registry, the Case)."""
     c = Case(registry, rng)
     scene = {"dimension": c.dim}
     domain = {"lower": point(c.lower), "cell_size": c.h}

@@ -1,4 +1,4 @@
-"""Random shapes that fit into a ball: every shape and transformation of the registry, in 2D and 3D."""
+"""Random shapes that fit into a ball: all shapes and transformations of the registry, in 2D and 3D."""
 import math
 
 AXES = "xyz"
@@ -17,7 +17,7 @@ def unit_vector(rng, dim):
 
 
 def number(x):
-    """Six digits, as people write."""
+    """Rounds to six digits, as people write."""
     return float(f"{x:.6g}")
 
 
@@ -66,7 +66,7 @@ def rotation(rng, dim, degrees):
 
 
 def from_file(rng, dim, kind, center, r, files):
-    """The bodies of files have size 1 about the origin (balls of 0.8, blocks of corners at 0.7)."""
+    """Bodies from files have size 1 about the origin (balls of radius 0.8, blocks with corners at 0.7)."""
     if kind == "level_set":
         name = f"ball{dim}.vdb"
     else:
@@ -76,7 +76,7 @@ def from_file(rng, dim, kind, center, r, files):
 
 
 def fit_shape(rng, dim, kind, center, r, files=()):
-    """A shape of that kind within r of the center; `files` are those that a mesh may name."""
+    """A shape of that kind within r of the center; `files`: names for meshes."""
     if kind in ("mesh", "level_set"):
         return from_file(rng, dim, kind, center, r, files)
     if rng.random() < 0.6:

@@ -1,4 +1,4 @@
-"""Tables and surfaces that a run leaves behind."""
+"""Tables and surfaces in the output of a run."""
 import base64
 import csv
 import json
@@ -7,11 +7,11 @@ import struct
 
 import numpy
 
-COLUMNS = {"solids.csv": 21, "probes.csv": 6}   # by the contract; the reactions of pins and the like come after these
+COLUMNS = {"solids.csv": 21, "probes.csv": 6}   # documented columns; reactions of pins and the like come later
 
 
 class Fault(Exception):
-    """What is wrong with a run: a word that says which property, and a text."""
+    """A violated property: a word for the property, and a text."""
 
     def __init__(self, what, text):
         super().__init__(f"{what}: {text}")
@@ -19,7 +19,7 @@ class Fault(Exception):
 
 
 def read_table(path):
-    """Rows of texts under the names of their columns; every row has them all."""
+    """Rows as strings by column name; every row must have all columns."""
     with open(path, newline="", encoding="utf-8", errors="replace") as file:
         lines = list(csv.reader(file))
     if not lines:
@@ -47,7 +47,7 @@ def read_stats(folder):
 
 
 def same_stats(one, other):
-    """Whether two runs took the same steps, bit for bit; seconds of the clock are their own."""
+    """True if two runs took the same steps, bit for bit; wall times are ignored."""
     def rows(folder):
         head, lines = read_table(folder / "stats.csv")
         skip = head.index("wall_seconds")
@@ -64,7 +64,7 @@ TYPES = {"Float64": "<f8", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}
 
 
 def read_surfaces(path, dim):
-    """Points and facets (point numbers, Dim a row) of each solid's surface in a frame, by the solid's number."""
+    """Points and facets (Dim point numbers a row) of each solid's surface in a frame, by the solid's number."""
     arrays = {}
     for kind, name, text in ARRAY.findall(path.read_text(encoding="utf-8")):
         raw = base64.b64decode(text)
@@ -75,7 +75,7 @@ def read_surfaces(path, dim):
 
 
 def winding(x, points, facets):
-    """Winding number of a closed surface about each row of x."""
+    """Winding number of a closed surface at each row of x."""
     a = [points[facets[:, n]][None] - x[:, None] for n in range(facets.shape[1])]
     if len(a) == 2:
         turn = numpy.arctan2(a[0][..., 0] * a[1][..., 1] - a[0][..., 1] * a[1][..., 0], (a[0] * a[1]).sum(-1))
@@ -87,7 +87,7 @@ def winding(x, points, facets):
 
 
 def samples(points, facets):
-    """Corners, centres, and points on the facets' way between them."""
+    """Corners, centres, and points between them on the facets."""
     corners = points[facets]
     middle = corners.mean(1)
     between = 0.7 * corners + 0.3 * middle[:, None]
@@ -95,7 +95,7 @@ def samples(points, facets):
 
 
 def overlap(one, other):
-    """How deep points of one surface lie within another, measured as no more than to its planes; 0 where none does."""
+    """Largest depth of one surface's points within another, a lower bound by planes; 0 if no point is inside."""
     x = samples(*one)
     points, facets = other
     low, high = points[facets].min((0, 1)), points[facets].max((0, 1))
@@ -107,7 +107,7 @@ def overlap(one, other):
 
 
 def plane_distance(x, points, facets):
-    """From points inside to the nearest facet's plane: a lower bound of how deep they lie."""
+    """Distance from inner points to the plane of the nearest facet: a lower bound of their depth."""
     corners = points[facets]
     edge = corners[:, 1] - corners[:, 0]
     if points.shape[1] == 2:

@@ -1,4 +1,4 @@
-"""Scenes as nested dictionaries, written as TOML: tables of the top level as blocks, deeper ones inline."""
+"""Writes scenes (nested dictionaries) as TOML: top-level tables as blocks, deeper ones inline."""
 import json
 
 
@@ -19,7 +19,7 @@ def is_tables(value):
 
 
 def block(title, table):
-    """A table under its title, lists of tables in it as blocks of their own."""
+    """A table under its title; lists of tables in it become blocks of their own."""
     lines = [title] if title else []
     lines += [f"{key} = {literal(v)}" for key, v in table.items() if not is_tables(v)]
     inner = [block(f"[[{title.strip('[]')}.{key}]]", entry)

@@ -1,4 +1,4 @@
-"""A value for every key of a scene that is no choice of words, by table and key; None leaves the key out."""
+"""Generators for every scene key that is not a choice of words, by table and key; None omits the key."""
 from fuzzing.shapes import AXES, SURFACES, fit_shape, number, point, rotation, unit_vector
 
 CLOSED = ("free_slip", "no_slip")
@@ -24,7 +24,7 @@ def formulas_of_time(c, size):
 
 
 def flow(c, size):
-    """Numbers, or formulas in place and time."""
+    """Numbers, or formulas in space and time."""
     if c.rng.random() < 0.6:
         return vector(c, size)
     x = f"({c.rng.choice(AXES[:c.dim])}-({number(c.lower[0])!r}))/{number(c.length)!r}"
@@ -45,7 +45,7 @@ def gravity(c, _):
 
 
 def boundary(c, _):
-    """Periodic sides in pairs; an inflow has an outflow across."""
+    """Periodic sides in pairs; an inflow has an outflow on the opposite side."""
     sides = {}
     for axis in AXES[:c.dim]:
         low, high = f"{axis}_lower", f"{axis}_upper"
@@ -74,7 +74,7 @@ def side(c, name, kind):
 
 
 def side_velocity(c, here):
-    """Into the domain; along a wall that moves."""
+    """Into the domain for inflows; along the wall for moving walls."""
     axis = AXES.index(c.side[0])
     speed = number(c.speed * c.rng.uniform(0.1, 0.6))
     values = [0.0] * c.dim
@@ -134,7 +134,7 @@ def region_center(c):
 
 
 def pool(c):
-    """The lower part of the domain, up to a random height."""
+    """Lower part of the domain, up to a random height."""
     upper = list(c.upper)
     upper[1] = c.lower[1] + c.extent[1] * c.rng.uniform(0.2, 1.0)
     return {"shape": "box", "lower": point(c.lower), "upper": point(upper)}
@@ -175,7 +175,7 @@ def sources(c, _):
 
 
 def prescribed(c, _):
-    """Free of divergence; only in scenes of liquid alone."""
+    """Divergence-free velocity; only in scenes with liquid alone."""
     if not c.prescribes:
         return None
     s = number(c.speed / c.length)
@@ -187,7 +187,7 @@ def prescribed(c, _):
 # --- solids and probes -----------------------------------------------------------------------------------------------
 
 def motion(c, table, size):
-    """Zero at t = 0, of at most this size."""
+    """Zero at t = 0, and at most of this size."""
     c.reach = size
     here = {}
     c.fill(table, here)
@@ -210,7 +210,7 @@ def angular_velocity(c, _):
 
 
 def fixed(c, here):
-    """Bodies do not cross periodic sides; along and about what is fixed a body has no velocity."""
+    """Bodies must not cross periodic sides, and have no velocity along or about fixed axes."""
     turns = c.rng.choice([("rotation",), ("rotation_x", "rotation_y", "rotation_z") if c.dim == 3 else ()])
     names = {n for n in (*AXES[:c.dim], *turns) if c.rng.random() < 0.3} | set(c.periodic)
     if "velocity" in here:
@@ -221,7 +221,7 @@ def fixed(c, here):
 
 
 def pins(c, _):
-    """One side of the body, or two opposite ones. Loose bodies and periodic sides do not go together."""
+    """One side of the body, or two opposite ones. Unpinned bodies must not occur with periodic sides."""
     if not c.periodic and c.rng.random() < 0.4:
         return None
     two, axis, found = c.rng.random() < 0.3, c.rng.randrange(c.dim), []

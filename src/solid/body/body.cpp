@@ -15,7 +15,7 @@ bool is_simple(const std::string& kind) {
   return kind == "box" || kind == "sphere" || kind == "cylinder" || kind == "capsule" || kind == "plane";
 }
 
-// The centre of a simple shape, a plane's point, before its transform; else the origin.
+// Centre of a simple shape (a plane's point) before its transform; the origin for other shapes.
 Vec3 shape_center(const ShapeSpec& s) {
   if (s.kind == "box") return 0.5 * (s.lower + s.upper);
   if (s.kind == "sphere") return s.center;
@@ -24,7 +24,8 @@ Vec3 shape_center(const ShapeSpec& s) {
   return Vec3::Zero();
 }
 
-// Of a solid that no forces move: the centre of mass of what its surface encloses.
+// Reference point of a solid that no forces move: the centre of a simple shape, else the centroid of the volume within
+// the surface.
 template <int Dim>
 Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
   const TransformSpec& t = spec.transform;
@@ -64,7 +65,7 @@ void Body<Dim>::make_elastic(const ShapeOptions& options, const Vec<Dim>& lower,
   surface_ = elastic_->surface.facets;
   thin_ = is_thinner_than(*elastic_, options.cell_size);
   const ElasticBody<Dim>& body = elastic_->body;
-  // Row sums of M: what each node has of the mass.
+  // Row sums of M: the mass of each node.
   const Eigen::VectorXd masses = body.mass * Eigen::VectorXd::Ones(body.size());
   for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n) {
     const double m = masses[Dim * Eigen::Index(n)];

@@ -1,5 +1,5 @@
 #pragma once
-// A solid of a scene: static, moved as prescribed, or moved by forces; elastic ones change their shape, too.
+// A solid of a scene: static, prescribed, or moved by forces (rigid or elastic).
 #include <memory>
 #include <optional>
 
@@ -20,7 +20,7 @@ struct Pose {
   Vec3 to_rest(const Vec3& x) const { return rotation.transpose() * (x - pivot - displacement) + pivot; }
 };
 
-// Rigid velocity field v(x) = linear + angular x (x - about): free of divergence, also as sampled on a grid.
+// Rigid velocity field v(x) = linear + angular x (x - about). It has no divergence, also when sampled on a grid.
 struct Twist {
   Vec3 linear{0, 0, 0}, angular{0, 0, 0}, about{0, 0, 0};
   Vec3 at(const Vec3& x) const { return linear + angular.cross(x - about); }
@@ -33,32 +33,32 @@ class ThinSurface;
 template <int Dim>
 class Body {
  public:
-  // lower and upper: the corners of the domain.
+  // lower and upper: corners of the domain.
   Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   const SolidSpec& spec() const { return spec_; }
   const SolidKind& kind() const { return spec_.kind; }
-  const ElasticSolid<Dim>* elements() const { return elastic_.get(); }  // null: it does not deform
-  const ElasticSolid<Dim>& elastic() const { return *elastic_; }        // where it has elements
+  const ElasticSolid<Dim>* elements() const { return elastic_.get(); }  // null: not elastic
+  const ElasticSolid<Dim>& elastic() const { return *elastic_; }        // of an elastic solid only
   const MassProperties& mass() const { return mass_; }                  // at rest; zero unless forces move it
   const SurfaceMesh& contact_surface() const { return surface_; }       // in the rest pose
-  double radius() const { return radius_; }  // about its centre of mass where forces move it as a whole, m; else 0
-  // Whether a grid can miss it (solid/body/thinness.h).
+  double radius() const { return radius_; }  // of a rigid body about its centre of mass, m; 0 for other solids
+  // True if a grid can miss the solid (solid/body/thinness.h).
   bool is_thin() const { return thin_; }
-  // Of a thin body in this pose that does not deform: whether the segment from x to y meets its surface.
+  // True if the segment from x to y crosses the surface. For thin solids that do not deform, in the given pose.
   bool lies_between(const Pose& pose, const Vec<Dim>& x, const Vec<Dim>& y) const;
-  // As prescribed.
+  // Prescribed pose at time t (s).
   Pose pose(double t) const;
-  // The rigid motion that takes the body from its pose at t0 to that at t1 in t1 - t0.
+  // Rigid motion from the pose at t0 to the pose at t1, as a constant velocity over t1 - t0.
   Twist twist(double t0, double t1) const;
-  // Velocity at time t from the motion at t and up to 2 tau later: -3/2, 2, -1/2 (second order, one-sided, since a
-  // motion need not be defined before the start).
+  // Velocity at time t by the second-order one-sided difference -3/2, 2, -1/2 over t, t + tau, t + 2 tau. It looks
+  // forward only, since a motion need not be defined before the start.
   Twist velocity(double t, double tau) const;
-  // Signed distance, negative inside (m); of one that does not deform.
+  // Signed distance (m), negative inside. For solids that do not deform.
   double distance_at_rest(const Vec<Dim>& x) const { return (*shape_)(x); }
   double distance_in(const Pose& pose, const Vec<Dim>& x) const;
-  // The point that solids.csv reports and torques are taken about, at rest: the centre of mass, of the hole where the
-  // solid is the outside of a shape, the point of a plane.
+  // Point at rest that solids.csv reports and torques refer to: the centre of mass. For the outside of a shape, the
+  // centre of the hole; for a plane, its point.
   const Vec3& reference_point() const { return reference_; }
 
  private:
@@ -78,7 +78,7 @@ class Body {
   Vec3 reference_{0, 0, 0};
   double radius_ = 0;
   bool thin_ = false;
-  std::shared_ptr<const ThinSurface<Dim>> thin_surface_;  // of a thin one that is not elastic
+  std::shared_ptr<const ThinSurface<Dim>> thin_surface_;  // of a thin solid that is not elastic
 };
 
 }  // namespace seiche

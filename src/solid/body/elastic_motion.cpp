@@ -42,7 +42,7 @@ std::vector<Vec<Dim>> surface_points(const ElasticSolid<Dim>& solid, const Eigen
 
 namespace {
 
-// The rotation nearest to sum m x X'.
+// The rotation nearest to sum m x X', by the singular value decomposition.
 template <int Dim>
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& sum) {
   const Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>> svd(sum.topLeftCorner<Dim, Dim>(),

@@ -12,7 +12,7 @@ using Facet = std::array<int, Dim>;
 template <int Dim>
 using Corners = std::array<Vec<Dim>, Dim>;
 
-// Volume between a facet and the origin, and its derivative by corner i.
+// Signed volume of the cone from the origin to a facet. Below: its derivative by corner i.
 double cone(const Corners<2>& p) {
   return 0.5 * (p[0][0] * p[1][1] - p[0][1] * p[1][0]);
 }
@@ -41,13 +41,14 @@ Vec<Dim> place_of(const WallPatch<Dim>& wall, int point, const Eigen::VectorXd& 
   return rest_of(wall, point) + u.segment<Dim>(Dim * wall.solid->surface.nodes[std::size_t(point)]);
 }
 
-// Places are seen from a fixed point on the walls.
+// A fixed point on the walls; positions are taken relative to it.
 template <int Dim>
 Vec<Dim> origin_of(const CavityWalls<Dim>& walls) {
   return rest_of(walls[0], patch_of(walls[0]).facets[0][0]);
 }
 
-// Numbers of the motions at which the walls' patches end: of pin k of wall n at [n][k]; -1 for pins of none.
+// Numbers the motions at which the walls' patches end. Pin k of wall n has the number [n][k], or -1 where no patch ends
+// at it.
 template <int Dim>
 std::vector<std::vector<int>> number_motions(const CavityWalls<Dim>& walls) {
   std::vector<const MotionSpec*> motions;
@@ -66,7 +67,7 @@ std::vector<std::vector<int>> number_motions(const CavityWalls<Dim>& walls) {
   return numbers;
 }
 
-// visit(motion's number, wall's number, closing).
+// Calls visit(number of the motion, number of the wall, closing).
 template <int Dim, class Visit>
 void for_each_closing(const CavityWalls<Dim>& walls, const Visit& visit) {
   if (walls.size() == 1 && patch_of(walls[0]).is_closed()) return;
@@ -75,7 +76,7 @@ void for_each_closing(const CavityWalls<Dim>& walls, const Visit& visit) {
     for (const auto& closing : patch_of(walls[n]).closings) visit(numbers[n][std::size_t(closing.pin)], n, closing);
 }
 
-// What the facets to the middle of each loop enclose with the origin.
+// Volume between the origin and the facets that join each loop to its middle.
 template <int Dim>
 double closing_volume(const CavityWalls<Dim>& walls, const std::vector<Eigen::VectorXd>& u, const Vec<Dim>& origin) {
   struct Middle {
@@ -107,7 +108,7 @@ Corners<Dim> corners_of(const WallPatch<Dim>& wall, const Facet<Dim>& facet, con
   return p;
 }
 
-// Unit normals of a patch's nodes, zero where they are held.
+// Unit normals at a patch's nodes, zero at pinned ones.
 template <int Dim>
 Eigen::VectorXd free_normals(const CavityWalls<Dim>& walls, std::size_t n, const Eigen::VectorXd& u, double t) {
   Eigen::VectorXd normals = enclosed_volume_gradient(walls, n, u);
@@ -129,8 +130,8 @@ std::vector<Eigen::VectorXd> moved(const CavityWalls<Dim>& walls, const ElasticM
 
 }  // namespace
 
-// Each end of one patch is the start of another one's, or its own, among those of a motion; in 3D each point of a loop
-// is entered as often as it is left.
+// The patches close if each end of a patch meets the start of a patch (another one or the same) at one motion. In 3D:
+// each point of a loop is entered as often as it is left.
 template <int Dim>
 bool can_be_closed(const CavityWalls<Dim>& walls) {
   for (const WallPatch<Dim>& wall : walls)
@@ -202,7 +203,7 @@ std::vector<CavityWalls<Dim>> kept_cavities(const std::vector<Body<Dim>>& bodies
 
 namespace {
 
-// Newton's method; what is missing is small of second order in the motion, two iterations are enough.
+// Newton's method. The residual is of second order in the motion, so two iterations suffice.
 template <int Dim>
 void keep_in_proportion(const CavityWalls<Dim>& walls, const ElasticMotions& motions, double t, double dt,
                         double wanted, std::vector<Eigen::VectorXd>& w) {

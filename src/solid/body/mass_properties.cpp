@@ -17,8 +17,8 @@ namespace {
 using Matrix = Eigen::Matrix3d;
 constexpr double pi = std::numbers::pi;
 
-// Volume, centre and second moments  C = int (x - c)(x - c)' dV  of a shape. All of the inertia follows from C, and C
-// follows a scaling and a rotation; the components along z are zero in 2D.
+// Volume, centre and second moments  C = int (x - c)(x - c)' dV  of a shape. C determines the inertia and is easily
+// scaled and rotated. Components along z are zero in 2D.
 struct Moments {
   double volume = 0;
   Vec3 center{0, 0, 0};
@@ -29,7 +29,7 @@ struct Moments {
   throw Error(ExitCode::bad_input, (spec.where.empty() ? "" : spec.where + ": ") + message);
 }
 
-// C = V e^2 / 12 along each edge e
+// C = V e^2 / 12 along each edge e.
 template <int Dim>
 Moments box_moments(const ShapeSpec& s) {
   Moments m{1, 0.5 * (s.lower + s.upper), Matrix::Zero()};
@@ -40,8 +40,7 @@ Moments box_moments(const ShapeSpec& s) {
   return m;
 }
 
-// Moments of a body of revolution about an axis (in 2D of a body symmetric about it): C = along a a' + across (1 - a
-// a').
+// Moments of a body of revolution (2D: a body symmetric about an axis): C = along a a' + across (1 - a a').
 template <int Dim>
 Moments about_axis(const ShapeSpec& s, double volume, double along, double across) {
   const Vec<Dim> from = truncate<Dim>(s.from), to = truncate<Dim>(s.to);
@@ -85,8 +84,8 @@ Moments cylinder_moments(const ShapeSpec& s) {
   return about_axis<Dim>(s, volume, volume * l * l / 12, volume * r * r / (Dim == 2 ? 3 : 4));
 }
 
-// A cylinder and two halves of a ball. A half has its centre 3r/8 (2D: 4r/(3 pi)) beyond its flat side, and moments
-// about that side's plane that are half the ball's.
+// A cylinder and two half balls. The centre of a half lies 3r/8 (2D: 4r/(3 pi)) beyond its flat side. Its second
+// moments about the plane of the flat side are half of the ball's.
 template <int Dim>
 Moments capsule_moments(const ShapeSpec& s) {
   const double l = axis_length<Dim>(s), r = s.radius, ball = ball_volume<Dim>(r);
@@ -99,8 +98,8 @@ Moments capsule_moments(const ShapeSpec& s) {
   return about_axis<Dim>(s, middle.volume + ball, along, across);
 }
 
-// Integrals over the simplices that a reference point spans with the surface (Mirtich 1996 by the divergence theorem;
-// Tonon 2004): with D = det of the corners from the reference,
+// Integrals over the simplices between a reference point and the surface (Mirtich 1996 by the divergence theorem;
+// Tonon 2004). With D = determinant of the corners relative to the reference point,
 //   V = sum D/d!,  int x = sum D/(d+1)! s,  int x x' = sum D/(d+2)! (s s' + sum_i p_i p_i'),  s = sum_i p_i.
 template <int Corners>
 void add_simplex(const std::array<Vec3, Corners>& p, double determinant, Moments& m) {
@@ -116,7 +115,7 @@ void add_simplex(const std::array<Vec3, Corners>& p, double determinant, Moments
   m.second += determinant / (d * (Corners + 1) * (Corners + 2)) * (sum * sum.transpose() + squares);
 }
 
-// From integrals about the reference point to moments about the centre.
+// Converts integrals about the reference point into moments about the centre.
 Moments settle(Moments m, const Vec3& reference) {
   if (!(m.volume > 0)) return m;
   m.center /= m.volume;
@@ -133,7 +132,7 @@ Vec3 mean_point(const SurfaceMesh& surface) {
 
 template <int Dim>
 Moments surface_moments(const SurfaceMesh& surface) {
-  const Vec3 o = mean_point(surface);  // near the body, against cancellation
+  const Vec3 o = mean_point(surface);  // near the body, to avoid cancellation
   const auto point = [&](int i) { return Vec3(surface.points[std::size_t(i)] - o); };
   Moments m;
   for (const auto& [i, j] : surface.segments) {
@@ -147,7 +146,7 @@ Moments surface_moments(const SurfaceMesh& surface) {
   return settle(m, o);
 }
 
-// x -> t + R (s x): V s^d, C s^(d+2)
+// Transform x -> t + R (s x): V scales as s^d, C as s^(d+2).
 template <int Dim>
 Moments transformed(const Moments& own, const TransformSpec& t) {
   Matrix r = Matrix::Identity();
@@ -157,7 +156,7 @@ Moments transformed(const Moments& own, const TransformSpec& t) {
   return {own.volume * volume_scale, moved, volume_scale * t.scale * t.scale * r * own.second * r.transpose()};
 }
 
-// I = density (tr(C) 1 - C); in 2D only about z
+// I = density (tr(C) 1 - C); in 2D about z only.
 template <int Dim>
 MassProperties with_density(const Moments& m, double density) {
   MassProperties result{density * m.volume, m.volume, m.center, Matrix::Zero()};
@@ -178,7 +177,7 @@ void require_bounded(const ShapeSpec& spec) {
   }
 }
 
-// The least box round the points of a surface, and `slack` more.
+// Bounding box of a surface's points, enlarged by `slack`.
 template <int Dim>
 struct Bounds {
   Vec<Dim> lower = Vec<Dim>::Constant(INFINITY), upper = Vec<Dim>::Constant(-INFINITY);
@@ -192,8 +191,8 @@ struct Bounds {
   }
 };
 
-// The spacing of sums whose volume is wrong by a thousandth where a ball is 5 cells in radius, or as near to it as
-// `most_points` (a second or two of a formula) allow.
+// Spacing for sums over points. The error of the volume is about 1e-3 for a ball of 5 cells radius. Coarser if the
+// number of points would exceed `most_points` (a second or two of a formula).
 template <int Dim>
 double fine_spacing(const Bounds<Dim>& bounds, double cell_size) {
   constexpr double finest = 4, most_points = 1e6;
@@ -201,8 +200,8 @@ double fine_spacing(const Bounds<Dim>& bounds, double cell_size) {
   return cell_size / std::clamp(std::pow(most_points / volume, 1.0 / Dim), 1.0, finest);
 }
 
-// Sums over points a spacing apart; the share of the cube about a point that lies inside is 1/2 - phi/spacing, exact
-// for plane faces along the axes and of second order elsewhere.
+// Sums over points at the given spacing. A cube about a point counts with the inside fraction 1/2 - phi/spacing: exact
+// for faces normal to an axis, second order elsewhere.
 template <int Dim>
 Moments sampled_moments(const ShapeField<Dim>& field, const Bounds<Dim>& bounds, double spacing) {
   const Vec<Dim> count = ((bounds.upper - bounds.lower) / spacing).array().ceil();
@@ -252,7 +251,7 @@ template <int Dim>
 Moments moments_of(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
   for (const Row<Dim>& row : closed_forms<Dim>) {
     if (spec.kind != row.kind) continue;
-    make_shape<Dim>(spec, options);  // refuses impossible sizes
+    make_shape<Dim>(spec, options);  // throws for impossible sizes
     return transformed<Dim>(row.moments(spec), spec.transform);
   }
   if (spec.kind == "mesh") return surface_moments<Dim>(contact_surface<Dim>(spec, options, lower, upper));

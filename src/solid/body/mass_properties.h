@@ -14,14 +14,14 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, world axes at rest, kg m^2; 2D: only (2,2)
 };
 
-// Exact for box, sphere, cylinder and capsule (scaled, rotated, translated), and for the polyhedron of a mesh; those of
-// the contact surface for expression and level_set, which must lie within [lower, upper].
-// Throws Error(bad_input) naming spec.where if the shape is not bounded (plane, inverted) or has no volume.
+// Exact for box, sphere, cylinder and capsule (scaled, rotated, translated) and for the polyhedron of a mesh. Shapes
+// `expression` and `level_set` use their contact surface and must lie within [lower, upper]. Throws Error(bad_input)
+// naming spec.where if the shape is unbounded (plane, inverted) or has no volume.
 template <int Dim>
 MassProperties mass_properties(const ShapeSpec& spec, double density, const ShapeOptions& options,
                                const Vec<Dim>& lower, const Vec<Dim>& upper);
 
-// Of the inside of a closed surface: triangles in 3D, segments in 2D.
+// Mass properties of the volume within a closed surface: triangles in 3D, segments in 2D.
 template <int Dim>
 MassProperties mass_of_surface(const SurfaceMesh& surface, double density);
 

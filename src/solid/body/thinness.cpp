@@ -5,20 +5,20 @@
 namespace seiche {
 namespace {
 
-// A second or so.
+// Limits the time to about a second.
 constexpr double most_samples = 2e7, most_samples_of_mesh = 2e6;
 
-// A ball counts as fitting when it does but for rounding.
+// Slightly below h/2, so that a ball fits despite round-off.
 constexpr double radius = 0.499;  // of h
 
-// Triangles in 3D; in 2D segments as triangles without area.
+// Surface as triangles; segments (2D) become triangles without area.
 template <int Dim>
 SurfaceMesh as_triangles(SurfaceMesh mesh) {
   for (const auto& [a, b] : mesh.segments) mesh.triangles.push_back({a, b, b});
   return mesh;
 }
 
-// Corners, middles of the edges (corners taken in pairs) and the centroid of an element.
+// Sample points of an element: corners, edge middles and the centroid.
 template <int Dim>
 std::vector<Vec<Dim>> samples_of(const ElasticMesh<Dim>& mesh, int e) {
   std::vector<Vec<Dim>> samples;

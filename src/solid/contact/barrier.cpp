@@ -6,11 +6,12 @@
 namespace seiche::contact {
 namespace {
 
-// Edges whose squared sine is below this count less, so that the energy of parallel ones is smooth (Li et al. 2020).
+// Edge pairs whose squared sine is below this value are mollified: their energy is then smooth for parallel edges (Li
+// et al. 2020).
 constexpr double parallel_share = 1e-3;
 
-// m(c) = (2 - c/eps) c/eps below eps, 1 above, of c = |u x v|^2; eps is constant: |u||v| of rigid edges is, of others
-// that at rest is taken.
+// m(c) = (2 - c/eps) c/eps below eps, 1 above, with c = |u x v|^2. eps is proportional to |u|^2 |v|^2, taken at rest
+// for deformable edges, so it is constant.
 struct Mollifier {
   double value = 1, slope = 0, curvature = 0;
   Vec3 u, v, cross;
@@ -31,7 +32,7 @@ Mollifier mollify(const PairPoints<3>& x, double at_rest) {
 }
 
 template <int Dim>
-using PointVector = Eigen::Matrix<double, 4 * Dim, 1>;  // the points one after the other
+using PointVector = Eigen::Matrix<double, 4 * Dim, 1>;  // the four points, stacked
 
 Eigen::Matrix3d cross_matrix(const Vec3& a) {
   Eigen::Matrix3d m;
@@ -39,7 +40,7 @@ Eigen::Matrix3d cross_matrix(const Vec3& a) {
   return m;
 }
 
-// The derivatives of c by the four points: with J that of w = u x v, grad c = 2 J'w and H = 2 J'J + 2 w . d2(u x v).
+// Derivatives of c by the four points. With J = d(u x v): grad c = 2 J'w and H = 2 J'J + 2 w . d2(u x v), w = u x v.
 struct CrossDerivatives {
   PointVector<3> gradient;
   PairEnergy<3>::Hessian hessian;
@@ -51,7 +52,7 @@ CrossDerivatives cross_derivatives(const Mollifier& m) {
   Eigen::Matrix<double, 6, 6> H = 2 * J.transpose() * J;
   H.topRightCorner<3, 3>() -= 2 * cross_matrix(m.cross);
   H.bottomLeftCorner<3, 3>() += 2 * cross_matrix(m.cross);
-  Eigen::Matrix<double, 6, 12> edges = Eigen::Matrix<double, 6, 12>::Zero();  // u, v of the points
+  Eigen::Matrix<double, 6, 12> edges = Eigen::Matrix<double, 6, 12>::Zero();  // maps the points to u and v
   for (int i = 0; i < 6; ++i) {
     edges(i, i < 3 ? i : i + 3) = -1;
     edges(i, i < 3 ? i + 3 : i + 6) = 1;
@@ -59,8 +60,8 @@ CrossDerivatives cross_derivatives(const Mollifier& m) {
   return {edges.transpose() * (2 * J.transpose() * m.cross), edges.transpose() * H * edges};
 }
 
-// d2 of D = r.r/2, r = sum w_i x_i, with the nearest points following: W - C B^-1 C', W = w w' x 1, B the derivatives
-// of D by the parameters of the nearest points, C the mixed ones. Then d2 of d = sqrt(2 D).
+// Hessian of d = sqrt(2 D) from that of D = r.r/2, r = sum w_i x_i, with moving nearest points: W - C B^-1 C'. W = w w'
+// x 1; B holds the derivatives of D by the parameters of the nearest points, C the mixed ones.
 template <int Dim>
 typename PairEnergy<Dim>::Hessian distance_hessian(const PairPoints<Dim>& x, const Separation<Dim>& apart,
                                                    const PointVector<Dim>& gradient) {
@@ -82,7 +83,7 @@ typename PairEnergy<Dim>::Hessian distance_hessian(const PairPoints<Dim>& x, con
   return H / apart.distance;
 }
 
-// Adds what comes of the mollifier's own derivatives to those of m b.
+// Adds the terms with the mollifier's derivatives to the derivatives of m b.
 void add_mollifier(PairEnergy<3>& e, const Mollifier& m, const Barrier& b, const PointVector<3>& distance) {
   const CrossDerivatives c = cross_derivatives(m);
   const PointVector<3> gradient = m.slope * c.gradient;

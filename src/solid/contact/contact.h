@@ -1,6 +1,6 @@
 #pragma once
-// Contact and friction between rigid and deformable bodies: incremental potential contact (Li et al. 2020; rigid
-// bodies: Ferguson et al. 2021) over one interval of time. Impacts are inelastic. docs/contact.md has the equations.
+// Contact and friction between rigid and deformable bodies over one time interval: incremental potential contact (Li et
+// al. 2020; rigid bodies: Ferguson et al. 2021). Impacts are inelastic. docs/contact.md has the equations.
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,59 +21,59 @@ struct ContactBody {
   double mass = 0;                 // kg (kg/m in 2D) of a free or deformable body
   std::optional<double> friction;  // Coulomb's coefficient
   std::string name;
-  // Of a deformable body: the mesh node of each point of `surface`, and how many nodes the mesh has.
+  // Deformable bodies: the mesh node of each point of `surface`, and the number of nodes of the mesh.
   std::vector<int> nodes = {};
   int node_count = 0;
-  // Whether each of those points is pinned (empty: none). What is pinned altogether does not collide with walls and
-  // prescribed bodies: it may stand on them.
+  // Flags of pinned points (empty: none). Primitives with all points pinned do not collide with walls and prescribed
+  // bodies, so pinned parts may rest on them.
   std::vector<char> pinned = {};
 };
 
-// The half-space that bodies keep out of lies behind the plane; its friction counts as unset.
+// The half-space behind the plane is closed to bodies. A wall has no friction coefficient of its own.
 struct ContactWall {
   Vec3 point, normal;  // the normal points into the domain
 };
 
-// Of a free body: `start`, with the centre of mass at rest as its pivot. Of a prescribed one also `end`. Of a
-// deformable one the displacements of its nodes at the start (m), Dim numbers a node.
+// Motion of one body. Free body: `start`, whose pivot is the centre of mass at rest. Prescribed body: `start` and
+// `end`. Deformable body: nodal displacements at the start (m), Dim numbers a node.
 struct ContactMotion {
   Pose start, end;
   Eigen::VectorXd displacement = {};
 };
 
 struct ContactOptions {
-  double reach = 1e-3;            // d^ (m): bodies push each other when nearer; 0.02 to 0.1 of a cell is meant
-  double acceleration = 9.81;     // m/s^2: that of a body's weight; sets the stiffness
-  double creep_speed = 1e-4;      // eps_v (m/s): below it contacts stick, but for a creep of at most this
-  double usual_speed = 1;         // m/s: what speeds are small against where all are at rest
-  double speed_tolerance = 1e-5;  // m/s: a Newton step that moves no point faster ends the iteration
-  int newton_limit = 200;         // iterations for one set of friction forces
-  int friction_limit = 20;        // times that the friction forces are brought up to date
+  double reach = 1e-3;            // d^ (m), the distance below which the barrier acts; meant as 0.02 to 0.1 of a cell
+  double acceleration = 9.81;     // m/s^2: kappa holds the heaviest body's weight at half the reach
+  double creep_speed = 1e-4;      // eps_v (m/s): velocity below which friction is static, apart from creep of this size
+  double usual_speed = 1;         // m/s: velocity scale of convergence tests when everything is at rest
+  double speed_tolerance = 1e-5;  // m/s: Newton stops when its step moves no point faster
+  int newton_limit = 200;         // Newton iterations for fixed friction forces
+  int friction_limit = 20;        // updates of the friction forces
 };
 
 struct BodyImpulse {
-  Vec3 linear{0, 0, 0}, angular{0, 0, 0};  // N s; N m s about the centre of mass (of a prescribed body: its pivot)
+  Vec3 linear{0, 0, 0}, angular{0, 0, 0};  // N s; N m s about the centre of mass (prescribed body: about its pivot)
 };
 
 enum class FrictionState { none, settled, unsettled };
 
 struct ContactReport {
-  std::string failure;                 // empty if the velocities are an intersection-free minimum
+  std::string failure;                 // empty if the velocities minimise the energy without intersections
   Eigen::VectorXd velocity, gradient;  // of e, stacked
-  // Gradient of e, contact, friction and potential: zero where v is free, else the impulse that holds it.
+  // Gradient of e, contact, friction and potential. Zero at free degrees of freedom, else the constraint impulse.
   Eigen::VectorXd residual;
   int active = 0;  // pairs within reach
   int newton_iterations = 0, solves = 0, friction_updates = 0;
-  double smallest_gap = 0;  // m, of the pairs within reach; `reach` if there are none
+  double smallest_gap = 0;  // m, of the pairs within reach; equals `reach` if there are none
   double stiffness = 0;     // kappa (N/m)
-  // How far bodies can go straight to where they end. 1: surely none has got round another in this interval. Below 1
-  // one may have, or bodies only turned about their contacts; halve the interval to tell.
+  // Fraction of the straight paths to the end positions that is free of collisions. At 1, no body has passed another in
+  // this interval. Below 1 one may have passed, or bodies only rotate about their contacts; halve the interval to tell.
   double straight_share = 1;
   FrictionState friction = FrictionState::none;
-  std::vector<BodyImpulse> impulses;  // by contact, one a body
+  std::vector<BodyImpulse> impulses;  // from contact, one a body
 };
 
-// Bodies and walls prepared for any number of solves. Copies share what was prepared.
+// Bodies and walls prepared for any number of solves. Copies share the prepared data.
 template <int Dim>
 class ContactScene {
  public:
@@ -86,11 +86,11 @@ class ContactScene {
   std::shared_ptr<const Data> data_;
 };
 
-// The accepted velocities over the interval, stacked in the order of the bodies: twists of free ones, velocities of all
-// nodes of deformable ones (Dim numbers each), none of prescribed ones. They are the minimum of
+// Solves for the velocities over the interval, stacked in the order of the bodies: twists of free bodies, nodal
+// velocities of deformable ones (Dim numbers each), nothing for prescribed ones. They minimise
 //   e(v) + dt/H B(x(v)) + dt D(v) + P(v),
-// B the barrier energy of all near pairs where v leads to after H, D the friction, P the potential. `start` may give
-// the velocities that an earlier solve found for the same bodies and motions: Newton's method then goes on from there.
+// with the barrier energy B of all near pairs at the positions x(v) after H, the friction D and the potential P.
+// `start`: velocities of an earlier solve for the same bodies and motions, from which Newton's method then continues.
 template <int Dim>
 ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                             double dt, InertiaProblem& inertia, const ContactOptions& options,
@@ -100,22 +100,22 @@ ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<Co
 template <int Dim>
 Pose moved_pose(const Pose& start, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist, double horizon);
 
-// The share of the motion (0 to 1) that surely is free of collisions, leaving a share of each gap. Free bodies move
-// and deformable ones with `velocity` (stacked), prescribed ones to their end poses.
+// Fraction of the motion (0 to 1) that is certainly free of collisions and keeps a share of each gap. Free and
+// deformable bodies move with `velocity` (stacked), prescribed ones to their end poses.
 template <int Dim>
 double largest_safe_fraction(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                              const Eigen::VectorXd& velocity);
 
 struct Overlap {
   int body;   // index of a free or deformable body
-  int other;  // index of a body (the same: it intersects itself), or of a wall
+  int other;  // index of a body (the same: self-intersection) or of a wall
   enum class With { body, wall } with;
-  double depth;         // m; negative: apart by less than the clearance; 0 where a body intersects itself
+  double depth;         // m; negative: the gap is below the clearance; 0 for self-intersection
   std::string message;  // names both
 };
 
-// Pairs with at least one body that moves freely that intersect, contain one another's matter or are closer than
-// `clearance` (m); deformable bodies that intersect themselves.
+// Pairs with at least one moving body that intersect, contain each other or are closer than `clearance` (m), and
+// deformable bodies that intersect themselves.
 template <int Dim>
 std::vector<Overlap> find_initial_overlaps(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions,
                                            double clearance);

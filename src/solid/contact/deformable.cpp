@@ -3,7 +3,7 @@
 namespace seiche::contact {
 namespace {
 
-// The body of each side (-1: a wall), and its points among those of the pair.
+// The body of one side (-1: a wall) and the range of its points within the pair.
 struct Side {
   int body, begin, end;
 };
@@ -15,7 +15,8 @@ std::array<Side, 2> sides_of(const Candidate& pair) {
           Side{pair.kind == PairKind::point_wall ? -1 : pair.second, split, points_of(pair.kind, Dim)}};
 }
 
-// The turns' share of the Hessian, f . d2x = sym(f r') - (f . r) 1 of the points on one rigid side (in 2D -f . r).
+// Hessian part from the curvature of rotations, f . d2x = sym(f r') - (f . r) 1, summed over the points of one rigid
+// side (2D: -f . r).
 template <int Dim>
 Eigen::Matrix<double, turn_size<Dim>, turn_size<Dim>> turning(const Side& side, const Vec<Dim>& center,
                                                               const PairPoints<Dim>& x,
@@ -55,7 +56,7 @@ PairDofs<Dim> pair_dofs(const typename ContactScene<Dim>::Data& scene, const Int
   return r;
 }
 
-// dx = H dv of a node; dx = H (dv + (J_l d omega) x r) of a rigid body.
+// Point velocities: dx = H dv at a node, dx = H (dv + (J_l d omega) x r) on a rigid body.
 template <int Dim>
 PairTerms<Dim> pair_terms(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
                           const Placement<Dim>& at, const Candidate& pair, const PairDofs<Dim>& dofs,

@@ -1,11 +1,11 @@
 #pragma once
-// Pairs of primitives of which one side at least is on a deformable body, by the velocities that move their points.
+// Primitive pairs with at least one deformable side: derivatives by the velocities that move their points.
 #include "solid/contact/friction.h"
 #include "solid/contact/search.h"
 
 namespace seiche::contact {
 
-// The velocities that move one pair: a twist for a rigid side, those of its points for a deformable one.
+// Velocity degrees of freedom of one pair: a twist for a rigid side, nodal velocities for a deformable one.
 template <int Dim>
 struct PairDofs {
   static constexpr int most = Dim == 2 ? 7 : 15;  // a point of a rigid body and an element
@@ -16,8 +16,8 @@ struct PairDofs {
 
   int count = 0;
   std::array<int, most> dof{};  // in the stacked velocities; -1: prescribed
-  std::array<int, 2> begin{};   // where each side's begin
-  Vector prescribed;            // those of prescribed sides, 0 elsewhere
+  std::array<int, 2> begin{};   // first degree of freedom of each side
+  Vector prescribed;            // velocities of prescribed sides, 0 elsewhere
 };
 
 // second: a body, or -1 for a wall.
@@ -25,19 +25,19 @@ template <int Dim>
 PairDofs<Dim> pair_dofs(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
                         const Candidate& pair);
 
-// A function of the points that has the gradient and Hessian given, by the velocities after the interval. The change of
-// the left Jacobian of SO(3) is left out.
+// Gradient and Hessian by velocities, from those by points after the interval. The change of the left Jacobian of SO(3)
+// is neglected.
 template <int Dim>
 struct PairTerms {
-  typename PairDofs<Dim>::Vector gradient;  // over H
-  typename PairDofs<Dim>::Matrix hessian;   // over H^2
+  typename PairDofs<Dim>::Vector gradient;  // divided by H
+  typename PairDofs<Dim>::Matrix hessian;   // divided by H^2
 };
 template <int Dim>
 PairTerms<Dim> pair_terms(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
                           const Placement<Dim>& at, const Candidate& pair, const PairDofs<Dim>& dofs,
                           const PairPoints<Dim>& x, const PairEnergy<Dim>& energy);
 
-// The derivative of the components of the slip by the pair's velocities.
+// Derivative of the slip components by the pair's velocities.
 template <int Dim>
 typename PairDofs<Dim>::SlipDerivative slip_derivative(const FrictionPoint<Dim>& f, const PairDofs<Dim>& dofs);
 

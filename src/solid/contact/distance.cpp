@@ -6,7 +6,7 @@
 namespace seiche::contact {
 namespace {
 
-// Distance and normal that follow from the weights.
+// Distance and normal from the given weights.
 template <int Dim>
 Separation<Dim> with_weights(const PairPoints<Dim>& x, const std::array<double, 4>& weight, int count, int freedoms,
                              const std::array<std::array<double, 4>, 2>& change) {
@@ -17,7 +17,7 @@ Separation<Dim> with_weights(const PairPoints<Dim>& x, const std::array<double, 
   return {distance, normal, weight, freedoms, change};
 }
 
-// Where on the segment a, b (0 to 1) the point nearest to p lies.
+// Parameter (0 to 1) of the point on the segment a, b nearest to p.
 template <int Dim>
 double nearest_on_segment(const Vec<Dim>& p, const Vec<Dim>& a, const Vec<Dim>& b) {
   const Vec<Dim> along = b - a;
@@ -39,7 +39,7 @@ Separation<2> point_segment(const PairPoints<2>& x) {
   return with_weights<2>(x, {1, t - 1, -t, 0}, 3, freedom(t), {{{0, 1, -1, 0}}});
 }
 
-// Inside the triangle the foot of the perpendicular, else the nearest of the three sides.
+// The foot of the perpendicular if it lies inside the triangle, else the nearest point of the three sides.
 Separation<3> point_triangle(const PairPoints<3>& x) {
   const Vec3 u = x[2] - x[1], v = x[3] - x[1], w = x[0] - x[1];
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v);
@@ -63,7 +63,7 @@ Separation<3> point_triangle(const PairPoints<3>& x) {
   return best;
 }
 
-// The least of the squared distance, a quadratic in two parameters, over the unit square: inside, or on a side of it.
+// Minimum of the squared distance, a quadratic in two parameters, over the unit square: inside or on an edge of it.
 Separation<3> edge_edge(const PairPoints<3>& x) {
   const Vec3 u = x[1] - x[0], v = x[3] - x[2], w = x[0] - x[2];
   Separation<3> best;

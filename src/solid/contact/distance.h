@@ -1,5 +1,5 @@
 #pragma once
-// Distances of the primitives of surfaces, with the weights of the nearest points.
+// Distances between surface primitives, with the weights of their nearest points.
 #include <array>
 
 #include "base/vec.h"
@@ -8,7 +8,7 @@ namespace seiche::contact {
 
 enum class PairKind : char { point_wall, point_element, edge_edge };
 
-// The points of one pair: one point, then those of a segment (2D) or triangle (3D); or two and two of edges.
+// Points of one pair: one point and then a segment (2D) or triangle (3D), or two and two points of edges.
 template <int Dim>
 using PairPoints = std::array<Vec<Dim>, 4>;
 
@@ -19,10 +19,10 @@ constexpr int points_of_first(PairKind kind) {
   return kind == PairKind::edge_edge ? 2 : 1;
 }
 
-// normal: unit, from the second side to the first. weight: of the nearest points, their sum is 1 on the first side and
-// -1 on the second; normal * weight is then the gradient of the distance to each point. The nearest points move freely
-// along `freedoms` parameters (two within a face, one along an edge, none at a corner), `change` being the derivatives
-// of the weights by these.
+// Distance of a pair. normal: unit, from the second side to the first. weight: weights of the nearest points, with sum
+// 1 on the first side and -1 on the second; normal * weight is the gradient of the distance by each point. freedoms:
+// number of free parameters of the nearest points (2 within a face, 1 along an edge, 0 at a corner). change:
+// derivatives of the weights by these.
 template <int Dim>
 struct Separation {
   double distance = 0;

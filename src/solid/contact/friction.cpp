@@ -36,7 +36,7 @@ Eigen::Matrix<double, Dim - 1, 1> slip(const FrictionPoint<Dim>& at, const Veloc
     const auto& twist = velocities.twists[body];
     return twist.template head<Dim>() + turned<Dim>(twist.template tail<turn_size<Dim>>(), arm);
   };
-  const auto nearest = [&](int begin, int end) {  // the weights of the second side are negative
+  const auto nearest = [&](int begin, int end) {  // weights of the second side are negative
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (int i = begin; i < end; ++i) sum += at.weight[i] * velocities.points[at.pair.points[i]];
     return sum;
@@ -50,7 +50,7 @@ Eigen::Matrix<double, Dim - 1, 1> slip(const FrictionPoint<Dim>& at, const Veloc
   return at.tangent.transpose() * u;
 }
 
-// H = psi'/y (1 - tt') + psi'' tt', t = u/y.
+// Hessian psi'/y (1 - tt') + psi'' tt', t = u/y.
 template <int Dim>
 SlipEnergy<Dim> slip_energy(const FrictionPoint<Dim>& at, const Eigen::Matrix<double, Dim - 1, 1>& u,
                             double creep_speed) {

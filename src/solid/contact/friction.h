@@ -1,5 +1,6 @@
 #pragma once
-// Smoothed Coulomb friction whose normal forces, points and tangents are held while velocities are sought.
+// Smoothed Coulomb friction. Normal forces, contact points and tangents are lagged: fixed while velocities are solved
+// for.
 #include "solid/contact/barrier.h"
 #include "solid/contact/search.h"
 
@@ -11,34 +12,34 @@ struct SlipLaw {
 };
 SlipLaw slip_law(double speed, double creep_speed);
 
-// One pair that is pressed together. Two rigid bodies are both taken at the middle of the gap, a rigid and a deformable
-// one at the latter's nearest point, so that friction has no moment; two deformable ones at the nearest point of each.
+// One pressed pair. Two rigid bodies both act at the middle of the gap. A rigid and a deformable body act at the
+// latter's nearest point, so that friction has no moment. Two deformable bodies each act at their own nearest point.
 template <int Dim>
 struct FrictionPoint {
   int first, second;  // bodies; -1 for a wall
-  double bound;       // N: mu times the normal force
+  double bound;       // mu times the normal force, N
   Vec<Dim> arm_first, arm_second;
   Eigen::Matrix<double, Dim, Dim - 1> tangent;
   bool first_deforms = false, second_deforms = false;
   Candidate pair = {};
-  std::array<double, 4> weight = {};  // of the pair's points: the nearest point's, as in Separation
+  std::array<double, 4> weight = {};  // of the nearest point by the pair's points, as in Separation
 
   bool deforms() const { return first_deforms || second_deforms; }
 };
 
-// Orthonormal directions across a unit normal.
+// Orthonormal tangent directions to a unit normal.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim - 1> tangents(const Vec<Dim>& normal);
 
-// Both set: the geometric mean; one set: that; none: 0.
+// Combined friction coefficient. Both set: geometric mean; one set: that one; none: 0.
 double pair_friction(const std::optional<double>& a, const std::optional<double>& b);
 
-// The slip u = T'(v_a + omega_a x r_a - v_b - omega_b x r_b) (m/s); a deformable body has the velocity of its nearest
-// point, sum w_i v_i.
+// Slip u = T'(v_a + omega_a x r_a - v_b - omega_b x r_b) (m/s). A deformable body contributes the velocity of its
+// nearest point, sum w_i v_i.
 template <int Dim>
 Eigen::Matrix<double, Dim - 1, 1> slip(const FrictionPoint<Dim>& at, const Velocities<Dim>& velocities);
 
-// bound * psi(|u|) with its gradient and positive semi-definite Hessian, by the slip.
+// Friction power bound * psi(|u|), with gradient and positive semi-definite Hessian by the slip.
 template <int Dim>
 struct SlipEnergy {
   double value = 0;  // W

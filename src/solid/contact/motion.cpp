@@ -13,7 +13,7 @@ Eigen::Matrix3d cross_matrix(const Vec3& a) {
   return m;
 }
 
-// The rotation vector of R.
+// Rotation vector of R.
 template <int Dim>
 Turn<Dim> angle_of(const Eigen::Matrix3d& R) {
   if constexpr (Dim == 2) return Turn<2>(std::atan2(R(1, 0), R(0, 0)));
@@ -40,7 +40,7 @@ Eigen::Matrix<double, 1, 1> left_jacobian<2>(const Turn<2>&) {
   return Eigen::Matrix<double, 1, 1>::Ones();
 }
 
-// J_l = 1 + (1 - cos a)/a^2 [a] + (a - sin a)/a^3 [a]^2; below 1e-3 the series, whose next terms are under round-off.
+// J_l = 1 + (1 - cos a)/a^2 [a] + (a - sin a)/a^3 [a]^2. Below 1e-3 by its series; the next terms are below round-off.
 template <>
 Eigen::Matrix3d left_jacobian<3>(const Turn<3>& angle) {
   const double a = angle.norm(), a2 = a * a;
@@ -52,7 +52,7 @@ Eigen::Matrix3d left_jacobian<3>(const Turn<3>& angle) {
 
 namespace {
 
-// The middle of the volume within a closed surface, by the divergence theorem; of one without volume, of its points.
+// Centroid of the volume within a closed surface, by the divergence theorem. Without volume: the mean of its points.
 template <int Dim>
 Vec<Dim> center_of(const Surface<Dim>& surface, const Vec<Dim>* points) {
   Vec<Dim> mean = Vec<Dim>::Zero(), sum = Vec<Dim>::Zero();
@@ -186,7 +186,7 @@ Pose moved_pose(const Pose& start, const Eigen::Matrix<double, twist_size<Dim>, 
   r.displacement += horizon * extend<Dim>(twist.template head<Dim>());
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<Dim, Dim>() = contact::rotation_by<Dim>(horizon * twist.template tail<contact::turn_size<Dim>>());
-  // Back onto the rotations, so that round-off does not add up over many intervals.
+  // Renormalise, so that round-off does not accumulate over many intervals.
   r.rotation = Eigen::Quaterniond(turn * start.rotation).normalized().toRotationMatrix();
   return r;
 }

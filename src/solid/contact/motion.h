@@ -1,5 +1,5 @@
 #pragma once
-// Where the points of all bodies are after moving with given velocities.
+// Positions of all bodies' points after moving with given velocities.
 #include <Eigen/Dense>
 
 #include "solid/contact/surface.h"
@@ -15,7 +15,7 @@ constexpr int turn_size = twist_size<Dim> - Dim;
 template <int Dim>
 using Turn = Eigen::Matrix<double, turn_size<Dim>, 1>;  // angular velocity, rotation vector or torque
 
-// exp of a rotation vector, and its left Jacobian: exp([a + da]) = exp([J_l da]) exp([a]) to first order.
+// Exponential map of a rotation vector and its left Jacobian: exp([a + da]) = exp([J_l da]) exp([a]) to first order.
 template <int Dim>
 Square<Dim> rotation_by(const Turn<Dim>& angle);
 template <int Dim>
@@ -37,19 +37,19 @@ Turn<Dim> moment(const Vec<Dim>& arm, const Vec<Dim>& force) {
     return arm.cross(force);
 }
 
-// The velocities of all bodies.
+// Velocities of all bodies.
 template <int Dim>
 struct Velocities {
   Twists<Dim> twists;            // of rigid bodies; zero for deformable ones
-  std::vector<Vec<Dim>> points;  // of all points, zero for those of rigid bodies; empty where all are rigid
+  std::vector<Vec<Dim>> points;  // of all points; zero on rigid bodies, empty if all bodies are rigid
 };
 
-// The interval: where everything starts, and the velocities that take prescribed bodies to their end poses.
+// One interval: initial positions, and the velocities that take prescribed bodies to their end poses.
 template <int Dim>
 struct Interval {
   double horizon = 0;             // s
-  std::vector<Vec<Dim>> centers;  // of each body at the start; of a deformable one that of its volume
-  std::vector<Vec<Dim>> arms;     // of all points from the centre of their body, at the start
+  std::vector<Vec<Dim>> centers;  // of each body at the start; for deformable bodies the centroid of the volume
+  std::vector<Vec<Dim>> arms;     // initial vectors from each body's centre to its points
   std::vector<double> radius;     // of each body: its longest arm
   Twists<Dim> prescribed;         // zero for others
 };
@@ -58,7 +58,7 @@ template <int Dim>
 Interval<Dim> make_interval(const typename ContactScene<Dim>::Data& scene, const std::vector<ContactMotion>& motions,
                             double horizon);
 
-// x = c + H v + exp(H omega) r; of deformable bodies x = c + r + H v, v of the point.
+// Positions x = c + H v + exp(H omega) r; for deformable bodies x = c + r + H v with the point's velocity v.
 template <int Dim>
 struct Placement {
   Velocities<Dim> velocities;
@@ -69,11 +69,11 @@ template <int Dim>
 Placement<Dim> place(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
                      const Velocities<Dim>& velocities);
 
-// The fastest that a point of a rigid body, or a node of a deformable one, can move with the stacked v (m/s).
+// Largest speed (m/s) of a point of a rigid body or a node of a deformable body at the stacked v.
 template <int Dim>
 double fastest(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval, const Eigen::VectorXd& v);
 
-// The velocities of all bodies when prescribed ones have `share` of theirs and others those of the stacked v.
+// Velocities of all bodies: prescribed ones scaled by `share`, others from the stacked v.
 template <int Dim>
 Velocities<Dim> all_velocities(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
                                const Eigen::VectorXd& v, double share);

@@ -1,4 +1,4 @@
-// Bodies that overlap before anything moves.
+// Detects bodies that overlap at the start.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ constexpr double pi = 3.14159265358979323846;
 template <int Dim>
 using Corners = std::array<Vec<Dim>, Dim>;
 
-// The angle (2D), or solid angle (Van Oosterom, Strackee 1983), under which the origin sees an element.
+// Angle (2D) or solid angle (Van Oosterom, Strackee 1983) of an element seen from the origin.
 double seen_angle(const Corners<2>& c) {
   return std::atan2(c[0][0] * c[1][1] - c[0][1] * c[1][0], c[0].dot(c[1]));
 }
@@ -28,7 +28,7 @@ double seen_angle(const Corners<3>& c) {
   return 2 * std::atan2(over, a * b * d + c[0].dot(c[1]) * d + c[1].dot(c[2]) * a + c[2].dot(c[0]) * b);
 }
 
-// On which side of the line (plane) through p, q (and r) does x lie: the sign.
+// Sign: the side of the line (plane) through p, q (and r) on which x lies.
 double side(const Vec<2>& p, const Vec<2>& q, const Vec<2>& x) {
   return (q - p)[0] * (x - p)[1] - (q - p)[1] * (x - p)[0];
 }
@@ -45,7 +45,8 @@ bool crosses(const Corners<2>& s, const Corners<2>& t) {
          opposite(side(t[0], t[1], s[0]), side(t[0], t[1], s[1]));
 }
 
-// The segment a, b pierces the triangle: its ends lie on both sides, the line passes all three sides the same way.
+// True if the segment a, b pierces the triangle: its ends lie on both sides, and its line passes all three edges on the
+// same side.
 bool pierces(const Vec3& a, const Vec3& b, const Corners<3>& t) {
   if (!opposite(side(t[0], t[1], t[2], a), side(t[0], t[1], t[2], b))) return false;
   const double s0 = side(a, b, t[0], t[1]), s1 = side(a, b, t[1], t[2]), s2 = side(a, b, t[2], t[0]);
@@ -99,7 +100,7 @@ class Overlaps {
     return c;
   }
 
-  // Elements with one point in common meet elsewhere only where the side opposite to it pierces the other one.
+  // Elements with one common point intersect elsewhere only if the opposite side of one pierces the other.
   bool crosses_itself(const ElementPair& p) const {
     const auto& elements = scene_.surfaces[p.first_body].elements;
     const Corners<Dim> s = corners(p.first_body, p.first), t = corners(p.second_body, p.second);
@@ -114,7 +115,7 @@ class Overlaps {
     return false;
   }
 
-  // The winding number is 1 in a solid; in the cavity of an inverted one -1, outside it 0.
+  // Winding number: 1 in a solid; for an inverted solid -1 in its cavity and 0 outside.
   bool in_solid(int body, const Vec<Dim>& x) const {
     double angle = 0;
     for (size_t e = 0; e < scene_.surfaces[body].elements.size(); ++e) {
@@ -136,7 +137,7 @@ class Overlaps {
     return least;
   }
 
-  // How deep the deepest point of a lies in b; negative if none does.
+  // Depth in b of a's deepest point; negative if no point lies in b.
   double depth(int a, int b) const {
     const Eigen::AlignedBox<double, Dim> around = box(b);
     double deepest = -1;
@@ -152,7 +153,7 @@ class Overlaps {
     return r;
   }
 
-  // Surfaces that do not cross: one point of each connected part tells whether it lies in the other.
+  // Containment for surfaces that do not cross: one point of each connected part is tested.
   void contained() {
     std::vector<Eigen::AlignedBox<double, Dim>> boxes;
     std::vector<std::vector<int>> parts;

@@ -7,15 +7,15 @@ namespace seiche {
 namespace contact {
 namespace {
 
-// A pair keeps this share of its gap; one from beyond the reach may come as near as half the reach.
+// Share of its gap that a pair keeps. A pair from beyond the reach may come as near as half the reach.
 constexpr double kept_share = 0.2, kept_of_reach = 0.5;
-// Paths are straight within turns of this angle (rad); the corners of a body then move inwards by at most 3 % of its
-// radius.
+// Paths are taken as straight within rotations of this angle (rad). The error is at most 3 % of a body's radius,
+// inwards.
 constexpr double turn_limit = 0.5;
-constexpr double retreat = 0.99;  // a share below the one found, so that round-off does not ask for another attempt
+constexpr double retreat = 0.99;  // safety factor on the share, so that round-off does not cause another attempt
 constexpr int advance_limit = 200, retreat_limit = 60;
 
-// The least time after which the gap of some two points along the normal has shrunk to `floor`; 1 if none does.
+// Least time at which the gap of any two points along the normal has shrunk to `floor`; 1 if none does.
 template <int Dim>
 double advance(PairKind kind, const PairPoints<Dim>& x, const PairPoints<Dim>& rate, const Vec<Dim>& normal,
                double floor) {
@@ -54,7 +54,7 @@ double least_share(const typename ContactScene<Dim>::Data& scene, const std::vec
   return share;
 }
 
-// One attempt; the share is that of the straight paths, good only if it is 1 (a turning body does not stay on them).
+// One attempt. The share refers to straight paths and is valid only if it is 1, since a rotating body leaves them.
 template <int Dim>
 Walk<Dim> attempt(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval,
                   const Placement<Dim>& from, const Velocities<Dim>& target, double reach) {
@@ -126,7 +126,7 @@ SEICHE_INSTANTIATE(3)
 
 }  // namespace contact
 
-// With no reach each pair keeps the share of its gap.
+// Zero reach: each pair keeps its share of the gap.
 template <int Dim>
 double largest_safe_fraction(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                              const Eigen::VectorXd& velocity) {

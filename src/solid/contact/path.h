@@ -1,23 +1,23 @@
 #pragma once
-// Motion that surely is free of collisions.
+// Collision-free motion by conservative advancement (continuous collision detection).
 #include "solid/contact/search.h"
 
 namespace seiche::contact {
 
-// How far (0 to 1) a pair can go along the straight paths of its points so that it keeps a share of its gap. Surely no
-// collision up to there (conservative advancement along the current normal).
+// Fraction (0 to 1) of the straight paths of its points that a pair can go while it keeps a share of its gap. No
+// collision occurs up to there (conservative advancement along the current normal).
 template <int Dim>
 double pair_share(const typename ContactScene<Dim>::Data& scene, const Candidate& pair, const PairPoints<Dim>& from,
                   const PairPoints<Dim>& to, double reach);
 
 template <int Dim>
 struct Walk {
-  double share = 0;  // of the way to the target
+  double share = 0;  // of the motion to the target
   Placement<Dim> end;
   std::vector<Candidate> near;  // all pairs within reach at the end, and others
 };
 
-// Goes from a placement towards the target velocities, as far as that surely is free of collisions.
+// Moves from a placement towards the target velocities, as far as the motion is certainly free of collisions.
 template <int Dim>
 Walk<Dim> walk(const typename ContactScene<Dim>::Data& scene, const Interval<Dim>& interval, const Placement<Dim>& from,
                const Velocities<Dim>& target, double reach);

@@ -8,13 +8,13 @@ namespace {
 template <int Dim>
 using Box = Eigen::AlignedBox<double, Dim>;
 
-// The box of what moves by `way` from within a box.
+// Bounding box of a box that moves by `way`.
 template <int Dim>
 Box<Dim> swept(const Box<Dim>& box, const Vec<Dim>& way) {
   return Box<Dim>(box.min() + way.cwiseMin(0), box.max() + way.cwiseMax(0));
 }
 
-// Paths are seen from a frame that drifts with the mean motion of a body: what moves together does not meet.
+// Paths are taken in a frame that moves with the mean motion of a body, so bodies that move together are not paired.
 template <int Dim>
 class Search {
  public:
@@ -56,7 +56,7 @@ class Search {
   }
 
  private:
-  // The boxes of a body and of its points, grown by half the margin; those of points without the drift.
+  // Boxes of a body and of its points, enlarged by half the margin. Boxes of points exclude the drift.
   void enclose(int b) {
     const int begin = scene_.point_begin[b], end = scene_.point_begin[b + 1];
     Vec<Dim> drift = Vec<Dim>::Zero();
@@ -79,7 +79,7 @@ class Search {
     return box;
   }
 
-  // Sweep along x over the boxes of bodies.
+  // Sweep and prune along x over the bodies' boxes.
   std::vector<std::pair<int, int>> near_bodies() const {
     std::vector<std::pair<double, int>> starts;
     for (size_t b = 0; b < body_boxes_.size(); ++b)
@@ -115,7 +115,7 @@ class Search {
         found_.push_back({PairKind::point_wall, b, w, {p, 0, 0, 0}});
   }
 
-  // The boxes of a body's tree, made when first wanted.
+  // Boxes of a body's tree, built on first use.
   const std::vector<Box<Dim>>& tree(int b) {
     std::vector<Box<Dim>>& boxes = trees_[b];
     const Surface<Dim>& s = scene_.surfaces[b];
@@ -132,8 +132,8 @@ class Search {
     return boxes;
   }
 
-  // Both trees downwards, the larger node first; `visit` gets the elements of leaves that meet. `way` is that of a's
-  // drift seen from b.
+  // Descends both trees, the larger node first; `visit` gets the elements of overlapping leaves. `way`: drift of a
+  // relative to b.
   template <class Visit>
   void meet(int a, int b, const Vec<Dim>& way, const Visit& visit) {
     const std::vector<Box<Dim>>&boxes_a = tree(a), &boxes_b = tree(b);
@@ -168,7 +168,7 @@ class Search {
     }
   }
 
-  // The pairs of a body with itself; each pair of elements is met twice, once in each order.
+  // Pairs within one body; each pair of elements is visited twice, once in each order.
   void meet_itself(int b) {
     const Vec<Dim> none = Vec<Dim>::Zero();
     const auto first = static_cast<std::ptrdiff_t>(found_.size());
@@ -183,7 +183,7 @@ class Search {
                   [&](Candidate& c) { c.apart_at_rest = separate<Dim>(c.kind, at_rest(c)).distance; });
   }
 
-  // All points of the one body are pinned, the other one is prescribed.
+  // True if all points of one side are pinned and the other body is prescribed.
   bool stands_pinned(const Candidate& c) const {
     const bool wall = c.kind == PairKind::point_wall, other_prescribed = wall || !scene_.moves(c.second);
     if (!other_prescribed && scene_.moves(c.first)) return false;
@@ -249,7 +249,7 @@ class Search {
   const Scene& scene_;
   const Points<Dim>&from_, &to_;
   double half_;
-  std::vector<Vec<Dim>> drift_;               // of each body, the mean way of its points
+  std::vector<Vec<Dim>> drift_;               // mean displacement of each body's points
   std::vector<Box<Dim>> paths_, body_boxes_;  // of all points, of all bodies
   std::vector<std::vector<Box<Dim>>> trees_;
   std::vector<Candidate> found_;

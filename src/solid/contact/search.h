@@ -1,5 +1,5 @@
 #pragma once
-// Which pairs of primitives can come near one another along linear paths of their points.
+// Broad phase: pairs of primitives that can come near each other along linear paths of their points.
 #include <limits>
 
 #include "solid/contact/distance.h"
@@ -9,9 +9,9 @@ namespace seiche::contact {
 
 struct Candidate {
   PairKind kind;
-  int first, second;          // bodies; second is a wall for point_wall
+  int first, second;          // bodies; `second` is a wall for point_wall
   std::array<int, 4> points;  // in the list of all points
-  // Of two parts of one body: how far apart they are at rest (m). What is near by its shape does not push.
+  // Two parts of one body: their distance at rest (m). Parts that are near at rest do not repel each other.
   double apart_at_rest = std::numeric_limits<double>::infinity();
   double edges_at_rest = 0;  // as pair_energy() takes it
 
@@ -21,14 +21,13 @@ struct Candidate {
 template <int Dim>
 using Points = std::vector<Vec<Dim>>;
 
-// All pairs, also those of parts of one deformable body without a point in common, of which one body moves freely and
-// that may be within `margin` while points move from one place to the other (the start and the end included), in an
-// order that depends on nothing but the input.
+// All pairs with at least one moving body that may come within `margin` during the motion, both ends included. Pairs
+// within a deformable body count if they have no point in common. The order depends on the input only.
 template <int Dim>
 std::vector<Candidate> find_candidates(const typename ContactScene<Dim>::Data& scene, const Points<Dim>& from,
                                        const Points<Dim>& to, double margin);
 
-// Elements of two bodies, or of one deformable one, whose boxes are within `margin` of one another.
+// Elements of two bodies, or of one deformable body, whose boxes are within `margin` of each other.
 struct ElementPair {
   int first_body, first, second_body, second;
 };

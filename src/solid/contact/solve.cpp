@@ -1,4 +1,4 @@
-// Newton's method on e(v) + C(v) + P(v) with a line search that never lets surfaces touch (Li et al. 2020).
+// Newton's method on e(v) + C(v) + P(v) with a collision-free line search (Li et al. 2020).
 #include <algorithm>
 #include <cmath>
 
@@ -10,18 +10,18 @@ namespace contact {
 namespace {
 
 constexpr double sufficient_decrease = 1e-4;  // Armijo
-constexpr double energy_round_off = 1e-12;    // of the sum of the energies: differences below say nothing
-constexpr double least_step = 1e-10;          // of a Newton step; shorter ones get nowhere
-// Gaps below this share of the reach make contacts stiffer, by this factor, this often at most.
+constexpr double energy_round_off = 1e-12;    // of the sum of the energies: smaller differences are noise
+constexpr double least_step = 1e-10;          // of a Newton step; below it the line search fails
+// Gaps below this share of the reach: kappa is multiplied by `stiffening`, at most `stiffening_limit` times.
 constexpr double tiny_gap = 1e-2, stiffening = 10;
 constexpr int stiffening_limit = 12;
-// Friction forces have settled when they move no point faster than this share of the creep speed, or of what contact
-// does to velocities: then friction is right to a thousandth.
+// Convergence of the lagged friction forces: their update moves no point faster than this share of the creep speed, or
+// of the velocity change by contact. Friction is then accurate to 1e-3.
 constexpr double settled_share = 0.1, settled_of_change = 1e-4;
-// Newton's tolerance as a share of what contact does to velocities, with new friction forces and with settled ones.
+// Newton's tolerance relative to the velocity change by contact: with new friction forces, and with converged ones.
 constexpr double first_of_change = 1e-2, last_of_change = 1e-6;
 
-// Newton iterations before friction is smoothed, and how fast it becomes sharp again.
+// Newton iterations before friction is smoothed, and the factor by which its creep speed then shrinks again.
 constexpr int patience = 12;
 constexpr double sharpening = 0.2;
 
@@ -59,7 +59,7 @@ class Solver {
     return mass > 0 ? mass : 1;
   }
 
-  // Takes the response if it is usable.
+  // Stores the response; fails if it is unusable.
   Outcome take(InertiaResponse response, InertiaResponse& into) {
     ++report_.solves;
     if (!response.failure.empty())
@@ -74,10 +74,11 @@ class Solver {
     return all_velocities<Dim>(scene_, interval_, v, share);
   }
 
-  // Prescribed bodies or held degrees of freedom do not yet move as they shall.
+  // True while prescribed bodies or degrees of freedom have not reached their prescribed velocities.
   bool under_way() const { return share_ < 1 || !inertia_.holds(e_.velocity); }
 
-  // The motion by e alone is the answer if it meets nothing: e has no lower value. With a potential it never is.
+  // Minimum of e alone. It is the solution if no contact is active, since e has no lower value. Not tried with a
+  // potential.
   bool free_of_contact() {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(inertia_.size());
     free_velocity_ = zero;
@@ -101,7 +102,7 @@ class Solver {
     return true;
   }
 
-  // At rest, or with the whole motion that an earlier solve found.
+  // Starts at rest, or with all of an earlier solve's motion.
   bool begin(const Eigen::VectorXd& start) {
     const Eigen::VectorXd v = start.size() > 0 ? start : Eigen::VectorXd::Zero(inertia_.size());
     if (start.size() > 0) share_ = 1;
@@ -114,8 +115,8 @@ class Solver {
     return report_.failure.empty() && take(inertia_.respond(v), e_) == Outcome::converged;
   }
 
-  // Newton with the friction forces of the present state, until these no longer move anything. Where the change from
-  // creep to slip is too sharp for Newton, first with a creep speed as large as what contact does, then ever smaller.
+  // Alternates Newton's method and updates of the friction forces until these converge. If the transition from creep to
+  // slip is too sharp for Newton, the creep speed is first raised to the velocity change by contact and then lowered.
   Outcome solve_with_friction() {
     report_.friction = FrictionState::none;
     int limit = patience;
@@ -143,7 +144,7 @@ class Solver {
     return Outcome::converged;
   }
 
-  // What contact does to velocities: by how much they differ from those without (m/s). With a potential, their size.
+  // Velocity change by contact (m/s); with a potential, the velocities' own size.
   double change() const { return fastest(e_.velocity - free_velocity_); }
 
   bool may_rub() const {
@@ -168,8 +169,8 @@ class Solver {
     return fail("contact: Newton's method does not converge");
   }
 
-  // The minimum of e and the quadratic model of C and P at the present iterate. The model is made convex where there is
-  // none.
+  // Minimum of e plus the quadratic model of C and P at the present iterate. If the exact model is indefinite, the
+  // projected Hessian is used.
   Outcome aim(InertiaResponse& goal) {
     for (Curvature curvature : {Curvature::exact, Curvature::convex}) {
       terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, curvature);
@@ -198,21 +199,21 @@ class Solver {
 
   double fastest(const Eigen::VectorXd& v) const { return contact::fastest<Dim>(scene_, interval_, v); }
 
-  // grad e at the present iterate. With constraints, that of e and the goal's multipliers times the constraints: steps
-  // that first have to meet a constraint are downhill then too.
+  // grad e at the present iterate. With constraints, the goal's multipliers replace the present ones, so that steps
+  // towards a constraint are descent directions too.
   Eigen::VectorXd gradient_towards(const InertiaResponse& goal) const {
     if (goal.constraint.size() == 0) return e_.gradient;
     return e_.gradient - e_.constraint + goal.constraint;
   }
 
-  // e(v + s p) - e(v) of a quadratic whose gradients at v and v + p are known.
+  // e(v + s p) - e(v) for a quadratic with known gradients at v and v + p.
   double inertia_change(const InertiaResponse& goal, double s) const {
     const Eigen::VectorXd p = goal.velocity - e_.velocity, gradient = gradient_towards(goal);
     return s * p.dot(gradient + 0.5 * s * (goal.gradient - gradient));
   }
 
-  // Goes towards the goal as far as is free of collisions and inversion, and downhill; the share of the way, 0 if it
-  // stays. While prescribed bodies and held degrees of freedom are under way energies cannot be compared.
+  // Line search: the longest step that is free of collisions and inversion and decreases the energy. Returns the share
+  // of the step, 0 on failure. Energies are not compared until prescribed degrees of freedom have reached their values.
   double search(const InertiaResponse& goal) {
     const Eigen::VectorXd p = goal.velocity - e_.velocity;
     const double slope = p.dot(gradient_towards(goal) + terms_.gradient), left = 1 - share_;
@@ -261,7 +262,7 @@ class Solver {
     const Velocities<Dim> still = velocities(Eigen::VectorXd::Zero(inertia_.size()), 0);
     report_.straight_share =
         walk<Dim>(scene_, interval_, place<Dim>(scene_, interval_, still), at_.velocities, 0).share;
-    report_.residual = e_.gradient + terms_.gradient;  // with the friction that the velocities are a minimum with
+    report_.residual = e_.gradient + terms_.gradient;  // with the friction forces of the minimisation
     if (potential_) potential_->add_gradient(e_.velocity, report_.residual);
     friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
     terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
@@ -280,7 +281,8 @@ class Solver {
   Interval<Dim> interval_;
   Weights weights_;
   ContactReport report_;
-  // The present iterate: stacked velocities with the gradient of e, the share of the prescribed motion, what follows.
+  // The present iterate: velocities and gradient of e, share of the prescribed motion, and the derived placement, pairs
+  // and terms.
   InertiaResponse e_;
   Eigen::VectorXd free_velocity_;  // without contact
   double share_ = 1;

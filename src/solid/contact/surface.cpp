@@ -6,7 +6,7 @@ namespace seiche {
 namespace contact {
 namespace {
 
-// The degrees of freedom of a body and of its points.
+// Assigns the degrees of freedom of a body and of its points.
 template <int Dim>
 void number(const ContactBody& body, typename ContactScene<Dim>::Data& data) {
   const Surface<Dim>& surface = data.surfaces.back();

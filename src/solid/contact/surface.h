@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces of bodies and walls, prepared for the search of near pairs.
+// Surfaces of bodies and walls, prepared for the search for near pairs.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -34,9 +34,9 @@ struct ContactScene<Dim>::Data {
   std::vector<BodyControl> control;
   std::vector<double> mass;
   std::vector<std::optional<double>> friction;
-  std::vector<int> point_begin;  // of each body in the list of all points; one more entry than bodies
-  // In the stacked velocities: where those of each body begin (-1: prescribed) and, of deformable bodies, of each point
-  // in the list of all points (-1: of a rigid body).
+  std::vector<int> point_begin;  // first point of each body in the list of all points; one more entry than bodies
+  // First index in the stacked velocities: of each body (-1: prescribed), and of each point of deformable bodies in the
+  // list of all points (-1: on a rigid body).
   std::vector<int> first_dof, point_dof;
   std::vector<char> pinned;     // of each point
   std::vector<int> node_count;  // of each deformable body's mesh; 0 for others

@@ -10,13 +10,13 @@
 namespace seiche::contact {
 namespace {
 
-// A derivative by the twists of the two bodies of a pair.
+// Derivatives by the twists of a pair's two bodies.
 template <int Dim>
 using PairVector = Eigen::Matrix<double, 2 * twist_size<Dim>, 1>;
 template <int Dim>
 using PairMatrix = Eigen::Matrix<double, 2 * twist_size<Dim>, 2 * twist_size<Dim>>;
 
-// The nearest matrix without negative eigenvalues.
+// Nearest positive semi-definite matrix: negative eigenvalues become zero.
 template <class Matrix>
 Matrix without_negative(const Matrix& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric);
@@ -24,7 +24,7 @@ Matrix without_negative(const Matrix& symmetric) {
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-// Collects pairs by the bodies they join; an ordered map keeps sums the same from run to run.
+// Sums pairs by the two bodies they join. The ordered map keeps sums identical from run to run.
 template <int Dim>
 class Assembly {
  public:
@@ -45,7 +45,7 @@ class Assembly {
     if (!fresh) place->second += hessian;
   }
 
-  // Of a pair with a deformable side.
+  // Adds a pair with a deformable side.
   void add(const PairDofs<Dim>& dofs, const typename PairDofs<Dim>::Vector& gradient,
            const typename PairDofs<Dim>::Matrix& exact) {
     const typename PairDofs<Dim>::Matrix hessian = curvature_ == Curvature::exact ? exact : without_negative(exact);
@@ -112,7 +112,7 @@ TurnJacobians<Dim> turn_jacobians(const Interval<Dim>& interval, const Twists<Di
   return r;
 }
 
-// The derivative of the points by velocities and turns of both bodies: d x = d v + d theta x arm.
+// Derivative of the points by the bodies' velocities and rotations: d x = d v + d theta x arm.
 template <int Dim>
 using PointMatrix = Eigen::Matrix<double, 4 * Dim, 2 * twist_size<Dim>>;
 
@@ -130,7 +130,7 @@ PointMatrix<Dim> point_derivative(const Candidate& pair, const Placement<Dim>& a
   return J;
 }
 
-// Points turn on circles: f . d2x = sym(f r') - (f . r) 1 on the turns of each body (in 2D -f . r).
+// Curvature of the points' circular paths: f . d2x = sym(f r') - (f . r) 1 in the rotations of each body (2D: -f . r).
 template <int Dim>
 void add_turning(const Candidate& pair, const Placement<Dim>& at, const PairPoints<Dim>& x,
                  const Eigen::Matrix<double, Dim, 4>& forces, PairMatrix<Dim>& hessian) {
@@ -144,7 +144,7 @@ void add_turning(const Candidate& pair, const Placement<Dim>& at, const PairPoin
   }
 }
 
-// From turns d theta to angular velocities, d theta = J_l d omega.
+// Maps angular velocities to rotations: d theta = J_l d omega.
 template <int Dim>
 PairMatrix<Dim> turns_by_twists(const Candidate& pair, const TurnJacobians<Dim>& jacobians) {
   constexpr int n = twist_size<Dim>, turn = turn_size<Dim>;
@@ -159,7 +159,7 @@ PairVector<Dim> flat_product(const PointMatrix<Dim>& J, const Eigen::Matrix<doub
   return J.transpose() * Eigen::Map<const Eigen::Matrix<double, 4 * Dim, 1>>(forces.data());
 }
 
-// The derivative of each component of the slip by the twists of both bodies.
+// Derivative of each slip component by the twists of both bodies.
 template <int Dim>
 Eigen::Matrix<double, 2 * twist_size<Dim>, Dim - 1> slip_derivative(const FrictionPoint<Dim>& f) {
   constexpr int n = twist_size<Dim>;
@@ -190,7 +190,7 @@ void add_friction(const Scene<Dim>& scene, const Interval<Dim>& interval,
   }
 }
 
-// The barrier of two rigid bodies, or of a rigid one and a wall.
+// Barrier of two rigid bodies, or of a rigid body and a wall.
 template <int Dim>
 void add_rigid(const Interval<Dim>& interval, const Placement<Dim>& at, const TurnJacobians<Dim>& jacobians,
                const Candidate& pair, const PairPoints<Dim>& x, const PairEnergy<Dim>& e, const Weights& w,
@@ -214,7 +214,7 @@ void add_deformable(const Scene<Dim>& scene, const Interval<Dim>& interval, cons
   assembly.add(dofs, w.dt * terms.gradient, w.dt * interval.horizon * terms.hessian);
 }
 
-// Without its bound.
+// Friction point of a pair, without its bound.
 template <int Dim>
 FrictionPoint<Dim> friction_point(const Scene<Dim>& scene, const Placement<Dim>& at, const Candidate& pair,
                                   const PairPoints<Dim>& x, const Separation<Dim>& apart) {

@@ -13,17 +13,17 @@ struct Weights {
 template <int Dim>
 using Scene = typename ContactScene<Dim>::Data;
 
-// C(v) = dt/H B(x(v)) + dt D(v) (J). K is its Hessian over the stacked velocities (but for what the change of J_l
-// adds); drag is the product of the Hessian's mixed part with what the prescribed velocities still lack.
+// C(v) = dt/H B(x(v)) + dt D(v) (J). K: its Hessian by the stacked velocities, without the change of J_l. drag: the
+// mixed part of the Hessian times the missing part of the prescribed velocities.
 struct ContactTerms {
   double energy = 0, smallest_gap = 0;
-  double tightest = 0;  // the smallest gap where each is measured in reaches of its pair, times the reach (m)
+  double tightest = 0;  // smallest gap (m) when each gap is scaled to the common reach
   int active = 0;
   Eigen::VectorXd gradient, drag;
   Eigen::SparseMatrix<double> K;
 };
 
-// Infinite if a pair touches.
+// Energy C (J); infinite if a pair touches.
 template <int Dim>
 double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                       const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
@@ -34,12 +34,12 @@ ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interva
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
                            const Weights& weights, Curvature curvature);
 
-// The friction that the present normal forces and points of contact allow.
+// Friction points with their bounds for the present normal forces and contact points.
 template <int Dim>
 std::vector<FrictionPoint<Dim>> friction_points(const Scene<Dim>& scene, const Placement<Dim>& at,
                                                 const std::vector<Candidate>& pairs, const Weights& weights);
 
-// The impulses on all bodies about their centres in the present placement; in pairs equal and opposite.
+// Impulses on all bodies about their centres in the present placement; equal and opposite within a pair.
 template <int Dim>
 std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placement<Dim>& at,
                                           const std::vector<Candidate>& pairs,

@@ -9,7 +9,7 @@
 namespace seiche {
 namespace {
 
-constexpr double kept_volume = 0.1;  // share of det F that one step must leave
+constexpr double kept_volume = 0.1;  // share of det F that one step must keep
 
 // sum_a u_a g_a'
 template <int Dim>
@@ -20,15 +20,15 @@ Gradient<Dim> gradient_of(const ElasticBody<Dim>& body, int e, const ShapeGradie
   return D;
 }
 
-// A point where det F is watched: of quadrature, where the material has its energy, or (order 2) a node, where the
-// volume guard alone has some.
+// Kind of point at which det F is evaluated: a quadrature point, where the material has its energy, or (order 2) a
+// node, where only the volume guard acts.
 enum class Role { quadrature, node };
 
 template <int Dim>
 struct Point {
-  int element, number;  // number: of all quadrature points, of all nodes of elements
+  int element, number;  // index among all quadrature points, or among the nodes of all elements
   Role role;
-  double weight;  // volume that the point stands for, m^3
+  double weight;  // volume assigned to the point, m^3
   const ShapeGradients<Dim>& g;
 
   Gradient<Dim> deformation(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) const {
@@ -56,7 +56,7 @@ void over_points(const ElasticBody<Dim>& body, Visit visit) {
   for (int e = 0; e < body.mesh.element_count(); ++e) over_points(body, e, visit);
 }
 
-// B, dF = B du: column Dim a + i holds g_a in the entries of row i of F.
+// B with dF = B du: column Dim a + i holds g_a in the entries of row i of F.
 template <int Dim>
 using Strain =
     Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic, Eigen::ColMajor, Dim * Dim, Dim*(Dim + 1) * (Dim + 2) / 2>;
@@ -95,11 +95,11 @@ std::array<double, 4> volume_polynomial(const Gradient<Dim>& F, const Gradient<D
   return {F.determinant(), first, elastic::cofactor<Dim>(D).cwiseProduct(F).sum(), D.determinant()};
 }
 
-// A bound from below on the first t at which the polynomial has fallen to kept_volume c_0, at most `limit`: a step of
-// what is left over the steepest slope within `window` cannot pass the root. The window follows the steps.
+// Lower bound on the first t at which the polynomial has fallen to kept_volume c_0, at most `limit`. A step of the
+// remaining value over the steepest slope within `window` cannot pass the root. The window adapts to the steps.
 double step_until_kept(const std::array<double, 4>& c, double limit) {
   double t = 0, window = limit;
-  for (int i = 0; i < 100; ++i) {  // more steps only come closer
+  for (int i = 0; i < 100; ++i) {  // further steps only come closer
     const double left = (1 - kept_volume) * c[0] + t * (c[1] + t * (c[2] + t * c[3]));
     if (left < 1e-3 * c[0]) break;  // close enough: a step bound need not be sharp
     const double end = std::min(limit, t + window);
@@ -133,7 +133,7 @@ double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, co
   return Psi;
 }
 
-// dPsi/du_a = integral of P g_a, the guard's part of P being b' dJ/dF
+// dPsi/du_a = integral of P g_a; the guard contributes b' dJ/dF to P.
 template <int Dim>
 Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
                                  const HeldPressure<Dim>& held) {
@@ -155,7 +155,7 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
   return r;
 }
 
-// K = integral of B' H B, H = d2Psi/dF2 and the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2
+// K = integral of B' H B with H = d2Psi/dF2 plus the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2.
 template <int Dim>
 void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K,
                    const HeldPressure<Dim>& held) {

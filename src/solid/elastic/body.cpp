@@ -10,7 +10,7 @@ namespace {
 using elastic::QuadraturePoint;
 using elastic::ReferencePoint;
 
-constexpr int load_degree = 5;  // of the rule for masses and loads; masses of straight quadratic elements need 4
+constexpr int load_degree = 5;  // of the quadrature for masses and loads; masses of straight quadratic elements need 4
 
 // dX/dxi and shape gradients dN/dX = dN/dxi (dX/dxi)^-1 at a point of an element.
 template <int Dim>
@@ -48,7 +48,7 @@ void tabulate_gradients(ElasticBody<Dim>& body) {
   }
 }
 
-// Zero blocks for all pairs of nodes that share an element, and where each element finds its own.
+// Sparsity pattern: zero blocks for all pairs of nodes that share an element, and each element's positions in it.
 template <int Dim>
 void make_pattern(ElasticBody<Dim>& body) {
   const int count = body.mesh.nodes_per_element();
@@ -79,7 +79,7 @@ void make_pattern(ElasticBody<Dim>& body) {
   }
 }
 
-// Visits f(element, shape values, point X, volume of the point) over the rule for masses and loads.
+// Visits f(element, shape values, point X, volume of the point) over the quadrature for masses and loads.
 template <int Dim, class Visit>
 void over_volume(const ElasticMesh<Dim>& mesh, Visit visit) {
   for (const auto& [xi, weight] : elastic::quadrature(Dim, load_degree)) {
@@ -93,7 +93,7 @@ void over_volume(const ElasticMesh<Dim>& mesh, Visit visit) {
   }
 }
 
-// M_ab = integral of rho N_a N_b; lumped: its diagonal, scaled to the body's mass.
+// M_ab = integral of rho N_a N_b. Lumped: its diagonal, scaled to the body's mass.
 template <int Dim>
 void assemble_mass(ElasticBody<Dim>& body) {
   body.mass = body.pattern;

@@ -8,15 +8,15 @@
 namespace seiche {
 namespace {
 
-// What else acts on the body may be this share of the largest elastic force or load on a free node: above what steps
-// are solved to, far below any contact that matters.
+// Other forces on the body may reach this share of the largest elastic force or load on a free node. It is above the
+// tolerance of the solver and far below any relevant contact force.
 constexpr double still_alone = 1e-4;
 
 template <int Dim>
 bool is_alone(const IncrementalPotential<Dim>& step, const Pins& pins, const ElasticEnds& ends) {
   for (const int dof : pins.dofs)
     if (ends.u[dof] != ends.u0[dof]) return false;
-  const auto largest = [&](Eigen::VectorXd force) {  // on a node that is free
+  const auto largest = [&](Eigen::VectorXd force) {  // on free nodes
     for (const int dof : pins.dofs) force[dof] = 0;
     return force.cwiseAbs().maxCoeff();
   };
@@ -24,7 +24,7 @@ bool is_alone(const IncrementalPotential<Dim>& step, const Pins& pins, const Ela
   return largest(potential_gradient(step, ends.u)) <= still_alone * scale;
 }
 
-// Columns: the mean motions along axes without pins.
+// Columns: translations along axes without pins.
 template <int Dim>
 Eigen::MatrixXd translations(const Pins& pins, Eigen::Index nodes) {
   std::vector<int> axes;
@@ -37,7 +37,7 @@ Eigen::MatrixXd translations(const Pins& pins, Eigen::Index nodes) {
   return B;
 }
 
-// Columns: turns of the body as it is now, about a fixed point.
+// Columns: rotations of the deformed body about a fixed point.
 template <int Dim>
 Eigen::MatrixXd turns(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
   const Eigen::Index nodes = u.size() / Dim;
@@ -51,14 +51,14 @@ Eigen::MatrixXd turns(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
   return B;
 }
 
-// v - B (B'MB)^-1 B'Mv: what is left has no momentum along B's motions.
+// v - B (B'MB)^-1 B'Mv: removes the momentum along the columns of B.
 Eigen::VectorXd without(const Eigen::MatrixXd& B, const SparseMatrix& mass, const Eigen::VectorXd& v) {
   if (B.cols() == 0) return v;
   const Eigen::MatrixXd MB = mass * B;
   return v - B * (B.transpose() * MB).ldlt().solve(MB.transpose() * v);
 }
 
-// The motions that d is without.
+// The rigid motions that are excluded from d.
 template <int Dim>
 Eigen::MatrixXd kept_motions(const ElasticBody<Dim>& body, const Pins& pins, const Eigen::MatrixXd& translations,
                              const Eigen::VectorXd& u) {

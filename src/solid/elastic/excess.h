@@ -1,22 +1,23 @@
 #pragma once
-// Energy that a time step itself adds to an elastic body, and its removal.
+// Removes energy that a time step has added to an elastic body.
 #include "solid/elastic/minimize.h"
 
 namespace seiche {
 
-// What a step of the scheme made of a body's displacements and velocities.
+// A body's displacements and velocities before and after a step.
 struct ElasticEnds {
   const Eigen::VectorXd &u0, &v0;  // before, m, m/s
   const Eigen::VectorXd& u;        // after
 };
 
-// Second-order multistep schemes take energy over many steps and may add some in one. A body that nothing but its load
-// f and pins at rest act on has E = K + Psi - f.u, K of the motion relative to its mean along axes without pins, and
-// what E rose by in the step is taken from its deformation rate d (relative to its rigid motion, or of its free nodes
-// if pinned), as projection methods do (Hairer, Lubich, Wanner 2006, IV.4), but to less energy only:
+// Second-order multistep schemes dissipate energy over many steps but may add some in one. A body under its load f and
+// resting pins alone has the energy E = K + Psi - f.u, with K of the motion relative to its mean along axes without
+// pins. The rise of E in the step is taken from the deformation rate d: the velocity relative to the rigid motion, or
+// of the free nodes if pinned. This is a projection (Hairer, Lubich, Wanner 2006, IV.4) that only ever lowers the
+// energy:
 //   v = V + s d,   K(V + s d) = K(V + d) - max(E1 - E0, 0),   0 <= s <= 1.
-// E1 - E0 is O(dt^3) and so is 1 - s: the order stays; V keeps both momenta. A body that liquid, contact or moving pins
-// act on is left as it is. `step` is what the step minimised; v becomes V + s d.
+// E1 - E0 is O(dt^3) and so is 1 - s, so the order is kept; V keeps both momenta. Bodies under liquid, contact or
+// moving pins are left unchanged. `step` is the minimised potential; v becomes V + s d.
 template <int Dim>
 void remove_excess_energy(const IncrementalPotential<Dim>& step, const Pins& pins, const ElasticEnds& ends,
                           Eigen::VectorXd& v);

@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-// det(F_0 + D) less its linear part in D: det D in 2D, cof D : F_0 + det D in 3D
+// det(F_0 + D) without its linear part in D: det D in 2D, cof D : F_0 + det D in 3D.
 template <int Dim>
 double HeldPressure<Dim>::energy(int point, const Gradient<Dim>& F) const {
   const Gradient<Dim>& F0 = start[std::size_t(point)];

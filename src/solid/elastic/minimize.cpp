@@ -7,7 +7,7 @@
 namespace seiche {
 namespace {
 
-// What minimize() hands to its parts.
+// Arguments shared by the parts of minimize().
 template <int Dim>
 struct Descent {
   const IncrementalPotential<Dim>& potential;
@@ -27,7 +27,7 @@ double extent(const ElasticMesh<Dim>& mesh) {
   return (high - low).maxCoeff();
 }
 
-// Rows and columns of pins become those of the identity; returns what the columns times `moves` were.
+// Replaces the rows and columns of pinned dofs by those of the identity. Returns H * moves.
 Eigen::VectorXd hold(SparseMatrix& H, const std::vector<int>& dofs, const Eigen::VectorXd& moves) {
   const Eigen::VectorXd pull = H * moves;
   std::vector<char> held(H.cols(), 0);
@@ -40,9 +40,9 @@ Eigen::VectorXd hold(SparseMatrix& H, const std::vector<int>& dofs, const Eigen:
   return pull;
 }
 
-// The Newton step: H d = -g at free degrees of freedom, d = what is missing at pins. The exact stiffness is tried
-// first: it converges quadratically where bending is far stiffer along than across. False if no stiffness can be
-// factored.
+// The Newton step: H d = -g at free degrees of freedom, d = the missing displacement at pins. The exact stiffness is
+// tried first: it converges quadratically also for bending of bodies that are far stiffer along than across. False if
+// no stiffness can be factored.
 template <int Dim>
 bool newton_step(const Descent<Dim>& s, const Eigen::VectorXd& u, const Eigen::VectorXd& g, Eigen::VectorXd& d) {
   Eigen::VectorXd missing = Eigen::VectorXd::Zero(u.size());
@@ -60,8 +60,8 @@ bool newton_step(const Descent<Dim>& s, const Eigen::VectorXd& u, const Eigen::V
   return false;
 }
 
-// Brings the pins where they belong, everything else following by linear prediction; det F stays above 0. The energy
-// may rise: pins do work.
+// Moves the pins to their targets; the other nodes follow by linear prediction, and det F stays above 0. The energy may
+// rise, since pins do work.
 template <int Dim>
 bool drive_pins(const Descent<Dim>& s, int max_iterations, Eigen::VectorXd& u) {
   const auto arrived = [&] {
@@ -74,7 +74,7 @@ bool drive_pins(const Descent<Dim>& s, int max_iterations, Eigen::VectorXd& u) {
   for (int i = 0; !arrived(); ++i) {
     if (i == max_iterations || !newton_step(s, u, potential_gradient(s.potential, u), d)) return false;
     const double share = inversion_bound(*s.potential.body, u, d);
-    if (!(share > 1e-6)) return false;  // pins that turn the body inside out
+    if (!(share > 1e-6)) return false;  // the pins turn the body inside out
     u += share * d;
     for (size_t k = 0; share == 1 && k < s.pins.dofs.size(); ++k) u[s.pins.dofs[k]] = s.pins.targets[k];
   }
@@ -86,7 +86,7 @@ double free_norm(Eigen::VectorXd g, const std::vector<int>& held) {
   return g.norm();
 }
 
-// Armijo's rule from the inversion bound on. Where the energy's change drowns in round-off the gradient decides.
+// Armijo's rule, starting at the inversion bound. If the energy change is below round-off, the gradient norm decides.
 template <int Dim>
 double line_search(const Descent<Dim>& s, const Eigen::VectorXd& u, const Eigen::VectorXd& g,
                    const Eigen::VectorXd& d) {
@@ -128,7 +128,7 @@ void descend(const Descent<Dim>& s, const MinimizeOptions& options, Eigen::Vecto
   s.report.failure = "too many Newton steps";
 }
 
-// u = share of the way from 0 to the force and from `start` to the pins.
+// Load step: `share` of the way from `start` to the pins' targets.
 Pins between(const Pins& pins, const Eigen::VectorXd& start, double share) {
   Pins r = pins;
   for (size_t i = 0; i < r.dofs.size(); ++i) r.targets[i] = (1 - share) * start[r.dofs[i]] + share * pins.targets[i];
@@ -161,7 +161,7 @@ template <int Dim>
 SparseMatrix potential_hessian(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, Curvature curvature) {
   SparseMatrix H = p.body->pattern;
   add_stiffness(*p.body, u, curvature, H);
-  const auto add = [&H](const SparseMatrix& A, double scale) {  // all share one pattern
+  const auto add = [&H](const SparseMatrix& A, double scale) {  // all have one sparsity pattern
     for (Eigen::Index i = 0; i < H.nonZeros(); ++i) H.valuePtr()[i] += scale * A.valuePtr()[i];
   };
   if (p.gamma == 0) return H;

@@ -1,5 +1,5 @@
 #pragma once
-// Newton's method for the displacements of an elastic body: one time step or a state of rest.
+// Newton's method for the displacements of an elastic body: one time step or static equilibrium.
 #include <string>
 
 #include "solid/elastic/body.h"
@@ -8,7 +8,7 @@ namespace seiche {
 
 // The incremental potential, J:
 //   Phi(u) = 1/2 |v - v*|^2_M + 1/(2 gamma) |u - u0|^2_C + Psi(u) - f.u   with u = u0 + gamma v, M the consistent mass.
-// A state of rest has gamma = 0, which stands for no inertia at all: Psi(u) - f.u.
+// Static equilibrium has gamma = 0, which means no inertia: Psi(u) - f.u.
 template <int Dim>
 struct IncrementalPotential {
   const ElasticBody<Dim>* body = nullptr;
@@ -27,42 +27,42 @@ Eigen::VectorXd potential_gradient(const IncrementalPotential<Dim>& p, const Eig
 template <int Dim>
 SparseMatrix potential_hessian(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, Curvature curvature);
 
-// Degrees of freedom held at given displacements.
+// Degrees of freedom with prescribed displacements (Dirichlet conditions).
 struct Pins {
   std::vector<int> dofs;        // Dim node + axis
   std::vector<double> targets;  // m
 };
 
-// All components of these nodes held at rest.
+// Fixes all components of these nodes at zero displacement.
 template <int Dim>
 Pins pin_nodes(const std::vector<int>& nodes);
 
 struct MinimizeOptions {
-  double step_tolerance = 1e-9;  // the last Newton step, as a share of the body's size; bounds the error of u
+  double step_tolerance = 1e-9;  // last Newton step relative to the body's size; bounds the error of u
   int max_iterations = 200;
 };
 
 struct MinimizeReport {
   bool converged = false;
-  std::string failure;            // why not
+  std::string failure;            // reason, if not converged
   int iterations = 0;             // Newton steps
-  int projected = 0;              // of them with the projected stiffness, the exact one being indefinite
-  double last_step = 0;           // as a share of the body's size
-  double least_volume_ratio = 0;  // det F at the end, over quadrature points and nodes
+  int projected = 0;              // steps with the projected stiffness, where the exact one is indefinite
+  double last_step = 0;           // relative to the body's size
+  double least_volume_ratio = 0;  // smallest det F at the end, over quadrature points and nodes
 };
 
-// Factors that a body keeps from step to step.
+// Cholesky factors that a body reuses from step to step.
 struct ElasticWorkspace {
   SparseCholesky cholesky;
 };
 
-// Moves u to a minimum of p. u must have det F > 0, and every iterate then has. On failure u is the last iterate.
+// Minimises p from u. u must have det F > 0; so has every iterate. On failure u is the last iterate.
 template <int Dim>
 [[nodiscard]] MinimizeReport minimize(const IncrementalPotential<Dim>& p, const Pins& pins,
                                       const MinimizeOptions& options, ElasticWorkspace& workspace, Eigen::VectorXd& u);
 
-// The state of rest under the force, reached in equal steps of load and pins, each tried again with half its share if
-// Newton fails; gives up below a thousandth.
+// Static equilibrium under the force, in equal steps of load and pins. A step at which Newton fails is halved; gives up
+// below a thousandth.
 template <int Dim>
 [[nodiscard]] MinimizeReport solve_static(const ElasticBody<Dim>& body, const Eigen::VectorXd& force, const Pins& pins,
                                           int load_steps, const MinimizeOptions& options, ElasticWorkspace& workspace,

@@ -6,7 +6,7 @@
 namespace seiche {
 namespace {
 
-// F = 1 + sum u_a (dN_a/dX)^T at a quadrature point; in 2D F_33 = 1.
+// F = 1 + sum u_a (dN_a/dX)^T at a quadrature point; F_33 = 1 in 2D.
 template <int Dim>
 Eigen::Matrix3d deformation_at(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, int element, int point) {
   const auto& gradients =
@@ -23,7 +23,7 @@ double von_mises_of(const Eigen::Matrix3d& cauchy) {
   return std::sqrt(1.5) * s.norm();
 }
 
-// A node between two corners of an element has the mean of theirs.
+// A node on an edge gets the mean of the edge's corners.
 template <int Dim>
 void fill_between(const ElasticMesh<Dim>& mesh, std::vector<double>& values) {
   for (int e = 0; e < mesh.element_count() && mesh.order == 2; ++e) {

@@ -59,7 +59,7 @@ double ElasticPotential<Dim>::step_bound(const Eigen::VectorXd& v, const Eigen::
   return bound;
 }
 
-// Psi is the difference of terms of the size of (lambda + 2 mu) times the volume.
+// Psi is a difference of terms of the order (lambda + 2 mu) times the volume.
 template <int Dim>
 double ElasticPotential<Dim>::round_off() const {
   constexpr double share_of_terms = 1e-15;  // a few units in the last place

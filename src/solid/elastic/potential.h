@@ -1,11 +1,11 @@
 #pragma once
-// The energy of elastic bodies as one of their nodes' velocities.
+// The energy of elastic bodies as a function of their nodes' velocities.
 #include "solid/elastic/body.h"
 #include "solid/energy/velocity_potential.h"
 
 namespace seiche {
 
-// One body: its displacement at the start of the interval, and where its nodes' velocities begin in the stacked v.
+// One body: displacement at the start of the interval, and the first index of its nodes' velocities in the stacked v.
 template <int Dim>
 struct ElasticShare {
   const ElasticBody<Dim>* body;
@@ -14,13 +14,13 @@ struct ElasticShare {
   HeldPressure<Dim> held;
 };
 
-// P(v) = dt/H sum Psi(u_n + H w), w the velocities of a body's nodes over the interval H, Psi with the work against the
-// held pressure. Its gradient is dt Psi', the impulse of the elastic forces at the end of the interval; its Hessian is
-// dt H Psi''.
+// P(v) = dt/H sum Psi(u_n + H w), with the velocities w of a body's nodes over the interval H. Psi includes the work
+// against the held pressure. The gradient is dt Psi', the impulse of the elastic forces at the end of the interval. The
+// Hessian is dt H Psi''.
 template <int Dim>
 class ElasticPotential : public VelocityPotential {
  public:
-  // Keeps the pointers. `size`: of v. dt, horizon in s, above 0.
+  // Keeps the pointers. `size`: of v. dt and horizon: s, positive.
   ElasticPotential(std::vector<ElasticShare<Dim>> bodies, int size, double dt, double horizon);
   double energy(const Eigen::VectorXd& v) const override;
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override;

@@ -7,10 +7,10 @@ namespace {
 
 using elastic::ReferencePoint;
 
-// A simplex in the reference coordinates of an element's side: its corners.
+// Corners of a simplex in the reference coordinates of an element's side.
 using ReferenceSimplex = std::vector<ReferencePoint>;
 
-// A piece's outline as simplices on its side: itself in 2D, a fan of triangles in 3D.
+// Outline of a piece as simplices on its side: the segment itself in 2D, a fan of triangles in 3D.
 template <int Dim>
 std::vector<ReferenceSimplex> simplices_of(const FacetPiece<Dim>& piece, int order) {
   const std::vector<std::vector<int>> facets = facets_of_side(Dim, order);
@@ -28,14 +28,15 @@ std::vector<ReferenceSimplex> simplices_of(const FacetPiece<Dim>& piece, int ord
   return fan;
 }
 
-// Length or twice the area in the reference coordinates.
+// Length (2D) or twice the area (3D) in reference coordinates.
 double reference_size(const ReferenceSimplex& s) {
   if (s.size() == 2) return std::abs(s[1][0] - s[0][0]);
   const ReferencePoint a = s[1] - s[0], b = s[2] - s[0];
   return std::abs(a[0] * b[1] - a[1] * b[0]);
 }
 
-// n dA over d xi, from dx/dxi; the inside lies left of a side in 2D, sides turn counter-clockwise seen from outside.
+// n dA per d xi, from dx/dxi. The inside lies left of a side in 2D; in 3D sides are counter-clockwise seen from
+// outside.
 Vec<2> area_per_reference(const Eigen::Matrix<double, 2, 1>& t) {
   return {t[1], -t[0]};
 }
@@ -58,7 +59,7 @@ SideLoad<Dim> load_of_piece(const ElasticSolid<Dim>& solid, const Eigen::VectorX
     const int n = load.nodes[std::size_t(i)];
     x.col(i) = mesh.nodes[std::size_t(n)] + u.segment<Dim>(Dim * n);
   }
-  // N_i n has degree 1 or, on quadratic sides, 3 in 2D and 4 in 3D; with x one or two more.
+  // N_i n has degree 1; on quadratic sides 3 in 2D and 4 in 3D. The factor x adds one or two.
   for (const ReferenceSimplex& simplex : simplices_of(piece, mesh.order))
     for (const elastic::QuadraturePoint& q : elastic::quadrature(Dim - 1, mesh.order == 1 ? 2 : 5)) {
       ReferencePoint xi = (1 - q.xi.sum()) * simplex[0];

@@ -15,10 +15,10 @@
 namespace seiche {
 namespace {
 
-constexpr double on_surface = 1e-6;  // of an element's edge: a pin that ends at a face of the solid holds its nodes
+constexpr double on_surface = 1e-6;  // of an element's edge: a pin that ends on a face includes the face's nodes
 constexpr double pi = 3.14159265358979323846;
 
-// The nodes at which the pin's shape is not positive.
+// Nodes within the pin's shape (value not positive).
 template <int Dim>
 std::vector<int> nodes_in(const PinSpec& pin, const std::string& name, const ElasticMesh<Dim>& mesh,
                           const ShapeOptions& options, double edge) {
@@ -36,7 +36,7 @@ std::vector<int> nodes_in(const PinSpec& pin, const std::string& name, const Ela
                           pin.shape.where, name, mesh.nodes.size(), nearest));
 }
 
-// Leaves out nodes that earlier pins hold with the same motion.
+// Removes nodes that earlier pins already hold with the same motion.
 template <int Dim>
 void drop_held(const PinSpec& pin, const std::string& name, const ElasticMesh<Dim>& mesh,
                const std::vector<PinnedNodes>& earlier, std::vector<int>& nodes) {
@@ -84,7 +84,7 @@ Eigen::VectorXd traction_at(const ElasticSolid<Dim>& solid, const LoadedSides& s
                              [&](const Vec<Dim>& X) { return truncate<Dim>(stress(extend<Dim>(X), t)); });
 }
 
-// The sides of elements whose nodes all lie in the traction's shape.
+// Element sides with all nodes in the traction's shape.
 template <int Dim>
 LoadedSides find_sides(const TractionSpec& traction, const std::string& name, const ElasticMesh<Dim>& mesh,
                        const ShapeOptions& options, double edge) {
@@ -175,8 +175,8 @@ Eigen::VectorXd applied_force_at(const ElasticSolid<Dim>& solid, double t) {
   return force;
 }
 
-// Measured on blocks of quadratic elements with the supernodal factors: 20 n^(4/3) entries in 3D from 10^3 to 10^4
-// unknowns; in 2D 6 n log2 n, for long strips a third of it.
+// Measured on blocks of quadratic elements with supernodal factors: 20 n^(4/3) entries in 3D for 10^3 to 10^4 unknowns;
+// 6 n log2 n in 2D, a third of that for long strips.
 double factor_bytes(int dim, int unknowns) {
   const double n = std::max(unknowns, 2);
   return 8 * (dim == 3 ? 20 * std::pow(n, 4. / 3) : 6 * n * std::log2(n));

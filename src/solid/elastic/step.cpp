@@ -5,8 +5,8 @@
 namespace seiche {
 namespace {
 
-// y_new = now y + old y_old + gamma dy/dt_new; with r = dt / dt_old, BDF2 has now = (1 + r)^2 / (1 + 2 r),
-// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Without an earlier step it is backward Euler.
+// y_new = now y + old y_old + gamma dy/dt_new. BDF2 with r = dt / dt_old: now = (1 + r)^2 / (1 + 2 r),
+// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Without an earlier step: backward Euler.
 struct Weights {
   double now = 1, old = 0, gamma = 0;
 };
@@ -17,7 +17,7 @@ Weights weights(ElasticScheme scheme, double dt, double dt_old) {
   return {(1 + r) * (1 + r) / (1 + 2 * r), -r * r / (1 + 2 * r), dt * (1 + r) / (1 + 2 * r)};
 }
 
-// C = alpha M + beta K(u), K made positive semi-definite so that damping only takes energy.
+// Rayleigh damping C = alpha M + beta K(u), with K projected to positive semi-definite so that damping only dissipates.
 template <int Dim>
 SparseMatrix rayleigh_damping(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
   const auto& [density, lame, alpha, beta] = body.properties;

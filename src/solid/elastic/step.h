@@ -15,29 +15,29 @@ struct ElasticState {
 template <int Dim>
 ElasticState at_rest(const ElasticBody<Dim>& body);
 
-// f of a step, gravity included.
+// Load f of a step, gravity included.
 struct StepLoad {
   Eigen::VectorXd force;  // at the end of the step, N
-  bool constant = false;  // the same at its start
+  bool constant = false;  // the same at the start of the step
 };
 
-// What the step from `state` over dt minimises.
+// The incremental potential of the step from `state` over dt.
 template <int Dim>
 IncrementalPotential<Dim> begin_step(const ElasticBody<Dim>& body, const ElasticState& state, ElasticScheme scheme,
                                      double dt, const StepLoad& load);
 
-// Takes the minimum u as the new state; v = (u - u0) / gamma without energy that the scheme added (excess.h).
+// Takes the minimiser u as the new state; v = (u - u0) / gamma without energy added by the scheme (excess.h).
 template <int Dim>
 void end_step(const IncrementalPotential<Dim>& potential, double dt, const Pins& pins, const Eigen::VectorXd& u,
               ElasticState& state);
 
-// begin, minimize from the displacements before the step, end. On failure the state is left as it was.
+// One step: begin_step, minimize from the present displacements, end_step. On failure the state is unchanged.
 template <int Dim>
 [[nodiscard]] MinimizeReport advance(const ElasticBody<Dim>& body, ElasticScheme scheme, double dt,
                                      const StepLoad& load, const Pins& pins, const MinimizeOptions& options,
                                      ElasticWorkspace& workspace, ElasticState& state);
 
-// J
+// Kinetic energy, J.
 template <int Dim>
 double kinetic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& v);
 

@@ -9,7 +9,7 @@
 namespace seiche {
 namespace {
 
-// Of each point of the surface the first pins with the motion of those that hold it, -1: it is free.
+// Per surface point: the first pin with the motion of the point's pin; -1: free.
 std::vector<int> pins_of_points(const ElasticSurface& surface, const std::vector<PinnedNodes>& pins) {
   std::map<int, int> of_node;
   for (std::size_t k = 0; k < pins.size(); ++k) {
@@ -25,7 +25,7 @@ std::vector<int> pins_of_points(const ElasticSurface& surface, const std::vector
   return of_point;
 }
 
-// The pins that hold all of these points, -1: there are none.
+// The pin that holds all of these points; -1: none.
 template <class Points>
 int common_pin(const Points& points, const std::vector<int>& pin_of_point) {
   int pin = -1;
@@ -39,8 +39,8 @@ int common_pin(const Points& points, const std::vector<int>& pin_of_point) {
   return pin;
 }
 
-// Adds what closes the sides that only one facet has: from a facet's end to the apex, from the apex to its start; in 3D
-// the side seen from beyond.
+// Adds the facets that close the sides with one facet only. 2D: segments from a facet's end to the apex and from the
+// apex to its start. 3D: the side in reverse orientation with the apex.
 template <int Dim>
 void close_sides(const std::vector<int>& pin_of_point, SurfacePatch<Dim>& patch) {
   std::map<std::array<int, Dim>, int> closings;  // and how often
@@ -62,7 +62,7 @@ void close_sides(const std::vector<int>& pin_of_point, SurfacePatch<Dim>& patch)
   for (const auto& [corners, count] : closings) patch.closings.push_back({corners, common_pin(corners, pin_of_point)});
 }
 
-// The facets that share points are joined, by the smallest number of their points.
+// Groups facets that share points, keyed by the group's smallest point number.
 template <int Dim>
 std::map<int, std::vector<std::array<int, Dim>>> pieces_of(const std::vector<std::array<int, Dim>>& facets,
                                                            std::size_t points) {

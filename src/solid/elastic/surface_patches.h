@@ -1,15 +1,15 @@
 #pragma once
-// The pieces of an elastic solid's surface that pinned facets leave.
+// Patches of an elastic solid's surface between its pinned facets.
 #include "solid/elastic/solid.h"
 
 namespace seiche {
 
-// Those of each part of the surface in turn: the whole part, but where facets with all corners in pins of one motion
-// divide it the pieces between these.
+// Patches of each connected part in turn. If facets pinned by one motion divide the part, its patches are the pieces
+// between them; else the whole part is one patch.
 template <int Dim>
 std::vector<SurfacePatch<Dim>> find_patches(const ElasticSurface& surface, const std::vector<PinnedNodes>& pins);
 
-// Of each node of the mesh the patch that it is on, -1: it lies inside, or among pinned facets that are on none.
+// Per mesh node: its patch; -1: the node is inside, or on pinned facets that belong to no patch.
 template <int Dim>
 std::vector<int> patches_of_nodes(const ElasticSolid<Dim>& solid);
 

@@ -2,8 +2,9 @@
 
 namespace seiche {
 
-// Which second derivatives of an energy that is not convex. convex: without the negative eigenvalues of its parts (each
-// quadrature point, the contacts between each two rigid bodies, each pair of primitives with a deformable side).
+// Hessian projection of a non-convex energy. exact: the Hessian itself. convex: negative eigenvalues are removed from
+// each of its parts (each quadrature point, the contacts between two rigid bodies, each primitive pair with a
+// deformable side).
 enum class Curvature : char { exact, convex };
 
 }  // namespace seiche

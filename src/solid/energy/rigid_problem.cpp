@@ -25,7 +25,7 @@ bool DryProblem::holds(const Eigen::VectorXd& v) const {
   return true;
 }
 
-// (M + K) v = M v* + r on the free degrees of freedom, v = v_held on the others.
+// (M + K) v = M v* + r at free degrees of freedom, v = v_held at fixed ones.
 InertiaResponse DryProblem::minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) {
   if (target_.size() == 0) return respond(target_);
   Eigen::SparseMatrix<double> matrix = mass_ + K;

@@ -1,6 +1,5 @@
 #pragma once
-// What stands behind the bodies of one contact solve (inertia, and liquid where there is any), as a quadratic
-// energy.
+// Inertia of the bodies in one contact solve, with liquid if there is any, as a quadratic energy of the velocities.
 #include <string>
 #include <vector>
 
@@ -9,43 +8,41 @@
 
 namespace seiche {
 
-// Generalised velocities of one body: (v of the centre of mass, omega), in 2D (v_x, v_y, omega_z).
+// Generalised velocity of one body: (v of the centre of mass, omega); in 2D (v_x, v_y, omega_z).
 template <int Dim>
 constexpr int twist_size = Dim == 2 ? 3 : 6;
 
 enum class Shape : char { convex, indefinite };
 
-// The gradient of e at `velocity` is the impulse that acts on each degree of freedom (N s, N m s).
+// Solution at `velocity`. The gradient of e is the impulse on each degree of freedom (N s, N m s).
 struct InertiaResponse {
-  std::string failure;          // empty if it went well
-  Shape shape = Shape::convex;  // indefinite: there is no minimum, nothing else is set
+  std::string failure;          // empty: success
+  Shape shape = Shape::convex;  // indefinite: there is no minimum, and nothing else is set
   Eigen::VectorXd velocity, gradient;
-  // The part of the gradient that multipliers of constraints on v make up, of the constraints' own scale: where they
-  // were not met at the velocity, it says nothing. Empty: there is none.
+  // Part of the gradient from the multipliers of constraints on v, in the constraints' own scale. Meaningless where the
+  // velocity violates the constraints. Empty: no constraints.
   Eigen::VectorXd constraint = {};
 };
 
-// e(v), a convex quadratic in the stacked generalised velocities of the free bodies and of the nodes of deformable ones
-// (J).
+// e(v) (J), a convex quadratic in the stacked velocities of free bodies and of the nodes of deformable bodies.
 class InertiaProblem {
  public:
   virtual ~InertiaProblem();
   virtual int size() const = 0;
-  // The v that minimises e(v) + 1/2 v'Kv - r'v, K symmetric. That this has a minimum must be found out (by a Cholesky
-  // factor): K is not always positive semi-definite.
+  // Minimises e(v) + 1/2 v'Kv - r'v, K symmetric. K may be indefinite, so implementations must detect a missing minimum
+  // (by a Cholesky factorisation).
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
-  // The constraints that minimise() is to meet are taken to first order about v from now on.
+  // Linearises the constraints of minimise() about v from now on.
   virtual void linearise_at(const Eigen::VectorXd& /*v*/) {}
-  // Whether the degrees of freedom that are held have their prescribed velocities at v; those that minimise() returns
-  // do.
+  // True if v has the prescribed velocities at the fixed degrees of freedom. Results of minimise() always have.
   virtual bool holds(const Eigen::VectorXd& v) const;
 };
 
 enum class Freedom : char { free, fixed };
 
 // Bodies without liquid: e = 1/2 (v - v*)'M(v - v*). Fixed degrees of freedom have the velocities `held` (m/s, rad/s;
-// of the size of v, or empty: zero); their gradient is the impulse that would hold them.
+// of the size of v; empty: zero). Their gradient is the constraint impulse.
 class DryProblem : public InertiaProblem {
  public:
   DryProblem(Eigen::SparseMatrix<double> mass, Eigen::VectorXd target, std::vector<Freedom> freedom = {},

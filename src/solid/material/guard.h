@@ -1,14 +1,14 @@
 #pragma once
-// Keeps volumes above zero where a material's own energy would let them vanish: b(J) = (lambda + 2 mu) (J^/J - 1)^3
-// below J^ = guarded_volume, nothing above; twice differentiable. Grows as J^-3, so that even a body thrown together
-// far faster than its waves stops at a J that doubles resolve well.
+// Volume barrier for strong compression: b(J) = (lambda + 2 mu) (J^/J - 1)^3 below J^ = guarded_volume, 0 above. It is
+// twice differentiable and grows as J^-3. Hence even a body that is hit far faster than its wave speed stops at a J
+// that doubles resolve well, also if the material's own energy lets volumes vanish.
 #include <limits>
 
 #include "solid/material/invariants.h"
 
 namespace seiche::elastic {
 
-inline constexpr double guarded_volume = 0.1;  // J^: below a tenth of its volume no material model means much
+inline constexpr double guarded_volume = 0.1;  // J^: below it no material model is realistic
 
 struct Guard {
   double value = 0, slope = 0, curvature = 0;  // b, b', b'', Pa

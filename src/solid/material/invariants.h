@@ -1,5 +1,5 @@
 #pragma once
-// What the materials share: invariants of F without cancellation at small strain, and derivatives of det F.
+// Shared by the materials: invariants of F without cancellation at small strain, and derivatives of det F.
 #include <Eigen/Dense>
 
 #include "solid/material/material.h"
@@ -42,7 +42,7 @@ Gradient<Dim> cofactor(const Gradient<Dim>& F) {
   return C;
 }
 
-// d2J/dF2: minus the matrix of the cross product with F's third column between the other two; in 2D that column is e_3.
+// d2J/dF2: minus the matrix of the cross product with F's third column between the other two; that column is e_3 in 2D.
 template <int Dim>
 Hessian<Dim> cofactor_derivative(const Gradient<Dim>& F) {
   Hessian<Dim> H = Hessian<Dim>::Zero();

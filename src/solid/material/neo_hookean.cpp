@@ -1,5 +1,5 @@
-// Compressible neo-Hookean (Bonet, Wood 2008): Psi = mu/2 (|F|^2 - 3) - mu log J + lambda/2 log^2 J; infinite at J <=
-// 0.
+// Compressible neo-Hookean (Bonet, Wood 2008): Psi = mu/2 (|F|^2 - 3) - mu log J + lambda/2 log^2 J,
+// infinite at J <= 0.
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of the table of materials, one a file.
+// The rows of the table of materials; one file each.
 #include "solid/material/material.h"
 
 namespace seiche::elastic {

@@ -1,5 +1,5 @@
-// Smith, de Goes, Kim 2018 (stable neo-Hookean flesh simulation), with their mu' = 4/3 mu and lambda' = lambda + 5/6
-// mu: Psi = mu'/2 (|F|^2 - 3) + lambda'/2 (J - a)^2 - mu'/2 log(|F|^2 + 1), a = 1 + 3/4 mu'/lambda', less its value at
+// Stable neo-Hookean flesh (Smith, de Goes, Kim 2018), with their mu' = 4/3 mu and lambda' = lambda + 5/6 mu:
+// Psi = mu'/2 (|F|^2 - 3) + lambda'/2 (J - a)^2 - mu'/2 log(|F|^2 + 1), a = 1 + 3/4 mu'/lambda', less its value at
 // rest.
 #include <cmath>
 

@@ -27,7 +27,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   throw Error(ExitCode::bad_input, "no elements can be made of the shape: " + what);
 }
 
-// Numbers vertices in the order in which elements name them.
+// Numbers vertices in the order of their first use by elements.
 template <class Handle, int Dim>
 class Numbering {
  public:
@@ -60,8 +60,8 @@ Kernel::Point_2 point(const Vec3& x) {
   return {x[0], x[1]};
 }
 
-// Faces are inside where the way in from infinity crosses the outline an odd number of times, at least. Told by
-// neighbours, not by places: slivers along straight sides have none.
+// Inside are the faces whose shortest way from infinity crosses the outline an odd number of times. Decided by
+// adjacency, not by position: slivers along straight sides have no reliable position.
 void mark_inside(Triangulation& t) {
   std::map<Triangulation::Face_handle, int> crossings;
   std::deque<std::pair<Triangulation::Face_handle, int>> next{{t.infinite_face(), 0}};
@@ -101,7 +101,7 @@ Polyhedron polyhedron(const SurfaceMesh& surface) {
   return r;
 }
 
-// Sizes are those of circumscribed balls: 0.577 edges for a regular triangle, 0.612 for a regular tetrahedron.
+// Sizes are radii of circumscribed balls: 0.577 edges for a regular triangle, 0.612 for a regular tetrahedron.
 Criteria criteria(const TetrahedraOptions& o) {
   namespace p = CGAL::parameters;
   return Criteria(p::edge_size = o.size, p::facet_angle = 25, p::facet_size = 0.58 * o.size,
@@ -121,7 +121,7 @@ ElasticMesh<3> elements_of(const Complex& complex) {
 }  // namespace
 
 ElasticMesh<2> triangulate(const SurfaceMesh& outline, double size) {
-  constexpr double least_sine_squared = 0.125;  // of an angle, 20.7 degrees: below it refinement is sure to end
+  constexpr double least_sine_squared = 0.125;  // of an angle, 20.7 degrees: termination is proven up to it
   plane::Triangulation t;
   try {
     for (const auto& [i, j] : outline.segments)

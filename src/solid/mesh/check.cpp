@@ -12,7 +12,7 @@ namespace seiche {
 namespace {
 
 constexpr int listed = 5;             // ids in a message
-constexpr double flat_below = 1e-12;  // of the longest edge to the Dim: round-off of coordinates about as large
+constexpr double flat_below = 1e-12;  // of the longest edge to the power Dim: round-off of coordinates of that size
 
 [[noreturn]] void fail(const std::string& where, const std::string& what, const std::vector<int>& ids) {
   std::string text = where + ": " + std::to_string(ids.size()) + " " + what + ":";
@@ -82,7 +82,7 @@ double longest_edge(const ElasticMesh<Dim>& mesh, int e) {
   return r;
 }
 
-// Elements that cannot be reached from the first over shared corners.
+// Elements not connected to the first one by shared corners.
 template <int Dim>
 std::vector<int> apart(const ElasticMesh<Dim>& mesh) {
   std::vector<int> root(mesh.nodes.size());

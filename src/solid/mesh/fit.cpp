@@ -9,7 +9,7 @@ namespace {
 
 constexpr double furthest = 1. / 3;     // of the shortest edge at a node
 constexpr double least_kept = 1. / 3;   // of an element's Jacobian
-constexpr double difference = 1e-4;     // of an edge, of central differences: truncation and round-off below 1e-8
+constexpr double difference = 1e-4;     // of an edge, for central differences: truncation and round-off below 1e-8
 constexpr double exact_enough = 1e-12;  // of an edge
 
 // The shortest edge at each node, m.
@@ -38,7 +38,8 @@ Vec<Dim> gradient(const ShapeField<Dim>& phi, const Vec<Dim>& x, double step) {
   return g;
 }
 
-// Newton's method along the gradient: x <- x - phi g / |g|^2. The start itself where it leads too far.
+// Projects onto phi = 0 by Newton's method along the gradient: x <- x - phi g / |g|^2. Returns the start if it leads
+// too far.
 template <int Dim>
 Vec<Dim> foot(const ShapeField<Dim>& phi, const Vec<Dim>& start, double edge) {
   Vec<Dim> x = start;
@@ -46,7 +47,7 @@ Vec<Dim> foot(const ShapeField<Dim>& phi, const Vec<Dim>& start, double edge) {
     const double d = phi(x);
     if (std::abs(d) < exact_enough * edge) break;
     const Vec<Dim> g = gradient(phi, x, difference * edge);
-    if (!(g.squaredNorm() > 0.25)) return start;  // on a ridge: no nearest point to tell
+    if (!(g.squaredNorm() > 0.25)) return start;  // on a ridge: the nearest point is undefined
     x -= d / g.squaredNorm() * g;
   }
   return (x - start).norm() <= furthest * edge ? x : start;
@@ -68,7 +69,7 @@ void fit_to_shape(ElasticMesh<Dim>& mesh, const ShapeField<Dim>& phi) {
   std::set<int> moved;
   for (const BoundaryFace& face : boundary_faces(mesh)) moved.insert(face.nodes.begin(), face.nodes.end());
   for (const int n : moved) mesh.nodes[n] = foot<Dim>(phi, before[n], edge[n]);
-  // Each round takes back nodes of at least one element, so that there are no more rounds than elements.
+  // Each round restores nodes of at least one element, so there are no more rounds than elements.
   for (bool is_clean = false; !is_clean;) {
     is_clean = true;
     for (int e = 0; e < mesh.element_count(); ++e) {

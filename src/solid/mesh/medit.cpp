@@ -1,4 +1,5 @@
-// Medit's text format (Frey 2001): a keyword, a count, then entries that end in a reference number. Linear elements.
+// Medit's text format (Frey 2001): a keyword, a count, then entries that end in a reference number. Linear elements
+// only.
 #include "solid/mesh/file.h"
 
 namespace seiche::elastic {

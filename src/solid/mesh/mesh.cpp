@@ -8,7 +8,7 @@
 namespace seiche {
 namespace {
 
-// The corners of the side opposite to corner i, seen outward from a positive simplex.
+// Corners of the side opposite to corner i, seen from outside of a positive simplex.
 template <int Dim>
 std::array<int, Dim> side_corners(int i) {
   if constexpr (Dim == 2) return {(i + 1) % 3, (i + 2) % 3};
@@ -18,7 +18,7 @@ std::array<int, Dim> side_corners(int i) {
   return r;
 }
 
-// The node in the middle of the edge between corners a and b.
+// Index of the mid-edge node between corners a and b.
 int edge_node(int dim, int a, int b) {
   for (int e = 0; e < elastic::edges_per_simplex(dim); ++e) {
     const auto [c, d] = elastic::edge_corners[e];
@@ -70,7 +70,7 @@ std::vector<std::vector<int>> facets_of_side(int dim, int order) {
 
 namespace {
 
-// The points that facets join, by the smallest of their numbers.
+// Numbers the parts of points that facets connect, in the order of their smallest point number.
 void number_parts(ElasticSurface& surface) {
   std::vector<int> root(surface.nodes.size());
   std::iota(root.begin(), root.end(), 0);

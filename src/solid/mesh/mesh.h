@@ -20,8 +20,8 @@ struct ElasticMesh {
   const int* element(int e) const { return elements.data() + size_t(e) * nodes_per_element(); }
 };
 
-// A side that one element alone has; its nodes as in an element a dimension lower, outward by the right-hand rule (3D),
-// the inside to the left (2D).
+// A side of one element only. Its nodes are ordered as in an element of one dimension less: outward by the right-hand
+// rule (3D), inside to the left (2D).
 struct BoundaryFace {
   int element = 0;
   std::vector<int> nodes;
@@ -30,27 +30,27 @@ struct BoundaryFace {
 template <int Dim>
 std::vector<BoundaryFace> boundary_faces(const ElasticMesh<Dim>& mesh);
 
-// The linear facets that stand for a side of an element, as indices of the side's nodes.
+// The linear facets that represent a side of an element, as indices of the side's nodes.
 std::vector<std::vector<int>> facets_of_side(int dim, int order);
 
-// The boundary as closed triangles or segments for contact and liquid. Its points are mesh nodes, so the barycentric
-// weights on a facet are the weights on nodes. A quadratic face becomes 2 segments or 4 triangles.
+// The boundary as closed triangles or segments, for contact and liquid. Its points are mesh nodes, so barycentric
+// weights on a facet are weights of nodes. A quadratic face becomes 2 segments or 4 triangles.
 struct ElasticSurface {
   SurfaceMesh facets;               // at rest
-  std::vector<BoundaryFace> sides;  // each as many facets as facets_of_side, one side after the other
+  std::vector<BoundaryFace> sides;  // one side after the other, each with as many facets as facets_of_side
   std::vector<int> nodes;           // the mesh node of each point
-  std::vector<int> part;            // of each point: which connected part of the surface it is on, counted from 0
+  std::vector<int> part;            // connected part of the surface, by point, counted from 0
   int parts = 0;
 };
 
 template <int Dim>
 ElasticSurface surface_of(const ElasticMesh<Dim>& mesh);
 
-// The same surface after displacements u of all nodes, stacked node by node.
+// Moves the surface to displacements u of all nodes, stacked node by node.
 template <int Dim>
 void move_surface(ElasticSurface& surface, const ElasticMesh<Dim>& mesh, const Eigen::VectorXd& u);
 
-// The mesh with a node in the middle of each edge.
+// The mesh with additional mid-edge nodes.
 template <int Dim>
 ElasticMesh<Dim> promote_to_quadratic(const ElasticMesh<Dim>& linear);
 
@@ -58,7 +58,7 @@ ElasticMesh<Dim> promote_to_quadratic(const ElasticMesh<Dim>& linear);
 template <int Dim>
 ElasticMesh<Dim> box_mesh(const Vec<Dim>& lower, const Vec<Dim>& upper, const IVec<Dim>& cells, int order);
 
-// det dX/dxi at least, over the points at which the element's energy is taken and its nodes, over longest edge^Dim.
+// Smallest det dX/dxi over quadrature points and nodes, relative to longest edge^Dim.
 template <int Dim>
 double least_jacobian(const ElasticMesh<Dim>& mesh, int element);
 
@@ -73,9 +73,8 @@ struct MeshQuality {
 template <int Dim>
 MeshQuality mesh_quality(const ElasticMesh<Dim>& mesh);
 
-// Drops nodes that no element has, with a note. Throws Error(bad_input) that begins with `where` and lists the first
-// elements that are inverted, flat or apart from the others, that have a node twice or one that does not exist, and
-// nodes that are not finite.
+// Removes unused nodes, with a note. Throws Error(bad_input) that begins with `where` and lists the first elements that
+// are inverted, flat, disconnected, with repeated or non-existent nodes, and the first nodes that are not finite.
 template <int Dim>
 void check_mesh(ElasticMesh<Dim>& mesh, const std::string& where, std::vector<std::string>& notes);
 

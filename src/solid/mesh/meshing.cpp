@@ -18,13 +18,13 @@
 namespace seiche {
 namespace {
 
-constexpr double most_elements = 2e6;    // beyond it the factors of a body outgrow any one machine
-constexpr double sample_share = 0.25;    // of an element: how finely a shape is sampled before it is meshed
-constexpr double most_samples = 5e7;     // points at which a formula is tried to find its surface: some 10 s
-constexpr double fitted_distance = 0.1;  // of an element: how far Mesh_3 may leave a surface that nodes are fitted to,
-constexpr double kept_distance = 0.05;   // and one of a file, which they are not
-constexpr double whole_blocks = 1e-9;    // relative: an extent that is a whole number of elements in decimals
-constexpr double warn_below_quality = 0.05;  // mean ratio; such elements spoil the stiffness near them
+constexpr double most_elements = 2e6;    // above it the factors of a body exceed the memory of any machine
+constexpr double sample_share = 0.25;    // of an element: sampling distance of a shape before meshing
+constexpr double most_samples = 5e7;     // samples of a formula in search of its surface: some 10 s
+constexpr double fitted_distance = 0.1;  // of an element: largest error of Mesh_3's surface where nodes are fitted,
+constexpr double kept_distance = 0.05;   // and for surfaces from files, where they are not
+constexpr double whole_blocks = 1e-9;    // relative: tolerance for an extent of a whole number of elements in decimals
+constexpr double warn_below_quality = 0.05;  // mean ratio; below it elements spoil the stiffness around them
 
 [[noreturn]] void fail(const SolidSpec& spec, const std::string& what) {
   throw Error(ExitCode::bad_input, fmt::format("{}: solid '{}': {}", spec.shape.where, spec.name, what));
@@ -37,7 +37,7 @@ void transform(std::vector<Vec<Dim>>& nodes, const TransformSpec& t) {
   for (Vec<Dim>& x : nodes) x = truncate<Dim>(t.translate) + turn * Vec<Dim>(t.scale * x);
 }
 
-// An element of edge h takes about h^2/2.3 of area (regular triangles), h^3/8.5 of volume (regular tetrahedra).
+// An element of edge h has an area of about h^2/2.3 (regular triangle) or a volume of h^3/8.5 (regular tetrahedron).
 template <int Dim>
 void check_size(const SolidSpec& spec, const Vec<Dim>& extent, double volume) {
   const double h = spec.elastic.element_size, longest = extent.maxCoeff();
@@ -55,7 +55,7 @@ void check_size(const SolidSpec& spec, const Vec<Dim>& extent, double volume) {
                          h, count, most_elements, finest));
 }
 
-// The fewest equal blocks along each edge that are no longer than an element.
+// Divides each edge into the fewest equal blocks not longer than an element.
 template <int Dim>
 ElasticMesh<Dim> mesh_box(const SolidSpec& spec) {
   const ShapeSpec& s = spec.shape;
@@ -98,7 +98,7 @@ double boundary_measure(const SurfaceMesh& surface) {
   return sum;
 }
 
-// Elements with good angles are no larger than the solid is thick, which is 2 V/A where it is thin.
+// Well-shaped elements are no larger than the solid is thick; the thickness of a thin solid is about 2 V/A.
 template <int Dim>
 void check_thickness(const SolidSpec& spec, const SurfaceMesh& surface) {
   const double volume = measure<Dim>(surface), thickness = 2 * volume / boundary_measure(surface);
@@ -110,12 +110,12 @@ void check_thickness(const SolidSpec& spec, const SurfaceMesh& surface) {
                          thickness, count, most_elements));
 }
 
-// A contour has its edges cut into notches of a sample's size, which are not to be kept.
+// Sampled shapes: the contour's edges have notches of the sampling distance, which must not be kept.
 bool is_sampled(const ShapeSpec& s) {
   return s.kind == "expression" || s.kind == "level_set";
 }
 
-// Formulas and level sets are sampled all over the domain, to a share of an element.
+// Sampling distance of formulas and level sets, a share of an element. They are sampled over the whole domain.
 template <int Dim>
 double sampling(const SolidSpec& spec, const Vec<Dim>& domain) {
   const double spacing = sample_share * spec.elastic.element_size;
@@ -127,7 +127,7 @@ double sampling(const SolidSpec& spec, const Vec<Dim>& domain) {
   return spacing;
 }
 
-// The surface, sampled finely enough for the elements; at least one element must fit into it.
+// Surface, sampled finely enough for the elements. At least one element must fit into it.
 template <int Dim>
 SurfaceMesh surface_to_mesh(const SolidSpec& spec, ShapeOptions options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
   options.cell_size = std::min(options.cell_size, sampling<Dim>(spec, upper - lower));
@@ -143,7 +143,7 @@ SurfaceMesh surface_to_mesh(const SolidSpec& spec, ShapeOptions options, const V
   return surface;
 }
 
-// Whether the nodes are brought onto the shape itself; the triangles of a file are all there is of it.
+// True if nodes are projected onto the shape. A file's triangles are the shape themselves.
 bool is_curved(const ShapeSpec& s) {
   return s.kind != "box" && s.kind != "mesh";
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double corner_turn = 40 * 3.14159265358979323846 / 180;
 
-// Points of a closed loop in order, and the length of the way to each from the first; the last entry is all of it.
+// Points of a closed loop in order, and the arc length to each from the first; the last entry is the total.
 struct Loop {
   std::vector<Vec3> points;
   std::vector<double> along;
@@ -27,7 +27,7 @@ Loop measure(std::vector<Vec3> points) {
   return loop;
 }
 
-// The loops of an outline, each point having one segment in and one out.
+// Loops of an outline. Each point has one segment in and one out.
 std::vector<Loop> loops_of(const SurfaceMesh& outline) {
   std::vector<int> next(outline.points.size(), -1);
   for (const auto& [a, b] : outline.segments) next[std::size_t(a)] = b;
@@ -44,20 +44,20 @@ std::vector<Loop> loops_of(const SurfaceMesh& outline) {
   return loops;
 }
 
-// The angle by which the loop turns at point i.
+// Angle by which the loop turns at point i.
 double turn_at(const Loop& loop, std::size_t i) {
   const std::size_t n = loop.points.size();
   const Vec3 in = loop.points[i] - loop.points[(i + n - 1) % n], out = loop.points[(i + 1) % n] - loop.points[i];
   return std::atan2(in[0] * out[1] - in[1] * out[0], in[0] * out[0] + in[1] * out[1]);
 }
 
-// The way between two points of the loop, the shorter one round.
+// Arc length between two points of the loop, by the shorter way.
 double gap(const Loop& loop, double a, double b) {
   const double d = std::abs(a - b);
   return std::min(d, loop.length() - d);
 }
 
-// Turns added up over all points within `reach` of each.
+// Sum of the turning angles over all points within `reach` of each point.
 std::vector<double> turns_near(const Loop& loop, double reach) {
   const std::size_t n = loop.points.size();
   std::vector<double> turn(n), near(n);
@@ -75,7 +75,7 @@ std::vector<double> turns_near(const Loop& loop, double reach) {
   return near;
 }
 
-// Points at which the loop turns sharply, those of the sharpest turns nearby alone.
+// Points with sharp turns; among close ones only the sharpest.
 std::vector<std::size_t> corners_of(const Loop& loop, double size) {
   const std::vector<double> turn = turns_near(loop, size / 4);
   std::vector<std::size_t> order, corners;
@@ -87,7 +87,7 @@ std::vector<std::size_t> corners_of(const Loop& loop, double size) {
   for (const std::size_t i : order) {
     const bool is_new = std::all_of(corners.begin(), corners.end(),
                                     [&](std::size_t c) { return gap(loop, loop.along[i], loop.along[c]) > size / 4; });
-    // Corners that the outline itself has stay however close they are.
+    // Corners of the given outline stay, however close they are.
     if (is_new || std::abs(turn_at(loop, i)) > corner_turn) corners.push_back(i);
   }
   if (corners.empty()) corners.push_back(0);
@@ -111,7 +111,7 @@ void add_loop(const Loop& loop, double size, SurfaceMesh& mesh) {
     const double from = loop.along[corners[k]];
     double to = loop.along[corners[(k + 1) % corners.size()]];
     if (to <= from) to += loop.length();
-    // A loop without corners has three points at least.
+    // A loop without corners gets at least three points.
     const int fewest = corners.size() == 1 ? 3 : corners.size() == 2 ? 2 : 1;
     const int count = std::max(fewest, int(std::ceil((to - from) / size - 1e-9)));
     mesh.points.push_back(loop.points[corners[k]]);

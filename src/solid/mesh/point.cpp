@@ -22,8 +22,8 @@ Vec<Dim> position(const ElasticMesh<Dim>& mesh, int element, const Eigen::Vector
   return x;
 }
 
-// The point nearest to X on the flat simplex between an element's corners, in reference coordinates: the nearest of the
-// feet on its corners, edges, sides and itself that lie within them.
+// Reference coordinates of the point nearest to X on the flat simplex between an element's corners. It is the nearest
+// of the projections onto corners, edges, sides and the simplex that lie within these.
 template <int Dim>
 Eigen::VectorXd nearest_on_corners(const ElasticMesh<Dim>& mesh, int element, const Vec<Dim>& X) {
   double least = std::numeric_limits<double>::infinity();
@@ -50,7 +50,7 @@ Eigen::VectorXd nearest_on_corners(const ElasticMesh<Dim>& mesh, int element, co
   return best.tail(Dim);
 }
 
-// Newton's method for X(xi) = X; straight elements take one step, the curved sides of others few.
+// Newton's method for X(xi) = X. Straight elements need one step, curved ones few.
 template <int Dim>
 Eigen::VectorXd reference_place(const ElasticMesh<Dim>& mesh, int element, const Vec<Dim>& X) {
   Eigen::VectorXd xi = Eigen::VectorXd::Constant(Dim, 1. / (Dim + 1));
@@ -63,12 +63,12 @@ Eigen::VectorXd reference_place(const ElasticMesh<Dim>& mesh, int element, const
     const Vec<Dim> step = map.fullPivLu().solve(miss);
     xi += step;
     if (!(step.norm() > 1e-14)) break;
-    if (xi.cwiseAbs().maxCoeff() > 10) break;  // far outside, where the map may fold
+    if (xi.cwiseAbs().maxCoeff() > 10) break;  // far outside, where the map may not be invertible
   }
   return xi;
 }
 
-// How far X is from the box around an element's nodes.
+// Distance from X to the bounding box of an element's nodes.
 template <int Dim>
 double distance_to_box(const ElasticMesh<Dim>& mesh, int element, const Vec<Dim>& X) {
   Vec<Dim> low = mesh.nodes[std::size_t(mesh.element(element)[0])], high = low;

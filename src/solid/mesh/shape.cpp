@@ -6,7 +6,7 @@
 namespace seiche::elastic {
 namespace {
 
-// lambda and, as rows, their gradients
+// Barycentric coordinates lambda. Below: their gradients as rows.
 Eigen::VectorXd barycentric(int dim, const ReferencePoint& xi) {
   Eigen::VectorXd lambda(dim + 1);
   lambda << 1 - xi.sum(), xi;
@@ -23,8 +23,8 @@ double factorial(int n) {
   return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-// dim + 1 points at lambda = (b, a, ..., a) in turn, exact to degree 2: b = (1 + (dim) c)/(dim + 1), a = (1 - c)/(dim +
-// 1) with c = 1/sqrt(dim + 2).
+// dim + 1 points at the permutations of lambda = (b, a, ..., a), exact to degree 2:
+// b = (1 + dim c)/(dim + 1), a = (1 - c)/(dim + 1) with c = 1/sqrt(dim + 2).
 std::vector<QuadraturePoint> second_degree(int dim) {
   const double c = 1 / std::sqrt(dim + 2.), a = (1 - c) / (dim + 1), b = 1 - dim * a;
   std::vector<QuadraturePoint> r;
@@ -36,7 +36,7 @@ std::vector<QuadraturePoint> second_degree(int dim) {
   return r;
 }
 
-// Gauss-Legendre on [0, 1]: nodes are the eigenvalues of the Jacobi matrix (Golub, Welsch 1969).
+// Gauss-Legendre on [0, 1]: the nodes are eigenvalues of the Jacobi matrix (Golub, Welsch 1969).
 std::vector<QuadraturePoint> gauss(int count) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(count, count);
   for (int k = 1; k < count; ++k) T(k, k - 1) = T(k - 1, k) = k / std::sqrt(4. * k * k - 1);
@@ -49,7 +49,7 @@ std::vector<QuadraturePoint> gauss(int count) {
   return r;
 }
 
-// The simplex as a cone over one of a dimension less: xi = (s, (1 - s) eta), weight (1 - s)^(dim - 1).
+// Conical product: the simplex as a cone over one of a dimension less, xi = (s, (1 - s) eta), weight (1 - s)^(dim - 1).
 std::vector<QuadraturePoint> conical(int dim, const std::vector<QuadraturePoint>& line) {
   if (dim == 1) return line;
   std::vector<QuadraturePoint> r;

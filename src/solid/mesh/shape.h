@@ -7,12 +7,12 @@
 
 namespace seiche::elastic {
 
-// Nodes of a simplex of dimension `dim`: its corners, and at order 2 the middles of its edges.
+// Nodes of a simplex of dimension `dim`: corners, and at order 2 also edge middles.
 constexpr int nodes_per_simplex(int dim, int order) {
   return order == 1 ? dim + 1 : (dim + 1) * (dim + 2) / 2;
 }
 
-// The corners of the edge on which a quadratic simplex has its node dim + 1 + i; the order of VTK.
+// Corners of the edge with node dim + 1 + i of a quadratic simplex, in VTK's order.
 constexpr std::array<std::array<int, 2>, 6> edge_corners{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 // A segment has one edge, a triangle three, a tetrahedron six.
 constexpr int edges_per_simplex(int dim) {
@@ -26,14 +26,15 @@ struct QuadraturePoint {
   double weight;  // of a simplex of volume 1/dim!
 };
 
-// Exact for polynomials of this degree; degree 1 and 2 with the fewest points, above by the conical product (Stroud).
+// Quadrature exact for polynomials of this degree. Degrees 1 and 2 use the fewest points, higher ones the conical
+// product (Stroud).
 std::vector<QuadraturePoint> quadrature(int dim, int degree);
 
 // N_a(xi): lambda_a, or lambda_a (2 lambda_a - 1) at corners and 4 lambda_a lambda_b on edges.
 Eigen::VectorXd shape_values(int dim, int order, const ReferencePoint& xi);
 // Row a is dN_a / dxi.
 Eigen::MatrixXd shape_gradients(int dim, int order, const ReferencePoint& xi);
-// Of the nodes.
+// Reference coordinates of the nodes.
 std::vector<ReferencePoint> node_points(int dim, int order);
 
 }  // namespace seiche::elastic

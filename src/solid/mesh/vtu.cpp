@@ -1,4 +1,4 @@
-// VTK's XML format for unstructured grids (VTK file formats), text arrays and one piece.
+// VTK's XML format for unstructured grids (VTK file formats); text arrays and one piece only.
 #include <algorithm>
 
 #include "base/error.h"
@@ -18,14 +18,14 @@ size_t line_of(const Source& source, size_t byte) {
   mesh::fail_at_line(source, line_of(source, std::min(byte, source.bytes.size())), message);
 }
 
-// From `text`, sought between the bytes, or a failure.
+// Position of `text` between two bytes; fails if it is missing.
 size_t find(const Source& source, const std::string& text, size_t from, size_t to) {
   const size_t at = source.bytes.find(text, from);
   if (at == std::string::npos || at >= to) fail_at(source, from, text + " is missing");
   return at;
 }
 
-// The numbers of the DataArray between the bytes that has this attribute ("" for any).
+// Numbers of the DataArray with this attribute ("" for any) between two bytes.
 Tokens array(const Source& source, size_t from, size_t to, const std::string& attribute) {
   for (size_t tag = find(source, "<DataArray", from, to);; tag = find(source, "<DataArray", tag + 1, to)) {
     const size_t body = find(source, ">", tag, to) + 1;
@@ -63,7 +63,7 @@ std::vector<long long> integers(const Source& source, Tokens tokens) {
   return r;
 }
 
-// One cell after the other: its nodes end at its offset.
+// Adds the cells; the nodes of a cell end at its offset.
 void add_cells(const Source& source, size_t cells, size_t end, RawMesh& r) {
   const auto nodes = integers(source, array(source, cells, end, "\"connectivity\""));
   const auto offsets = integers(source, array(source, cells, end, "\"offsets\""));

@@ -12,10 +12,10 @@ namespace {
 
 using Quaternion = Eigen::Quaterniond;
 
-constexpr double longest_split = 0.05;  // rad a step of the splitting: relative error of the energy about 1e-4
-constexpr double most_splits = 10000;   // bounds the time of a call where a step is absurdly long
+constexpr double longest_split = 0.05;  // rad per step of the splitting: relative error of the energy about 1e-4
+constexpr double most_splits = 10000;   // limits the time of one call for absurdly long steps
 
-// q = (cos |w|/2, sin |w|/2 w/|w|), by the series of the sine near zero
+// q = (cos |w|/2, sin |w|/2 w/|w|); the sine's series near zero.
 Quaternion exp_quaternion(const Vec3& w) {
   const double half = w.norm() / 2;
   const double sinc = half > 1e-4 ? std::sin(half) / half : 1 - half * half / 6;  // next term: 1e-18
@@ -25,30 +25,30 @@ Quaternion exp_quaternion(const Vec3& w) {
   return q;
 }
 
-// w = 2 atan2(|v|, q0) v/|v|, well conditioned from 0 to pi
+// w = 2 atan2(|v|, q0) v/|v|, well conditioned from 0 to pi.
 Vec3 log_quaternion(const Quaternion& q) {
   const double sign = q.w() < 0 ? -1 : 1, length = q.vec().norm();
   if (length == 0) return Vec3::Zero();
   return sign * 2 * std::atan2(length, sign * q.w()) / length * q.vec();
 }
 
-// Free rotation splits into flows that are rotations. With the moments a <= b <= c and m the angular momentum in body
-// axes,  H = |l|^2/(2b) + (1/a - 1/b) m_a^2/2 + (1/c - 1/b) m_c^2/2.
-// The first part turns the body about l and commutes with the others, which turn it about its own first and last axis
+// Splitting of free rotation into flows that are rotations. With moments a <= b <= c and body-frame angular momentum m,
+//   H = |l|^2/(2b) + (1/a - 1/b) m_a^2/2 + (1/c - 1/b) m_c^2/2.
+// The first part rotates the body about l and commutes with the others. These rotate it about its first and last axis
 // (Hairer, Lubich, Wanner, Geometric Numerical Integration, VII.5; Touma, Wisdom 1994).
 struct Splitting {
   double middle, first, last;  // 1/b, 1/a - 1/b, 1/c - 1/b
 
   explicit Splitting(const Vec3& inverse) : middle(inverse[1]), first(inverse[0] - middle), last(inverse[2] - middle) {}
 
-  // The cube root of Strang's local error, dt^3 |[X, [X, Y]]|: zero, and one step is exact, where either part vanishes.
+  // Cube root of Strang's local error, dt^3 |[X, [X, Y]]|. Zero if either part vanishes; one step is then exact.
   double angle(double l, double dt) const {
     const double a = std::abs(first) * l * dt, c = std::abs(last) * l * dt;
     return std::cbrt(a * c * std::max(a, c));
   }
 };
 
-// The turn since the start of a free motion, in the world, and the sum of the small turns that it is made of.
+// Rotation since the start of a free motion (world axes), and the sum of its small rotation vectors.
 struct Turn {
   Quaternion rotation = Quaternion::Identity();
   Vec3 sum{0, 0, 0};
@@ -57,14 +57,14 @@ struct Turn {
     sum += w;
     rotation = (exp_quaternion(w) * rotation).normalized();
   }
-  // Turns about principal axis e = rotation `axis_at_start`: angle (e . l) rate dt.
+  // Rotates about principal axis e = rotation `axis_at_start` by the angle (e . l) rate dt.
   void add_about(const Vec3& axis_at_start, double rate, const Vec3& l, double dt) {
     const Vec3 e = rotation * axis_at_start;
     add(e.dot(l) * rate * dt * e);
   }
 };
 
-// The rotation vector of the turn that lies nearest to the sum of its parts: whole turns count.
+// Rotation vector nearest to the sum of the parts, so that whole turns count.
 Vec3 unwind(const Turn& turn) {
   const Vec3 w = log_quaternion(turn.rotation);
   const double circle = 2 * std::numbers::pi;

@@ -12,7 +12,7 @@ void hold_fixed_axes(const RigidSpec& spec, Vec3& linear, Vec3& angular) {
   }
 }
 
-// Mean angular velocity of the free rotation over dt. About a fixed axis, and in 2D, it stays as it is.
+// Mean angular velocity of the free rotation over dt; constant about a fixed axis and in 2D.
 template <int Dim>
 Vec3 free_angular_velocity(const Body<Dim>& body, const RigidState& r, double dt) {
   if (Dim == 2 || !turns_freely(body.spec().rigid)) return r.angular_velocity;
@@ -54,7 +54,7 @@ RigidState advance(const Body<Dim>& body, const RigidState& r, double dt) {
   if (dt != r.horizon && r.horizon > 0)
     w += free_angular_velocity(body, r, dt) - free_angular_velocity(body, r, r.horizon);
   next.center += dt * r.velocity;
-  // Products of rotations drift from orthonormal by rounding; a quaternion of unit length cannot.
+  // Products of rotations drift from orthonormal by round-off; unit quaternions do not.
   next.rotation = Eigen::Quaterniond(exp_rotation(dt * w) * r.rotation).normalized().toRotationMatrix();
   return next;
 }

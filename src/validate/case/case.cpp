@@ -18,13 +18,13 @@ namespace {
 using T = OptionType;
 const Option error_bar{.key = "max_error", .range = positive(), .unset = "no bar", .doc = "largest error that passes"};
 
-// Becomes a folder's name.
+// The name becomes a folder's name.
 bool is_plain_name(const std::string& name) {
   const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
   return !name.empty() && std::all_of(name.begin(), name.end(), plain);
 }
 
-// The texts of an array; reports entries that are none.
+// Strings of an array; reports other entries.
 std::vector<std::string> texts_of(SceneContext& c, const Place& p) {
   std::vector<std::string> texts;
   const auto good = [](const TomlNode& node) { return is_text(node); };
@@ -103,7 +103,7 @@ bool takes_reference(const MeasureSpec& measure) {
       measure_kinds(), [&](const MeasureKind& kind) { return measure.kind == kind.name && uses(kind, "reference"); });
 }
 
-// Two runs of a series at least, for an order.
+// An order of convergence needs at least two runs of a series.
 bool has_series(const CaseSpec& spec) {
   const auto& all = spec.resolutions;
   for (auto run = all.begin(); run != all.end(); ++run)
@@ -167,14 +167,14 @@ bool is_case(const fs::path& folder) {
   return fs::is_regular_file(folder / "case.toml", ignored);
 }
 
-// Whether this would be a case but for its case.toml: a folder or a link, not hidden, that holds none.
+// True for a folder or link, not hidden, without a case.toml.
 bool lacks_case(const fs::path& place) {
   std::error_code ignored;
   const bool may_be = fs::is_directory(place, ignored) || fs::is_symlink(place, ignored);
   return may_be && !place.filename().string().starts_with('.') && !is_case(place);
 }
 
-// What is directly below, by name.
+// Wanted entries directly below the folder, by name.
 template <class Wanted>
 std::vector<fs::path> places_below(const fs::path& folder, const Wanted& wanted) {
   std::vector<fs::path> found;

@@ -22,7 +22,7 @@ using Names = std::vector<std::string>;
 
 constexpr std::string_view front = "front_slope";  // compares slopes: its bounds are lengths, its data of any time
 
-// The columns of a table by its first line.
+// Column names from a table's first line.
 Names columns_of(const std::string& header) {
   return csv_rows(header).at(0);
 }
@@ -64,7 +64,7 @@ void check_solids(const MeasureSpec& m, const Scene& scene, const std::string& w
   demand(where, "column of solids.csv", m.column, known);
 }
 
-// Whether a point, m, lies in the domain, but for this axis (-1: all count).
+// True if a point (m) lies in the domain, ignoring the axis `but` (-1: none).
 bool lies_in(const DomainSpec& domain, int dimension, const Vec3& x, int but) {
   for (int a = 0; a < dimension; ++a) {
     const double slack = 1e-9 * (domain.upper[a] - domain.lower[a]);
@@ -73,7 +73,7 @@ bool lies_in(const DomainSpec& domain, int dimension, const Vec3& x, int but) {
   return true;
 }
 
-// A line's place along itself does not count, a point's does.
+// The position of a line along itself is unused; a point uses all its coordinates.
 int free_axis(const LineExtreme& line) {
   return line.along;
 }
@@ -82,7 +82,7 @@ int free_axis(const LinePoint&) {
   return -1;
 }
 
-// Lines of velocities along which measures look.
+// Checks lines of velocities that measures sample.
 template <class Line>
 void check_lines(const std::vector<Line>& lines, const Scene& scene) {
   for (const Line& line : lines) {
@@ -99,7 +99,7 @@ void check_values(const std::vector<LineExtreme>& lines) {
     throw Error(ExitCode::bad_input, "a value is zero, and errors are relative to it");
 }
 
-// Two rows or more; digitised curves may go straight up, but not back.
+// Requires at least two rows with ascending times; digitised curves may have vertical parts.
 Points checked_series(const std::string& text) {
   const Points points = csv_points(text);
   if (points.size() < 2) throw Error(ExitCode::bad_input, "less than two rows to compare with");
@@ -110,7 +110,7 @@ Points checked_series(const std::string& text) {
   return points;
 }
 
-// check(text of the file), a problem with the names of the case and of the file before it.
+// check(text of the file); errors get the names of the case and of the file as prefix.
 template <class Check>
 void check_file(const fs::path& file, const std::string& where, const Check& check) {
   try {
@@ -120,14 +120,14 @@ void check_file(const fs::path& file, const std::string& where, const Check& che
   }
 }
 
-// `what` begins the message.
+// `what` starts the message.
 void check_reach(const std::string& what, double last, const Scene& scene) {
   if (last > scene.time.end * (1 + 1e-9))
     throw Error(ExitCode::bad_input,
                 fmt::format("{}{:g} s lies beyond the scene's end, {:g} s", what, last, scene.time.end));
 }
 
-// Reads the data as the measure is going to.
+// Reads the data as the measure will do.
 void check_data(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   check_file(m.data, where, [&](const std::string& text) {
     if (m.kind == "line_deviation") {
@@ -143,19 +143,19 @@ void check_data(const MeasureSpec& m, const Scene& scene, const std::string& whe
   });
 }
 
-// What is compared in a time.
+// Checks the interval of time that is compared.
 void check_times(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   if (!(m.from < m.to)) throw Error(ExitCode::bad_input, fmt::format("{}: from must be below to", where));
   if (m.kind != front) check_reach(where + ": to: ", m.to, scene);
 }
 
-// What measures of frames read is to be in them.
+// Checks that frames contain the fields that the measure reads.
 void check_frames(const MeasureSpec& m, const Scene& scene, const std::string& where) {
   const bool of_surface = uses(kind_of(m), "surface") || m.kind.starts_with("circularity");
   demand(where + ": for " + m.kind, "field in output.frames", of_surface ? "surface" : "velocity", scene.output.frames);
 }
 
-// What a figure is divided by.
+// Checks a divisor of errors.
 void check_divisor(const char* key, const Formula& formula, const std::string& where) {
   const double value = constant(formula);
   if (value == 0 || !std::isfinite(value))

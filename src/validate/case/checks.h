@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a case is said before anything is run.
+// Checks a case before anything is run.
 #include <string>
 
 #include "base/scene.h"
@@ -7,12 +7,12 @@
 
 namespace seiche {
 
-// Throws Error(bad_input) where the scene has no such probe or solid or ends too early, runs write no such column, the
-// data cannot be read or lie outside of the domain, or an error would be over zero; `where` begins the message, and a
-// slip gets a suggestion.
+// Throws Error(bad_input) if the scene lacks the probe or solid or ends too early, if runs write no such column, if the
+// data are unreadable or outside the domain, or if an error would be divided by zero. `where` starts the message;
+// misspelt names get a suggestion.
 void check_measure(const MeasureSpec& measure, const Scene& scene, const std::string& where);
 
-// Throws Error(bad_input) where the plot's data cannot be read or its unit is zero.
+// Throws Error(bad_input) if the plot's data are unreadable or its unit is zero.
 void check_plot(const PlotSpec& plot, const std::string& where);
 
 }  // namespace seiche

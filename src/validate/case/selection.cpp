@@ -12,7 +12,7 @@ namespace {
 
 using Cases = std::vector<CaseSpec>;
 
-// A case's name is that case alone, even where it is a tag as well.
+// A word that is a case's name selects that case only, even if it is also a tag.
 bool fits(const Cases& cases, const CaseSpec& one, const std::string& word) {
   if (std::ranges::count(cases, word, &CaseSpec::name) > 0) return one.name == word;
   return std::ranges::count(one.tags, word) > 0;
@@ -26,7 +26,7 @@ bool names_run(const CaseSpec& one, const std::string& word) {
   return std::ranges::any_of(one.resolutions, [&](const ResolutionSpec& run) { return run_word(one, run) == word; });
 }
 
-// Runs only for words that look like one: they would crowd out the cases.
+// Names of runs are included only for words that look like one; otherwise they would crowd out the cases.
 std::vector<std::string> known_words(const Cases& cases, bool runs) {
   std::vector<std::string> known;
   for (const CaseSpec& one : cases) {

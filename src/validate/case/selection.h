@@ -1,5 +1,5 @@
 #pragma once
-// What of the validation cases the user asks for.
+// The validation cases that the user selects.
 #include <string>
 #include <vector>
 
@@ -7,16 +7,16 @@
 
 namespace seiche {
 
-// Words are names of cases, tags, and case/run for a single run; none at all choose everything. A word that is a case's
-// name is no tag. Points into the cases.
+// Words are names of cases, tags, or case/run for a single run; no words select everything. A case's name takes
+// precedence over a tag. Points into the cases.
 class Selection {
  public:
-  // Throws Error(bad_input) naming a word that fits nothing, with the nearest one that does.
+  // Throws Error(bad_input) naming a word that matches nothing, with the nearest one that does.
   Selection(const std::vector<CaseSpec>& cases, std::vector<std::string> words);
 
-  // Whether the case, or a run of it of any level, is chosen.
+  // True if the case, or any run of it at any level, is selected.
   bool takes(const CaseSpec& one) const;
-  // Of the runs of the level, and of others those chosen by case/run.
+  // Selects runs of the level, and runs of other levels if named by case/run.
   bool takes(const CaseSpec& one, const ResolutionSpec& run, const std::string& level) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A sample of the level set and where it stands, in cells.
+// A sample of the level set and its position in cells.
 struct Corner {
   double x = 0, y = 0, phi = 0;
 };
@@ -21,8 +21,8 @@ Corner zero_between(const Corner& a, const Corner& b) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
 }
 
-// Length and, by Green's theorem, twice the signed area under the zero of phi, linear on a triangle: the segment runs
-// with phi < 0 on one and the same side of it.
+// Adds the length of the zero of phi, linear on a triangle, and twice its signed area by Green's theorem. The segment
+// always has phi < 0 on the same side.
 void add_segment(const std::array<Corner, 3>& corners, double& length, double& twice_area) {
   for (int k = 0; k < 3; ++k) {
     const Corner &lone = corners[std::size_t(k)], &next = corners[std::size_t((k + 1) % 3)],
@@ -45,7 +45,7 @@ const vdb::Block& surface_of(const vdb::Frame& frame) {
 
 }  // namespace
 
-// Each square of four cells' centres is four triangles around its middle, which has the mean of its corners.
+// Each square between four cell centres is divided into four triangles around its middle, which has the mean value.
 double circularity(const vdb::Frame& frame) {
   const vdb::Block& block = surface_of(frame);
   const int nx = block.upper[0] - block.lower[0], ny = block.upper[1] - block.lower[1];

@@ -1,4 +1,4 @@
-// Tables and curves: the parts that measures are made of.
+// Tables and curves: operations that measures are composed of.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ std::vector<std::vector<std::string>> csv_rows(const std::string& text) {
 
 namespace {
 
-// A whole field; no number where there is none, or more than one.
+// The whole field as a number; NaN if it is none, or more than one.
 double number(const std::vector<std::string>& row, std::size_t column) {
   const std::string text = column < row.size() ? row[column] : "";
   char* end = nullptr;
@@ -53,7 +53,7 @@ double number(const std::vector<std::string>& row, std::size_t column) {
   return end == text.c_str() || !whole ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
-// Tables of runs and references hold no such number; one that does is not to be measured on.
+// Throws for numbers that are not finite: runs and references contain none, so the table must be damaged.
 double finite_number(const std::vector<std::string>& row, std::size_t column) {
   const double value = number(row, column);
   if (!std::isfinite(value))
@@ -70,7 +70,7 @@ std::size_t column_named(const std::vector<std::vector<std::string>>& rows, cons
   return std::size_t(found - header.begin());
 }
 
-// time and a column in the rows of this name; empty fields are left out, or count as `empty`.
+// time and a column of the rows with this name. Empty fields are skipped, or count as `empty`.
 Points named_points(const std::vector<std::vector<std::string>>& rows, const std::string& wanted,
                     const std::string& column, std::optional<double> empty = {}) {
   const std::size_t time = column_named(rows, "time"), name = column_named(rows, "name"),
@@ -83,7 +83,7 @@ Points named_points(const std::vector<std::vector<std::string>>& rows, const std
   return points;
 }
 
-// Where y passes `level`, by straight lines.
+// Positions at which y passes `level`, by linear interpolation.
 std::vector<double> crossings(const Points& points, double level) {
   std::vector<double> found;
   for (std::size_t n = 1; n < points.size(); ++n) {
@@ -94,12 +94,12 @@ std::vector<double> crossings(const Points& points, double level) {
   return found;
 }
 
-// The last crossing of each way from beyond a quarter of the largest |y - level| to beyond that on the other side.
+// Last crossing of each swing from beyond a quarter of the largest |y - level| to beyond it on the other side.
 std::vector<double> swings(const Points& points, double level) {
   double band = 0;
   for (const auto& [x, y] : points) band = larger(band, 0.25 * std::abs(y - level));
   std::vector<double> found;
-  Points way;  // since the last point beyond the band
+  Points way;  // points since the last one beyond the band
   for (const auto& point : points) {
     way.push_back(point);
     if (std::abs(point.second - level) <= band) continue;
@@ -117,7 +117,7 @@ Points points_where(const Points& points, const std::function<bool(double, doubl
   return chosen;
 }
 
-// Least squares; the bounds are for the message.
+// Least-squares slope; the bounds are for the message.
 double slope(const Points& points, double low, double high) {
   double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
   for (const auto& [x, y] : points) x_mean += x / double(points.size()), y_mean += y / double(points.size());
@@ -140,7 +140,7 @@ double slope_during(const Points& points, double from, double to) {
 double settled_mean(const Points& points, double from, double to) {
   constexpr double pi = 3.14159265358979323846;
   const double slack = 1e-9 * (to - from);
-  // The first sample may lack a value (pressure at t = 0), where the weight is next to nothing.
+  // The first sample may have no value (pressure at t = 0), where the weight is almost zero.
   const double sample = points.size() > 1 ? points[1].first - points[0].first : 0;
   if (points.empty() || points.front().first > from + sample + slack || points.back().first < to - slack)
     fail(fmt::format("no mean: the run does not reach from {:g} s to {:g} s", from, to));
@@ -179,7 +179,7 @@ double period_scatter(const Points& points, double level) {
 
 namespace {
 
-// y less z where z is given.
+// Differences y - z at the points of z.
 std::vector<double> differences(const Points& y, const Points& z) {
   if (y.empty() || z.empty()) fail("no samples to compare");
   const double slack = 1e-9 * (z.back().first - z.front().first);
@@ -211,7 +211,7 @@ double largest_difference(const Points& y, const Points& z) {
 }
 
 double energy_decay(const Points& y, double level) {
-  Points extremes;  // x and ln|y - level|, one between any two crossings
+  Points extremes;  // x and ln|y - level|, one between successive crossings
   std::optional<std::pair<double, double>> best;
   bool crossed = false;
   for (std::size_t n = 1; n < y.size(); ++n) {
@@ -261,12 +261,12 @@ Points probe_points(const std::string& text, const std::string& probe, const std
 }
 
 Points impact_points(const std::string& text, const std::string& probe) {
-  probe_points(text, probe);  // one that is never wet measures nothing
+  probe_points(text, probe);  // throws if the probe is never wet
   return named_points(csv_rows(text), probe, "value", 0.0);
 }
 
 Points points_during(const Points& points, double from, double to) {
-  // Times are sums of steps: rounding must not leave the last one out.
+  // Times are sums of steps: rounding must not exclude the last one.
   const double slack = 1e-9 * (to - from);
   if (points.empty() || points.front().first > from + slack || points.back().first < to - slack)
     fail(fmt::format("the run does not reach from {:g} s to {:g} s", from, to));

@@ -28,7 +28,7 @@ const vdb::Grid& velocity_of(const vdb::Frame& frame) {
 
 namespace {
 
-// visit(index, values) of every voxel.
+// Calls visit(index, values) for every voxel.
 template <class Visit>
 void for_each_voxel(const vdb::Block& block, int components, const Visit& visit) {
   const float* value = block.values.data();
@@ -41,7 +41,7 @@ Vec3 cell_center(const vdb::Frame& frame, const Vec3& index) {
   return frame.lower + frame.cell_size * (index + Vec3::Constant(0.5));
 }
 
-// A level set between its cell centres: linear, constant beyond the outermost.
+// A level set interpolated linearly between cell centres, constant outside of the outermost ones.
 class SurfaceSamples {
  public:
   explicit SurfaceSamples(const vdb::Frame& frame) : frame_(frame) {
@@ -86,7 +86,7 @@ class SurfaceSamples {
   const vdb::Block* block_;
 };
 
-// Share of the cell around `center` in which one of the two is negative and the other is not, by n^Dim points.
+// Share of the cell around `center` in which exactly one of the two is negative, by n^Dim points.
 template <class Field>
 double share_between(const vdb::Frame& frame, const Vec3& center, int n, const Field& phi, const Expression& exact) {
   const int points = int(std::pow(n, frame.dimension) + 0.5);
@@ -100,7 +100,7 @@ double share_between(const vdb::Frame& frame, const Vec3& center, int n, const F
   return double(differ) / points;
 }
 
-// visit(axis, u_axis - exact) of the faces in the region.
+// Calls visit(axis, u_axis - exact) for the faces in the region.
 template <class Visit>
 void for_each_difference(const vdb::Frame& frame, const VectorFormula& formula, const Formula& region,
                          const Visit& visit) {
@@ -161,7 +161,7 @@ double surface_misplaced(const vdb::Frame& frame, const Formula& formula) {
   const SurfaceSamples phi(frame);
   const Expression exact(formula);
   const double h = frame.cell_size, far = 2 * h;
-  const int n = frame.dimension == 2 ? 16 : 6;  // 1/256 and 1/216 of a cell
+  const int n = frame.dimension == 2 ? 16 : 6;  // resolves 1/256 and 1/216 of a cell
   double cells = 0;
   for_each_voxel(phi.block(), 1, [&](const Vec3& index, const float* value) {
     Vec3 x = cell_center(frame, index);

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of the table of measures, by what they read.
+// Rows of the table of measures, grouped by their source.
 #include <cmath>
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace seiche {
 
-// What a measure reads.
+// Output that a measure reads.
 enum class MeasureSource { frames, probes, stats, solids };
 
 struct MeasureKind {
   const char* name;
-  std::vector<const char*> keys;  // of [measure], all required
+  std::vector<const char*> keys;  // keys of [measure], all required
   Measurement (*measure)(const MeasureSpec&, const RunPaths&);
   Points (*series)(const MeasureSpec&, const RunPaths&) = nullptr;
   MeasureSource source = MeasureSource::frames;  // filled by measure_kinds()
@@ -21,7 +21,7 @@ struct MeasureKind {
 // The whole table.
 const std::vector<MeasureKind>& measure_kinds();
 
-// The measure's row. Throws Error(bug) where there is none.
+// Row of the measure. Throws Error(bug) if there is none.
 const MeasureKind& kind_of(const MeasureSpec& spec);
 
 bool uses(const MeasureKind& kind, const std::string& key);

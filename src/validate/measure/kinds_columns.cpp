@@ -1,4 +1,4 @@
-// Measures of what stats.csv and summary.json hold.
+// Measures of stats.csv and summary.json.
 #include <algorithm>
 #include <cstdlib>
 
@@ -55,7 +55,7 @@ Measurement column_drift(const MeasureSpec& spec, const RunPaths& run) {
   return {largest, {}, largest};
 }
 
-// Kinetic and elastic energy, J.
+// Sum of kinetic and elastic energy, J.
 Points energy_series(const MeasureSpec& spec, const RunPaths& run) {
   const std::string text = read_whole_file(run.stats());
   const std::vector<double> elastic = csv_column(text, "elastic_energy");
@@ -66,7 +66,7 @@ Points energy_series(const MeasureSpec& spec, const RunPaths& run) {
   return points.empty() ? points : points_during(points, spec.from, points.back().first);
 }
 
-// The largest rise in a step, over what there was first; 0 where it never rises.
+// Largest rise in one step relative to the initial value; 0 if there is no rise.
 Measurement energy_growth(const MeasureSpec& spec, const RunPaths& run) {
   const Points energy = energy_series(spec, run);
   if (energy.size() < 2) throw Error(ExitCode::cannot_continue, "stats.csv has too few rows");
@@ -77,7 +77,7 @@ Measurement energy_growth(const MeasureSpec& spec, const RunPaths& run) {
   return itself(largest);
 }
 
-// value/unit over time/time_unit, against the data.
+// value/unit over time/time_unit, compared with the data.
 Measurement column_rms(const MeasureSpec& spec, const RunPaths& run) {
   Points points = column_series(spec, run);
   const double time_unit = constant(spec.time_unit), unit = constant(spec.unit);
@@ -85,7 +85,7 @@ Measurement column_rms(const MeasureSpec& spec, const RunPaths& run) {
   return itself(rms_difference(points, csv_points(read_whole_file(spec.data))));
 }
 
-// -d(value/unit)/dt between the rows, 1/s.
+// -d(value/unit)/dt between rows, 1/s.
 Points falls(const MeasureSpec& spec, const RunPaths& run) {
   const Points points = column_series(spec, run);
   const double unit = constant(spec.unit);

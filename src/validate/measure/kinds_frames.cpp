@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Comparisons would pass over values that are no numbers.
+// Rejects values that are not finite: comparisons would silently skip them.
 vdb::Frame read_frame(const fs::path& file) {
   vdb::Frame frame = vdb::decode(file);
   for (const vdb::Grid& grid : frame.grids)
@@ -34,7 +34,7 @@ vdb::Frame last_frame(const RunPaths& run) {
   return read_frame(last);
 }
 
-// Of the frames, by their times.
+// Circularities of all frames over time.
 Points circularities(const MeasureSpec&, const RunPaths& run) {
   Points points;
   for (const auto& entry : fs::directory_iterator(run.frames())) {
@@ -54,7 +54,7 @@ Measurement least_circularity(const MeasureSpec& spec, const RunPaths& run) {
   return {least, reference, std::abs(least - reference)};
 }
 
-// The vertex of the parabola through the frame of the least and its neighbours.
+// Vertex of the parabola through the frame of least circularity and its neighbours.
 Measurement least_circularity_time(const MeasureSpec& spec, const RunPaths& run) {
   const Points points = points_during(circularities(spec, run), spec.from, spec.to);
   const auto least = std::ranges::min_element(points, {}, [](const auto& point) { return point.second; });
@@ -63,7 +63,7 @@ Measurement least_circularity_time(const MeasureSpec& spec, const RunPaths& run)
   const double before = least->first - (least - 1)->first, after = (least + 1)->first - least->first;
   const double fall = (least->second - (least - 1)->second) / before;
   const double rise = ((least + 1)->second - least->second) / after;
-  // The slopes are those halfway between the frames; between them the slope is linear.
+  // The slopes are at the midpoints between frames; between these the slope is linear.
   const double time = least->first - 0.5 * before - 0.5 * fall * (before + after) / (rise - fall);
   return against(time, constant(spec.reference));
 }
@@ -88,7 +88,7 @@ Measurement line_extrema(const MeasureSpec& spec, const RunPaths& run) {
   return itself(worst);
 }
 
-// How far the worst lies from where it is expected, m.
+// Largest distance of an extreme from its expected position, m.
 Measurement line_extrema_places(const MeasureSpec& spec, const RunPaths& run) {
   const vdb::Frame frame = last_frame(run);
   double worst = 0;
@@ -101,7 +101,7 @@ Measurement stream_function(const MeasureSpec& spec, const RunPaths& run) {
   return against(stream_function_extreme(last_frame(run)), constant(spec.reference));
 }
 
-// Over all points of the profile, m/s.
+// Largest deviation over all points of the profile, m/s.
 Measurement line_deviation(const MeasureSpec& spec, const RunPaths& run) {
   const vdb::Frame frame = last_frame(run);
   double worst = 0;

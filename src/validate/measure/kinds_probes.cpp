@@ -41,7 +41,7 @@ Measurement probe_peak(const MeasureSpec& spec, const RunPaths& run) {
   return against(peak_during(component_of_probe(spec, run), spec.from, spec.to).second, constant(spec.reference));
 }
 
-// When that is, in s.
+// Time of the peak, s.
 Measurement probe_peak_time(const MeasureSpec& spec, const RunPaths& run) {
   return against(peak_during(component_of_probe(spec, run), spec.from, spec.to).first, constant(spec.reference));
 }
@@ -66,18 +66,18 @@ Points scalar_series(const MeasureSpec& spec, const RunPaths& run) {
   return probe_points(read_whole_file(run.probes()), spec.probe);
 }
 
-// When the probe first has a value, in s.
+// Time of the probe's first value, s.
 Measurement probe_arrival(const MeasureSpec& spec, const RunPaths& run) {
   return against(scalar_series(spec, run).front().first, constant(spec.reference));
 }
 
-// Half the way between the extremes.
+// Half the difference of the extremes.
 Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
   return against(0.5 * (high - low), constant(spec.reference));
 }
 
-// The middle between them.
+// Mean of the extremes.
 Measurement probe_middle(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
   return against(0.5 * (high + low), constant(spec.reference));
@@ -90,7 +90,7 @@ Points front_series(const MeasureSpec& spec, const RunPaths& run) {
   return points;
 }
 
-// Of the part between `from` and `to`, all of which must be there.
+// Slope of the part between `from` and `to`, all of which must exist.
 double front_speed(const Points& front, double from, double to) {
   const auto below = [](const auto& a, const auto& b) { return a.second < b.second; };
   const auto [least, most] = std::minmax_element(front.begin(), front.end(), below);
@@ -125,7 +125,7 @@ Measurement probe_growth(const MeasureSpec& spec, const RunPaths& run) {
                  constant(spec.reference));
 }
 
-// Of two probes' settled means.
+// Difference of two probes' windowed means.
 Measurement probe_difference(const MeasureSpec& spec, const RunPaths& run) {
   const std::string text = read_whole_file(run.probes());
   const auto mean = [&](const std::string& probe) {

@@ -11,7 +11,7 @@ Points solid_series(const MeasureSpec& spec, const RunPaths& run) {
   return solid_points(read_whole_file(run.solids()), spec.solid, spec.column);
 }
 
-// Mean over from <= t <= to, weighted so that oscillations leave next to nothing.
+// Mean over from <= t <= to, with a window that suppresses oscillations.
 Measurement solid_mean(const MeasureSpec& spec, const RunPaths& run) {
   const double mean = settled_mean(solid_series(spec, run), spec.from, spec.to);
   const double reference = constant(spec.reference);
@@ -39,19 +39,19 @@ std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run)
   return extremes_during(solid_series(spec, run), spec.from, spec.to);
 }
 
-// Half the way between the extremes.
+// Half the difference of the extremes.
 Measurement solid_amplitude(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
   return against(0.5 * (high - low), constant(spec.reference));
 }
 
-// The middle between them.
+// Mean of the extremes.
 Measurement solid_middle(const MeasureSpec& spec, const RunPaths& run) {
   const auto [low, high] = extremes(spec, run);
   return against(0.5 * (high + low), constant(spec.reference));
 }
 
-// (value - level)/length_unit over time/time_unit, against the data.
+// (value - level)/length_unit over time/time_unit, compared with the data.
 Measurement solid_rms(const MeasureSpec& spec, const RunPaths& run) {
   Points points = solid_series(spec, run);
   const double time_unit = constant(spec.time_unit), unit = constant(spec.length_unit), level = constant(spec.level);

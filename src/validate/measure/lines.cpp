@@ -14,7 +14,7 @@
 namespace seiche {
 namespace {
 
-// The frame's velocity as one block.
+// Velocity of a frame, as one block.
 class Velocity {
  public:
   explicit Velocity(const vdb::Frame& frame) : frame_(frame) {
@@ -24,7 +24,7 @@ class Velocity {
   }
   int size(int axis) const { return block_->upper[axis] - block_->lower[axis]; }
 
-  // Component a at a position in units of faces of that component, linear between them and constant beyond the last.
+  // Component a at a position in units of its faces; linear between them, constant outside of the last ones.
   double at(int a, const Vec3& where) const {
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -41,7 +41,7 @@ class Velocity {
     return sum;
   }
 
-  // Whether a point, m, lies in the domain, by rounding more.
+  // True if a point (m) lies in the domain, with a tolerance for rounding.
   bool covers(const Vec3& x) const {
     for (int axis = 0; axis < frame_.dimension; ++axis) {
       const double place = (x[axis] - frame_.lower[axis]) / frame_.cell_size;
@@ -50,7 +50,7 @@ class Velocity {
     return true;
   }
 
-  // Of a point, m; the third axis of 2D frames has no extent.
+  // Position of a point (m) in units of faces; the third axis of 2D frames has no extent.
   Vec3 face_index(int a, const Vec3& x) const {
     Vec3 index = (x - frame_.lower) / frame_.cell_size - Vec3::Constant(0.5);
     index[a] += 0.5;
@@ -68,8 +68,8 @@ class Velocity {
   const vdb::Block* block_;
 };
 
-// Of the parabola through three samples a step apart, the middle one the largest or smallest: how far its extreme lies
-// from the middle one, in steps, and how much it is more.
+// Extreme of the parabola through three samples a step apart, the middle one being the largest or smallest. way: its
+// offset from the middle sample in steps; rise: its value above that of the middle sample.
 struct Vertex {
   double way = 0, rise = 0;
 };
@@ -92,7 +92,7 @@ double number_of(const std::string& text) {
   return *number;
 }
 
-// component, along, x, y, z
+// Columns: component, along, x, y, z.
 template <class Line>
 Line read_place(const std::vector<std::string>& fields, std::size_t columns) {
   if (fields.size() != columns)
@@ -118,7 +118,7 @@ LinePoint read_point(const std::vector<std::string>& fields) {
   return read_place<LinePoint>(fields, 6);
 }
 
-// read(fields) of the rows below this header.
+// Calls read(fields) for the rows below this header.
 template <class Read>
 auto read_rows(const std::string& text, const std::string& header, const Read& read) {
   const auto rows = csv_rows(text);
@@ -130,7 +130,7 @@ auto read_rows(const std::string& text, const std::string& header, const Read& r
   return found;
 }
 
-// Of the cubic through values at -1, 0, 1 and 2.
+// Value at x of the cubic through values at -1, 0, 1 and 2.
 double cubic_between(const std::array<double, 4>& f, double x) {
   return -f[0] * x * (x - 1) * (x - 2) / 6 + f[1] * (x + 1) * (x - 1) * (x - 2) / 2 - f[2] * (x + 1) * x * (x - 2) / 2 +
          f[3] * (x + 1) * x * (x - 1) / 6;
@@ -169,7 +169,7 @@ double value_along(const vdb::Frame& frame, const LinePoint& at) {
   const int last = u.size(at.along) - 1;
   Vec3 where = u.face_index(at.component, at.point);
   const double place = where[at.along];
-  // Rounding may put a point that is on the last sample beyond it.
+  // Rounding may move a point on the last sample beyond it.
   if (last < 3 || place < -1e-9 || place > last + 1e-9 || !u.covers(at.point))
     throw Error(ExitCode::cannot_continue,
                 fmt::format("no samples around ({:g}, {:g}, {:g}) on the line", at.point[0], at.point[1], at.point[2]));
@@ -186,7 +186,7 @@ double stream_function_extreme(const vdb::Frame& frame) {
   if (frame.dimension != 2) throw Error(ExitCode::cannot_continue, "a stream function is of a 2D run");
   const Velocity u(frame);
   const int nx = u.size(0), ny = u.size(1);
-  std::vector<double> psi(std::size_t(nx) * std::size_t(ny + 1), 0);  // corner (i, j), i below nx
+  std::vector<double> psi(std::size_t(nx) * std::size_t(ny + 1), 0);  // at corner (i, j), i below nx
   const auto at = [&](int i, int j) -> double& { return psi[std::size_t(i) + std::size_t(nx) * std::size_t(j)]; };
   int x = 0, y = 0;
   for (int j = 1; j <= ny; ++j)

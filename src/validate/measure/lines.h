@@ -1,5 +1,5 @@
 #pragma once
-// What measures compute on a frame's velocity along lines parallel to an axis.
+// Measures of a frame's velocity along lines parallel to an axis.
 #include <string>
 #include <vector>
 
@@ -8,16 +8,16 @@
 
 namespace seiche {
 
-// A velocity component along a line through `point`.
+// Extreme of a velocity component along a line through `point`.
 struct LineExtreme {
   int component = 0, along = 0;
-  Vec3 point{0, 0, 0};  // m; its coordinate along the line is not used
+  Vec3 point{0, 0, 0};  // m; the coordinate along the line is unused
   enum class Kind { min, max } kind = Kind::min;
-  double value = 0;  // expected: m/s, or where it is, m
+  double value = 0;  // expected: value (m/s) or position (m)
 };
 
-// From CSV text with the columns component, along (x, y, z), x, y, z, extreme (min, max) and value; lines that begin
-// with '#' are skipped. Throws Error(cannot_continue) for a line that is none, and where there are none.
+// Reads CSV text with the columns component, along (x, y, z), x, y, z, extreme (min, max) and value; skips lines that
+// begin with '#'. Throws Error(cannot_continue) for invalid lines, and if there are none.
 std::vector<LineExtreme> csv_extremes(const std::string& text);
 
 struct FoundExtreme {
@@ -25,28 +25,29 @@ struct FoundExtreme {
   double place = 0;  // m, along the line
 };
 
-// The extreme: linear between the lines of faces around the point, a parabola through the three samples at the extreme
-// one. Throws Error(cannot_continue) where the frame holds no velocity.
+// Finds the extreme: linear between the lines of faces around the point, with a parabola through the three samples
+// around the extreme one. Throws Error(cannot_continue) if the frame has no velocity.
 FoundExtreme extreme_along(const vdb::Frame& frame, const LineExtreme& line);
 
-// A velocity component at a point of such a line.
+// Velocity component at a point of such a line.
 struct LinePoint {
   int component = 0, along = 0;
   Vec3 point{0, 0, 0};  // m
-  double value = 0;     // m/s, expected
+  double value = 0;     // expected, m/s
 };
 
-// From CSV text with the columns component, along (x, y, z), x, y, z and value. Throws as csv_extremes().
+// Reads CSV text with the columns component, along (x, y, z), x, y, z and value. Throws as csv_extremes().
 std::vector<LinePoint> csv_profile(const std::string& text);
 
-// The component there, m/s: linear between the lines of faces around the point, a cubic through the four samples around
-// it on them. Throws Error(cannot_continue) where the frame holds no velocity, and for a point beyond the samples or
-// the domain, or a line of less than four.
+// The component at that point, m/s: linear between the lines of faces around it, with a cubic through the four samples
+// around it on these lines. Throws Error(cannot_continue) if the frame has no velocity, for points outside of samples
+// or domain, and for lines of less than four samples.
 double value_along(const vdb::Frame& frame, const LinePoint& at);
 
-// The largest magnitude of the stream function of a 2D frame in a domain full of liquid, m^2/s, with its sign: u summed
-// up from the lower wall, where it is zero, to the corners of the cells; a parabola either way through the three
-// corners at the extreme one. Throws Error(cannot_continue) for 3D frames and where the frame holds no velocity.
+// Value of largest magnitude, with its sign, of the stream function of a 2D frame with the domain full of liquid,
+// m^2/s. u is summed from the lower wall, where the function is zero, to the cell corners; a parabola in each direction
+// goes through the three corners at the extreme one. Throws Error(cannot_continue) for 3D frames and if the frame has
+// no velocity.
 double stream_function_extreme(const vdb::Frame& frame);
 
 }  // namespace seiche

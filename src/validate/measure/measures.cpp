@@ -21,7 +21,7 @@ std::vector<std::string> kind_names() {
   return names;
 }
 
-// Binds a key to the kinds that the table gives it.
+// Binds a key to the kinds that use it.
 template <class Member>
 Key<MeasureSpec> parameter(Option option, Member member) {
   option.only_for.key = "kind";
@@ -103,7 +103,7 @@ Measurement measure(const MeasureSpec& spec, const RunPaths& run) {
     const Measurement result = kind_of(spec).measure(spec, run);
     const bool finite = std::isfinite(result.value) && std::isfinite(result.reference.value_or(0));
     if (finite && std::isfinite(result.error) && result.error >= 0) return result;
-  } catch (const Error& error) {  // whatever was missing or unreadable, the run is not measured
+  } catch (const Error& error) {  // missing or unreadable output: the run is not measured
     throw Error(ExitCode::cannot_continue, error.what());
   } catch (const fs::filesystem_error& error) {
     throw Error(ExitCode::cannot_continue, error.what());

@@ -14,7 +14,7 @@ namespace {
 
 struct KindWords {
   const char* kind;
-  const char* unit;  // of the figure; "column": that of what is measured; "": a pure number
+  const char* unit;  // of the figure; "column": unit of the measured column; "": dimensionless
   const char* what;
 };
 
@@ -52,7 +52,7 @@ constexpr KindWords frame_and_probe_words[] = {
     {"probe_difference", "column", "mean of a probe in a time, weighted with sin^2, less that of another"},
 };
 
-// Of stats.csv, summary.json and solids.csv.
+// Measures of stats.csv, summary.json and solids.csv.
 constexpr KindWords table_words[] = {
     {"max_of_column", "column", "largest magnitude in a column of stats.csv"},
     {"column_peak", "column over unit", "largest magnitude in a column of stats.csv in a time, over unit"},
@@ -75,7 +75,7 @@ constexpr KindWords table_words[] = {
     {"solids_stray", "", "farthest way of any solid from where it is at from, over length_unit"},
 };
 
-// Throws Error(bug) where a kind has no row.
+// Throws Error(bug) if a kind has no row.
 const KindWords& words_of(const MeasureSpec& m) {
   for (const std::span<const KindWords> words : {std::span<const KindWords>(frame_and_probe_words), {table_words}})
     for (const KindWords& row : words)
@@ -104,7 +104,7 @@ constexpr UnitRow stats_units[] = {{"time", {"s", "s"}},
                                    {"max_speed", {"m/s", "m/s"}},
                                    {"max_divergence", {"1/s", "1/s"}}};
 
-// By the first letter of a column of solids.csv, behind "pin_" where it begins so.
+// Units by the first letter of a column of solids.csv, after a leading "pin_".
 constexpr UnitRow solids_units[] = {
     {"xyz", {"m", "m"}}, {"v", {"m/s", "m/s"}}, {"w", {"1/s", "1/s"}}, {"f", {"N/m", "N"}}, {"t", {"N", "N m"}}};
 

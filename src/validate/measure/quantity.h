@@ -1,5 +1,5 @@
 #pragma once
-// What a measure gives, in words and units.
+// Description and unit of a measure.
 #include <string>
 
 #include "base/scene.h"
@@ -7,14 +7,14 @@
 
 namespace seiche {
 
-// In words, such as "mean of a probe in a time, weighted with sin^2". A table's row for each kind of measure.
+// Description, such as "mean of a probe in a time, weighted with sin^2". From a table with a row for each kind.
 std::string what_is_measured(const MeasureSpec& measure);
 
-// How its error comes about: "relative to the reference".
+// Definition of its error, such as "relative to the reference".
 std::string error_in_words(const MeasureSpec& measure);
 
-// Unit of the measure's figure, such as "m/s" or "J/m over unit"; empty for pure numbers. In 2D forces and what goes
-// with mass are per metre.
+// Unit of the measure's figure, such as "m/s" or "J/m over unit"; empty for dimensionless figures. In 2D, forces and
+// quantities proportional to mass are per metre.
 std::string unit_of(const MeasureSpec& measure, const Scene& scene);
 
 }  // namespace seiche

@@ -22,10 +22,10 @@ fs::path identity_file(const fs::path& run) {
   return run / "validate.txt";
 }
 
-constexpr const char* machine_word = "machine ";  // begins the line that is about where the run was made
-const std::string unfinished = "unfinished\n";    // before the identity of a run until that is kept
+constexpr const char* machine_word = "machine ";  // starts the line that describes the run's machine
+const std::string unfinished = "unfinished\n";    // precedes the identity until the run is complete
 
-// The lines that begin with machine_word, or the others.
+// Selects the lines that begin with machine_word, or the others.
 enum class Lines { of_machine, of_identity };
 std::string lines_of(const std::string& text, Lines wanted) {
   std::string chosen;
@@ -42,7 +42,7 @@ std::string key_of(const Scene& scene, const std::string& identity) {
   return identity + write_scene(scene);
 }
 
-// Of the run in a folder; empty where none was made by a validation.
+// Identity and scene of the run in a folder; empty if no validation made it.
 std::string key_in(const fs::path& run) {
   try {
     return lines_of(read_whole_file(identity_file(run)), Lines::of_identity) + read_whole_file(RunPaths{run}.scene());
@@ -51,7 +51,7 @@ std::string key_in(const fs::path& run) {
   }
 }
 
-// From the summary of the run in a folder; empty where there is none, as after a kill.
+// Value in the summary of a folder's run; empty if there is none, as after a kill.
 std::string summary_value(const fs::path& run, const char* key) {
   try {
     return json_value(read_whole_file(RunPaths{run}.summary()), key);
@@ -60,7 +60,8 @@ std::string summary_value(const fs::path& run, const char* key) {
   }
 }
 
-// One that could not go on would fail again; one that was finished, but not for us, may be of any build.
+// True if a run may be resumed. One that could not continue would fail again; one finished outside of a validation may
+// be of any build.
 bool may_go_on(const fs::path& run) {
   const std::string code = summary_value(run, "exit_code");
   const auto is = [&](ExitCode one) { return code == std::to_string(int(one)); };

@@ -33,7 +33,7 @@ std::string text_of(const MeasureSpec& m) {
   return m.data.empty() ? text : text + " " + checksum_of(m.data);
 }
 
-// A text in quotes where it must be, on one line.
+// CSV field on one line, in quotes if necessary.
 std::string field_of(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   if (text.find_first_of(",\"") == std::string::npos) return text;
@@ -59,7 +59,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-// A whole field as a finite number; `good` is cleared where it is none.
+// The whole field as a finite number; otherwise clears `good`.
 double number(const std::string& field, bool& good) {
   char* end = nullptr;
   const double value = std::strtod(field.c_str(), &end);
@@ -67,14 +67,14 @@ double number(const std::string& field, bool& good) {
   return value;
 }
 
-// The same of a count.
+// The same for a count.
 int count_in(const std::string& field, bool& good) {
   const double value = number(field, good);
   good = good && value >= 1 && value <= std::numeric_limits<int>::max() && value == std::floor(value);
   return good ? int(value) : 0;
 }
 
-// Nothing where the fields are no row's.
+// Empty if the fields are not a valid row.
 std::optional<RecordedRow> row_of(const std::vector<std::string>& f) {
   if (f.size() != 10 && f.size() != 13) return std::nullopt;
   bool good = true;

@@ -24,7 +24,7 @@ std::vector<ReportedResult> measured_of(const std::vector<ReportedResult>& rows)
   return measured;
 }
 
-// A line of slope `order` through the finest error of the first curve.
+// Line of slope `order` through the finest error of the first curve.
 Curve slope_line(const Points& points, double order) {
   const auto fine = *std::min_element(points.begin(), points.end());
   const auto coarse = *std::max_element(points.begin(), points.end());
@@ -32,7 +32,7 @@ Curve slope_line(const Points& points, double order) {
   return {fmt::format("order {:g}", order), {at(fine.first), at(coarse.first)}, Curve::Style::dashes};
 }
 
-// Values in units of a plot's axes.
+// Values in the units of a plot's axes.
 Points in_units(Points points, const PlotSpec& plot) {
   if (plot.data.empty()) return points;
   const double time_unit = constant(plot.time_unit), value_unit = constant(plot.value_unit);
@@ -40,7 +40,7 @@ Points in_units(Points points, const PlotSpec& plot) {
   return points;
 }
 
-// The reference's own series: that of the plot, or of a front.
+// Series of the reference: from the plot's data or the front's.
 Points reference_series(const CaseSpec& one) {
   if (!one.plot.data.empty()) return csv_points(read_whole_file(one.plot.data));
   if (one.measure.kind == "front_slope") return csv_points(read_whole_file(one.measure.data));
@@ -60,7 +60,7 @@ Chart error_chart(const std::vector<ReportedResult>& all) {
   Chart chart{"cell size, m", "error", Chart::Axes::logarithmic, {}};
   using Series = std::pair<std::string, Formula>;
   std::map<Series, Points> errors;
-  std::map<Series, std::string> names;  // or its first run
+  std::map<Series, std::string> names;  // or name of its first run
   Points bars;
   for (const ReportedResult& row : measured_of(all)) {
     const Series series(row.resolution.series, reference_of(row.one, row.resolution));
@@ -106,7 +106,7 @@ Chart series_chart(const std::vector<ReportedResult>& all) {
       if (!points.empty() && chart.curves.size() < most_curves)
         chart.curves.push_back({row.resolution.name, in_units(points, one.plot), Curve::Style::line});
     }
-  } catch (const Error&) {  // what cannot be read any more cannot be shown; the figures stand
+  } catch (const Error&) {  // unreadable data cannot be plotted; the figures remain
     chart.curves.clear();
   }
   return chart;

@@ -1,21 +1,21 @@
 #pragma once
-// What the report of a case shows beside its figures.
+// Charts and pictures of a case for the report.
 #include "validate/report/report.h"
 #include "validate/report/svg.h"
 
 namespace seiche {
 
-// Errors over the cell size with bars and a slope; no curves where there are fewer than two cell sizes.
+// Errors over cell size, with bars and a slope; no curves for less than two cell sizes.
 Chart error_chart(const std::vector<ReportedResult>& rows);
 
-// Errors over their bars by the number of the run, where error_chart() shows none: runs that differ in other things
-// than the cell size. No curves for fewer than two.
+// Errors relative to their bars by number of the run, for cases without error_chart(): runs that differ in other things
+// than the cell size. No curves for less than two.
 Chart share_chart(const std::vector<ReportedResult>& rows);
 
-// What was measured over time, in all runs of the case, over the reference's series where the case has one.
+// Measured series of all runs of the case over time, with the series of the reference if there is one.
 Chart series_chart(const std::vector<ReportedResult>& rows);
 
-// PNG of the last frame of a run; empty, with the reason, where it cannot be shown.
+// PNG of a run's last frame; empty, with the reason, if it cannot be rendered.
 struct Picture {
   std::string png, reason;
 };

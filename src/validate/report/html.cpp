@@ -57,7 +57,7 @@ std::string table_of(const std::vector<ReportedResult>& rows) {
   return text + "</table>\n";
 }
 
-// The finest run that was measured and is there.
+// Finest run that was measured and whose output exists.
 const ReportedResult* finest(const std::vector<ReportedResult>& rows) {
   for (auto row = rows.rbegin(); row != rows.rend(); ++row)
     if (is_measured(row->result) && !row->result.recorded) return &*row;

@@ -1,10 +1,10 @@
 #pragma once
-// The report for people: one page that needs no other file.
+// Report as a single self-contained HTML page.
 #include "validate/report/report.h"
 
 namespace seiche {
 
-// Tables, plots, pictures and the cases' own pages. Reads the runs and renders pictures into them.
+// Tables, plots, pictures and the cases' README pages. Reads the runs and renders their pictures.
 std::string format_html(const Report& report);
 
 }  // namespace seiche

@@ -20,20 +20,20 @@ std::string format_markdown(const Report& report, const std::string& folder);
 // The cases' pages, which link to the summary, such as "validation.md", in the folder above.
 std::vector<CasePage> case_pages(const Report& report, const std::string& summary);
 
-// What it takes to run a case again, at the report's level.
+// Command that runs a case again at the report's level.
 std::string command_of(const Report& report, const CaseSpec& one);
 
-// A text that may stand in a table.
+// Escapes a text for a table's cell.
 std::string markdown_cell(const std::string& text);
 
-// A figure of four digits, "-" for none.
+// A figure with four digits; "-" if unset.
 std::string figure(const std::optional<double>& value);
 
-// The same of seven digits: what is measured and what it should be may differ late.
+// A figure with seven digits: value and reference may differ late.
 std::string whole_figure(const std::optional<double>& value);
 
-// Words on a case's misses and failures: the known cause, or that there is none. Of runs that passed or are not there
-// what is known; empty where nothing is.
+// Text on a case's misses and failures: the known cause, or that none is known. For runs that passed or are absent the
+// known remarks; empty if there are none.
 std::string words_on_misses(const std::vector<ReportedResult>& rows);
 
 }  // namespace seiche

@@ -10,7 +10,7 @@ bool is_file_link(const std::string& target) {
          !target.starts_with("mailto:");
 }
 
-// "](target)" seen from elsewhere.
+// Rewrites "](target)" as seen from another folder.
 std::string with_links(const std::string& line, const std::string& folder) {
   std::string text;
   std::size_t at = 0;
@@ -46,7 +46,7 @@ std::string embed_readme(const std::string& text, const std::string& folder) {
     page += '\n';
   }
   while (page.ends_with("\n\n")) page.pop_back();
-  // What is left open would swallow the pages that follow.
+  // Unclosed code blocks and HTML comments would swallow the following pages.
   if (code) page += code_begin + "\n";
   const std::size_t comment = page.rfind("<!--");
   if (comment != std::string::npos && page.find("-->", comment) == std::string::npos) page += "-->\n";

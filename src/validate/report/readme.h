@@ -1,5 +1,5 @@
 #pragma once
-// A case's own page as part of another.
+// Embeds a case's README in another page.
 #include <string>
 
 namespace seiche {

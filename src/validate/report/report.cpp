@@ -94,7 +94,7 @@ std::vector<std::string> json_cases(const Report& report) {
   return cases;
 }
 
-// "12.3", of an earlier run "(12.3)".
+// "12.3"; "(12.3)" for an earlier run.
 std::string seconds(const CaseResult& r) {
   if (r.verdict == Verdict::absent) return "-";
   return r.cached || r.recorded ? fmt::format("({:.1f})", r.wall_seconds) : fmt::format("{:.1f}", r.wall_seconds);

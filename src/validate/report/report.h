@@ -1,5 +1,5 @@
 #pragma once
-// The table and validation.json of a validation.
+// Table and validation.json of a validation.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,10 +19,10 @@ struct ReportedResult {
 struct Report {
   std::string level;
   int ranks = 1;
-  std::size_t planned = 0;              // runs to be made in all
-  std::vector<ReportedResult> results;  // those of one case beside each other
-  std::string tampering;                // operators that were broken for a test; empty: none
-  std::string machine;                  // this one, see validate/record/machine.h
+  std::size_t planned = 0;              // total number of runs to be made
+  std::vector<ReportedResult> results;  // results of one case are adjacent
+  std::string tampering;                // operators broken for a test; empty: none
+  std::string machine;                  // the present one, see validate/record/machine.h
 };
 
 std::string verdict_name(Verdict verdict);  // "pass", "MISS", "FAILED", "not run"

@@ -1,5 +1,5 @@
 #pragma once
-// One resolution of a validation case, run and judged.
+// Result and verdict of one resolution of a validation case.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace seiche {
 
-// failed: could not be run or measured; absent: it was not asked to be run, and there is no earlier run
+// failed: could not be run or measured; absent: not requested, and there is no earlier run
 enum class Verdict { passed, missed, failed, absent };
 
 struct CaseResult {
   Verdict verdict = Verdict::failed;
   Measurement measured;
-  std::optional<double> order;         // of convergence from the run before in its series
-  std::optional<double> fitted_order;  // over all of the series, at its last run
+  std::optional<double> order;         // of convergence, relative to the previous run of its series
+  std::optional<double> fitted_order;  // over the whole series; set at its last run
   double cell_size = 0;                // m
-  double wall_seconds = 0;             // of the run, whenever it was made
-  bool cached = false;                 // an earlier run was taken
-  bool recorded = false;               // only its figures are there
+  double wall_seconds = 0;             // of the run, also of an earlier one
+  bool cached = false;                 // reused an earlier run
+  bool recorded = false;               // only the recorded figures exist
   Origin origin;                       // of the run
-  std::string message;                 // why it failed
+  std::string message;                 // reason of a failure
   std::filesystem::path run;
 };
 

@@ -41,7 +41,7 @@ std::string readme_of(const CaseSpec& one) {
   }
 }
 
-// A key of [measure] as the page shows it.
+// Value of a key of [measure] for the page.
 std::string value_of(const CaseSpec& one, const std::string& key) {
   const MeasureSpec& m = one.measure;
   const std::pair<const char*, const std::string*> texts[] = {
@@ -107,7 +107,7 @@ std::string table_of(const Rows& rows) {
   return text;
 }
 
-// What a run differs in: `domain.cell_size=0.01`, and its scene and reference where runs have several.
+// Settings of a run: `domain.cell_size=0.01`, plus scene and reference if the runs have several.
 std::string settings_of(const ReportedResult& row, bool several_scenes, bool several_references) {
   std::vector<std::string> parts;
   if (several_scenes) parts.push_back(link_to(row.one, scene_of(row.one, row.resolution)));

@@ -7,15 +7,15 @@
 
 namespace seiche {
 
-// What the pages of all cases share.
+// Data shared by the pages of all cases.
 struct PageContext {
   const Report& report;
-  std::vector<std::string> machines;  // of all rows, in the order of their numbers from 1
+  std::vector<std::string> machines;  // of all rows, numbered from 1
 };
 
-constexpr std::size_t short_digest = 8;  // of a build's digest: enough to tell builds apart
+constexpr std::size_t short_digest = 8;  // leading characters of a build's digest: enough to distinguish builds
 
-// The case's README, what is measured, the command, its results, and what each run sets and was made by.
+// The case's README, the measure, the command, the results, and settings and origin of each run.
 std::string markdown_section(const PageContext& page, const std::vector<ReportedResult>& rows);
 
 }  // namespace seiche

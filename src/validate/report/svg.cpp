@@ -10,15 +10,15 @@
 namespace seiche {
 namespace {
 
-// In the SVG's own units: the whole picture and the frame of the axes.
+// Whole picture and frame of the axes, in SVG units.
 constexpr double width = 640, height = 360, left = 78, right = 626, top = 14, bottom = 312;
 constexpr std::size_t most_points = 800;
 constexpr std::array<const char*, 6> colors{"#1f5fa8", "#c8451b", "#2c8a4b", "#7a4fa3", "#b0871e", "#4d4d4d"};
 
-// From values to the picture, along one axis.
+// Maps values to the picture along one axis.
 struct Scale {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  double from = 0, to = 1;  // in the picture
+  double from = 0, to = 1;  // coordinates in the picture
   bool logarithmic = false;
 
   double measure(double value) const { return logarithmic ? std::log10(value) : value; }
@@ -60,7 +60,7 @@ Scales scales_of(const Chart& chart) {
   return s;
 }
 
-// Powers of ten, with digits between where they are few.
+// Powers of ten, with digits between them if there are few.
 std::vector<double> logarithmic_steps(double low, double high) {
   std::vector<double> steps;
   const double decades = high - low;
@@ -146,7 +146,7 @@ std::vector<double> round_steps(double low, double high, int count) {
   return steps;
 }
 
-// The lowest and the highest of each group of neighbours.
+// Keeps the lowest and the highest of each group of neighbours.
 Points thinned(const Points& points, std::size_t most) {
   if (points.size() <= most) return points;
   const std::size_t group = 2 * points.size() / most + 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Plots as SVG, to stand inside a page.
+// Plots as inline SVG.
 #include <string>
 #include <vector>
 
@@ -21,16 +21,16 @@ struct Chart {
   std::vector<Curve> curves;
 };
 
-// Empty where there is nothing to show: no finite point, or for logarithmic axes none above zero.
+// Empty if there is nothing to show: no finite point, or for logarithmic axes no positive one.
 std::string format_svg(const Chart& chart);
 
-// Characters that HTML and SVG give a meaning, escaped.
+// Escapes characters with a meaning in HTML and SVG.
 std::string escape_html(const std::string& text);
 
 // Round numbers from low to high, about `count` of them.
 std::vector<double> round_steps(double low, double high, int count);
 
-// At most about `most` points with the same extremes.
+// Reduces to about `most` points with the same extremes.
 Points thinned(const Points& points, std::size_t most);
 
 }  // namespace seiche

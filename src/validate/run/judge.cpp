@@ -38,12 +38,12 @@ Verdict judge(const CaseSpec& one, const ResolutionSpec& resolution, const CaseR
 
 namespace {
 
-// Whether a row has a figure of the series that this run of a case belongs to.
+// True if a row has a figure in the series of this run.
 bool has_figure_of(const ReportedResult& row, const CaseSpec& one, const ResolutionSpec& resolution) {
   return row.one.name == one.name && same_series(one, row.resolution, resolution) && is_measured(row.result);
 }
 
-// Coarse to fine.
+// Figures of the run's series, coarse to fine.
 std::vector<CaseResult> figures_of(const Report& report, const CaseSpec& one, const ResolutionSpec& resolution) {
   std::vector<CaseResult> found;
   for (const ReportedResult& row : report.results)

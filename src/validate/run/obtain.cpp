@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto patience = std::chrono::seconds(3);
 
-// Only warnings and the live line of a run reach the terminal, with the run's name before them.
+// Passes only warnings and the live line of a run to the terminal, with the run's name as prefix.
 Console console_of(const Planned& run, const Console& outer) {
   const std::string prefix = fmt::format("{} {}: ", run.one->name, run.resolution->name);
   Console inner;
@@ -28,7 +28,7 @@ Console console_of(const Planned& run, const Console& outer) {
   return inner;
 }
 
-// Rank 0 measures; all ranks get the figures.
+// Measures on rank 0; all ranks get the figures.
 Measurement measure_on_root(const MeasureSpec& spec, const fs::path& run, const Communicator& ranks) {
   Measurement result;
   agree_on_root(ranks, "measuring", [&] { result = measure(spec, RunPaths{run}); });
@@ -50,7 +50,7 @@ Measurement measure_on_root(const MeasureSpec& spec, const fs::path& run, const 
   return result;
 }
 
-// A run that is to be had: an earlier one, one that was stopped and goes on, one that is made now; or none.
+// Source of a run: an earlier one, the rest of an interrupted one, a new one, or none.
 enum class Source { earlier, rest, anew, none };
 
 struct Found {
@@ -63,7 +63,7 @@ fs::path place_of(const Planned& run, const Validation& v) {
   return v.options.out / run.one->name / run.resolution->name;
 }
 
-// Before a run is made, the cache looks again: another validation may have made it.
+// The cache reads the folders again before a run, since another validation may have made it.
 std::optional<fs::path> earlier_run(const Planned& run, Validation& v, const std::string& identity) {
   const auto known = v.cache.find(run.scene, identity);
   if (known || v.options.making == Making::report) return known;
@@ -82,7 +82,7 @@ Source source_of(const Planned& run, Validation& v, const std::string& identity,
   return begun ? Source::rest : Source::anew;
 }
 
-// Rank 0 looks; all ranks get the answer. `identity` is filled on rank 0.
+// Rank 0 searches; all ranks get the answer. `identity` is set on rank 0.
 Found look_for_run(const Planned& run, Validation& v, std::string& identity) {
   Found found;
   agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
@@ -107,8 +107,7 @@ bool is_finished_on_root(const fs::path& run, const Communicator& ranks) {
   return ranks.broadcast(ranks.is_root() && is_finished(run) ? "1" : "0") == "1";
 }
 
-// The rest of a run that was stopped; nothing where its checkpoints are lost, or are of its end while its summary is
-// not.
+// Resumes an interrupted run. Empty if its checkpoints are lost, or if they are of its end but its summary is missing.
 std::optional<ExitCode> run_rest(const fs::path& folder, const Validation& v, const Surroundings& around) {
   try {
     const ExitCode code = resume_command({folder, {}, {}, EditPolicy::refuse, session_of(v.options)}, around);
@@ -127,7 +126,7 @@ ExitCode run_anew(const Planned& run, const fs::path& folder, const std::string&
   own.scene = scene_of(*run.one, *run.resolution);
   own.out = folder;
   own.overrides = run.resolution->overrides;
-  own.existing = ExistingOutput::resume;  // of what the cache has put there
+  own.existing = ExistingOutput::resume;  // RunCache::begin() has prepared the folder
   own.session = session_of(v.options);
   return run_command(own, around);
 }
@@ -149,7 +148,7 @@ Found obtain_run(const Planned& run, Validation& v) {
   return found;
 }
 
-// Number of a finished run's summary.json; nothing where that cannot be read.
+// Number in the summary.json of a finished run; empty if it is unreadable.
 std::optional<double> number_in_summary(const fs::path& run, const char* key) {
   try {
     const std::string text = json_value(read_whole_file(RunPaths{run}.summary()), key);
@@ -165,13 +164,13 @@ std::string identity_of(const Planned& run) {
   return measured_identity(run.scene, measure_of(*run.one, *run.resolution));
 }
 
-// Of a run that is there, whenever it was made.
+// Origin of an existing run.
 Origin origin_of(const fs::path& run, const Communicator& ranks) {
   const int threads = int(number_in_summary(run, "threads").value_or(0));
   return {build_digest(), date_of(RunPaths{run}.summary()), ranks.size(), threads, machine_of(run)};
 }
 
-// One that was made before may have been damaged since.
+// Earlier runs may have been damaged since.
 Measurement measure_found(const Planned& run, const Found& found, const Communicator& ranks) {
   try {
     return measure_on_root(measure_of(*run.one, *run.resolution), found.run, ranks);
@@ -194,11 +193,11 @@ ExitCode run_and_measure(const Planned& run, Validation& v, CaseResult& result) 
   if (found.code != ExitCode::done) return found.code;
   result.measured = measure_found(run, found, v.around.ranks);
   result.origin = origin_of(result.run, v.around.ranks);
-  result.verdict = Verdict::missed;  // until judged
+  result.verdict = Verdict::missed;  // until it is judged
   return found.code;
 }
 
-// As run_and_measure, but a simulation that could not go on, on all ranks together, is a result.
+// Like run_and_measure(), but a simulation that cannot continue, on all ranks together, is a result.
 ExitCode attempt(const Planned& run, Validation& v, CaseResult& result) {
   try {
     return run_and_measure(run, v, result);
@@ -242,7 +241,7 @@ CaseResult recorded_result(const Planned& run, const std::optional<ValidationRec
   const auto recorded = record->find(run.one->name, run.resolution->name, identity_of(run));
   if (!recorded) return result;
   const bool failed = !recorded->failure.empty();
-  result.verdict = failed ? Verdict::failed : Verdict::missed;  // until judged
+  result.verdict = failed ? Verdict::failed : Verdict::missed;  // until it is judged
   result.recorded = true;
   result.measured = recorded->measured;
   result.origin = recorded->origin;
@@ -260,7 +259,7 @@ void put_on_record(const Planned& run, Validation& v, const CaseResult& result) 
   Origin origin = result.origin;
   const auto known = v.record->find(run.one->name, run.resolution->name, identity);
   if (origin.machine.empty() && known && known->origin.build == origin.build && known->origin.date == origin.date)
-    origin.machine = known->origin.machine;  // of the same run
+    origin.machine = known->origin.machine;  // same run
   std::string text;
   agree_on_root(v.around.ranks, "writing the record", [&] {
     text = put_on_file(

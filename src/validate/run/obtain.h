@@ -1,5 +1,5 @@
 #pragma once
-// One run of a validation: an earlier one, or one that is made now, or its figures on record; and its measuring.
+// Obtains one run of a validation (an earlier one, a new one, or its recorded figures) and measures it.
 #include <optional>
 #include <string>
 
@@ -10,7 +10,7 @@
 
 namespace seiche {
 
-// A validation under way. The cache is rank 0's, the record is read by all ranks.
+// A validation in progress. The cache belongs to rank 0; all ranks read the record.
 struct Validation {
   const ValidateOptions& options;
   const Surroundings& around;
@@ -22,17 +22,17 @@ struct Validation {
   }
 };
 
-// Throws Error(bad_input) for a record that cannot be read. Collective.
+// Throws Error(bad_input) for an unreadable record. Collective.
 Validation start(const ValidateOptions& options, const Surroundings& around);
 
-// Obtains and measures a run; what could not go on, on all ranks together, is a result. Not judged: figures have the
-// verdict `missed`. Returns done, or why the validation ends here. Collective.
+// Obtains and measures a run. A simulation that cannot continue, on all ranks together, is a result. Figures get the
+// verdict `missed` until they are judged. Returns done, or the reason why the validation ends here. Collective.
 ExitCode obtain(const Planned& run, Validation& v, CaseResult& result);
 
-// What the record has of a run; absent where it has nothing.
+// Recorded result of a run; absent if there is none.
 CaseResult recorded_result(const Planned& run, const std::optional<ValidationRecord>& record);
 
-// Brings the record up to date with a run that was made or found, a failure included. Collective.
+// Updates the record with a run that was made or found, failures included. Collective.
 void put_on_record(const Planned& run, Validation& v, const CaseResult& result);
 
 }  // namespace seiche

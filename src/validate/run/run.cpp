@@ -20,7 +20,7 @@
 namespace seiche {
 namespace {
 
-// What a validation under way says of its rows.
+// Prints rows during a validation.
 struct Table {
   const Validation& v;
   TableWidths widths;
@@ -43,7 +43,7 @@ Report begin_report(const ValidateOptions& options, const Communicator& ranks, s
   return {options.level, ranks.size(), planned, {}, options.tampering, describe_machine()};
 }
 
-// The chosen runs and the others as they are on record, all judged together.
+// Selected runs and the recorded others, judged together.
 Report whole_of(const std::vector<Planned>& runs, const Report& report, const std::optional<ValidationRecord>& record) {
   Report whole = report;
   whole.planned = runs.size();
@@ -58,7 +58,7 @@ Report whole_of(const std::vector<Planned>& runs, const Report& report, const st
   return whole;
 }
 
-// The whole level as Markdown. The pages have what other validations have put on the record meanwhile.
+// Writes the whole level as Markdown, including what concurrent validations have added to the record.
 void write_docs(const std::vector<Planned>& runs, const Report& report, const ValidateOptions& options) {
   std::optional<FolderLock> lock;
   std::optional<ValidationRecord> record;
@@ -86,20 +86,20 @@ void write_report(const Report& report, const ValidateOptions& options, const Co
   });
 }
 
-// That of an earlier validation is not to stand beside the figures of one that was stopped.
+// The page of an earlier validation must not remain beside the figures of an interrupted one.
 void remove_html(const ValidateOptions& options, const Communicator& ranks) {
   agree_on_root(ranks, "removing an earlier report", [&] {
-    std::error_code ignored;  // where it stays, write_html() says so
+    std::error_code ignored;  // if it remains, write_html() reports it
     std::filesystem::remove(options.out / "report.html", ignored);
   });
 }
 
-// For people: the chosen cases with pictures.
+// Writes the HTML page: the selected cases with pictures.
 void write_html(const Report& report, const ValidateOptions& options, const Communicator& ranks) {
   agree_on_root(ranks, "writing the report", [&] { replace_file(options.out / "report.html", format_html(report)); });
 }
 
-// One file cannot hold two of the outputs.
+// Refuses two outputs with the same file.
 void refuse_shared_targets(const ValidateOptions& options) {
   std::vector<std::filesystem::path> targets{target_of(options.out / "validation.json"),
                                              target_of(options.out / "report.html")};
@@ -119,7 +119,7 @@ std::vector<std::string> names_of(const std::vector<Planned>& runs) {
   return names;
 }
 
-// What would be found only after hours of runs. Throws Error(bad_input, output_failed). Collective.
+// Checks now what would otherwise fail only after hours of runs. Throws Error(bad_input, output_failed). Collective.
 void check_options(const ValidateOptions& options, const std::vector<Planned>& runs, const Communicator& ranks) {
   agree(ranks, "reading the options", [&] {
     parse_tampering(options.tampering);

@@ -1,5 +1,5 @@
 #pragma once
-// What the verb validate does: run cases, measure, judge.
+// The verb validate: runs cases, measures and judges them.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,30 +12,30 @@
 
 namespace seiche {
 
-enum class Making { runs, report };  // report: of the runs that there are
+enum class Making { runs, report };  // report: only from existing runs
 
 struct ValidateOptions {
-  std::vector<std::string> words;              // names and tags; none: all cases
+  std::vector<std::string> words;              // names, tags and case/run; none: all cases
   std::string level = "quick";                 // "quick" or "full"
   std::optional<std::filesystem::path> cases;  // unset: find_cases_folder()
   std::filesystem::path out = "out/validate";
   std::optional<int> threads;
   Earlier earlier = Earlier::use;
   Making making = Making::runs;
-  std::optional<std::filesystem::path> docs;    // where to write the report as Markdown
+  std::optional<std::filesystem::path> docs;    // file for the report as Markdown
   std::optional<std::filesystem::path> record;  // figures of other builds and days, see validate/record/record.h
   std::string tampering;                        // see coupling/state/tampering.h
 };
 
-// Writes one line a case to the console.
+// Prints one line a case to the console.
 ExitCode list_cases(const ValidateOptions& options, const Surroundings& around);
 
-// Runs the chosen cases in out/<case>/<resolution>/ as far as they have no run yet, prints a table row after each,
-// keeps out/validation.json and writes out/report.html. With a record it brings that up to date, takes from it what is
-// not run, and the Markdown page has all cases of the level. Cases that could not go on are rows of the table. Returns
-// done (all passed), bug (a bar was missed), cannot_continue (a case could not be run or measured, or is absent),
-// stopped. Throws Error(bad_input) before anything is run, and Error(output_failed) where the record or the page could
-// not be written. Collective.
+// Runs the selected cases in out/<case>/<resolution>/ unless a run exists, prints a table row after each, updates
+// out/validation.json and writes out/report.html. With a record: updates it and takes figures of other runs from it;
+// the Markdown page then has all cases of the level. Cases that cannot continue are rows of the table. Returns done
+// (all passed), bug (a bar was missed), cannot_continue (a case could not be run or measured, or is absent), stopped.
+// Throws Error(bad_input) before anything is run, and Error(output_failed) if the record or the page could not be
+// written. Collective.
 ExitCode validate_command(const ValidateOptions& options, const Surroundings& around);
 
 }  // namespace seiche
