@@ -122,9 +122,9 @@ template void extrapolate<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, co
                              std::vector<double>&, std::vector<char>&);
 template void extrapolate<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, const ExtrapolateOptions&,
                              std::vector<double>&, std::vector<char>&);
-template void extrapolate_straight<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, int, double, std::vector<double>&,
-                                      std::vector<char>&);
-template void extrapolate_straight<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, int, double, std::vector<double>&,
-                                      std::vector<char>&);
+template void extrapolate_straight<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, int, double,
+                                      std::vector<double>&, std::vector<char>&);
+template void extrapolate_straight<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, int, double,
+                                      std::vector<double>&, std::vector<char>&);
 
 }  // namespace seiche
