@@ -158,7 +158,7 @@ struct StepInProgress {
     const FaceField<Dim> u =
         s.has_prescribed_flow() ? prescribed_flow(s, before.phi, before.time + 0.5 * dt) : flow_at_surface(s, before);
     CellField<Dim>& phi = out.state.phi;
-    const CellField<Dim, char> closed = closed_cells(s, out.geometry);
+    const CellField<Dim, char> closed = cells_to_continue(s, out.geometry, phi);
     // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
     if (!by_halves && may_go_by_halves(s) && s.scene.time.cfl > 2) make_distance(s, closed, phi);
     out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);

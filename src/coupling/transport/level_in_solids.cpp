@@ -78,6 +78,26 @@ void continue_level_set(const Setup<Dim>& s, const CellField<Dim, char>& closed,
 }
 
 template <int Dim>
+CellField<Dim, char> cells_to_continue(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+  constexpr double near = 2, least = 0.1;  // cells
+  CellField<Dim, char> closed = closed_cells(s, g);
+  if (s.bodies.empty()) return closed;
+  CellField<Dim> straight = phi;
+  continue_level_set(s, closed, straight);
+  std::vector<double> differing(s.bodies.size(), 0);
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (!closed[c] || std::min(std::abs(phi[c]), std::abs(straight[c])) >= near * s.layout.h()) return;
+    if (std::abs(phi[c] - straight[c]) > least * s.layout.h()) ++differing[std::size_t(g.body[c])];
+  });
+  s.ranks.global_sum(differing);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    if (closed[c] && differing[std::size_t(g.body[c])] == 0) closed[c] = 0;
+  });
+  s.halo.fill_ghosts({closed.data()});
+  return closed;
+}
+
+template <int Dim>
 void redistance_beside_solids(const Setup<Dim>& s, const CellField<Dim, char>& closed, const RedistanceOptions& options,
                               int passes, CellField<Dim>& phi) {
   const Site cells = s.layout.size();
@@ -113,6 +133,8 @@ void keep_sides_of_walls(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellFi
 
 template CellField<2, char> closed_cells<2>(const Setup<2>&, const StepGeometry<2>&);
 template CellField<3, char> closed_cells<3>(const Setup<3>&, const StepGeometry<3>&);
+template CellField<3, char> cells_to_continue<3>(const Setup<3>&, const StepGeometry<3>&, const CellField<3>&);
+template CellField<2, char> cells_to_continue<2>(const Setup<2>&, const StepGeometry<2>&, const CellField<2>&);
 template void continue_level_set<2>(const Setup<2>&, const CellField<2, char>&, CellField<2>&);
 template void continue_level_set<3>(const Setup<3>&, const CellField<3, char>&, CellField<3>&);
 template void redistance_beside_solids<2>(const Setup<2>&, const CellField<2, char>&, const RedistanceOptions&, int,

@@ -15,6 +15,13 @@ CellField<Dim, char> closed_cells(const Setup<Dim>& setup, const StepGeometry<Di
 template <int Dim>
 void continue_level_set(const Setup<Dim>& setup, const CellField<Dim, char>& closed, CellField<Dim>& phi);
 
+// The closed cells of solids through which phi bends: where phi and its straight continuation differ by a tenth of a
+// cell near the zero in some cell of the solid. Elsewhere both are as good, and phi itself is no extrapolation, which
+// narrow places between small solids amplify. Ghosts filled. Collective.
+template <int Dim>
+CellField<Dim, char> cells_to_continue(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                                       const CellField<Dim>& phi);
+
 // Makes phi a distance outside the closed cells, as continued straight into them, and then within them beside what is
 // outside. A surface redistanced through a wall bends towards the level on its other side, and sets liquid at rest
 // beside it in motion. Transport reads the distance within, which a front takes along into the wall
