@@ -75,16 +75,18 @@ void extend_edge(const Layout<Dim>& layout, double* f, Site s, const IVec<Dim>& 
   }
 }
 
-// The sites beyond a side and another one.
+// The sites beyond a side of axis a and one of axis b.
 template <int Dim>
-void extend_edges(const Layout<Dim>& layout, double* f, int axis, int side, const Vec<Dim>& offset, double steepest,
+void extend_edges(const Layout<Dim>& layout, double* f, int a, int b, const Vec<Dim>& offset, double steepest,
                   const Extensions<Dim>& rules) {
-  const Box<Dim> box = box_beyond(layout, axis, side, offset[axis]);
-  if (box.empty()) return;
-  for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
-    const IVec<Dim> steps = steps_beyond<Dim>(layout, i, offset);
-    if ((steps.array() != 0).count() > 1) extend_edge<Dim>(layout, f, s, steps, rules, steepest);
-  });
+  if (layout.geometry().periodic[a] || layout.geometry().periodic[b]) return;
+  for (const int sides : {0, 1, 2, 3}) {
+    const Box<Dim> box = box_beyond(layout, a, sides & 1, offset[a]).cut(box_beyond(layout, b, sides >> 1, offset[b]));
+    if (box.empty()) continue;
+    for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
+      extend_edge<Dim>(layout, f, s, steps_beyond<Dim>(layout, i, offset), rules, steepest);
+    });
+  }
 }
 
 }  // namespace
@@ -97,8 +99,7 @@ void extend_beyond_sides(const Layout<Dim>& layout, double* f, const Vec<Dim>& o
     for (int side = 0; side < 2; ++side) extend_one_side(layout, f, a, side, offset[a], steepest, rules[a][side]);
   }
   for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2 && !layout.geometry().periodic[a]; ++side)
-      extend_edges<Dim>(layout, f, a, side, offset, steepest, rules);
+    for (int b = 0; b < a; ++b) extend_edges<Dim>(layout, f, a, b, offset, steepest, rules);
 }
 
 template void extend_beyond_sides<2>(const Layout<2>&, double*, const Vec<2>&, const Extensions<2>&, double);
