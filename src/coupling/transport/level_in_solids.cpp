@@ -133,8 +133,8 @@ void keep_sides_of_walls(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellFi
 
 template CellField<2, char> closed_cells<2>(const Setup<2>&, const StepGeometry<2>&);
 template CellField<3, char> closed_cells<3>(const Setup<3>&, const StepGeometry<3>&);
-template CellField<3, char> cells_to_continue<3>(const Setup<3>&, const StepGeometry<3>&, const CellField<3>&);
 template CellField<2, char> cells_to_continue<2>(const Setup<2>&, const StepGeometry<2>&, const CellField<2>&);
+template CellField<3, char> cells_to_continue<3>(const Setup<3>&, const StepGeometry<3>&, const CellField<3>&);
 template void continue_level_set<2>(const Setup<2>&, const CellField<2, char>&, CellField<2>&);
 template void continue_level_set<3>(const Setup<3>&, const CellField<3, char>&, CellField<3>&);
 template void redistance_beside_solids<2>(const Setup<2>&, const CellField<2, char>&, const RedistanceOptions&, int,
