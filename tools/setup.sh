@@ -77,6 +77,7 @@ mpi_environment() {
 # configure OPTION...: configures the release preset with these options, and with ccache if installed.
 configure() {
   launcher=$(command -v ccache || true)
+  export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"  # else it passes precompiled headers by
   cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" >build/configure.log 2>&1 ||
     { cat build/configure.log; exit 1; }
 }

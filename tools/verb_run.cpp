@@ -1,3 +1,4 @@
+#include "base/scene.h"
 #include "console.h"
 #include "run/command.h"
 #include "verbs.h"

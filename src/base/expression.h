@@ -3,7 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "base/scene.h"
+#include "base/formula.h"
+#include "base/vec.h"
 
 namespace seiche {
 

@@ -1,6 +1,7 @@
 #pragma once
 // Gravity as it changes in time.
 #include "base/expression.h"
+#include "base/gravity_spec.h"
 
 namespace seiche {
 

@@ -9,6 +9,7 @@
 
 #include "base/agree.h"
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/version.h"
 #include "files/checked_file.h"
 #include "files/point_cache.h"
@@ -110,6 +111,9 @@ std::string first_not_finite(const FrameField& field) {
   return fmt::format("{} at cell ({}, {}, {})", field.name, field.lower[0] + n % nx, field.lower[1] + n / nx % ny,
                      field.lower[2] + n / (nx * ny));
 }
+
+FrameWriter::FrameWriter(const Scene& scene, const RunPaths& paths, const Communicator& ranks)
+    : scene_(scene), paths_(paths), ranks_(ranks), surfaces_(scene.solids.size()) {}
 
 bool FrameWriter::wants(const std::vector<std::string>& list, const std::string& name) const {
   return std::find(list.begin(), list.end(), name) != list.end();

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
 #include "coupling/state/simulation.h"
 #include "files/run_directory.h"
 #include "files/vtk.h"
 #include "geometry/vdb/openvdb_adapter.h"
 
 namespace seiche {
+
+struct Scene;
 
 struct FrameLabel {
   int number = 0;
@@ -29,8 +30,7 @@ std::string first_not_finite(const FrameField& field);
 
 class FrameWriter {
  public:
-  FrameWriter(const Scene& scene, const RunPaths& paths, const Communicator& ranks)
-      : scene_(scene), paths_(paths), ranks_(ranks), surfaces_(scene.solids.size()) {}
+  FrameWriter(const Scene& scene, const RunPaths& paths, const Communicator& ranks);
 
   // Writes frame `label` with all its files. Collective. Throws on all ranks: Error(output_failed), or
   // Error(cannot_continue) naming field and cell if a value is not finite; then nothing of that frame is written.

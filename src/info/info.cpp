@@ -11,6 +11,7 @@
 
 #include "base/crc32c.h"
 #include "base/error.h"
+#include "base/scene.h"
 #include "files/checked_file.h"
 #include "files/checkpoint_commit.h"
 #include "files/checkpoint_file.h"

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/expression.h"
+#include "base/scene.h"
 #include "files/frames.h"
 #include "files/vtu_reader.h"
 #include "geometry/shapes/shapes.h"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
 #include "geometry/vdb/openvdb_adapter.h"
 #include "render/bvh.h"
 

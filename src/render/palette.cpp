@@ -1,5 +1,7 @@
 #include "render/palette.h"
 
+#include "base/scene.h"
+
 namespace seiche::render {
 namespace {
 

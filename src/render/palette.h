@@ -1,6 +1,5 @@
 #pragma once
 // Colours of the solids.
-#include "base/scene.h"
 #include "render/image.h"
 
 namespace seiche::render {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/gravity.h"
+#include "base/scene.h"
 #include "files/checked_file.h"
 #include "files/frames.h"
 #include "render/extras.h"

@@ -6,6 +6,7 @@
 
 #include "base/agree.h"
 #include "base/gravity.h"
+#include "base/scene.h"
 #include "fluid/rheology/rheology.h"
 #include "geometry/shapes/shapes.h"
 #include "run/command.h"

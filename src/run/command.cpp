@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/agree.h"
+#include "base/scene.h"
 #include "coupling/state/tampering.h"
 #include "files/checkpoint.h"
 #include "run/fault.h"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/agree.h"
+#include "base/scene.h"
 #include "files/checkpoint.h"
 #include "run/scene.h"
 #include "run/summary.h"

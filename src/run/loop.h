@@ -6,7 +6,7 @@
 
 #include "base/emergency_channel.h"
 #include "base/error.h"
-#include "base/scene.h"
+#include "base/time_spec.h"
 #include "coupling/state/simulation.h"
 #include "files/frames.h"
 #include "files/run_directory.h"
@@ -18,6 +18,8 @@
 #include "run/watchdog.h"
 
 namespace seiche {
+
+struct Scene;
 
 // Number of the last frame. Frame n is at t = n / frame_rate; the last one is at `end` or, within rounding, just above.
 // -1 for end < 0.

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "geometry/mesh/extent.h"
 #include "solid/mesh/file.h"
 

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
 
 namespace seiche {
+
+struct Scene;
 
 // A mesh many times as wide as the domain is probably in another unit. Throws Error(bad_input) naming the line for
 // rigid and elastic solids, which must lie in the domain; returns a note for other uses.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/scene.h"
 #include "scene/reader.h"
 
 namespace seiche {

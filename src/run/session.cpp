@@ -6,6 +6,7 @@
 #include <new>
 
 #include "base/agree.h"
+#include "base/scene.h"
 #include "coupling/state/tampering.h"
 #include "fluid/rheology/rheology.h"
 #include "grid/thread_limit.h"

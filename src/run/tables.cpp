@@ -6,6 +6,7 @@
 
 #include "base/agree.h"
 #include "base/error.h"
+#include "base/scene.h"
 #include "files/csv.h"
 
 namespace seiche {

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "base/scene.h"
 #include "coupling/state/simulation.h"
 #include "files/run_directory.h"
 #include "files/table_file.h"
@@ -11,6 +10,8 @@
 #include "run/state.h"
 
 namespace seiche {
+
+struct Scene;
 
 // Compares the tables with their checkpoint. Damage throws Error(bad_checkpoint). With `force` it is returned as
 // warnings, and `state` is changed to continue after the remaining complete lines. Not collective.

@@ -9,6 +9,7 @@
 
 #include "base/gravity.h"
 #include "base/options.h"
+#include "base/scene.h"
 #include "base/suggest.h"
 #include "fluid/rheology/rheology.h"
 

@@ -1,6 +1,7 @@
 // Keys of [[solid]] for elastic solids.
 #include <fmt/format.h>
 
+#include "base/solid_spec.h"
 #include "scene/options.h"
 #include "solid/material/material.h"
 #include "solid/mesh/file.h"

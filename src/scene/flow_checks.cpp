@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/expression.h"
+#include "base/scene.h"
 #include "scene/checks.h"
 
 namespace seiche {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "base/formula.h"
 #include "base/options.h"
-#include "base/scene.h"
 
 namespace seiche {
 

@@ -1,4 +1,5 @@
 // The [gas] table.
+#include "base/scene.h"
 #include "scene/options.h"
 
 namespace seiche {

@@ -1,6 +1,7 @@
 // Keys of [liquid].
 #include <limits>
 
+#include "base/fluid_spec.h"
 #include "scene/options.h"
 
 namespace seiche {

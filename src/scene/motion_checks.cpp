@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/expression.h"
+#include "base/scene.h"
 #include "scene/checks.h"
 
 namespace seiche {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/scene.h"
+
 namespace seiche {
 namespace {
 

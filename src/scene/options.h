@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/options.h"
+#include "base/scene.h"
 #include "scene/section.h"
 
 namespace seiche {

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "scene/checks.h"
 #include "scene/options.h"
 #include "scene/overrides.h"

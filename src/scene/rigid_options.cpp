@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/shape_spec.h"
+#include "base/solid_spec.h"
 #include "coupling/solids/solid_kinds.h"
 #include "scene/options.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/shape_spec.h"
 #include "scene/options.h"
 #include "solid/mesh/file.h"
 

@@ -1,4 +1,5 @@
 // Keys of [[solid]].
+#include "base/solid_spec.h"
 #include "coupling/solids/solid_kinds.h"
 #include "scene/options.h"
 

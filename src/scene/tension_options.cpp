@@ -1,4 +1,5 @@
 // Keys of surface tension in [liquid] and [[solid]].
+#include "base/fluid_spec.h"
 #include "scene/options.h"
 
 namespace seiche {

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/formula.h"
 #include "base/options.h"
-#include "base/scene.h"
+#include "base/vec.h"
 #include "scene/context.h"
 
 namespace seiche {

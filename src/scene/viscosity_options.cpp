@@ -1,6 +1,8 @@
 // Keys of [liquid] and [solver] for viscous liquid.
 #include <fmt/format.h>
 
+#include "base/fluid_spec.h"
+#include "base/solver_spec.h"
 #include "fluid/rheology/rheology.h"
 #include "scene/options.h"
 

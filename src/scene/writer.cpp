@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/scene.h"
 #include "scene/options.h"
 
 namespace seiche {

@@ -1,4 +1,5 @@
 #include "exact_intersections.h"
+#include "base/scene.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>

@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 #include "exact_intersections.h"
 #include "rigid_scenes.h"

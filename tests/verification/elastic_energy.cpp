@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 #include "rigid_scenes.h"
 

@@ -1,4 +1,5 @@
 // What one projection passes between liquid, elastic and rigid bodies, static solids and walls, on random scenes.
+#include "base/scene.h"
 #include "exchange.h"
 
 using namespace seiche;

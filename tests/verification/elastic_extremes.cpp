@@ -1,6 +1,7 @@
 // Bodies far lighter than the liquid, at any stiffness, in liquid without a free surface.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // What a solve with elastic bodies costs: iterations at any stiffness, density and resolution.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 #include "first_solve.h"
 #include "rigid_scenes.h"

@@ -1,5 +1,6 @@
 // The load of a constant pressure and of liquid at rest on the nodes of elastic bodies, against integrals over their
 // elements.
+#include "base/scene.h"
 #include "exchange.h"
 
 using namespace seiche;

@@ -1,5 +1,6 @@
 #pragma once
 // Elastic bodies for the verification tests.
+#include "base/solid_spec.h"
 #include "scenes.h"
 
 namespace seiche::test {

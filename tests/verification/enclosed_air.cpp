@@ -3,6 +3,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/scene.h"
 #include "coupling/geometry/step_geometry.h"
 #include "fluid/pressure/pressure.h"
 #include "levelset/redistance.h"

@@ -1,5 +1,11 @@
 // Solves that blow up are rejected and told: operators made wrong on purpose, on any number of ranks.
 #include "coupling/report/energy_budget.h"
+#include "base/scene.h"
+#include "coupling/state/attempt.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+#include "coupling/step/initial_state.h"
+#include "coupling/step/step.h"
 
 #include <catch2/catch.hpp>
 
@@ -36,7 +42,7 @@ template <int Dim>
 void check_blown_up() {
   const Setup<Dim> setup(drifting_pool(Dim), Communicator());
   const State<Dim> start = initial_state(setup);
-  const NodeField<Dim> psi = setup.solids.measure(place_bodies(setup, start), 0).psi;
+  const NodeField<Dim> psi = setup.solids.measure(place_bodies(start), 0).psi;
   Phases phases;
   Attempt<Dim> a = attempt_step(setup, start, 0.05, phases);
   REQUIRE(a.failure.empty());

@@ -9,6 +9,8 @@
 #include "coupling/solids/kind_rigid.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "coupling/solve/coupled_solve.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
 #include "grid/loops.h"
 #include "scenes.h"
 
@@ -54,7 +56,7 @@ struct Projection {
     for (std::size_t k = 0; k < state.solids.size(); ++k)
       if (ElasticMotion* motion = elastic_motion(state.solids[k])) deform(motion->state);
     before = state.solids;
-    geometry = setup.solids.measure(place_bodies(setup, state), 0);
+    geometry = setup.solids.measure(place_bodies(state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
     auto level = std::make_shared<Level<Dim>>(empty_level(setup));

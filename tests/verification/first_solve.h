@@ -1,6 +1,9 @@
 #pragma once
 // The solve of a first step of 1 ms, from zero pressure, taken apart: what it costs can be looked at.
 #include "coupling/solve/liquid_problem.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+#include "coupling/step/initial_state.h"
 #include "coupling/transport/transport.h"
 #include "scenes.h"
 
@@ -11,7 +14,7 @@ struct FirstSolve {
   static constexpr double dt = 1e-3;
   Setup<Dim> s;
   State<Dim> state = initial_state(s);
-  StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  StepGeometry<Dim> g = s.solids.measure(place_bodies(state), 0);
   ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, state.phi, g.faces, s.density(), dt};
   PressureRows<Dim> rows = number_rows(in);
   NullSpace closed = find_closed_components(in, rows);

@@ -1,6 +1,7 @@
 // Gravity that changes in time.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;

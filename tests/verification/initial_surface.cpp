@@ -1,6 +1,7 @@
 // The liquid that a scene's formulas begin with.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

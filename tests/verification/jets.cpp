@@ -1,6 +1,7 @@
 // Liquid that enters through a side with all components of its velocity and then falls freely.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

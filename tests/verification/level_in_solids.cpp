@@ -1,5 +1,8 @@
 // Liquid on one side of a thick wall does not come out at the other when the wall moves.
 #include "coupling/transport/level_in_solids.h"
+#include "base/scene.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
 
 #include <catch2/catch.hpp>
 
@@ -26,7 +29,7 @@ void check_sides() {
   const CellField<Dim> before = phi;
   State<Dim> state;
   state.solids = setup.at_start;
-  keep_sides_of_walls(setup, setup.solids.measure(place_bodies(setup, state), 0), phi);
+  keep_sides_of_walls(setup, setup.solids.measure(place_bodies(state), 0), phi);
   int wrong = 0, touched = 0;
   for_each_index_in_order(setup.layout, setup.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     wrong += (place(i) < 0.5) != (phi[c] < 0);
@@ -49,7 +52,7 @@ void check_continuation() {
   const Setup<Dim> setup(scene, Communicator());
   State<Dim> state;
   state.solids = setup.at_start;
-  const auto closed = closed_cells(setup, setup.solids.measure(place_bodies(setup, state), 0));
+  const auto closed = closed_cells(setup, setup.solids.measure(place_bodies(state), 0));
   CellField<Dim> phi(setup.layout);
   const auto plane = [&](const IVec<Dim>& i) {
     return std::clamp(setup.layout.position(i, cell_offset<Dim>())[1] - 0.47, -setup.band(), setup.band());

@@ -1,6 +1,7 @@
 // Liquid that leaves through a side, and comes back.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Liquid that may part from walls and solids.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

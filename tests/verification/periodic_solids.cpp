@@ -2,7 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+#include "coupling/step/initial_state.h"
 #include "elastic_scenes.h"
 #include "grid/loops.h"
 #include "rigid_scenes.h"
@@ -43,7 +47,7 @@ template <int Dim>
 void check_sides(SolidKind kind) {
   const Setup<Dim> s(beside_sides(Dim, kind), Communicator(), {});
   const State<Dim> state = initial_state(s);
-  const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
+  const StepGeometry<Dim> g = s.solids.measure(place_bodies(state), 0);
   double least = 1;
   for_each_site(s.layout, s.layout.cells(), [&](Site f) { least = std::min(least, g.faces.open.at(1, f)); });
   CHECK(least == 0);

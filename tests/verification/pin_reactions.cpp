@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 #include "rigid_scenes.h"
 

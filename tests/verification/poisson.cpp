@@ -2,6 +2,7 @@
 // solids.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "coupling/geometry/step_geometry.h"
 #include "fluid/pressure/pressure.h"
 #include "grid/loops.h"

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/expression.h"
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

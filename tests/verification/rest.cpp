@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

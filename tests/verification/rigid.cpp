@@ -1,6 +1,7 @@
 // Rigid bodies in liquid against exact results.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -2,8 +2,14 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "base/scene.h"
 #include "coupling/solids/kind_rigid.h"
+#include "coupling/state/attempt.h"
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/step/initial_state.h"
+#include "coupling/step/step.h"
+#include "coupling/step/step_size.h"
 #include "rigid_scenes.h"
 #include "solid/rigid/motion.h"
 

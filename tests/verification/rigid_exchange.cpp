@@ -1,4 +1,5 @@
 // What one projection passes between liquid, rigid bodies, static solids and walls, on random scenes.
+#include "base/scene.h"
 #include "exchange.h"
 
 using namespace seiche;

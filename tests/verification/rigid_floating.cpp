@@ -1,6 +1,7 @@
 // Floating and rising bodies against Archimedes and the added mass.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;

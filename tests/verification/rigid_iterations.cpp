@@ -1,6 +1,7 @@
 // What a solve with rigid bodies costs: iterations at any density ratio and rank count, set-up for many bodies.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "first_solve.h"
 #include "rigid_scenes.h"
 

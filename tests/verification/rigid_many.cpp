@@ -1,6 +1,7 @@
 // More rigid bodies in touch than the model of their added mass takes.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;

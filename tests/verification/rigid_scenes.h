@@ -1,5 +1,7 @@
 #pragma once
 // Rigid bodies for the verification tests, and what their motion comes to.
+#include "base/fluid_spec.h"
+#include "base/solid_spec.h"
 #include "scenes.h"
 
 namespace seiche::test {

@@ -1,6 +1,7 @@
 // Massless bodies, and the same float at any step size.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/communicator.h"
+#include "base/scene.h"
 #include "coupling/state/simulation.h"
 
 namespace seiche::test {

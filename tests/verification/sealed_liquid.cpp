@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 #include "exchange.h"
 #include "solid/body/enclosed_volume.h"

@@ -1,6 +1,7 @@
 // Standing gravity waves of small amplitude against linear theory: omega^2 = g k tanh(k depth).
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Solids on a spring, alone and in liquid. They came to the program in one file and one row of the table of kinds.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "coupling/solids/solid_kinds.h"
 #include "scenes.h"
 

@@ -1,6 +1,7 @@
 // Surface tension against Laplace, Rayleigh and Young: drops at rest, swinging and sitting.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "fluid/pressure/pressure.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"

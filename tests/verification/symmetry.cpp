@@ -1,6 +1,7 @@
 // A scene turned, mirrored or with its axes permuted gives the turned result: no direction is special.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Inviscid Taylor-Green vortices (Basilisk's taylor-green.c): transport and projection without walls.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Elastic solids thinner than a cell keep liquid on its side, bear its weight, and pass on what it pushes.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "elastic_scenes.h"
 #include "exchange.h"
 #include "geometry/mesh/segment_crossing.h"

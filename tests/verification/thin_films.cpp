@@ -1,6 +1,7 @@
 // Bodies on the floor of a tank, on water films far thinner than a cell (docs/method.md, "Thin films").
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;

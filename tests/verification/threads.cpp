@@ -1,6 +1,7 @@
 // Threads and sheets of liquid a few cells thick that fly neither widen nor wane.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Liquid and gas in one solve.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

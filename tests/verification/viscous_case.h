@@ -2,6 +2,7 @@
 // The viscous operator on one grid, and its whole saddle-point system solved by a direct method.
 #include <Eigen/SparseLU>
 
+#include "base/scene.h"
 #include "coupling/geometry/step_geometry.h"
 #include "fluid/viscosity/no_slip_flux.h"
 #include "grid/loops.h"

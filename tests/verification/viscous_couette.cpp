@@ -1,6 +1,7 @@
 // Stokes flow between cylinders, and between inclined plates, against exact solutions.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "viscous_case.h"
 
 using namespace seiche;

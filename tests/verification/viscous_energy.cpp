@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "rigid_scenes.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // What a solve of viscous liquid costs where its domain is no plain box.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/scene.h"
 #include "viscous_case.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Paths beside walls that move along themselves, and through outflow sides, against exact flows.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scenes.h"
 
 using namespace seiche;

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include "coupling/report/measures.h"
+#include "coupling/state/attempt.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 #include "coupling/tension/surface_tension.h"
 #include "coupling/transport/given_motion.h"
+#include "fluid/boundary/domain.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
 
@@ -15,32 +20,32 @@ namespace {
 constexpr double still = 1e-3;
 
 template <int Dim>
-double body_mass(const Setup<Dim>& s) {
+double body_mass(const Solids<Dim>& solids) {
   double sum = 0;
-  for (const Body<Dim>& body : s.bodies) sum += body.mass().mass;
+  for (const Body<Dim>& body : solids.bodies) sum += body.mass().mass;
   return sum;
 }
 
 template <int Dim>
-double total_mass(const Setup<Dim>& s, const StepStats& stats) {
-  return s.density() * stats.liquid_volume + s.gas_density() * stats.gas_volume + body_mass(s);
+double total_mass(const Fluids& fluids, const Solids<Dim>& solids, const StepStats& stats) {
+  return fluids.density() * stats.liquid_volume + fluids.gas_density() * stats.gas_volume + body_mass(solids);
 }
 
 // Faces that the surface crosses times their area: at least the surface's own one, twice for what wets walls.
 template <int Dim>
-double surface_energy(const Setup<Dim>& s, const CellField<Dim>& phi) {
-  if (!has_surface_tension(s)) return 0;
+double surface_energy(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi) {
+  if (!fluids.has_surface_tension()) return 0;
   double faces = 0;
   for (int a = 0; a < Dim; ++a)
-    faces += local_sum(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      return (phi[f] < 0) != (phi[f - s.layout.stride(a)] < 0) ? 1.0 : 0.0;
+    faces += local_sum(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      return (phi[f] < 0) != (phi[f - domain.layout.stride(a)] < 0) ? 1.0 : 0.0;
     });
-  return 2 * s.scene.liquid.surface_tension * s.ranks.global_sum(faces) * s.layout.geometry().face_area();
+  return 2 * fluids.liquid.surface_tension * domain.ranks.global_sum(faces) * domain.layout.geometry().face_area();
 }
 
 // The fastest that prescribed bodies and pins move, m/s.
 template <int Dim>
-double fastest_led(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double span) {
+double fastest_led(const Solids<Dim>& solids, const Attempt<Dim>& attempt, double t, double span) {
   std::vector<Placement> placed = attempt.geometry.placed;
   double fastest = 0;
   for (std::size_t k = 0; k < placed.size(); ++k) {
@@ -48,18 +53,18 @@ double fastest_led(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, d
     placed[k] = solid.prescribed_part(placed[k]);
     fastest = std::max(fastest, solid.fastest_prescribed_part(t, span));
   }
-  return std::max(fastest, s.solids.largest_displacement(placed, 1));
+  return std::max(fastest, solids.geometry.largest_displacement(placed, 1));
 }
 
 // p.b/A of the sides, of this rank: volume let in times the pressure it is let in against.
 template <int Dim>
-double pushed_by_sides(const Setup<Dim>& s, const Attempt<Dim>& attempt) {
+double pushed_by_sides(const Domain<Dim>& domain, const Attempt<Dim>& attempt) {
   const FaceGeometry<Dim>& faces = attempt.geometry.faces;
   double sum = 0;
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side)
-      for_each_index_in_order(s.layout, faces_of_side(s.layout, a, side), [&](Site f, const IVec<Dim>&) {
-        const Site inside = side == 0 ? f : f - s.layout.stride(a);
+      for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>&) {
+        const Site inside = side == 0 ? f : f - domain.layout.stride(a);
         const double inward = (side == 0 ? 1 : -1) * faces.open.at(a, f);
         const FaceKind kind = faces.kind_at(a, f);
         if (kind == FaceKind::prescribed) sum += inward * faces.prescribed.at(a, f) * attempt.state.pressure[inside];
@@ -71,39 +76,40 @@ double pushed_by_sides(const Setup<Dim>& s, const Attempt<Dim>& attempt) {
 // p.b/A of a prescribed body, of this rank; of an elastic one that pins lead at most, all of its surface at their
 // speed.
 template <int Dim>
-double pushed_by_body(const Setup<Dim>& s, const Attempt<Dim>& attempt, std::size_t k, double pinned) {
+double pushed_by_body(const Domain<Dim>& domain, const Attempt<Dim>& attempt, std::size_t k, double pinned) {
   double sum = 0;
   const Twist led = attempt.state.solids[k].prescribed_part(attempt.geometry.placed[k]).twist;
   if (led.at_rest() && pinned == 0) return 0;
   for (const FaceShare& share : *attempt.geometry.shares[k]) {
-    const IVec<Dim> i = s.layout.index(share.face);
-    if (!s.layout.faces(share.axis).contains(i)) continue;
+    const IVec<Dim> i = domain.layout.index(share.face);
+    if (!domain.layout.faces(share.axis).contains(i)) continue;
     const CellField<Dim>& p = attempt.state.pressure;
-    const double jump = p[share.face] - p[share.face - s.layout.stride(share.axis)];
+    const double jump = p[share.face] - p[share.face - domain.layout.stride(share.axis)];
     if (pinned > 0)
       sum += share.closed * std::abs(jump) * pinned;
     else
-      sum += share.closed * jump * led.at(extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))))[share.axis];
+      sum += share.closed * jump *
+             led.at(extend<Dim>(domain.layout.position(i, face_offset<Dim>(share.axis))))[share.axis];
   }
   return sum;
 }
 
 // dt p.b, J.
 template <int Dim>
-double pushed(const Setup<Dim>& s, const Attempt<Dim>& attempt, double t, double dt) {
-  double sum = pushed_by_sides(s, attempt);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+double pushed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Attempt<Dim>& attempt, double t, double dt) {
+  double sum = pushed_by_sides(domain, attempt);
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const double pinned = attempt.state.solids[k].fastest_prescribed_part(t, dt);
-    sum += pushed_by_body(s, attempt, k, pinned);
+    sum += pushed_by_body(domain, attempt, k, pinned);
   }
-  return std::max(0.0, dt * s.ranks.global_sum(sum) * s.layout.geometry().face_area());
+  return std::max(0.0, dt * domain.ranks.global_sum(sum) * domain.layout.geometry().face_area());
 }
 
 // sqrt(f.M^-1 f), M lumped, of tractions and body forces.
 template <int Dim>
-double pull_of_forces(const Setup<Dim>& s, double t) {
+double pull_of_forces(const Solids<Dim>& solids, double t) {
   double sum = 0;
-  for (std::size_t k = 0; k < s.at_start.size(); ++k) sum += s.at_start[k].pull(t);
+  for (std::size_t k = 0; k < solids.at_start.size(); ++k) sum += solids.at_start[k].pull(t);
   return std::sqrt(sum);
 }
 
@@ -121,15 +127,16 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
   const double t = before.time, dt = attempt.state.time - t, span = dt + attempt.state.horizon;
   EnergyBudget b;
-  b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s, before, psi));
+  b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s.domain, s.fluids, before, psi));
   b.elastic = start.elastic_energy;
-  b.surface = std::max(surface_energy(s, before.phi), surface_energy(s, attempt.state.phi));
-  b.mass = std::max(total_mass(s, start), total_mass(s, attempt.stats));
-  b.gain = span * (s.gravity.of_step(t + dt, dt).norm() + s.gravity.of_step(t, before.dt_now).norm());
-  b.given = still * s.layout.h() / dt + fastest_led(s, attempt, t, span) +
-            std::sqrt(double(Dim)) * fastest_given_flow(s, t, dt);
-  b.momentum = span * std::max(pull_of_forces(s, t), pull_of_forces(s, t + span));
-  b.pushed = pushed(s, attempt, t, dt);
+  b.surface =
+      std::max(surface_energy(s.domain, s.fluids, before.phi), surface_energy(s.domain, s.fluids, attempt.state.phi));
+  b.mass = std::max(total_mass(s.fluids, s.solids, start), total_mass(s.fluids, s.solids, attempt.stats));
+  b.gain = span * (s.fluids.gravity.of_step(t + dt, dt).norm() + s.fluids.gravity.of_step(t, before.dt_now).norm());
+  b.given = still * s.domain.layout.h() / dt + fastest_led(s.solids, attempt, t, span) +
+            std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt);
+  b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
+  b.pushed = pushed(s.domain, s.solids, attempt, t, dt);
   return b;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 // The most kinetic energy that a step can end with: what was there, was stored, and was put in.
+#include "coupling/state/attempt.h"
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 
 namespace seiche {

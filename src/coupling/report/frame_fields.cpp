@@ -1,8 +1,11 @@
 // Fields for frames, from the owned cells.
 #include "base/error.h"
 #include "coupling/report/measures.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/state.h"
 #include "coupling/transport/liquid_viscosity.h"
 #include "coupling/transport/two_fluids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -18,10 +21,11 @@ double cell_gradient(const Layout<Dim>& layout, const std::vector<double>& u, in
 
 // |curl u| in 3D, curl u in 2D, where there is fluid; 0 elsewhere. 1/s.
 template <int Dim>
-double vorticity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim>& u, Site c) {
-  if (state.phi[c] >= 0 && !s.has_gas()) return 0;
+double vorticity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const FaceField<Dim>& u,
+                 Site c) {
+  if (state.phi[c] >= 0 && !fluids.has_gas()) return 0;
   const auto part = [&](int a, int b) {
-    return cell_gradient(s.layout, u[b], b, a, c) - cell_gradient(s.layout, u[a], a, b, c);
+    return cell_gradient(domain.layout, u[b], b, a, c) - cell_gradient(domain.layout, u[a], a, b, c);
   };
   if constexpr (Dim == 2) return part(0, 1);
   if constexpr (Dim == 3) return Vec3(part(1, 2), part(2, 0), part(0, 1)).norm();
@@ -31,46 +35,49 @@ double vorticity(const Setup<Dim>& s, const State<Dim>& state, const FaceField<D
 
 // Pa s, that of the gas, or 0, outside the liquid.
 template <int Dim>
-CellField<Dim> viscosity(const Setup<Dim>& s, const State<Dim>& state) {
-  CellField<Dim> mu(s.layout);
-  const std::string fault = set_liquid_viscosity(s, state.now->u, state.now->valid, state.time, mu);
+CellField<Dim> viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
+  CellField<Dim> mu(domain.layout);
+  const std::string fault = set_liquid_viscosity(domain, fluids, state.now->u, state.now->valid, state.time, mu);
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    if (state.phi[c] >= 0) mu[c] = s.has_gas() ? s.scene.gas.viscosity : 0;
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    if (state.phi[c] >= 0) mu[c] = fluids.has_gas() ? fluids.gas.viscosity : 0;
   });
   return mu;
 }
 
 template <int Dim>
-FrameField make_frame_field(const Setup<Dim>& s, const State<Dim>& state, const std::string& name) {
+FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                            const std::string& name) {
   FrameField out;
   out.name = name;
-  for (int a = 0; a < Dim; ++a) out.lower[a] = s.layout.cells().lower[a], out.upper[a] = s.layout.cells().upper[a];
+  for (int a = 0; a < Dim; ++a)
+    out.lower[a] = domain.layout.cells().lower[a], out.upper[a] = domain.layout.cells().upper[a];
   if (Dim == 2) out.upper[2] = 1;
   const auto fill = [&](FrameField::Kind kind, auto value) {
     out.kind = kind;
-    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) { value(c); });
+    for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { value(c); });
   };
   if (name == "surface")
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
   else if (name == "vel")
-    fill(FrameField::Kind::staggered_vector, [&, u = of_both(s, state, &Level<Dim>::u)](Site c) {
+    fill(FrameField::Kind::staggered_vector, [&, u = of_both(domain, state, &Level<Dim>::u)](Site c) {
       for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(u.at(std::min(a, Dim - 1), c)) : 0.0f);
     });
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
   else if (name == "viscosity")
-    fill(FrameField::Kind::scalar, [&, mu = viscosity(s, state)](Site c) { out.values.push_back(float(mu[c])); });
+    fill(FrameField::Kind::scalar,
+         [&, mu = viscosity(domain, fluids, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
-    fill(FrameField::Kind::scalar, [&, u = of_both(s, state, &Level<Dim>::u)](Site c) {
-      out.values.push_back(float(vorticity(s, state, u, c)));
+    fill(FrameField::Kind::scalar, [&, u = of_both(domain, state, &Level<Dim>::u)](Site c) {
+      out.values.push_back(float(vorticity(domain, fluids, state, u, c)));
     });
   else
     throw Error(ExitCode::bug, "no field named '" + name + "'");
   return out;
 }
 
-template FrameField make_frame_field<2>(const Setup<2>&, const State<2>&, const std::string&);
-template FrameField make_frame_field<3>(const Setup<3>&, const State<3>&, const std::string&);
+template FrameField make_frame_field<2>(const Domain<2>&, const Fluids&, const State<2>&, const std::string&);
+template FrameField make_frame_field<3>(const Domain<3>&, const Fluids&, const State<3>&, const std::string&);
 
 }  // namespace seiche

@@ -2,8 +2,12 @@
 
 #include <numeric>
 
+#include "base/time_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
 #include "coupling/transport/air_volume.h"
 #include "coupling/transport/transport.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 
@@ -17,17 +21,17 @@ struct FacePair {
 };
 
 template <int Dim>
-FacePair solved_faces(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
-  const Site up = cell + s.layout.stride(axis);
+FacePair solved_faces(const Domain<Dim>& domain, const Level<Dim>& l, int axis, Site cell) {
+  const Site up = cell + domain.layout.stride(axis);
   const bool low = l.valid.at(axis, cell), high = l.valid.at(axis, up);
   return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
 }
 
 // The larger speed of a cell's faces along an axis that the fluid touches.
 template <int Dim>
-double fastest_solved(const Setup<Dim>& s, const Level<Dim>& l, int axis, Site cell) {
+double fastest_solved(const Domain<Dim>& domain, const Level<Dim>& l, int axis, Site cell) {
   double fastest = 0;
-  for (const Site f : {cell, cell + s.layout.stride(axis)})
+  for (const Site f : {cell, cell + domain.layout.stride(axis)})
     if (l.valid.at(axis, f)) fastest = std::max(fastest, std::abs(l.u.at(axis, f)));
   return fastest;
 }
@@ -41,22 +45,22 @@ struct FluidSums {
 // E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
 // g.x with gravity at that time; the fluid is where phi < 0.
 template <int Dim>
-FluidSums sum_fluid(const Setup<Dim>& s, const Level<Dim>& level, const CellField<Dim>& phi, const NodeField<Dim>& psi,
-                    double density, const Vec<Dim>& g) {
+FluidSums sum_fluid(const Domain<Dim>& domain, const Level<Dim>& level, const CellField<Dim>& phi,
+                    const NodeField<Dim>& psi, double density, const Vec<Dim>& g) {
   FluidSums r;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (phi[c] > 2 * s.layout.h()) return;
-    const double volume = s.layout.geometry().cell_volume() * liquid_share(s.layout, phi, psi, c);
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (phi[c] > 2 * domain.layout.h()) return;
+    const double volume = domain.layout.geometry().cell_volume() * liquid_share(domain.layout, phi, psi, c);
     const double mass = density * volume;
     double speed2 = 0;
     for (int a = 0; a < Dim; ++a) {
-      const FacePair u = solved_faces(s, level, a, c);
+      const FacePair u = solved_faces(domain, level, a, c);
       r.sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
       r.sums[3 + a] += 0.5 * mass * (u.low + u.high);
-      speed2 += std::pow(fastest_solved(s, level, a, c), 2);
+      speed2 += std::pow(fastest_solved(domain, level, a, c), 2);
     }
     r.sums[0] += volume;
-    r.sums[2] -= mass * g.dot(s.layout.position(i, cell_offset<Dim>()));
+    r.sums[2] -= mass * g.dot(domain.layout.position(i, cell_offset<Dim>()));
     if (phi[c] < 0) r.fastest_squared = std::max(r.fastest_squared, speed2), r.sums[6] += 1;
   });
   return r;
@@ -72,36 +76,41 @@ CellField<Dim> negated(const Layout<Dim>& layout, const CellField<Dim>& f) {
 }  // namespace
 
 template <int Dim>
-void measure_fluids(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
-  const Vec<Dim> g = truncate<Dim>(s.gravity.at(state.time));
-  FluidSums liquid = sum_fluid(s, *state.now, state.phi, psi, s.density(), g), gas;
-  if (s.has_gas()) gas = sum_fluid(s, *state.gas.now, negated(s.layout, state.phi), psi, s.gas_density(), g);
-  s.ranks.global_sum(liquid.sums);
-  s.ranks.global_sum(gas.sums);
+void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
+                    StepStats& stats) {
+  const Vec<Dim> g = truncate<Dim>(fluids.gravity.at(state.time));
+  FluidSums liquid = sum_fluid(domain, *state.now, state.phi, psi, fluids.density(), g), gas;
+  if (fluids.has_gas())
+    gas = sum_fluid(domain, *state.gas.now, negated(domain.layout, state.phi), psi, fluids.gas_density(), g);
+  domain.ranks.global_sum(liquid.sums);
+  domain.ranks.global_sum(gas.sums);
   stats.liquid_volume = liquid.sums[0];
   stats.gas_volume = gas.sums[0];
   stats.kinetic_energy = liquid.sums[1] + gas.sums[1];
   stats.potential_energy = liquid.sums[2] + gas.sums[2];
   for (int a = 0; a < 3; ++a) stats.momentum[a] = liquid.sums[3 + a] + gas.sums[3 + a];
-  stats.max_speed = std::sqrt(s.ranks.global_max(std::max(liquid.fastest_squared, gas.fastest_squared)));
+  stats.max_speed = std::sqrt(domain.ranks.global_max(std::max(liquid.fastest_squared, gas.fastest_squared)));
   stats.cells_liquid = std::int64_t(liquid.sums[6]);
   stats.volume_corrected = state.corrected_volume;
 }
 
 template <int Dim>
-double kinetic_energy_of_fluids_before(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
+double kinetic_energy_of_fluids_before(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                                       const NodeField<Dim>& psi) {
   if (!state.before) return 0;
   const Vec<Dim> g = Vec<Dim>::Zero();
-  double sum = sum_fluid(s, *state.before, state.phi, psi, s.density(), g).sums[1];
-  if (s.has_gas() && state.gas.before)
-    sum += sum_fluid(s, *state.gas.before, negated(s.layout, state.phi), psi, s.gas_density(), g).sums[1];
-  return s.ranks.global_sum(sum);
+  double sum = sum_fluid(domain, *state.before, state.phi, psi, fluids.density(), g).sums[1];
+  if (fluids.has_gas() && state.gas.before)
+    sum +=
+        sum_fluid(domain, *state.gas.before, negated(domain.layout, state.phi), psi, fluids.gas_density(), g).sums[1];
+  return domain.ranks.global_sum(sum);
 }
 
 template <int Dim>
-void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats) {
-  if (!s.keeps_air()) return;
-  const std::vector<double> volumes = air_volumes(s, state.air, psi, state.phi);
+void measure_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
+                 StepStats& stats) {
+  if (!fluids.keeps_air()) return;
+  const std::vector<double> volumes = air_volumes(domain, state.air, psi, state.phi);
   // Cut cells of solids may hold air by their centres and none outside the solid.
   stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
   stats.gas_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
@@ -109,62 +118,65 @@ void measure_air(const Setup<Dim>& s, const State<Dim>& state, const NodeField<D
 }
 
 template <int Dim>
-void measure_bodies(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) {
-  for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].measure(s, state, stats);
+void measure_bodies(const Fluids& fluids, const TimeSpec& time, const State<Dim>& state, StepStats& stats) {
+  for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].measure(fluids.gravity, time, state, stats);
 }
 
 // Adds force and torque of the pressure on each solid's shares to `loads`, six numbers a solid, of this rank's faces.
 template <int Dim>
-void add_pressure_loads(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g, std::size_t k,
+void add_pressure_loads(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g, std::size_t k,
                         const Vec3& about, std::vector<double>& loads) {
   for (const FaceShare& share : *g.shares[k]) {
-    const double jump = state.pressure[share.face - s.layout.stride(share.axis)] - state.pressure[share.face];
-    const IVec<Dim> i = s.layout.index(share.face);
-    if (jump == 0 || !s.layout.faces(share.axis).contains(i)) continue;
+    const double jump = state.pressure[share.face - domain.layout.stride(share.axis)] - state.pressure[share.face];
+    const IVec<Dim> i = domain.layout.index(share.face);
+    if (jump == 0 || !domain.layout.faces(share.axis).contains(i)) continue;
     Vec3 force = Vec3::Zero();
-    force[share.axis] = share.closed * s.layout.geometry().face_area() * jump;
-    const Vec3 torque = (extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis))) - about).cross(force);
+    force[share.axis] = share.closed * domain.layout.geometry().face_area() * jump;
+    const Vec3 torque = (extend<Dim>(domain.layout.position(i, face_offset<Dim>(share.axis))) - about).cross(force);
     for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
   }
 }
 
 // F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
 template <int Dim>
-std::vector<SolidState> measure_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g) {
-  std::vector<SolidState> solids;
-  std::vector<double> loads(6 * s.bodies.size());
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
+                                       const State<Dim>& state, const StepGeometry<Dim>& g) {
+  std::vector<SolidState> states;
+  std::vector<double> loads(6 * solids.bodies.size());
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Pose& pose = g.placed[k].pose;
     const Eigen::Quaterniond q(pose.rotation);
-    SolidState& out = solids.emplace_back();
-    out.name = s.bodies[k].spec().name;
-    out.position = pose.apply(s.bodies[k].reference_point());
+    SolidState& out = states.emplace_back();
+    out.name = solids.bodies[k].spec().name;
+    out.position = pose.apply(solids.bodies[k].reference_point());
     out.orientation = {q.w(), q.x(), q.y(), q.z()};
     out.velocity = g.placed[k].twist.at(out.position);
     out.angular_velocity = g.placed[k].twist.angular;
-    state.solids[k].describe(s, state, out);
-    add_pressure_loads(s, state, g, k, g.deforms(int(k)) ? out.position : g.pivots[k], loads);
+    state.solids[k].describe(time, state, out);
+    add_pressure_loads(domain, state, g, k, g.deforms(int(k)) ? out.position : g.pivots[k], loads);
   }
-  if (!loads.empty()) s.ranks.global_sum(loads);
+  if (!loads.empty()) domain.ranks.global_sum(loads);
   for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)
     for (int c = 0; c < 3; ++c) {
       loads[6 * k + c] += state.viscous_loads[k].force[c];
       loads[6 * k + 3 + c] += state.viscous_loads[k].torque[c];
     }
-  for (std::size_t k = 0; k < solids.size(); ++k) {
-    solids[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]);
-    solids[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]);
-    state.solids[k].add_loads(solids[k]);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    states[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]);
+    states[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]);
+    state.solids[k].add_loads(states[k]);
   }
-  return solids;
+  return states;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                \
-  template void measure_fluids<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);        \
-  template double kinetic_energy_of_fluids_before<D>(const Setup<D>&, const State<D>&, const NodeField<D>&); \
-  template void measure_air<D>(const Setup<D>&, const State<D>&, const NodeField<D>&, StepStats&);           \
-  template void measure_bodies<D>(const Setup<D>&, const State<D>&, StepStats&);                             \
-  template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template void measure_fluids<D>(const Domain<D>&, const Fluids&, const State<D>&, const NodeField<D>&, StepStats&); \
+  template double kinetic_energy_of_fluids_before<D>(const Domain<D>&, const Fluids&, const State<D>&,                \
+                                                     const NodeField<D>&);                                            \
+  template void measure_air<D>(const Domain<D>&, const Fluids&, const State<D>&, const NodeField<D>&, StepStats&);    \
+  template void measure_bodies<D>(const Fluids&, const TimeSpec&, const State<D>&, StepStats&);                       \
+  template std::vector<SolidState> measure_solids<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&,             \
+                                                     const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,37 +1,51 @@
 #pragma once
 // What a run reports about a state: energies, momentum, forces on solids, probes, fields for frames.
+#include "base/time_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // Energy, momentum, volumes and speed of liquid and gas. Collective.
 template <int Dim>
-void measure_fluids(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
+void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
+                    StepStats& stats);
 
 // Kinetic energy of liquid and gas, where they are now, with the velocities of one step before, J; 0 at the start.
 // Collective.
 template <int Dim>
-double kinetic_energy_of_fluids_before(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi);
+double kinetic_energy_of_fluids_before(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                                       const NodeField<Dim>& psi);
 
 // Counts enclosed air. Collective.
 template <int Dim>
-void measure_air(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi, StepStats& stats);
+void measure_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
+                 StepStats& stats);
 
 // Adds energies and momentum of the solids.
 template <int Dim>
-void measure_bodies(const Setup<Dim>& setup, const State<Dim>& state, StepStats& stats);
+void measure_bodies(const Fluids& fluids, const TimeSpec& time, const State<Dim>& state, StepStats& stats);
 
 // Pose, velocity and the liquid's force and torque on every solid. Collective.
 template <int Dim>
-std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state,
-                                       const StepGeometry<Dim>& geometry);
+std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
+                                       const State<Dim>& state, const StepGeometry<Dim>& geometry);
 
 // One sample of a probe. Collective; equal on all ranks.
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const ProbeSpec& probe);
 
+// The points that displacement probes follow. Throws Error(bad_input) where one lies outside its solid.
+template <int Dim>
+std::map<std::string, MaterialPoint> find_followed_points(const std::vector<ProbeSpec>& probes,
+                                                          const Solids<Dim>& solids);
+
 // A field of the owned cells: surface, vel, pressure, vorticity, viscosity.
 template <int Dim>
-FrameField make_frame_field(const Setup<Dim>& setup, const State<Dim>& state, const std::string& name);
+FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                            const std::string& name);
 
 }  // namespace seiche

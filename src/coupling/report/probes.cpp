@@ -1,6 +1,11 @@
 // Probes: pressure and velocity at a point, surface height above it, front along x.
 #include "coupling/report/measures.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
 #include "coupling/transport/two_fluids.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/transport/advection.h"
 #include "grid/ghosts.h"
 #include "grid/interpolation.h"
@@ -28,125 +33,129 @@ bool holds(const Layout<Dim>& layout, const Vec<Dim>& x) {
 }
 
 template <int Dim>
-double level_set_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
-  return interpolate_linear<Dim>(s.layout, state.phi.data(), index_coordinates<Dim>(s.layout, x, cell_offset<Dim>()));
+double level_set_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
+  return interpolate_linear<Dim>(domain.layout, state.phi.data(),
+                                 index_coordinates<Dim>(domain.layout, x, cell_offset<Dim>()));
 }
 
 // True, on all ranks, where x lies in a fluid that flows.
 template <int Dim>
-bool is_wet(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
-  return s.has_gas() || s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
+bool is_wet(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
+  return fluids.has_gas() || domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
 }
 
 // True, on all ranks, where x lies in air that keeps its volume.
 template <int Dim>
-bool is_in_enclosed_air(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
-  if (!s.keeps_air()) return false;
-  return s.ranks.any(holds(s.layout, x) && state.air.label[s.layout.site(cell_of(s.layout, x))] >= 0);
+bool is_in_enclosed_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
+  if (!fluids.keeps_air()) return false;
+  return domain.ranks.any(holds(domain.layout, x) &&
+                          state.air.label[domain.layout.site(cell_of(domain.layout, x))] >= 0);
 }
 
 // None before the first solve.
 template <int Dim>
-bool has_pressure(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
-  return state.step > 0 && (is_wet(s, state, x) || is_in_enclosed_air(s, state, x));
+bool has_pressure(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
+  return state.step > 0 && (is_wet(domain, fluids, state, x) || is_in_enclosed_air(domain, fluids, state, x));
 }
 
 // Pressure of the fluid at x, continued straight from its cells, so that a probe on a wall reads the wall.
 template <int Dim>
-double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x) {
-  std::vector<double> p(state.pressure.data(), state.pressure.data() + s.layout.size());
+double pressure_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
+  std::vector<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
   std::vector<char> known(p.size(), 0);
-  const bool in_liquid = s.ranks.any(holds(s.layout, x) && level_set_at(s, state, x) < 0);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[c] = (state.phi[c] < 0) == in_liquid && p[c] != 0; });
-  extrapolate(s.layout, s.halo, s.layout.cells(), {2, 2}, p, known);
-  extend_beyond_sides<Dim>(s.layout, p.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
-  const Vec<Dim> g = index_coordinates<Dim>(s.layout, x, cell_offset<Dim>());
-  return s.ranks.global_sum(holds(s.layout, x) ? interpolate_linear<Dim>(s.layout, p.data(), g) : 0.0);
+  const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
+  for_each_site(domain.layout, domain.layout.cells(),
+                [&](Site c) { known[c] = (state.phi[c] < 0) == in_liquid && p[c] != 0; });
+  extrapolate(domain.layout, domain.halo, domain.layout.cells(), {2, 2}, p, known);
+  extend_beyond_sides<Dim>(domain.layout, p.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
+  const Vec<Dim> g = index_coordinates<Dim>(domain.layout, x, cell_offset<Dim>());
+  return domain.ranks.global_sum(holds(domain.layout, x) ? interpolate_linear<Dim>(domain.layout, p.data(), g) : 0.0);
 }
 
 // Farthest liquid along `axis` on the line through x: the last zero of phi on it, or the side where liquid reaches it.
 template <int Dim>
-std::optional<double> farthest_liquid(const Setup<Dim>& s, const State<Dim>& state, Vec<Dim> x, int axis,
+std::optional<double> farthest_liquid(const Domain<Dim>& domain, const State<Dim>& state, Vec<Dim> x, int axis,
                                       int direction) {
-  const Geometry<Dim>& grid = s.layout.geometry();
-  const Box<Dim>& own = s.layout.cells();
+  const Geometry<Dim>& grid = domain.layout.geometry();
+  const Box<Dim>& own = domain.layout.cells();
   double best = -std::numeric_limits<double>::infinity();
   for (int i = own.empty() ? 0 : own.lower[axis]; i < (own.empty() ? 0 : own.upper[axis]); ++i) {
     x[axis] = grid.lower[axis] + grid.h * (i + 0.5);
-    if (!holds(s.layout, x)) continue;
-    const double here = level_set_at(s, state, x);
+    if (!holds(domain.layout, x)) continue;
+    const double here = level_set_at(domain, state, x);
     Vec<Dim> ahead = x;
     ahead[axis] += direction * grid.h;
     const bool last = direction > 0 ? i == grid.cells[axis] - 1 : i == 0;
-    const double next = last ? here : level_set_at(s, state, ahead);
+    const double next = last ? here : level_set_at(domain, state, ahead);
     if (here >= 0) continue;
     const double reach = last ? 0.5 : next >= 0 ? here / (here - next) : 1;
     best = std::max(best, direction * (x[axis] + direction * reach * grid.h));
   }
-  best = s.ranks.global_max(best);
+  best = domain.ranks.global_max(best);
   if (!std::isfinite(best)) return {};
   return direction * best;
 }
 
 // Axis and sense against gravity at the start; along +y without gravity then.
 template <int Dim>
-std::pair<int, int> upwards(const Setup<Dim>& s) {
+std::pair<int, int> upwards(const Fluids& fluids) {
   int axis = 1;
-  const Vec<Dim> g = truncate<Dim>(s.gravity.at(0));
+  const Vec<Dim> g = truncate<Dim>(fluids.gravity.at(0));
   if (g.norm() > 0) g.cwiseAbs().maxCoeff(&axis);
   return {axis, g[axis] > 0 ? -1 : 1};
 }
 
 // Largest x of liquid in the layer of cells on the floor (the whole domain where gravity acts along x).
 template <int Dim>
-std::optional<double> front(const Setup<Dim>& s, const State<Dim>& state) {
-  const Geometry<Dim>& grid = s.layout.geometry();
-  const auto [axis, sense] = upwards(s);
+std::optional<double> front(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
+  const Geometry<Dim>& grid = domain.layout.geometry();
+  const auto [axis, sense] = upwards<Dim>(fluids);
   const int floor = sense > 0 ? 0 : grid.cells[axis] - 1;
   double best = -std::numeric_limits<double>::infinity();
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     if (state.phi[c] >= 0 || (axis != 0 && i[axis] != floor)) return;
-    const double next = state.phi[c + s.layout.stride(0)];
+    const double next = state.phi[c + domain.layout.stride(0)];
     const bool last = i[0] == grid.cells[0] - 1;
     const double reach = last ? 0.5 : next >= 0 ? state.phi[c] / (state.phi[c] - next) : 1;
     best = std::max(best, grid.lower[0] + grid.h * (i[0] + 0.5 + reach));
   });
-  best = s.ranks.global_max(best);
+  best = domain.ranks.global_max(best);
   if (!std::isfinite(best)) return {};
   return best;
 }
 
 template <int Dim>
-std::size_t index_of(const Setup<Dim>& s, const std::string& solid) {
+std::size_t index_of(const Solids<Dim>& solids, const std::string& solid) {
   const auto named = [&](const Body<Dim>& b) { return b.spec().name == solid; };
-  return std::size_t(std::find_if(s.bodies.begin(), s.bodies.end(), named) - s.bodies.begin());
+  return std::size_t(std::find_if(solids.bodies.begin(), solids.bodies.end(), named) - solids.bodies.begin());
 }
 
 template <int Dim>
 Vec3 displacement_of(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
-  const std::size_t k = index_of(s, probe.solid);
-  return extend<Dim>(interpolate<Dim>(s.bodies[k].elastic().body.mesh, s.followed.at(probe.name),
+  const std::size_t k = index_of(s.solids, probe.solid);
+  return extend<Dim>(interpolate<Dim>(s.solids.bodies[k].elastic().body.mesh, s.followed.at(probe.name),
                                       state.solids[k].place(state.time, state.time, state.time).displacement));
 }
 
 }  // namespace
 
 template <int Dim>
-std::map<std::string, MaterialPoint> find_followed_points(const Setup<Dim>& s) {
+std::map<std::string, MaterialPoint> find_followed_points(const std::vector<ProbeSpec>& probes,
+                                                          const Solids<Dim>& solids) {
   std::map<std::string, MaterialPoint> points;
-  for (const ProbeSpec& probe : s.scene.probes)
+  for (const ProbeSpec& probe : probes)
     if (probe.kind == ProbeKind::displacement)
-      points[probe.name] = point_of_probe<Dim>(s.bodies[index_of(s, probe.solid)].elastic().body.mesh, probe);
+      points[probe.name] = point_of_probe<Dim>(solids.bodies[index_of(solids, probe.solid)].elastic().body.mesh, probe);
   return points;
 }
 
 // Zero where nothing flows.
 template <int Dim>
-Vec3 velocity_at(const Setup<Dim>& s, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
-  const FaceField<Dim> u = of_both(s, state, &Level<Dim>::u);
+Vec3 velocity_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
+  const FaceField<Dim> u = of_both(domain, state, &Level<Dim>::u);
   Vec3 v = Vec3::Zero();
-  if (flows && holds(s.layout, x)) v = extend<Dim>(sample_velocity<Dim>(s.layout, u, x));
-  s.ranks.global_sum(std::span<double>(v.data(), 3));
+  if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, u, x));
+  domain.ranks.global_sum(std::span<double>(v.data(), 3));
   return v;
 }
 
@@ -161,19 +170,19 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   };
   switch (probe.kind) {
     case ProbeKind::pressure:
-      out.defined = has_pressure(s, state, x);
-      if (out.defined) out.value = pressure_at(s, state, x);
+      out.defined = has_pressure(s.domain, s.fluids, state, x);
+      if (out.defined) out.value = pressure_at(s.domain, state, x);
       break;
     case ProbeKind::velocity:
       out.is_vector = true;
-      out.defined = is_wet(s, state, x);
-      out.vector = velocity_at(s, state, x, out.defined);
+      out.defined = is_wet(s.domain, s.fluids, state, x);
+      out.vector = velocity_at(s.domain, state, x, out.defined);
       break;
     case ProbeKind::surface_height:
-      take(farthest_liquid(s, state, x, upwards(s).first, upwards(s).second));
+      take(farthest_liquid(s.domain, state, x, upwards<Dim>(s.fluids).first, upwards<Dim>(s.fluids).second));
       break;
     case ProbeKind::front:
-      take(front(s, state));
+      take(front(s.domain, s.fluids, state));
       break;
     case ProbeKind::displacement:
       out.is_vector = true;
@@ -183,8 +192,8 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   return out;
 }
 
-template std::map<std::string, MaterialPoint> find_followed_points<2>(const Setup<2>&);
-template std::map<std::string, MaterialPoint> find_followed_points<3>(const Setup<3>&);
+template std::map<std::string, MaterialPoint> find_followed_points<2>(const std::vector<ProbeSpec>&, const Solids<2>&);
+template std::map<std::string, MaterialPoint> find_followed_points<3>(const std::vector<ProbeSpec>&, const Solids<3>&);
 template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const ProbeSpec&);
 template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const ProbeSpec&);
 

@@ -4,7 +4,11 @@
 
 #include <Eigen/Geometry>
 
+#include "base/domain_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
 #include "coupling/transport/transport.h"
+#include "fluid/boundary/domain.h"
 #include "geometry/mesh/clipped_volume.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -27,28 +31,29 @@ std::string volume_text(double volume) {
 }
 
 template <int Dim>
-NodeField<Dim> no_solids(const Setup<Dim>& s) {
-  return NodeField<Dim>(s.layout, 1e30);
+NodeField<Dim> no_solids(const Domain<Dim>& domain) {
+  return NodeField<Dim>(domain.layout, 1e30);
 }
 
 // The level set of one region, clamped to the band.
 template <int Dim>
-CellField<Dim> level_set_of(const Setup<Dim>& s, const ShapeSpec& spec) {
-  const auto shape = make_shape<Dim>(spec, {s.layout.h(), nullptr});
-  CellField<Dim> phi(s.layout, s.band());
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    phi[c] = std::clamp((*shape)(s.layout.position(i, cell_offset<Dim>())), -s.band(), s.band());
+CellField<Dim> level_set_of(const Domain<Dim>& domain, const ShapeSpec& spec) {
+  const auto shape = make_shape<Dim>(spec, {domain.layout.h(), nullptr});
+  CellField<Dim> phi(domain.layout, domain.band());
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    phi[c] = std::clamp((*shape)(domain.layout.position(i, cell_offset<Dim>())), -domain.band(), domain.band());
   });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
   return phi;
 }
 
 template <int Dim>
-void account_region(const Setup<Dim>& s, std::size_t k, const NodeField<Dim>& psi, SceneAccount& account) {
-  const ShapeSpec& spec = s.scene.liquid.regions[k].shape;
-  const CellField<Dim> phi = level_set_of(s, spec);
-  const double whole = liquid_volume(s, phi, no_solids(s)), wet = liquid_volume(s, phi, psi);
-  if (whole <= nothing * s.layout.geometry().cell_volume())
+void account_region(const Domain<Dim>& domain, const Fluids& fluids, std::size_t k, const NodeField<Dim>& psi,
+                    SceneAccount& account) {
+  const ShapeSpec& spec = fluids.liquid.regions[k].shape;
+  const CellField<Dim> phi = level_set_of(domain, spec);
+  const double whole = liquid_volume(domain, phi, no_solids(domain)), wet = liquid_volume(domain, phi, psi);
+  if (whole <= nothing * domain.layout.geometry().cell_volume())
     account.warnings.push_back(
         fmt::format("{}: liquid.region.{} holds no liquid: it lies outside of the domain or is far smaller than a cell",
                     spec.where, k));
@@ -60,16 +65,17 @@ void account_region(const Setup<Dim>& s, std::size_t k, const NodeField<Dim>& ps
 }
 
 template <int Dim>
-void account_liquid(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi, SceneAccount& account) {
-  const double wet = liquid_volume(s, state.phi, psi), whole = liquid_volume(s, state.phi, no_solids(s));
+void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
+                    SceneAccount& account) {
+  const double wet = liquid_volume(domain, state.phi, psi), whole = liquid_volume(domain, state.phi, no_solids(domain));
   std::string line =
-      fmt::format("liquid  {}, {:.5g} kg{}", volume_text<Dim>(wet), wet * s.density(), Dim == 2 ? "/m" : "");
+      fmt::format("liquid  {}, {:.5g} kg{}", volume_text<Dim>(wet), wet * fluids.density(), Dim == 2 ? "/m" : "");
   if (whole - wet > all * whole)
     line += fmt::format("; {} of its regions lies inside solids", volume_text<Dim>(whole - wet));
   account.lines.push_back(line);
   constexpr std::size_t most_regions = 20;  // each takes a look at the whole grid
-  for (std::size_t k = 0; k < std::min(most_regions, s.scene.liquid.regions.size()); ++k)
-    account_region(s, k, psi, account);
+  for (std::size_t k = 0; k < std::min(most_regions, fluids.liquid.regions.size()); ++k)
+    account_region(domain, fluids, k, psi, account);
 }
 
 // The surface of a solid at the start.
@@ -82,7 +88,7 @@ SurfaceMesh surface_at_start(const Body<Dim>& body) {
 }
 
 template <int Dim>
-void account_solid(const Setup<Dim>& s, const Body<Dim>& body, SceneAccount& account) {
+void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount& account) {
   const SolidSpec& spec = body.spec();
   const std::string name = fmt::format("solid   '{}', {}", spec.name, spec.kind.name);
   if (spec.shape.invert || spec.shape.kind == "plane") {
@@ -94,7 +100,7 @@ void account_solid(const Setup<Dim>& s, const Body<Dim>& body, SceneAccount& acc
   for (const Vec3& x : mesh.points) box.extend(x);
   if (box.isEmpty()) return;
   const double volume = mass_of_surface<Dim>(mesh, 1).volume;
-  const double share = volume > 0 ? clipped_volume<Dim>(mesh, s.scene.domain.lower, s.scene.domain.upper) / volume : 1;
+  const double share = volume > 0 ? clipped_volume<Dim>(mesh, extent.lower, extent.upper) / volume : 1;
   std::string line = fmt::format("{}: {}", name, volume_text<Dim>(volume));
   if (body.kind().is_free())
     line += fmt::format(", {:.5g} kg{}, centre of mass {}", body.mass().mass, Dim == 2 ? "/m" : "",
@@ -113,9 +119,10 @@ void account_solid(const Setup<Dim>& s, const Body<Dim>& body, SceneAccount& acc
 template <int Dim>
 SceneAccount account_scene(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
   SceneAccount account;
-  account_liquid(s, state, psi, account);
-  const std::size_t count = s.bodies.size();
-  for (std::size_t k = 0; k < std::min(count, most_lines); ++k) account_solid(s, s.bodies[k], account);
+  account_liquid(s.domain, s.fluids, state, psi, account);
+  const std::size_t count = s.solids.bodies.size();
+  for (std::size_t k = 0; k < std::min(count, most_lines); ++k)
+    account_solid(s.scene.domain, s.solids.bodies[k], account);
   if (count > most_lines) account.lines.push_back(fmt::format("        and {} more solids", count - most_lines));
   return account;
 }

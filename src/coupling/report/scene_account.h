@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 
 namespace seiche {

@@ -2,6 +2,7 @@
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/interaction.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 namespace {

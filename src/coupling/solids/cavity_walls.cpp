@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "solid/elastic/surface_patches.h"
 
@@ -15,19 +17,19 @@ using Components = CellField<Dim, std::int64_t>;
 
 // Of the rows' cells and of those of air, -1: none or open; one cell around too. Collective.
 template <int Dim>
-Components<Dim> components_of_cells(const Setup<Dim>& s, const PressureRows<Dim>& rows, const NullSpace& closed) {
-  Components<Dim> component(s.layout, -1);
+Components<Dim> components_of_cells(const Domain<Dim>& domain, const PressureRows<Dim>& rows, const NullSpace& closed) {
+  Components<Dim> component(domain.layout, -1);
   for (std::size_t n = 0; n < rows.cells.size(); ++n) component[rows.cells[n]] = closed.component[n];
   std::vector<double> of_region(rows.air_row.size());
   for (std::size_t n = rows.liquid; n < rows.cells.size(); ++n)
     of_region[std::size_t(rows.region(rows.cells[n]))] = closed.component[n];
   if (!of_region.empty()) {
-    s.ranks.global_sum(of_region);
-    for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    domain.ranks.global_sum(of_region);
+    for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
       if (const std::int64_t k = rows.region(c); k >= 0) component[c] = std::int64_t(of_region[std::size_t(k)]);
     });
   }
-  s.halo.fill_ghosts({component.data()});
+  domain.halo.fill_ghosts({component.data()});
   return component;
 }
 
@@ -42,7 +44,7 @@ struct Touched {
 // The patches of one body while they are looked at.
 template <int Dim>
 struct TouchedBody {
-  const Setup<Dim>& s;
+  const Domain<Dim>& domain;
   const PressureRows<Dim>& rows;
   const NullSpace& closed;
   const Components<Dim>& component;
@@ -96,10 +98,10 @@ struct TouchedBody {
     for (int n = 0; n < neighbours; ++n) {
       IVec<Dim> i = cell;
       for (int a = 0, left = n; a < Dim; ++a, left /= 3) i[a] += left % 3 - 1;
-      const Vec<Dim> away = s.layout.position(i, cell_offset<Dim>()) - x;
-      const Site c = s.layout.site(i);
+      const Vec<Dim> away = domain.layout.position(i, cell_offset<Dim>()) - x;
+      const Site c = domain.layout.site(i);
       if (rows.row[c] < 0 || !patch.components.contains(int(component[c]))) continue;
-      if (away.dot(outward) < -deepest * s.layout.h() || away.norm() >= least) continue;
+      if (away.dot(outward) < -deepest * domain.layout.h() || away.norm() >= least) continue;
       best = rows.row[c], least = away.norm();
     }
     return best;
@@ -114,8 +116,9 @@ struct TouchedBody {
     Vec<Dim> x = Vec<Dim>::Zero();
     for (const int c : corners) x += points[std::size_t(c)] / Dim;
     IVec<Dim> cell;
-    for (int a = 0; a < Dim; ++a) cell[a] = int(std::floor((x[a] - s.layout.geometry().lower[a]) / s.layout.h()));
-    if (!s.layout.cells().contains(cell)) return;
+    for (int a = 0; a < Dim; ++a)
+      cell[a] = int(std::floor((x[a] - domain.layout.geometry().lower[a]) / domain.layout.h()));
+    if (!domain.layout.cells().contains(cell)) return;
     const std::int64_t row = row_before(touched, x, outward_normal(corners, points), cell);
     if (row < 0) return;
     for (const int c : corners) link(patch, row, node(c));
@@ -137,7 +140,7 @@ struct TouchedBody {
     facts[0] = patch.open;
     facts[1] = double(patch.links.size());
     for (const int c : patch.components) facts[2 + std::size_t(c)] = 1;
-    s.ranks.global_sum(facts);
+    domain.ranks.global_sum(facts);
     patch.open = facts[0] > 0;
     patch.link_count = facts[1];
     for (int c = 0; c < closed.count; ++c)
@@ -156,24 +159,24 @@ struct TouchedBody {
 
 // Whether the body k, which moves as prescribed, pushes liquid of these components on the whole. Collective.
 template <int Dim>
-bool feeds(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Components<Dim>& component,
+bool feeds(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const Components<Dim>& component,
            const std::set<int>& components, std::size_t k) {
   constexpr double rounding = 1e-9;
   std::array<double, 2> sums{};  // net, and of absolute values
   const auto add = [&](Site cell, const IVec<Dim>& i, double flux) {
-    if (!s.layout.cells().contains(i) || !components.contains(int(component[cell]))) return;
+    if (!domain.layout.cells().contains(i) || !components.contains(int(component[cell]))) return;
     sums[0] += flux, sums[1] += std::abs(flux);
   };
   for (const FaceShare& share : *g.shares[k]) {
-    const IVec<Dim> i = s.layout.index(share.face);
+    const IVec<Dim> i = domain.layout.index(share.face);
     IVec<Dim> low = i;
     low[share.axis] -= 1;
-    const Vec3 x = extend<Dim>(s.layout.position(i, face_offset<Dim>(share.axis)));
+    const Vec3 x = extend<Dim>(domain.layout.position(i, face_offset<Dim>(share.axis)));
     const double flux = share.closed * g.placed[k].twist.at(x)[share.axis];
     add(share.face, i, -flux);
-    add(share.face - s.layout.stride(share.axis), low, flux);
+    add(share.face - domain.layout.stride(share.axis), low, flux);
   }
-  s.ranks.global_sum(sums);
+  domain.ranks.global_sum(sums);
   return std::abs(sums[0]) > rounding * sums[1];
 }
 
@@ -187,21 +190,21 @@ bool ends_at(const CavityWalls<Dim>& walls, const MotionSpec& motion) {
 
 // Whether anything but the walls changes the volume of the liquid, or there is air in it. Collective.
 template <int Dim>
-bool is_fed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-            const Components<Dim>& component, const FoundCavity<Dim>& cavity) {
+bool is_fed(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+            const PressureRows<Dim>& rows, const Components<Dim>& component, const FoundCavity<Dim>& cavity) {
   bool fed = false;
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     if (!cavity.components.contains(int(component[c]))) return;
     fed = fed || rows.region(c) >= 0;
     for (int a = 0; a < Dim; ++a)
-      for (const Site f : {c, c + s.layout.stride(a)})
+      for (const Site f : {c, c + domain.layout.stride(a)})
         fed = fed || (g.faces.kind_at(a, f) == FaceKind::prescribed && g.faces.prescribed.at(a, f) != 0);
   });
-  fed = s.ranks.any(fed);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const Body<Dim>& body = s.bodies[k];
+  fed = domain.ranks.any(fed);
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
+    const Body<Dim>& body = solids.bodies[k];
     if (!body.kind().is_prescribed()) continue;
-    fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(s, g, component, cavity.components, k));
+    fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(domain, g, component, cavity.components, k));
   }
   return fed;
 }
@@ -229,16 +232,17 @@ void join(FoundCavity<Dim> found, std::vector<FoundCavity<Dim>>& list) {
 }  // namespace
 
 template <int Dim>
-std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& s, const StepGeometry<Dim>& g,
-                                            const PressureRows<Dim>& rows, const NullSpace& closed,
-                                            const ElasticMotions& motions, const std::vector<BodyEntries>& bodies) {
+std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                            const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+                                            const NullSpace& closed, const ElasticMotions& motions,
+                                            const std::vector<BodyEntries>& bodies) {
   std::vector<FoundCavity<Dim>> cavities, joined;
   if (closed.count == 0 || bodies.empty()) return cavities;
-  const Components<Dim> component = components_of_cells(s, rows, closed);
+  const Components<Dim> component = components_of_cells(domain, rows, closed);
   for (const BodyEntries& b : bodies) {
-    const ElasticSolid<Dim>& solid = s.bodies[std::size_t(b.body)].elastic();
+    const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(b.body)].elastic();
     const Eigen::VectorXd& u = motions[std::size_t(b.body)]->state.u;
-    TouchedBody<Dim> body{s, rows, closed, component, solid};
+    TouchedBody<Dim> body{domain, rows, closed, component, solid};
     body.look(b.entries, u);
     for (std::size_t p = 0; p < body.patches.size(); ++p) {
       Touched& patch = body.patches[p];
@@ -251,13 +255,14 @@ std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& s, const StepGeome
     }
   }
   for (FoundCavity<Dim>& found : joined)
-    if (can_be_closed(found.walls) && !is_fed(s, g, rows, component, found)) cavities.push_back(std::move(found));
+    if (can_be_closed(found.walls) && !is_fed(domain, solids, g, rows, component, found))
+      cavities.push_back(std::move(found));
   return cavities;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                     \
-  template std::vector<FoundCavity<D>> find_cavities<D>(const Setup<D>&, const StepGeometry<D>&,  \
-                                                        const PressureRows<D>&, const NullSpace&, \
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template std::vector<FoundCavity<D>> find_cavities<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
+                                                        const PressureRows<D>&, const NullSpace&,                   \
                                                         const ElasticMotions&, const std::vector<BodyEntries>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

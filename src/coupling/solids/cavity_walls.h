@@ -2,6 +2,8 @@
 // Which patches of elastic bodies are the walls of liquid without a given pressure.
 #include "coupling/solids/link_graph.h"
 #include "coupling/solids/swept_volume.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -17,8 +19,9 @@ struct FoundCavity {
 // where there are pins, what a side with inflow or a solid feeds that moves as prescribed, but otherwise than these
 // pins, and what holds enclosed air. Collective.
 template <int Dim>
-std::vector<FoundCavity<Dim>> find_cavities(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
-                                            const PressureRows<Dim>& rows, const NullSpace& closed,
-                                            const ElasticMotions& motions, const std::vector<BodyEntries>& bodies);
+std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                            const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
+                                            const NullSpace& closed, const ElasticMotions& motions,
+                                            const std::vector<BodyEntries>& bodies);
 
 }  // namespace seiche

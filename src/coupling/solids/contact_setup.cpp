@@ -5,8 +5,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/domain_spec.h"
 #include "base/error.h"
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/tampering.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 namespace {
@@ -63,7 +68,7 @@ template <int Dim>
 ContactOptions contact_options(const Setup<Dim>& s) {
   const Scene& scene = s.scene;
   const double length = (scene.domain.upper - scene.domain.lower).norm(), rate = 0.1 * scene.time.frame_rate;
-  const double h = s.layout.h(), weight = s.gravity.largest(0, scene.time.end),
+  const double h = s.domain.layout.h(), weight = s.fluids.gravity.largest(0, scene.time.end),
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
@@ -75,9 +80,9 @@ ContactOptions contact_options(const Setup<Dim>& s) {
 }
 
 template <int Dim>
-std::string other_name(const Setup<Dim>& s, const Overlap& o) {
-  if (o.with == Overlap::With::body) return "'" + s.bodies[o.other].spec().name + "'";
-  const Vec3 normal = closed_sides<Dim>(s.scene.domain)[std::size_t(o.other)].normal;
+std::string other_name(const Solids<Dim>& solids, const DomainSpec& extent, const Overlap& o) {
+  if (o.with == Overlap::With::body) return "'" + solids.bodies[o.other].spec().name + "'";
+  const Vec3 normal = closed_sides<Dim>(extent)[std::size_t(o.other)].normal;
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   return fmt::format("the side {}_{}", "xyz"[axis], normal[axis] > 0 ? "lower" : "upper");
@@ -85,9 +90,9 @@ std::string other_name(const Setup<Dim>& s, const Overlap& o) {
 
 // Pinned solids are often meant to stand on something.
 template <int Dim>
-std::string remedy(const Setup<Dim>& s, const Overlap& o) {
-  const bool moves = o.with == Overlap::With::body && s.at_start[std::size_t(o.other)].unknowns() > 0;
-  if (!s.at_start[std::size_t(o.body)].is_pinned() || moves) return "move them apart";
+std::string remedy(const Solids<Dim>& solids, const Overlap& o) {
+  const bool moves = o.with == Overlap::With::body && solids.at_start[std::size_t(o.other)].unknowns() > 0;
+  if (!solids.at_start[std::size_t(o.body)].is_pinned() || moves) return "move them apart";
   return "move them apart, or let the part that is pinned end at the other's surface";
 }
 
@@ -102,8 +107,9 @@ std::vector<Vec3> surface_of(const State<Dim>& state, std::size_t k) {
 
 // Names of the periodic sides that a body with unknowns reaches beyond, or is nearer to than `near` cells.
 template <int Dim>
-std::vector<std::string> periodic_sides_at(const Setup<Dim>& s, const State<Dim>& state, std::size_t k, double near) {
-  const Geometry<Dim>& g = s.layout.geometry();
+std::vector<std::string> periodic_sides_at(const Domain<Dim>& domain, const State<Dim>& state, std::size_t k,
+                                           double near) {
+  const Geometry<Dim>& g = domain.layout.geometry();
   std::vector<std::string> sides;
   if (state.solids[k].unknowns() == 0) return sides;
   const std::vector<Vec3> points = surface_of(state, k);
@@ -118,23 +124,25 @@ std::vector<std::string> periodic_sides_at(const Setup<Dim>& s, const State<Dim>
 }
 
 template <int Dim>
-std::string solids_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
+std::string solids_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state) {
   constexpr double near = 0.1;  // cells
   std::string names;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    for (const std::string& side : periodic_sides_at(s, state, k, near))
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k)
+    for (const std::string& side : periodic_sides_at(domain, state, k, near))
       names += fmt::format("{}'{}' and the periodic side {}, which no solid can pass", names.empty() ? "" : ", ",
-                           s.bodies[k].spec().name, side);
+                           solids.bodies[k].spec().name, side);
   return names;
 }
 
 template <int Dim>
-std::string nearest_solids(const Setup<Dim>& s, const State<Dim>& state) {
-  std::string names = solids_at_periodic_sides(s, state);
-  if (!s.contact) return names;
+std::string nearest_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
+                           const State<Dim>& state) {
+  std::string names = solids_at_periodic_sides(domain, solids, state);
+  if (!solids.contact) return names;
   const auto motions = contact_motions(state, 0);
-  for (const Overlap& o : find_initial_overlaps(*s.contact, motions, 0.1 * reach * s.layout.h()))
-    names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", s.bodies[o.body].spec().name, other_name(s, o));
+  for (const Overlap& o : find_initial_overlaps(*solids.contact, motions, 0.1 * reach * domain.layout.h()))
+    names += fmt::format("{}'{}' and {}", names.empty() ? "" : ", ", solids.bodies[o.body].spec().name,
+                         other_name(solids, extent, o));
   return names;
 }
 
@@ -148,8 +156,8 @@ std::string corners_text(const Vec3& lower, const Vec3& upper) {
 // Why a body that crosses a side cannot be meant so: it lies wholly outside of the domain, or is far larger. Else
 // empty.
 template <int Dim>
-std::string misplacement(const Setup<Dim>& s, const Body<Dim>& body) {
-  const Vec3 lower = s.scene.domain.lower, upper = s.scene.domain.upper;
+std::string misplacement(const DomainSpec& extent, const Body<Dim>& body) {
+  const Vec3 lower = extent.lower, upper = extent.upper;
   Eigen::AlignedBox3d box;
   for (const Vec3& x : body.contact_surface().points) box.extend(x);
   constexpr double far_larger = 10;
@@ -166,26 +174,28 @@ std::string misplacement(const Setup<Dim>& s, const Body<Dim>& body) {
 }
 
 template <int Dim>
-std::string fault_of_overlap(const Setup<Dim>& s, const Overlap& o, double least) {
-  const std::string name = s.bodies[o.body].spec().name;
+std::string fault_of_overlap(const Solids<Dim>& solids, const DomainSpec& extent, const Overlap& o, double least) {
+  const std::string name = solids.bodies[o.body].spec().name;
   if (o.with == Overlap::With::body && o.other == o.body)
     return fmt::format(
         "the surface of the elements of solid '{}' crosses itself; take another element_size, or round its edges",
         name);
   const std::string how = o.depth > 0 ? fmt::format("overlap by {:.3g} m", o.depth)
                                       : fmt::format("touch or are closer than {:.3g} m", least);
-  return fmt::format("solid '{}' and {} {} at the start; {}", name, other_name(s, o), how, remedy(s, o));
+  return fmt::format("solid '{}' and {} {} at the start; {}", name, other_name(solids, extent, o), how,
+                     remedy(solids, o));
 }
 
 // The liquid does not see the part of an elastic body beyond a periodic side. The body's surface may end at the side.
 template <int Dim>
-std::vector<std::string> faults_at_periodic_sides(const Setup<Dim>& s, const State<Dim>& state) {
+std::vector<std::string> faults_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                                  const State<Dim>& state) {
   constexpr double rounding = 1e-6;  // cells
   std::vector<std::string> lines;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    if (!s.bodies[k].elements()) continue;
-    const SolidSpec& spec = s.bodies[k].spec();
-    for (const std::string& side : periodic_sides_at(s, state, k, -rounding))
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
+    if (!solids.bodies[k].elements()) continue;
+    const SolidSpec& spec = solids.bodies[k].spec();
+    for (const std::string& side : periodic_sides_at(domain, state, k, -rounding))
       lines.push_back(
           fmt::format("{}: elastic solid '{}' reaches beyond the periodic side {}, which no part of it can pass; "
                       "let it end within the domain, or close these sides",
@@ -195,15 +205,16 @@ std::vector<std::string> faults_at_periodic_sides(const Setup<Dim>& s, const Sta
 }
 
 template <int Dim>
-void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
-  if (!s.contact) return;
-  std::vector<std::string> lines = faults_at_periodic_sides(s, state);
-  const double least = clearance * reach * s.layout.h();
-  for (const Overlap& o : find_initial_overlaps(*s.contact, contact_motions(state, 0), least)) {
-    const Body<Dim>& body = s.bodies[o.body];
-    const std::string misplaced = o.with == Overlap::With::wall ? misplacement(s, body) : "";
-    const std::string fault =
-        misplaced.empty() ? fault_of_overlap(s, o, least) : fmt::format("solid '{}' {}", body.spec().name, misplaced);
+void refuse_overlaps(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
+                     const State<Dim>& state) {
+  if (!solids.contact) return;
+  std::vector<std::string> lines = faults_at_periodic_sides(domain, solids, state);
+  const double least = clearance * reach * domain.layout.h();
+  for (const Overlap& o : find_initial_overlaps(*solids.contact, contact_motions(state, 0), least)) {
+    const Body<Dim>& body = solids.bodies[o.body];
+    const std::string misplaced = o.with == Overlap::With::wall ? misplacement(extent, body) : "";
+    const std::string fault = misplaced.empty() ? fault_of_overlap(solids, extent, o, least)
+                                                : fmt::format("solid '{}' {}", body.spec().name, misplaced);
     const std::string line = body.spec().shape.where + ": " + fault;
     if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
   }
@@ -211,19 +222,19 @@ void refuse_overlaps(const Setup<Dim>& s, const State<Dim>& state) {
 }
 
 template <int Dim>
-double safe_share(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  if (!s.contact) return 1;
-  return largest_safe_fraction(*s.contact, contact_motions(state, dt), dt, velocities_over(s, state, dt));
+double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
+  if (!solids.contact) return 1;
+  return largest_safe_fraction(*solids.contact, contact_motions(state, dt), dt, velocities_over(solids, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&); \
-  template std::string solids_at_periodic_sides<D>(const Setup<D>&, const State<D>&);                     \
-  template std::string nearest_solids<D>(const Setup<D>&, const State<D>&);                               \
-  template void refuse_overlaps<D>(const Setup<D>&, const State<D>&);                                     \
-  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                        \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                            \
-  template double safe_share<D>(const Setup<D>&, const State<D>&, double);
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);         \
+  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);          \
+  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&); \
+  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);       \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                                    \
+  template double safe_share<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

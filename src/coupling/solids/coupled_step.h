@@ -1,5 +1,6 @@
 #pragma once
 // What the solids and the liquid are coupled in: one solve of a step.
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 
 namespace seiche {

@@ -5,7 +5,12 @@
 
 #include "coupling/solids/face_columns.h"
 #include "coupling/solids/facet_fluxes.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
 #include "coupling/thin/thin_weight.h"
+#include "fluid/boundary/domain.h"
 #include "linalg/core/matrix_entries.h"
 #include "solid/elastic/potential.h"
 #include "solid/elastic/surface_patches.h"
@@ -20,10 +25,10 @@ void add_entries(int row, double value, int axis, const SurfaceWeights& hung, st
 
 // Shares spread to the nodes that they hang on.
 template <int Dim>
-std::vector<FluxEntry> spread_shares(const Setup<Dim>& s, const FaceShares& shares, const Attachments& attached,
+std::vector<FluxEntry> spread_shares(const Domain<Dim>& domain, const FaceShares& shares, const Attachments& attached,
                                      const PressureRows<Dim>& rows) {
   std::vector<FluxEntry> entries;
-  for_each_cell_of_shares(s, shares, rows, [&](Site cell, double sign, std::size_t n) {
+  for_each_cell_of_shares(domain, shares, rows, [&](Site cell, double sign, std::size_t n) {
     add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
   });
   return entries;
@@ -38,12 +43,12 @@ struct CellShares {
 // are to hang on the side that cuts its faces: the others move to where its nearest share hangs. What hangs on pinned
 // facets between the sides stays.
 template <int Dim>
-void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const FaceShares& shares,
+void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, const FaceShares& shares,
                       const Attachments& attached, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
   if (solid.patches.size() == 1) return;
   const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
-  for_each_cell_of_shares(s, shares, rows,
+  for_each_cell_of_shares(domain, shares, rows,
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
   const auto patch = [&](std::size_t n) {
     int of = -1;
@@ -52,7 +57,7 @@ void keep_to_own_side(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const
   };
   const auto hangs = [&](std::size_t n) { return !attached[n].empty() && patch(n) >= 0; };
   const auto center = [&](std::size_t n) {
-    return s.layout.position(s.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
+    return domain.layout.position(domain.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
   };
   for (const auto& [cell, of] : cells) {
     std::vector<double> cut(solid.patches.size());
@@ -89,27 +94,29 @@ void hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, cons
   const StepGeometry<Dim>& g = step.geometry;
   const PressureRows<Dim>& rows = step.rows;
   SolidCoupling<Dim>& c = parts.coupling;
-  if (!parts.open) parts.open = open_cells(s, g.faces);
-  const FacetFluxes<Dim> fluxes = facet_fluxes(s, g, *parts.open, body.body, u);
-  for (FluxEntry e : spread_shares(s, *g.shares[std::size_t(body.body)], *g.attached[std::size_t(body.body)], rows)) {
+  if (!parts.open) parts.open = open_cells(s.domain, g.faces);
+  const FacetFluxes<Dim> fluxes = facet_fluxes(s.domain, s.solids, g, *parts.open, body.body, u);
+  for (FluxEntry e :
+       spread_shares(s.domain, *g.shares[std::size_t(body.body)], *g.attached[std::size_t(body.body)], rows)) {
     e.value = -e.value;
     body.entries.push_back(e);
   }
-  const std::vector<FluxEntry> own = entries_of(s, rows, fluxes);
+  const std::vector<FluxEntry> own = entries_of(s.domain, rows, fluxes);
   body.entries.insert(body.entries.end(), own.begin(), own.end());
-  const Eigen::VectorXd force = missing_buoyancy(s, rows, step.state.phi, body.body, u, fluxes, gravity);
+  const Eigen::VectorXd force =
+      missing_buoyancy(s.domain, s.fluids, s.solids, rows, step.state.phi, body.body, u, fluxes, gravity);
   c.push.segment(body.first, u.size()) += step.dt * force;
   c.buoyancy_correction.segment(body.first, u.size()) = force;
 }
 
 // The highest pressure of the last step in cells whose faces body k cuts or closes, Pa. Collective.
 template <int Dim>
-double highest_pressure_beside(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
+double highest_pressure_beside(const Domain<Dim>& domain, const FaceShares& shares, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure) {
   double most = 0;
-  for_each_cell_of_shares(s, shares, rows,
+  for_each_cell_of_shares(domain, shares, rows,
                           [&](Site cell, double, std::size_t) { most = std::max(most, pressure[cell]); });
-  return s.ranks.global_max(most);
+  return domain.ranks.global_max(most);
 }
 
 // Those behind the first `known`, by cells.
@@ -190,14 +197,14 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
 
 // Gravity on each node, and the scene's own forces.
 template <int Dim>
-StepLoad step_load(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon, int k) {
-  const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+StepLoad step_load(const Gravity& varying, const ElasticSolid<Dim>& solid, const State<Dim>& state, double dt,
+                   double horizon) {
   const double start = state.time, end = state.time + horizon;
-  const Vec3 gravity = s.gravity.of_step(start, dt);
+  const Vec3 gravity = varying.of_step(start, dt);
   const Eigen::VectorXd before = applied_force_at(solid, start), own = applied_force_at(solid, end);
   Eigen::VectorXd force = solid.body.mass * truncate<Dim>(gravity).replicate(solid.body.size() / Dim, 1);
   if (own.size() > 0) force += own;
-  return {force, s.gravity.at(start) == gravity && s.gravity.at(end) == gravity && before == own};
+  return {force, varying.at(start) == gravity && varying.at(end) == gravity && before == own};
 }
 
 template <int Dim>
@@ -205,16 +212,17 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
                          CouplingParts<Dim>& parts) {
   const auto& [s, g, rows, closed, state, dt, horizon] = step;
   SolidCoupling<Dim>& c = parts.coupling;
-  const Body<Dim>& body = s.bodies[std::size_t(k)];
+  const Body<Dim>& body = s.solids.bodies[std::size_t(k)];
   const ElasticSolid<Dim>& solid = body.elastic();
   const ElasticState& e = motion.state;
   const int first = c.first[std::size_t(block)];
   const FaceShares& shares = *g.shares[std::size_t(k)];
   const Attachments& attached = *g.attached[std::size_t(k)];
-  const Vec<Dim> gravity = truncate<Dim>(s.gravity.of_step(state.time, dt));
+  const Vec<Dim> gravity = truncate<Dim>(s.fluids.gravity.of_step(state.time, dt));
   const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
   hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
-  const auto p = begin_step(solid.body, e, s.elastic_scheme(), horizon, step_load(s, state, dt, horizon, k));
+  const auto p = begin_step(solid.body, e, elastic_scheme(s.scene.time), horizon,
+                            step_load(s.fluids.gravity, solid, state, dt, horizon));
   add_inertia(p, e.u, dt, horizon, first, parts);
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
   if (body.is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
@@ -252,7 +260,7 @@ void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, Couplin
 #define SEICHE_INSTANTIATE(D)                                                                                     \
   template void couple_elastic_body<D>(const CoupledStep<D>&, int, const ElasticMotion&, int, CouplingParts<D>&); \
   template void set_elastic_columns<D>(const CoupledStep<D>&, int, int, CouplingParts<D>&);                       \
-  template StepLoad step_load<D>(const Setup<D>&, const State<D>&, double, double, int);
+  template StepLoad step_load<D>(const Gravity&, const ElasticSolid<D>&, const State<D>&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

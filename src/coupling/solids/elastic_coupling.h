@@ -1,6 +1,9 @@
 #pragma once
 // The part of an elastic body in the coupling of solids and liquid.
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 
@@ -14,9 +17,15 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
 template <int Dim>
 void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, CouplingParts<Dim>& parts);
 
-// What acts on elastic solid k beside liquid and contact in the solve for the horizon that follows `state`, dt the step
+// The scheme in time of elastic solids that goes with the liquid's.
+inline ElasticScheme elastic_scheme(const TimeSpec& time) {
+  return time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
+}
+
+// Forces on an elastic solid besides liquid and contact in the solve for the horizon that follows `state`, dt the step
 // that led there.
 template <int Dim>
-StepLoad step_load(const Setup<Dim>& setup, const State<Dim>& state, double dt, double horizon, int k);
+StepLoad step_load(const Gravity& gravity, const ElasticSolid<Dim>& solid, const State<Dim>& state, double dt,
+                   double horizon);
 
 }  // namespace seiche

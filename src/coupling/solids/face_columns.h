@@ -1,14 +1,15 @@
 #pragma once
 // Columns of J from the faces that a body closes.
 #include "coupling/solids/swept_volume.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // visit(cell, sign, n) of the cells with a row on both sides of each share n.
 template <int Dim, class Visit>
-void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, const PressureRows<Dim>& rows,
+void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares, const PressureRows<Dim>& rows,
                              const Visit& visit) {
-  const Layout<Dim>& l = s.layout;
+  const Layout<Dim>& l = domain.layout;
   for (std::size_t n = 0; n < shares.size(); ++n) {
     const IVec<Dim> i = l.index(shares[n].face);
     IVec<Dim> low = i;
@@ -22,7 +23,7 @@ void for_each_cell_of_shares(const Setup<Dim>& s, const FaceShares& shares, cons
 // Entries from `known` on that belong to regions of air, which may be rows of other ranks, go where their rows are, one
 // a row and column. Collective.
 template <int Dim>
-void bring_home_air(const Setup<Dim>& setup, const PressureRows<Dim>& rows, std::size_t known,
+void bring_home_air(const Domain<Dim>& domain, const PressureRows<Dim>& rows, std::size_t known,
                     std::vector<FluxEntry>& entries);
 
 void sort_by_rows(std::vector<FluxEntry>& entries);

@@ -4,6 +4,9 @@
 #include <numeric>
 
 #include "coupling/solids/link_graph.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "solid/body/elastic_motion.h"
 
@@ -12,9 +15,9 @@ namespace {
 
 // A number of each cell of the whole grid.
 template <int Dim>
-std::int64_t number_of(const Setup<Dim>& s, const IVec<Dim>& cell) {
+std::int64_t number_of(const Domain<Dim>& domain, const IVec<Dim>& cell) {
   std::int64_t number = 0;
-  for (int a = Dim - 1; a >= 0; --a) number = number * s.layout.geometry().cells[a] + cell[a];
+  for (int a = Dim - 1; a >= 0; --a) number = number * domain.layout.geometry().cells[a] + cell[a];
   return number;
 }
 
@@ -36,17 +39,17 @@ std::vector<IVec<Dim>> steps_outward(const Vec<Dim>& normal) {
 
 // The pieces that act on this rank's cells. All ranks take the same choice for pieces between them.
 template <int Dim>
-std::vector<LoadedPiece<Dim>> load_pieces(const Setup<Dim>& s, const CellField<Dim, char>& open,
+std::vector<LoadedPiece<Dim>> load_pieces(const Domain<Dim>& domain, const CellField<Dim, char>& open,
                                           const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u) {
   constexpr int reach = 2;  // cells that a piece may be away from the cell that acts on it
   std::vector<LoadedPiece<Dim>> loaded;
-  for (const FacetPiece<Dim>& piece :
-       cut_at_cells(s.layout.geometry(), s.layout.grown(reach), solid.surface.facets, surface_points(solid, u)))
+  for (const FacetPiece<Dim>& piece : cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach),
+                                                   solid.surface.facets, surface_points(solid, u)))
     for (const IVec<Dim>& step : steps_outward<Dim>(piece.normal)) {
       const IVec<Dim> cell = piece.cell + step;
-      const Site c = s.layout.site(cell);
+      const Site c = domain.layout.site(cell);
       if (!open[c]) continue;
-      if (s.layout.cells().contains(cell)) loaded.push_back({c, load_of_piece(solid, u, piece)});
+      if (domain.layout.cells().contains(cell)) loaded.push_back({c, load_of_piece(solid, u, piece)});
       break;
     }
   return loaded;
@@ -59,8 +62,8 @@ struct Lacking {
   std::map<std::int64_t, Site> cell;
   std::set<Link> links;
 
-  Vec<Dim>& of(const Setup<Dim>& s, Site c) {
-    const std::int64_t number = number_of(s, s.layout.index(c));
+  Vec<Dim>& of(const Domain<Dim>& domain, Site c) {
+    const std::int64_t number = number_of(domain, domain.layout.index(c));
     cell[number] = c;
     return flux.try_emplace(number, Vec<Dim>::Zero()).first->second;
   }
@@ -69,7 +72,7 @@ struct Lacking {
 // Cells without pieces carry what they lack on the points that their shares hang on. In a thin wall these may lie on
 // the other side, so that cells with pieces of their own keep to them.
 template <int Dim>
-void add_links_of_shares(const Setup<Dim>& s, const CellField<Dim, char>& open, const FaceShares& shares,
+void add_links_of_shares(const Domain<Dim>& domain, const CellField<Dim, char>& open, const FaceShares& shares,
                          const Attachments& attached, Lacking<Dim>& lacking) {
   constexpr double rounding = 1e-12;
   const std::set<Link> own = lacking.links;
@@ -79,34 +82,34 @@ void add_links_of_shares(const Setup<Dim>& s, const CellField<Dim, char>& open, 
   };
   for (std::size_t n = 0; n < shares.size(); ++n)
     for (const int side : {0, 1}) {
-      const Site c = shares[n].face - side * s.layout.stride(shares[n].axis);
-      const IVec<Dim> i = s.layout.index(c);
-      if (!s.layout.cells().contains(i) || !open[c]) continue;
-      const std::int64_t number = number_of(s, i);
-      if (has_pieces(number) || lacking.of(s, c).norm() <= rounding) continue;
+      const Site c = shares[n].face - side * domain.layout.stride(shares[n].axis);
+      const IVec<Dim> i = domain.layout.index(c);
+      if (!domain.layout.cells().contains(i) || !open[c]) continue;
+      const std::int64_t number = number_of(domain, i);
+      if (has_pieces(number) || lacking.of(domain, c).norm() <= rounding) continue;
       for (const auto& [hung, weight] : attached[n]) lacking.links.insert({number, hung});
     }
 }
 
 template <int Dim>
-Lacking<Dim> find_lacking(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim, char>& open, int k,
-                          const std::vector<LoadedPiece<Dim>>& pieces) {
+Lacking<Dim> find_lacking(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim, char>& open,
+                          int k, const std::vector<LoadedPiece<Dim>>& pieces) {
   Lacking<Dim> lacking;
-  const double area = s.layout.geometry().face_area();
+  const double area = domain.layout.geometry().face_area();
   for (const LoadedPiece<Dim>& p : pieces) {
-    lacking.of(s, p.cell) += p.load.area.rowwise().sum() / area;
-    const std::int64_t number = number_of(s, s.layout.index(p.cell));
+    lacking.of(domain, p.cell) += p.load.area.rowwise().sum() / area;
+    const std::int64_t number = number_of(domain, domain.layout.index(p.cell));
     for (const int node : p.load.nodes) lacking.links.insert({number, node});
   }
   const FaceShares& shares = *g.shares[std::size_t(k)];
   for (std::size_t n = 0; n < shares.size(); ++n)
     for (const int side : {0, 1}) {
-      const Site c = shares[n].face - side * s.layout.stride(shares[n].axis);
-      const IVec<Dim> i = s.layout.index(c);
-      if (!s.layout.cells().contains(i) || !open[c]) continue;
-      lacking.of(s, c)[shares[n].axis] += (side == 0 ? -1 : 1) * shares[n].closed;
+      const Site c = shares[n].face - side * domain.layout.stride(shares[n].axis);
+      const IVec<Dim> i = domain.layout.index(c);
+      if (!domain.layout.cells().contains(i) || !open[c]) continue;
+      lacking.of(domain, c)[shares[n].axis] += (side == 0 ? -1 : 1) * shares[n].closed;
     }
-  add_links_of_shares(s, open, shares, *g.attached[std::size_t(k)], lacking);
+  add_links_of_shares(domain, open, shares, *g.attached[std::size_t(k)], lacking);
   return lacking;
 }
 
@@ -122,8 +125,9 @@ std::vector<char> held_nodes(const ElasticSolid<Dim>& solid, const LinkGraph& gr
 
 // D; see FacetFluxes. Collective.
 template <int Dim>
-CellFluxes balance_translations(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, const Lacking<Dim>& lacking) {
-  LinkGraph graph(gather_links(lacking.links, s.ranks));
+CellFluxes balance_translations(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
+                                const Lacking<Dim>& lacking) {
+  LinkGraph graph(gather_links(lacking.links, domain.ranks));
   if (graph.links().empty()) return {};
   graph.number();
   const std::vector<char> held = held_nodes(solid, graph);
@@ -134,7 +138,7 @@ CellFluxes balance_translations(const Setup<Dim>& s, const ElasticSolid<Dim>& so
     for (const auto& [number, flux] : lacking.flux)
       if (const auto row = graph.row_numbers().find(number); row != graph.row_numbers().end())
         wanted[std::size_t(row->second)] = flux[axis];
-    s.ranks.global_sum(wanted);
+    domain.ranks.global_sum(wanted);
     const std::vector<double> d = least.solve(Eigen::Map<const Eigen::VectorXd>(wanted.data(), graph.rows()));
     for (std::size_t n = 0; n < d.size(); ++n)
       if (const auto cell = lacking.cell.find(graph.links()[n].row); cell != lacking.cell.end() && d[n] != 0)
@@ -146,29 +150,30 @@ CellFluxes balance_translations(const Setup<Dim>& s, const ElasticSolid<Dim>& so
 }  // namespace
 
 template <int Dim>
-CellField<Dim, char> open_cells(const Setup<Dim>& s, const FaceGeometry<Dim>& faces) {
-  CellField<Dim, char> open(s.layout);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    for_each_face_of(s.layout, c, [&](int a, Site f, int, Site) { open[c] |= faces.is_unknown(a, f); });
+CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces) {
+  CellField<Dim, char> open(domain.layout);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    for_each_face_of(domain.layout, c, [&](int a, Site f, int, Site) { open[c] |= faces.is_unknown(a, f); });
   });
-  s.halo.fill_ghosts({open.data()});
+  domain.halo.fill_ghosts({open.data()});
   return open;
 }
 
 template <int Dim>
-FacetFluxes<Dim> facet_fluxes(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim, char>& open, int k,
-                              const Eigen::VectorXd& u) {
-  const ElasticSolid<Dim>& solid = s.bodies[std::size_t(k)].elastic();
+FacetFluxes<Dim> facet_fluxes(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+                              const CellField<Dim, char>& open, int k, const Eigen::VectorXd& u) {
+  const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(k)].elastic();
   FacetFluxes<Dim> fluxes;
-  fluxes.pieces = load_pieces(s, open, solid, u);
-  fluxes.balance = balance_translations(s, solid, find_lacking(s, g, open, k, fluxes.pieces));
+  fluxes.pieces = load_pieces(domain, open, solid, u);
+  fluxes.balance = balance_translations(domain, solid, find_lacking(domain, g, open, k, fluxes.pieces));
   return fluxes;
 }
 
 template <int Dim>
-std::vector<FluxEntry> entries_of(const Setup<Dim>& s, const PressureRows<Dim>& rows, const FacetFluxes<Dim>& fluxes) {
+std::vector<FluxEntry> entries_of(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
+                                  const FacetFluxes<Dim>& fluxes) {
   std::vector<FluxEntry> entries;
-  const double area = s.layout.geometry().face_area();
+  const double area = domain.layout.geometry().face_area();
   for (const LoadedPiece<Dim>& p : fluxes.pieces)
     for (std::size_t i = 0; i < p.load.nodes.size() && rows.row[p.cell] >= 0; ++i)
       for (int a = 0; a < Dim; ++a)
@@ -180,11 +185,14 @@ std::vector<FluxEntry> entries_of(const Setup<Dim>& s, const PressureRows<Dim>& 
 }
 
 template <int Dim>
-Eigen::VectorXd missing_buoyancy(const Setup<Dim>& s, const PressureRows<Dim>& rows, const CellField<Dim>& phi, int k,
+Eigen::VectorXd missing_buoyancy(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                 const PressureRows<Dim>& rows, const CellField<Dim>& phi, int k,
                                  const Eigen::VectorXd& u, const FacetFluxes<Dim>& fluxes, const Vec<Dim>& gravity) {
-  const ElasticSolid<Dim>& solid = s.bodies[std::size_t(k)].elastic();
-  const auto center = [&](Site c) { return s.layout.position(s.layout.index(c), cell_offset<Dim>()); };
-  const auto density = [&](Site c) { return !rows.has_pressure(c) ? 0 : phi[c] < 0 ? s.density() : s.gas_density(); };
+  const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(k)].elastic();
+  const auto center = [&](Site c) { return domain.layout.position(domain.layout.index(c), cell_offset<Dim>()); };
+  const auto density = [&](Site c) {
+    return !rows.has_pressure(c) ? 0 : phi[c] < 0 ? fluids.density() : fluids.gas_density();
+  };
   std::vector<double> force(std::size_t(u.size()));
   for (const LoadedPiece<Dim>& p : fluxes.pieces)
     for (std::size_t i = 0; i < p.load.nodes.size(); ++i) {
@@ -196,18 +204,19 @@ Eigen::VectorXd missing_buoyancy(const Setup<Dim>& s, const PressureRows<Dim>& r
     const int n = d.column / Dim;
     const Vec<Dim> x = solid.body.mesh.nodes[std::size_t(n)] + u.template segment<Dim>(Dim * n);
     force[std::size_t(d.column)] -=
-        s.layout.geometry().face_area() * d.value * density(d.cell) * gravity.dot(center(d.cell) - x);
+        domain.layout.geometry().face_area() * d.value * density(d.cell) * gravity.dot(center(d.cell) - x);
   }
-  s.ranks.global_sum(force);
+  domain.ranks.global_sum(force);
   return Eigen::Map<const Eigen::VectorXd>(force.data(), u.size());
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                      \
-  template CellField<D, char> open_cells<D>(const Setup<D>&, const FaceGeometry<D>&);                              \
-  template FacetFluxes<D> facet_fluxes<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D, char>&, int, \
-                                          const Eigen::VectorXd&);                                                 \
-  template std::vector<FluxEntry> entries_of<D>(const Setup<D>&, const PressureRows<D>&, const FacetFluxes<D>&);   \
-  template Eigen::VectorXd missing_buoyancy<D>(const Setup<D>&, const PressureRows<D>&, const CellField<D>&, int,  \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                            \
+  template FacetFluxes<D> facet_fluxes<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&,             \
+                                          const CellField<D, char>&, int, const Eigen::VectorXd&);                \
+  template std::vector<FluxEntry> entries_of<D>(const Domain<D>&, const PressureRows<D>&, const FacetFluxes<D>&); \
+  template Eigen::VectorXd missing_buoyancy<D>(const Domain<D>&, const Fluids&, const Solids<D>&,                 \
+                                               const PressureRows<D>&, const CellField<D>&, int,                  \
                                                const Eigen::VectorXd&, const FacetFluxes<D>&, const Vec<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

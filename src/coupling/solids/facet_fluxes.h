@@ -1,6 +1,9 @@
 #pragma once
 // How the pressure of each cell acts on the facets of an elastic body that lie in it.
 #include "coupling/solids/swept_volume.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "solid/elastic/side_loads.h"
 
 namespace seiche {
@@ -28,16 +31,16 @@ struct FacetFluxes {
 
 // The cells with a face whose velocity is an unknown, ghosts filled. Collective.
 template <int Dim>
-CellField<Dim, char> open_cells(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces);
+CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces);
 
 // Of body k with the displacement u. Collective.
 template <int Dim>
-FacetFluxes<Dim> facet_fluxes(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+FacetFluxes<Dim> facet_fluxes(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& geometry,
                               const CellField<Dim, char>& open, int k, const Eigen::VectorXd& u);
 
 // J as entries of the cells with a row, this rank's or regions of air.
 template <int Dim>
-std::vector<FluxEntry> entries_of(const Setup<Dim>& setup, const PressureRows<Dim>& rows,
+std::vector<FluxEntry> entries_of(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
                                   const FacetFluxes<Dim>& fluxes);
 
 // Forces on the nodes, N. Pressures are those at the centres of cells, while the surface lies beside them. For the
@@ -46,8 +49,8 @@ std::vector<FluxEntry> entries_of(const Setup<Dim>& setup, const PressureRows<Di
 // and J'p gives that with x_c for x, and D. This is the difference, so that bodies at rest feel what their mesh
 // should, rho g V in all. Gas counts by its density. Collective.
 template <int Dim>
-Eigen::VectorXd missing_buoyancy(const Setup<Dim>& setup, const PressureRows<Dim>& rows, const CellField<Dim>& phi,
-                                 int k, const Eigen::VectorXd& u, const FacetFluxes<Dim>& fluxes,
-                                 const Vec<Dim>& gravity);
+Eigen::VectorXd missing_buoyancy(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                 const PressureRows<Dim>& rows, const CellField<Dim>& phi, int k,
+                                 const Eigen::VectorXd& u, const FacetFluxes<Dim>& fluxes, const Vec<Dim>& gravity);
 
 }  // namespace seiche

@@ -4,8 +4,11 @@
 
 #include <unordered_map>
 
+#include "base/time_spec.h"
 #include "coupling/solids/elastic_coupling.h"
 #include "coupling/solids/solid_kinds.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
 #include "coupling/thin/thin_weight.h"
 #include "solid/elastic/output.h"
 
@@ -105,8 +108,8 @@ void ElasticParticipant<Dim>::advance(const Stride<Dim>& stride) {
   const Setup<Dim>& s = stride.setup;
   const State<Dim>& before = stride.before;
   motion_.velocity = stride.velocity;
-  seiche::advance(elements().body, s.elastic_scheme(), stride.dt,
-                  step_load(s, before, before.dt_now, before.horizon, this->index()),
+  seiche::advance(elements().body, elastic_scheme(s.scene.time), stride.dt,
+                  step_load(s.fluids.gravity, elements(), before, before.dt_now, before.horizon),
                   pins_at(elements(), before.time + stride.dt), motion_);
 }
 
@@ -157,31 +160,33 @@ void ElasticParticipant<Dim>::describe_viscous(const StepGeometry<Dim>& g, Visco
 // Displacements and velocities as the last solve found them together with the liquid's: u + H w and the velocity that
 // the scheme has there. Those at the state's time are a step older than the liquid's.
 template <int Dim>
-ElasticState ElasticParticipant<Dim>::as_solved(const Setup<Dim>& s, const State<Dim>& state) const {
+ElasticState ElasticParticipant<Dim>::as_solved(const Gravity& gravity, const TimeSpec& time,
+                                                const State<Dim>& state) const {
   if (state.horizon == 0) return motion_.state;
   ElasticMotion m = motion_;
-  seiche::advance(elements().body, s.elastic_scheme(), state.horizon,
-                  step_load(s, state, state.dt_now, state.horizon, this->index()),
+  seiche::advance(elements().body, elastic_scheme(time), state.horizon,
+                  step_load(gravity, elements(), state, state.dt_now, state.horizon),
                   pins_at(elements(), state.time + state.horizon), m);
   return m.state;
 }
 
 // E = 1/2 v'Mv + Psi(u) and -g'M x as solved; the momentum is that of w.
 template <int Dim>
-void ElasticParticipant<Dim>::measure(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) const {
+void ElasticParticipant<Dim>::measure(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state,
+                                      StepStats& stats) const {
   const ElasticBody<Dim>& elastic = elements().body;
   const double mass = body().mass().mass;
-  const ElasticState solved = as_solved(s, state);
+  const ElasticState solved = as_solved(gravity, time, state);
   const BodyAverage now = average(elastic, solved.u, motion_.velocity);
   stats.kinetic_energy += kinetic_energy(elastic, solved.v);
   stats.elastic_energy += elastic_energy(elastic, solved.u);
-  stats.potential_energy -= mass * s.gravity.at(state.time).dot(now.center);
+  stats.potential_energy -= mass * gravity.at(state.time).dot(now.center);
   stats.momentum += mass * now.velocity;
 }
 
 // On the average.
 template <int Dim>
-void ElasticParticipant<Dim>::describe(const Setup<Dim>&, const State<Dim>&, SolidState& out) const {
+void ElasticParticipant<Dim>::describe(const TimeSpec&, const State<Dim>&, SolidState& out) const {
   const BodyAverage now = average(elements().body, motion_.state.u, motion_.velocity);
   const Eigen::Quaterniond q(now.rotation);
   out.position = now.center;

@@ -1,6 +1,8 @@
 #pragma once
 // Elastic solids: their unknowns are the velocities of the nodes of their elements over the coming step.
+#include "base/time_spec.h"
 #include "coupling/state/participant.h"
+#include "coupling/state/state.h"
 #include "solid/body/elastic_motion.h"
 
 namespace seiche {
@@ -36,8 +38,8 @@ class ElasticParticipant : public Participant<Dim> {
   bool is_pinned() const override { return !elements().pins.empty(); }
   bool may_seal() const override;
   void describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const override;
-  void measure(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) const override;
-  void describe(const Setup<Dim>& s, const State<Dim>& state, SolidState& out) const override;
+  void measure(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state, StepStats& stats) const override;
+  void describe(const TimeSpec& time, const State<Dim>& state, SolidState& out) const override;
   void add_loads(SolidState& out) const override;
   double pull(double t) const override;
 
@@ -48,7 +50,7 @@ class ElasticParticipant : public Participant<Dim> {
 
  private:
   const ElasticSolid<Dim>& elements() const { return body().elastic(); }
-  ElasticState as_solved(const Setup<Dim>& s, const State<Dim>& state) const;
+  ElasticState as_solved(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state) const;
 
   ElasticMotion motion_;
 };

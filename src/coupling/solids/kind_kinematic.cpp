@@ -1,4 +1,5 @@
 // Solids that move as prescribed.
+#include "base/time_spec.h"
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/state.h"
 
@@ -20,9 +21,9 @@ class KinematicParticipant : public Participant<Dim> {
   Placement prescribed_part(Placement placed) const override { return placed; }
 
   // Before the first step there is no mean over a step; the share of a frame bounds error and cancellation by 1e-8.
-  void describe(const Setup<Dim>& s, const State<Dim>& state, SolidState& out) const override {
+  void describe(const TimeSpec& time, const State<Dim>& state, SolidState& out) const override {
     if (state.step > 0) return;
-    const Twist v = body().velocity(state.time, 1e-4 / s.scene.time.frame_rate);
+    const Twist v = body().velocity(state.time, 1e-4 / time.frame_rate);
     out.velocity = v.at(out.position);
     out.angular_velocity = v.angular;
   }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/time_spec.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "coupling/solids/solid_kinds.h"
+#include "coupling/state/state.h"
 #include "solid/rigid/motion.h"
 
 namespace seiche {
@@ -120,11 +122,12 @@ RigidField RigidParticipant<Dim>::viscous_motion(const ViscousSolid<Dim>&) const
 
 // E = 1/2 m v^2 + 1/2 w.L with w = I^-1 L, momentum m v, E_pot = -m g.x with gravity at that time.
 template <int Dim>
-void RigidParticipant<Dim>::measure(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) const {
+void RigidParticipant<Dim>::measure(const Gravity& gravity, const TimeSpec& /*time*/, const State<Dim>& state,
+                                    StepStats& stats) const {
   const double mass = body().mass().mass;
   const Vec3 w = angular_velocity(principal_inertia(body().mass().inertia), state_.rotation, state_.angular_momentum);
   stats.kinetic_energy += 0.5 * mass * state_.velocity.squaredNorm() + 0.5 * w.dot(state_.angular_momentum);
-  stats.potential_energy -= mass * s.gravity.at(state.time).dot(state_.center);
+  stats.potential_energy -= mass * gravity.at(state.time).dot(state_.center);
   stats.momentum += mass * state_.velocity;
 }
 

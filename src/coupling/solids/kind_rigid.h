@@ -1,6 +1,8 @@
 #pragma once
 // Rigid solids: their unknowns are the velocity of the centre of mass and the angular velocity.
+#include "base/time_spec.h"
 #include "coupling/state/participant.h"
+#include "coupling/state/state.h"
 #include "solid/rigid/state.h"
 
 namespace seiche {
@@ -32,7 +34,8 @@ class RigidParticipant : public Participant<Dim> {
   ContactMotion contact_motion(double t, double horizon) const override;
   void describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const override;
   RigidField viscous_motion(const ViscousSolid<Dim>& solid) const override;
-  void measure(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) const override;
+  void measure(const Gravity& gravity, const TimeSpec& /*time*/, const State<Dim>& state,
+               StepStats& stats) const override;
   void add_loads(SolidState& out) const override;
   void visit(StateVisitor& visitor) override;
 

@@ -2,9 +2,11 @@
 // through this file.
 #include <fmt/format.h>
 
+#include "base/time_spec.h"
 #include "coupling/solids/face_columns.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/solids/solid_kinds.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 namespace {
@@ -34,7 +36,7 @@ class SprungParticipant : public Participant<Dim> {
     SolidCoupling<Dim>& c = parts.coupling;
     const int first = c.first[std::size_t(block)];
     const double dt = step.dt, m = mass(), k = stiffness(), damping = number("spring_damping");
-    const Vec<Dim> g = truncate<Dim>(step.setup.gravity.of_step(step.state.time, dt));
+    const Vec<Dim> g = truncate<Dim>(step.setup.fluids.gravity.of_step(step.state.time, dt));
     const double kept = m + dt * dt * k / 4, damped = dt * damping / 2;
     for (int a = 0; a < Dim; ++a) parts.mass.emplace_back(first + a, first + a, kept + damped);
     c.push.segment(first, Dim) = (kept - damped) * velocity_ + dt * (m * g - k * displacement_);
@@ -60,11 +62,12 @@ class SprungParticipant : public Participant<Dim> {
     solid.surface = [](int axis, Site, std::vector<std::pair<int, double>>& weights) { weights = {{axis, 1.0}}; };
   }
 
-  void measure(const Setup<Dim>& s, const State<Dim>& state, StepStats& stats) const override {
+  void measure(const Gravity& gravity, const TimeSpec& /*time*/, const State<Dim>& state,
+               StepStats& stats) const override {
     const Vec3 x = body().mass().center + extend<Dim>(displacement_);
     stats.kinetic_energy += 0.5 * mass() * velocity_.squaredNorm();
     stats.elastic_energy += 0.5 * stiffness() * displacement_.squaredNorm();
-    stats.potential_energy -= mass() * s.gravity.at(state.time).dot(x);
+    stats.potential_energy -= mass() * gravity.at(state.time).dot(x);
     stats.momentum += mass() * extend<Dim>(velocity_);
   }
   void visit(StateVisitor& visitor) override {

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "base/domain_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "fluid/boundary/domain.h"
 #include "linalg/core/matrix_entries.h"
 
 namespace seiche {
@@ -29,9 +33,9 @@ Generalised<Dim> face_mode(int axis, const Vec3& arm) {
 }
 
 template <int Dim>
-Sums<Dim> add_up(const Setup<Dim>& s, const FaceShares& shares, const Vec3& center) {
+Sums<Dim> add_up(const Domain<Dim>& domain, const FaceShares& shares, const Vec3& center) {
   Sums<Dim> sums;
-  const Layout<Dim>& l = s.layout;
+  const Layout<Dim>& l = domain.layout;
   const double cell_volume = l.geometry().cell_volume();
   for (const FaceShare& share : shares) {
     const IVec<Dim> i = l.index(share.face);
@@ -71,9 +75,9 @@ constexpr double rounding = 1e-12;
 
 // Gas counts as wet by its density.
 template <int Dim>
-ColumnBlock make_block(const Setup<Dim>& s, const CellField<Dim>& phi, const PressureRows<Dim>& rows,
-                       const Generalised<Dim>& mask, Sums<Dim>& sums) {
-  const double dry = s.gas_density() / s.density();
+ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
+                       const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+  const double dry = fluids.gas_density() / fluids.density();
   ColumnBlock block;
   block.width = twist_size<Dim>;
   std::vector<MatrixEntry> of_air;
@@ -88,7 +92,7 @@ ColumnBlock make_block(const Setup<Dim>& s, const CellField<Dim>& phi, const Pre
         of_air.push_back({rows.row[cell], k, mask[k] * mode[k]});
   }
   if (rows.air)
-    for (const MatrixEntry& e : bring_home_sums(of_air, rows.first, rows.cells.size(), s.ranks))
+    for (const MatrixEntry& e : bring_home_sums(of_air, rows.first, rows.cells.size(), domain.ranks))
       block.add(int(e.row - rows.first), int(e.column), e.value);
   return block;
 }
@@ -182,12 +186,12 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   const int first = c.first[std::size_t(block)];
   const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
   for (int i = 0; i < n; ++i) c.freedom[std::size_t(first + i)] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
-  Sums<Dim> sums = add_up(s, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
-  c.J.blocks[std::size_t(block)] = make_block(s, step.state.phi, step.rows, mask, sums);
+  Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
+  c.J.blocks[std::size_t(block)] = make_block(s.domain, s.fluids, step.state.phi, step.rows, mask, sums);
   append(sums, parts.sums);
   add_mass<Dim>(s.tampering.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, first,
                 parts.mass);
-  const Twist v = free_twist(body, r, s.gravity.of_step(step.state.time, step.dt), step.dt, step.horizon);
+  const Twist v = free_twist(body, r, s.fluids.gravity.of_step(step.state.time, step.dt), step.dt, step.horizon);
   c.free.template segment<n>(first) = stacked<Dim>(v.linear, v.angular);
 }
 
@@ -196,9 +200,9 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, in
                   SolidCoupling<Dim>& c) {
   const Setup<Dim>& s = step.setup;
   if (!lies_within<Dim>(s.scene.domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
-  const Vec3 gravity = s.gravity.of_step(step.state.time, step.dt);
+  const Vec3 gravity = s.fluids.gravity.of_step(step.state.time, step.dt);
   c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
-      buoyancy_difference(read_sums<Dim>(sums), body.mass().volume, s.density() * gravity)
+      buoyancy_difference(read_sums<Dim>(sums), body.mass().volume, s.fluids.density() * gravity)
           .cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
 }
 

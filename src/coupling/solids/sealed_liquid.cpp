@@ -2,6 +2,11 @@
 
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/state/features.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 #include "solid/body/enclosed_volume.h"
@@ -24,42 +29,44 @@ bool has_corner_inside(const Layout<Dim>& layout, const NodeField<Dim>& distance
 
 // Whether enclosed air that keeps its volume has its centre well within. Collective.
 template <int Dim>
-bool holds_air(const Setup<Dim>& s, const AirRegions<Dim>& air, const NodeField<Dim>& distance, const Box<Dim>& cells) {
-  if (!s.keeps_air()) return false;
+bool holds_air(const Domain<Dim>& domain, const Fluids& fluids, const AirRegions<Dim>& air,
+               const NodeField<Dim>& distance, const Box<Dim>& cells) {
+  if (!fluids.keeps_air()) return false;
   bool any = false;
-  for_each_index_in_order(s.layout, cells, [&](Site c, const IVec<Dim>&) {
-    any = any || (air.label[c] >= 0 && distance[c] < -s.layout.h());
+  for_each_index_in_order(domain.layout, cells, [&](Site c, const IVec<Dim>&) {
+    any = any || (air.label[c] >= 0 && distance[c] < -domain.layout.h());
   });
-  return s.ranks.any(any);
+  return domain.ranks.any(any);
 }
 
 template <int Dim>
-void fill_cavity(const Setup<Dim>& s, const ElasticSolid<Dim>& solid, int patch, const Eigen::VectorXd& u,
-                 const AirRegions<Dim>& air, CellField<Dim>& phi) {
+void fill_cavity(const Domain<Dim>& domain, const Fluids& fluids, const ElasticSolid<Dim>& solid, int patch,
+                 const Eigen::VectorXd& u, const AirRegions<Dim>& air, CellField<Dim>& phi) {
   const SurfaceMesh wall = wall_of_cavity(solid, patch);
   const std::vector<Vec<Dim>> points = surface_points(solid, u);
-  const SurfaceDistance<Dim> surface(s.layout, wall, points);
-  NodeField<Dim> distance(s.layout, 1e30);
+  const SurfaceDistance<Dim> surface(domain.layout, wall, points);
+  NodeField<Dim> distance(domain.layout, 1e30);
   surface.fill(distance);
-  const Box<Dim> cells = s.layout.cells().cut({surface.box().lower, surface.box().upper.array() - 1});
-  if (holds_air(s, air, distance, cells)) return;
-  for_each_site(s.layout, cells, [&](Site c) {
-    if (has_corner_inside(s.layout, distance, c)) phi[c] = std::min(phi[c], distance[c] - depth * s.layout.h());
+  const Box<Dim> cells = domain.layout.cells().cut({surface.box().lower, surface.box().upper.array() - 1});
+  if (holds_air(domain, fluids, air, distance, cells)) return;
+  for_each_site(domain.layout, cells, [&](Site c) {
+    if (has_corner_inside(domain.layout, distance, c))
+      phi[c] = std::min(phi[c], distance[c] - depth * domain.layout.h());
   });
 }
 
 // Cells that were sealed, and those that open faces join to them now: walls move by less than a cell. These are cut,
 // their centres up to most of a cell within the wall: the surface lies deep enough if they are a cell from it.
 template <int Dim>
-void fill_marked(const Setup<Dim>& s, const CellField<Dim, char>& sealed, const FaceGeometry<Dim>& faces,
+void fill_marked(const Domain<Dim>& domain, const CellField<Dim, char>& sealed, const FaceGeometry<Dim>& faces,
                  CellField<Dim>& phi) {
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     bool full = sealed[c] != 0;
     for (int a = 0; a < Dim; ++a) {
-      const Site d = s.layout.stride(a);
+      const Site d = domain.layout.stride(a);
       full = full || (sealed[c - d] && faces.open.at(a, c) > 0) || (sealed[c + d] && faces.open.at(a, c + d) > 0);
     }
-    if (full) phi[c] = std::min(phi[c], -s.layout.h());
+    if (full) phi[c] = std::min(phi[c], -domain.layout.h());
   });
 }
 
@@ -68,38 +75,38 @@ void fill_marked(const Setup<Dim>& s, const CellField<Dim, char>& sealed, const 
 template <int Dim>
 void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State<Dim>& after,
                       const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (!causes_against(s, Feature::sealed_cavities).empty())
-    return;  // gas may be sealed in with it: phi alone tells them apart
-  bool any = s.may_seal();
-  if (any) fill_marked(s, before.sealed, g.faces, phi);
+  if (!s.features.has(Feature::sealed_cavities)) return;  // gas may be sealed in with it: phi alone tells them apart
+  bool any = s.solids.may_seal();
+  if (any) fill_marked(s.domain, before.sealed, g.faces, phi);
   const ElasticMotions old = elastic_motions(before.solids), now = elastic_motions(after.solids);
   for (std::size_t k = 0; k < old.size(); ++k) {
     if (!old[k]) continue;
-    const ElasticSolid<Dim>& solid = s.bodies[k].elastic();
+    const ElasticSolid<Dim>& solid = s.solids.bodies[k].elastic();
     const Eigen::VectorXd& cavity = old[k]->cavity;
     for (int p = 0; p < int(cavity.size()); ++p) {
       if (!(cavity[p] >= 0) || !solid.patches[std::size_t(p)].is_closed()) continue;
-      fill_cavity(s, solid, p, now[k]->state.u, before.air, phi);
+      fill_cavity(s.domain, s.fluids, solid, p, now[k]->state.u, before.air, phi);
       any = true;
     }
   }
-  if (any) fill_level_set_ghosts(s.layout, s.halo, phi);
+  if (any) fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
 }
 
 template <int Dim>
-void mark_sealed(const Setup<Dim>& s, const PressureRows<Dim>& rows, const std::vector<SweptCavity<Dim>>& cavities,
-                 State<Dim>& state) {
-  if (!s.may_seal()) return;
-  state.sealed = CellField<Dim, char>(s.layout);
+void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const PressureRows<Dim>& rows,
+                 const std::vector<SweptCavity<Dim>>& cavities, State<Dim>& state) {
+  if (!solids.may_seal()) return;
+  state.sealed = CellField<Dim, char>(domain.layout);
   for (const SweptCavity<Dim>& cavity : cavities)
     for (const int n : cavity.cells) state.sealed[rows.cells[std::size_t(n)]] = 1;
-  s.halo.fill_ghosts({state.sealed.data()});
+  domain.halo.fill_ghosts({state.sealed.data()});
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template void keep_sealed_full<D>(const Setup<D>&, const State<D>&, const State<D>&, const StepGeometry<D>&, \
                                     CellField<D>&);                                                            \
-  template void mark_sealed<D>(const Setup<D>&, const PressureRows<D>&, const std::vector<SweptCavity<D>>&, State<D>&);
+  template void mark_sealed<D>(const Domain<D>&, const Solids<D>&, const PressureRows<D>&,                     \
+                               const std::vector<SweptCavity<D>>&, State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,6 +1,10 @@
 #pragma once
 // Cavities of elastic bodies that are full of liquid stay full.
 #include "coupling/solids/swept_volume.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -12,7 +16,7 @@ void keep_sealed_full(const Setup<Dim>& setup, const State<Dim>& before, const S
 
 // Takes note of the liquid in cavities that elastic bodies and others seal together (State::sealed). Collective.
 template <int Dim>
-void mark_sealed(const Setup<Dim>& setup, const PressureRows<Dim>& rows, const std::vector<SweptCavity<Dim>>& cavities,
-                 State<Dim>& state);
+void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const PressureRows<Dim>& rows,
+                 const std::vector<SweptCavity<Dim>>& cavities, State<Dim>& state);
 
 }  // namespace seiche

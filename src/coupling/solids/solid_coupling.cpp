@@ -1,6 +1,10 @@
 #include "coupling/solids/solid_coupling.h"
 
 #include "coupling/solids/potential_sum.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 namespace {
@@ -46,11 +50,11 @@ void gather(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) {
     first_sum.push_back(parts.sums.size());
     p.couple(step, b, parts);
   });
-  if (!parts.sums.empty()) step.setup.ranks.global_sum(parts.sums);
+  if (!parts.sums.empty()) step.setup.domain.ranks.global_sum(parts.sums);
   for_each_block(solids, c, [&](const Participant<Dim>& p, int b) {
     p.take_sums(step, b, parts.sums.data() + first_sum[std::size_t(b)], c);
   });
-  for (const auto& interaction : step.setup.interactions) interaction->couple(step, parts);
+  for (const auto& interaction : step.setup.solids.interactions) interaction->couple(step, parts);
   for_each_block(solids, c, [&](const Participant<Dim>& p, int b) { p.finish_columns(step, b, parts); });
 }
 
@@ -67,22 +71,22 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g
       for (double& flux : block.value) flux *= s.tampering.solid_flux;
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
-  make_identical(c.buoyancy_correction, s.ranks);
+  make_identical(c.buoyancy_correction, s.domain.ranks);
   for_each_block(state.solids, c, [&](const Participant<Dim>& p, int b) { p.set_target(dt, b, c); });
   c.potential = sum_of(std::move(parts.potentials));
   return c;
 }
 
 template <int Dim>
-void set_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, const Eigen::VectorXd& v, double horizon,
-                    StepGeometry<Dim>& g, State<Dim>& state) {
+void set_velocities(const Domain<Dim>& domain, const Solids<Dim>& solids, const SolidCoupling<Dim>& c,
+                    const Eigen::VectorXd& v, double horizon, StepGeometry<Dim>& g, State<Dim>& state) {
   for_each_block(state.solids, c, [&](Participant<Dim>& p, int b) {
     p.take(c, b, segment_of(c, v, b), horizon);
     Placement moving = g.placed[std::size_t(p.index())];
     p.set_velocity(moving);
-    set_motion(s.layout, p.index(), moving, g);
+    set_motion(domain.layout, p.index(), moving, g);
   });
-  for (const auto& interaction : s.interactions) interaction->take(c, state);
+  for (const auto& interaction : solids.interactions) interaction->take(c, state);
 }
 
 template <int Dim>
@@ -91,40 +95,40 @@ void set_reactions(const SolidCoupling<Dim>& c, const Eigen::VectorXd& reactions
 }
 
 template <int Dim>
-void set_held_velocities(const Setup<Dim>& s, const SolidCoupling<Dim>& c, StepGeometry<Dim>& g) {
+void set_held_velocities(const Domain<Dim>& domain, const SolidCoupling<Dim>& c, StepGeometry<Dim>& g) {
   for (std::size_t b = 0; b < c.bodies.size(); ++b) {
     const int k = c.bodies[b];
     if (!g.deforms(k)) continue;
     g.cell_fluxes[std::size_t(k)] = c.cell_fluxes[b];
-    set_node_velocity(s.layout, k, segment_of(c, c.held, int(b)), g);
+    set_node_velocity(domain.layout, k, segment_of(c, c.held, int(b)), g);
   }
 }
 
 template <int Dim>
-std::vector<Eigen::VectorXd> each_velocity_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+std::vector<Eigen::VectorXd> each_velocity_over(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   std::vector<Eigen::VectorXd> each;
   for (std::size_t k = 0; k < state.solids.size(); ++k)
     each.push_back(state.solids[k].velocity_over(state.time, dt, state.horizon));
-  for (const auto& interaction : s.interactions) interaction->keep_over(state, dt, each);
+  for (const auto& interaction : solids.interactions) interaction->keep_over(state, dt, each);
   return each;
 }
 
 template <int Dim>
-Eigen::VectorXd velocities_over(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+Eigen::VectorXd velocities_over(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   std::vector<double> all;
-  for (const Eigen::VectorXd& v : each_velocity_over(s, state, dt)) all.insert(all.end(), v.begin(), v.end());
+  for (const Eigen::VectorXd& v : each_velocity_over(solids, state, dt)) all.insert(all.end(), v.begin(), v.end());
   return Eigen::Map<const Eigen::VectorXd>(all.data(), Eigen::Index(all.size()));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                 \
-  template SolidCoupling<D> couple_solids<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
-                                             const NullSpace&, const State<D>&, double, double);              \
-  template void set_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, double,   \
-                                  StepGeometry<D>&, State<D>&);                                               \
-  template void set_reactions<D>(const SolidCoupling<D>&, const Eigen::VectorXd&, State<D>&);                 \
-  template void set_held_velocities<D>(const Setup<D>&, const SolidCoupling<D>&, StepGeometry<D>&);           \
-  template std::vector<Eigen::VectorXd> each_velocity_over<D>(const Setup<D>&, const State<D>&, double);      \
-  template Eigen::VectorXd velocities_over<D>(const Setup<D>&, const State<D>&, double);
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template SolidCoupling<D> couple_solids<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,          \
+                                             const NullSpace&, const State<D>&, double, double);                       \
+  template void set_velocities<D>(const Domain<D>&, const Solids<D>&, const SolidCoupling<D>&, const Eigen::VectorXd&, \
+                                  double, StepGeometry<D>&, State<D>&);                                                \
+  template void set_reactions<D>(const SolidCoupling<D>&, const Eigen::VectorXd&, State<D>&);                          \
+  template void set_held_velocities<D>(const Domain<D>&, const SolidCoupling<D>&, StepGeometry<D>&);                   \
+  template std::vector<Eigen::VectorXd> each_velocity_over<D>(const Solids<D>&, const State<D>&, double);              \
+  template Eigen::VectorXd velocities_over<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

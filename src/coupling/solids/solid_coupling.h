@@ -4,6 +4,10 @@
 #include <optional>
 
 #include "coupling/solids/swept_volume.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 #include "solid/energy/rigid_problem.h"
 #include "solid/energy/velocity_potential.h"
 
@@ -61,8 +65,8 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& setup, const StepGeometry<Dim
 
 // The bodies after a solve gave them the velocities v over the horizon.
 template <int Dim>
-void set_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v,
-                    double horizon, StepGeometry<Dim>& geometry, State<Dim>& state);
+void set_velocities(const Domain<Dim>& domain, const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling,
+                    const Eigen::VectorXd& v, double horizon, StepGeometry<Dim>& geometry, State<Dim>& state);
 
 // Tells the bodies what holds them. `reactions`: forces that hold the unknowns, N; zero where they
 // are free.
@@ -72,13 +76,13 @@ void set_reactions(const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& re
 // What is held moves the liquid whatever the solve finds: into the geometry before the solve, together with the fluxes
 // that faces do not show.
 template <int Dim>
-void set_held_velocities(const Setup<Dim>& setup, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
+void set_held_velocities(const Domain<Dim>& domain, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
 
 // The unknowns' values over a coming step of dt: as the last solve left them, but for what interactions keep to. Of
 // each participant, and stacked.
 template <int Dim>
-std::vector<Eigen::VectorXd> each_velocity_over(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+std::vector<Eigen::VectorXd> each_velocity_over(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 template <int Dim>
-Eigen::VectorXd velocities_over(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+Eigen::VectorXd velocities_over(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 
 }  // namespace seiche

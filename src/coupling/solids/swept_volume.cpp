@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "coupling/solids/cavity_walls.h"
+#include "coupling/state/setup.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "solid/elastic/surface_patches.h"
 
@@ -33,10 +35,11 @@ Eigen::VectorXd lacking(const Eigen::VectorXd& gradient, double face_area, const
 
 // Of wall n; returns the rows that it touches.
 template <int Dim>
-std::set<std::int64_t> correct_wall(const Setup<Dim>& s, const PressureRows<Dim>& rows, const std::set<Link>& links,
-                                    const SweptCavity<Dim>& cavity, std::size_t n, std::vector<FluxEntry>& entries) {
-  const Eigen::VectorXd all = lacking(cavity.gradient[n], cavity.face_area, entries, s.ranks);
-  LinkGraph graph(gather_links(links, s.ranks));
+std::set<std::int64_t> correct_wall(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
+                                    const std::set<Link>& links, const SweptCavity<Dim>& cavity, std::size_t n,
+                                    std::vector<FluxEntry>& entries) {
+  const Eigen::VectorXd all = lacking(cavity.gradient[n], cavity.face_area, entries, domain.ranks);
+  LinkGraph graph(gather_links(links, domain.ranks));
   graph.complete(nodes_of_wall(cavity.walls[n]));
   const LeastFlux least(graph);
   std::set<std::int64_t> touched;
@@ -68,12 +71,12 @@ double volume_to_keep(const CavityWalls<Dim>& walls, const ElasticMotions& motio
 }
 
 template <int Dim>
-SweptCavity<Dim> make_cavity(const Setup<Dim>& s, const FoundCavity<Dim>& found, const ElasticMotions& motions,
+SweptCavity<Dim> make_cavity(const Domain<Dim>& domain, const FoundCavity<Dim>& found, const ElasticMotions& motions,
                              const std::vector<BodyEntries>& bodies, double horizon) {
   SweptCavity<Dim> cavity;
   cavity.walls = found.walls;
   cavity.horizon = horizon;
-  cavity.face_area = s.layout.geometry().face_area();
+  cavity.face_area = domain.layout.geometry().face_area();
   for (std::size_t n = 0; n < found.walls.size(); ++n) {
     const ElasticMotion& motion = *motions[std::size_t(found.walls[n].body)];
     cavity.u.push_back(motion.state.u);
@@ -112,14 +115,16 @@ std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step,
   const Setup<Dim>& s = step.setup;
   const PressureRows<Dim>& rows = step.rows;
   std::vector<SweptCavity<Dim>> cavities;
-  const auto kept = kept_cavities(s.bodies, motions);
-  for (const FoundCavity<Dim>& found : find_cavities(s, step.geometry, rows, step.closed, motions, bodies)) {
-    SweptCavity<Dim> cavity = make_cavity(s, found, motions, bodies, step.horizon);
+  const auto kept = kept_cavities(s.solids.bodies, motions);
+  for (const FoundCavity<Dim>& found :
+       find_cavities(s.domain, s.solids, step.geometry, rows, step.closed, motions, bodies)) {
+    SweptCavity<Dim> cavity = make_cavity(s.domain, found, motions, bodies, step.horizon);
     cavity.volume = volume_to_keep(cavity.walls, motions, kept, cavity.u);
     std::set<std::int64_t> touched;
     for (std::size_t n = 0; n < cavity.walls.size(); ++n)
       for (BodyEntries& b : bodies)
-        if (b.body == cavity.walls[n].body) touched.merge(correct_wall(s, rows, found.links[n], cavity, n, b.entries));
+        if (b.body == cavity.walls[n].body)
+          touched.merge(correct_wall(s.domain, rows, found.links[n], cavity, n, b.entries));
     for (const std::int64_t row : touched)
       if (row >= rows.first && row < rows.first + Row(rows.cells.size())) cavity.rows.push_back(int(row - rows.first));
     cavity.row_count = double(touched.size());
@@ -131,7 +136,7 @@ std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step,
 }
 
 template <int Dim>
-void take_prescribed_fluxes(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                             std::vector<SweptCavity<Dim>>& cavities) {
   if (cavities.empty()) return;
   std::vector<double> sums;
@@ -141,10 +146,10 @@ void take_prescribed_fluxes(const Setup<Dim>& s, const StepGeometry<Dim>& g, con
       const Site c = rows.cells[std::size_t(n)];
       sum += g.faces.cell_flux[c];
       for (int a = 0; a < Dim; ++a)
-        sum += g.faces.closed_flux.at(a, c + s.layout.stride(a)) - g.faces.closed_flux.at(a, c);
+        sum += g.faces.closed_flux.at(a, c + domain.layout.stride(a)) - g.faces.closed_flux.at(a, c);
     }
   }
-  s.ranks.global_sum(sums);
+  domain.ranks.global_sum(sums);
   for (std::size_t n = 0; n < cavities.size(); ++n) cavities[n].prescribed = sums[n];
 }
 
@@ -152,7 +157,7 @@ void take_prescribed_fluxes(const Setup<Dim>& s, const StepGeometry<Dim>& g, con
   template struct SweptCavity<D>;                                                                            \
   template std::vector<SweptCavity<D>> correct_swept_volume<D>(const CoupledStep<D>&, const ElasticMotions&, \
                                                                std::vector<BodyEntries>&);                   \
-  template void take_prescribed_fluxes<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&,   \
+  template void take_prescribed_fluxes<D>(const Domain<D>&, const StepGeometry<D>&, const PressureRows<D>&,  \
                                           std::vector<SweptCavity<D>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

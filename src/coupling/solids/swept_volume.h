@@ -2,6 +2,7 @@
 // The volume that elastic bodies sweep in liquid without a free surface: what their faces show is made to add up to
 // what their surfaces do (docs/method.md, "Sealed liquid").
 #include "coupling/solids/coupled_step.h"
+#include "fluid/boundary/domain.h"
 #include "solid/body/enclosed_volume.h"
 
 namespace seiche {
@@ -50,7 +51,7 @@ std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step,
 
 // Takes note of what the geometry has of prescribed fluxes. Collective.
 template <int Dim>
-void take_prescribed_fluxes(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
+void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
                             std::vector<SweptCavity<Dim>>& cavities);
 
 }  // namespace seiche

@@ -1,9 +1,13 @@
 #include "coupling/solve/coupled_solve.h"
 
+#include "base/solver_spec.h"
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solve/solve_parts.h"
 #include "coupling/solve/viscous_solve.h"
 #include "coupling/state/features.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
 #include "fluid/pressure/parting_search.h"
 
 namespace seiche {
@@ -11,19 +15,18 @@ namespace {
 
 // Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
 template <int Dim>
-bool iterates_on_bodies(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling) {
+bool iterates_on_bodies(const Solids<Dim>& solids, const SolverSpec& solver, const SolidCoupling<Dim>& coupling) {
   constexpr double most_bytes = 4e9;
-  const std::string& choice = s.scene.solver.elastic;
+  const std::string& choice = solver.elastic;
   const bool any_large =
-      s.at_start.any([](const Participant<Dim>& p) { return factor_bytes(Dim, p.unknowns()) > most_bytes; });
+      solids.at_start.any([](const Participant<Dim>& p) { return factor_bytes(Dim, p.unknowns()) > most_bytes; });
   return coupling.potential && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
 // PFMG takes 24 to 44 iterations where BoomerAMG takes 15, or is not positive definite, where coefficients jump.
-template <int Dim>
-std::string preconditioner(const Setup<Dim>& s) {
-  const std::string& choice = s.scene.solver.preconditioner;
-  return choice == "auto" && !causes_against(s, Feature::multigrid).empty() ? "boomeramg" : choice;
+std::string preconditioner(const Features& features, const SolverSpec& solver) {
+  const std::string& choice = solver.preconditioner;
+  return choice == "auto" && !features.has(Feature::multigrid) ? "boomeramg" : choice;
 }
 
 // Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.
@@ -33,17 +36,18 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   const Setup<Dim>& s = input.setup;
   const ProjectionInput<Dim>& in = input.liquid;
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
-  const SolveOptions options{
-      .tolerance = s.scene.solver.tolerance, .preconditioner = preconditioner(s), .jumps = s.has_gas()};
-  SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.ranks);
+  const SolveOptions options{.tolerance = s.scene.solver.tolerance,
+                             .preconditioner = preconditioner(s.features, s.scene.solver),
+                             .jumps = s.fluids.has_gas()};
+  SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.domain.ranks);
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
   for (double& flux : b) flux *= s.tampering.divergence;
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
-  LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.ranks);
+  LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.domain.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
-                s.ranks);
-  if (iterates_on_bodies(s, coupling)) problem.solve_together(kkt);
+                s.domain.ranks);
+  if (iterates_on_bodies(s.solids, s.scene.solver, coupling)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
   set_pressure(input, p, r);
@@ -55,14 +59,14 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   const Setup<Dim>& s = input.setup;
   CoupledSolution<Dim> r;
   r.rows = number_rows(input.liquid);
-  r.pressure = CellField<Dim>(s.layout);
+  r.pressure = CellField<Dim>(s.domain.layout);
   r.u_star = input.u_star;
   const PressureProblem<Dim> liquid(input.liquid, r.rows);
   r.closed_component = liquid.closed.component;
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
-  set_held_velocities(s, coupling, input.geometry);
-  take_prescribed_fluxes(s, input.geometry, r.rows, coupling.swept);
+  set_held_velocities(s.domain, coupling, input.geometry);
+  take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.swept);
   const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
@@ -71,9 +75,9 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
     if (r.failure.empty()) solve_pressure(input, liquid, coupling, r);
   }
   if (r.failure.empty()) {
-    set_velocities(s, coupling, r.solids, input.horizon, input.geometry, input.state);
+    set_velocities(s.domain, s.solids, coupling, r.solids, input.horizon, input.geometry, input.state);
     set_reactions(coupling, r.reactions, input.state);
-    mark_sealed(s, r.rows, coupling.swept, input.state);
+    mark_sealed(s.domain, s.solids, r.rows, coupling.swept, input.state);
   }
   return r;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // The one solve of a step: pressure and viscosity of the liquid, rigid and elastic bodies, contact.
 #include "coupling/solve/viscous_coupling.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 

@@ -1,6 +1,8 @@
 #pragma once
 // Viscosity that depends on the shear rate: solved for by turns with the flow (Picard), within a step.
 #include "coupling/solve/viscous_coupling.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 

@@ -1,17 +1,21 @@
 #include "coupling/solve/solids_minimum.h"
 
+#include "base/solver_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solve/contact_model.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 namespace {
 
 // Speed of the farthest point of its body where a degree of freedom is one.
 template <int Dim>
-Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling) {
+Eigen::VectorXd unit_speeds(const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling) {
   Eigen::VectorXd speeds(coupling.size());
   for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
-    const Eigen::VectorXd own = s.at_start[std::size_t(coupling.bodies[b])].unit_speeds();
+    const Eigen::VectorXd own = solids.at_start[std::size_t(coupling.bodies[b])].unit_speeds();
     speeds.segment(coupling.first[b], own.size()) = own;
   }
   return speeds;
@@ -20,12 +24,12 @@ Eigen::VectorXd unit_speeds(const Setup<Dim>& s, const SolidCoupling<Dim>& coupl
 // The last pressure belongs to the last trial, not to what the line search made of it; and what liquid that bodies
 // close off has as its mean follows from their balance alone. So once more, with the impulses of contact as given.
 template <int Dim>
-std::string settle(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+std::string settle(const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
                    ContactReport& contact) {
   Eigen::VectorXd impulse(problem.size());
   for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
     const auto k = std::size_t(coupling.bodies[b]);
-    const Eigen::VectorXd own = s.at_start[k].generalised(contact.impulses[k]);
+    const Eigen::VectorXd own = solids.at_start[k].generalised(contact.impulses[k]);
     impulse.segment(coupling.first[b], own.size()) = own;
   }
   const InertiaResponse r = problem.minimise(SparseMatrix(problem.size(), problem.size()), impulse);
@@ -35,13 +39,13 @@ std::string settle(const Setup<Dim>& s, const SolidCoupling<Dim>& coupling, Coup
 
 // Contact that asks the liquid at every turn of Newton's method, from the velocities `found` by the model if any.
 template <int Dim>
-ContactReport solve_in_turns(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt, double horizon,
-                             const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+ContactReport solve_in_turns(const Solids<Dim>& solids, const std::vector<ContactMotion>& motions, double dt,
+                             double horizon, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
                              const ContactOptions& options, const ContactReport& found) {
   ContactReport contact =
-      solve_contact(*s.contact, motions, horizon, dt, problem, options, found.velocity, coupling.potential.get());
+      solve_contact(*solids.contact, motions, horizon, dt, problem, options, found.velocity, coupling.potential.get());
   const bool touched = contact.failure.empty() && contact.newton_iterations > 0;
-  if (touched && !coupling.potential) contact.failure = settle(s, coupling, problem, contact);
+  if (touched && !coupling.potential) contact.failure = settle(solids, coupling, problem, contact);
   contact.newton_iterations += found.newton_iterations;
   return contact;
 }
@@ -49,13 +53,14 @@ ContactReport solve_in_turns(const Setup<Dim>& s, const std::vector<ContactMotio
 // Contact against a model of the added mass. Bodies that close off liquid are beyond it; elastic ones have too many
 // unknowns for it, and so have many rigid ones.
 template <int Dim>
-ContactInLiquid solve_modelled(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt,
-                               double horizon, const SolidCoupling<Dim>& coupling, const InviscidLiquid<Dim>& liquid,
+ContactInLiquid solve_modelled(const Solids<Dim>& solids, const SolverSpec& solver,
+                               const std::vector<ContactMotion>& motions, double dt, double horizon,
+                               const SolidCoupling<Dim>& coupling, const InviscidLiquid<Dim>& liquid,
                                const ContactOptions& options) {
   const bool fits = !coupling.potential && coupling.bodies.size() <= most_modelled;
   if (!liquid.solver || !fits || !liquid.solver->sensed_components().empty()) return {};
-  return solve_contact_in_liquid(*s.contact, motions, horizon, dt, coupling, *liquid.solver, *liquid.problem,
-                                 unit_speeds(s, coupling), s.scene.solver.tolerance, options);
+  return solve_contact_in_liquid(*solids.contact, motions, horizon, dt, coupling, *liquid.solver, *liquid.problem,
+                                 unit_speeds(solids, coupling), solver.tolerance, options);
 }
 
 // Held unknowns move as given. The impulse that makes them is the gradient of all energies,
@@ -76,7 +81,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
                               const InviscidLiquid<Dim>& liquid) {
   SolidsMinimum r;
   r.velocity = r.reaction = Eigen::VectorXd::Zero(problem.size());
-  if (!s.contact) {
+  if (!s.solids.contact) {
     InertiaResponse response = problem.minimise(SparseMatrix(0, 0), r.velocity);
     r.failure = response.failure;
     if (r.failure.empty()) r.velocity = std::move(response.velocity);
@@ -84,10 +89,10 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
   }
   const auto motions = contact_motions(state, horizon);
   const ContactOptions options = contact_options(s);
-  ContactInLiquid modelled = solve_modelled(s, motions, dt, horizon, coupling, liquid, options);
+  ContactInLiquid modelled = solve_modelled(s.solids, s.scene.solver, motions, dt, horizon, coupling, liquid, options);
   ContactReport contact = std::move(modelled.contact);
   if (!modelled.agreed && contact.failure.empty())
-    contact = solve_in_turns(s, motions, dt, horizon, coupling, problem, options, contact);
+    contact = solve_in_turns(s.solids, motions, dt, horizon, coupling, problem, options, contact);
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;

@@ -2,6 +2,8 @@
 // The velocities of rigid and elastic bodies that minimise their energy and the liquid's, contact and friction
 // included.
 #include "coupling/solve/liquid_problem.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "coupling/state/solids.h"
 
 namespace seiche {
 namespace {
@@ -10,11 +11,11 @@ namespace {
 constexpr double balanced = 1e-6;  // of the volume moved: rounding, and what formulas of inflow balance to
 
 template <int Dim>
-void refuse(const Setup<Dim>& s, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
+void refuse(const Solids<Dim>& solids, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
   if (std::abs(m.net) <= balanced * m.scale) return;
   std::string who;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k)
-    if (!g.placed[k].twist.at_rest()) who += (who.empty() ? " by '" : ", '") + s.bodies[k].spec().name + "'";
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k)
+    if (!g.placed[k].twist.at_rest()) who += (who.empty() ? " by '" : ", '") + solids.bodies[k].spec().name + "'";
   throw Error(ExitCode::cannot_continue,
               fmt::format("incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free "
                           "surface, an outflow side, or a motion that keeps the volume",
@@ -27,14 +28,14 @@ template <int Dim>
 void refuse_impossible_motion(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
                               const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
   if (liquid.closed.count > 0)
-    refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, without(liquid.closed, sensed)));
+    refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, without(liquid.closed, sensed)));
 }
 
 template <int Dim>
 void refuse_unbalanced_chambers(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
                                 const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
   if (r.failure.empty() && !sensed.empty() && r.report.mismatch > balanced)
-    refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, liquid.closed));
+    refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, liquid.closed));
 }
 
 template <int Dim>
@@ -65,7 +66,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
 template <int Dim>
 void set_pressure(const CoupledInput<Dim>& in, const Vector& p, CoupledSolution<Dim>& r) {
   for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
-  in.setup.halo.fill_ghosts(r.pressure);
+  in.setup.domain.halo.fill_ghosts(r.pressure);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \

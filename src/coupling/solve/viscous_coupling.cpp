@@ -1,9 +1,15 @@
 #include "coupling/solve/viscous_coupling.h"
 
 #include "base/error.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "coupling/state/tampering.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/liquid_viscosity.h"
 #include "coupling/transport/two_fluids.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/rheology/rheology.h"
 #include "fluid/viscosity/no_slip_flux.h"
 #include "grid/loops.h"
@@ -51,42 +57,44 @@ EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu
 
 // `largest` is meant for the liquid's density: gas counts by its kinematic viscosity.
 template <int Dim>
-void take_in_gas(const Setup<Dim>& s, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
-  const double gas = s.scene.gas.viscosity;
-  mu.largest = std::max(mu.largest, gas * s.density() / s.gas_density());
-  mu.uniform = mu.uniform && mu.value[s.layout.site(s.layout.cells().lower)] == gas;
+void take_in_gas(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
+  const double gas = fluids.gas.viscosity;
+  mu.largest = std::max(mu.largest, gas * fluids.density() / fluids.gas_density());
+  mu.uniform = mu.uniform && mu.value[domain.layout.site(domain.layout.cells().lower)] == gas;
   if (mu.uniform) return;
-  if (!mu.edge) mu.edge = mean_at_edges(s.layout, mu.value);
-  mix_gas_viscosity(s, phi, mu.value, *mu.edge);
+  if (!mu.edge) mu.edge = mean_at_edges(domain.layout, mu.value);
+  mix_gas_viscosity(domain, fluids, phi, mu.value, *mu.edge);
 }
 
 // Beside solids that liquid sticks to and moves the split is noisy: it fed jets of 10 m/s beside an elastic one where
 // the coupled solve has 0.02 (validation/fsi1), and a sphere's speed jumped by 3 % from step to step
 // (validation/falling_sphere_re11p6).
 template <int Dim>
-bool sticks_to_what_it_moves(const Setup<Dim>& s) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(),
+bool sticks_to_what_it_moves(const Solids<Dim>& solids) {
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(),
                      [](const Body<Dim>& b) { return b.kind().is_free() && b.spec().slip == Slip::no_slip; });
 }
 
 }  // namespace
 
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& flow,
-                                      double t) {
-  ViscosityField<Dim> mu{CellField<Dim>(s.layout), 0, false};
-  const std::string fault = first_text(s.ranks, set_liquid_viscosity(s, flow.u, flow.valid, t, mu.value));
+ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Tampering& tampering,
+                                      const CellField<Dim>& phi, const Level<Dim>& flow, double t) {
+  ViscosityField<Dim> mu{CellField<Dim>(domain.layout), 0, false};
+  const std::string fault =
+      first_text(domain.ranks, set_liquid_viscosity(domain, fluids, flow.u, flow.valid, t, mu.value));
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
-  for_each_site(s.layout, s.layout.padded(), [&](Site c) { mu.value[c] *= s.tampering.viscosity; });
-  const LiquidSpec& liquid = s.scene.liquid;
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { mu.value[c] *= tampering.viscosity; });
+  const LiquidSpec& liquid = fluids.liquid;
   mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
-  const double largest = local_max(s.layout, s.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
-  mu.largest = s.ranks.global_max(largest);
+  const double largest =
+      local_max(domain.layout, domain.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
+  mu.largest = domain.ranks.global_max(largest);
   if (!liquid.rheology.model.empty()) {
-    mu.edge.emplace(s.layout);
-    set_edge_viscosity(s.layout, rheology_of(s), flow.u, flow.valid, *mu.edge);
+    mu.edge.emplace(domain.layout);
+    set_edge_viscosity(domain.layout, fluids.rheology, flow.u, flow.valid, *mu.edge);
   }
-  if (s.has_gas()) take_in_gas(s, phi, mu);
+  if (fluids.has_gas()) take_in_gas(domain, fluids, phi, mu);
   return mu;
 }
 
@@ -96,25 +104,27 @@ ViscousRoute choose_route(const Setup<Dim>& s, const ViscosityField<Dim>& mu, do
   const ViscousSolve asked = s.scene.solver.viscosity;
   if (asked != ViscousSolve::automatic)
     return asked == ViscousSolve::split ? ViscousRoute::split : ViscousRoute::coupled;
-  if (sticks_to_what_it_moves(s)) return ViscousRoute::coupled;
-  const double reach = mu.largest * dt / (s.density() * s.layout.h() * s.layout.h());
+  if (sticks_to_what_it_moves(s.solids)) return ViscousRoute::coupled;
+  const double reach = mu.largest * dt / (s.fluids.density() * s.domain.layout.h() * s.domain.layout.h());
   return reach < reaches_a_cell ? ViscousRoute::split : ViscousRoute::coupled;
 }
 
 template <int Dim>
-ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                              const StepGeometry<Dim>& g, const State<Dim>& state, const SolidCoupling<Dim>& coupling,
-                              const ViscosityField<Dim>& mu, const FaceField<Dim>& u_star)
-    : setup_(s),
+ViscousStep<Dim>::ViscousStep(const Domain<Dim>& domain, const Solids<Dim>& all, const ProjectionInput<Dim>& in,
+                              const PressureRows<Dim>& rows, const StepGeometry<Dim>& g, const State<Dim>& state,
+                              const SolidCoupling<Dim>& coupling, const ViscosityField<Dim>& mu,
+                              const FaceField<Dim>& u_star)
+    : domain_(domain),
+      all_(all),
       geometry_(g),
       coupling_(coupling),
       rows_(rows),
       solids_(make_solids(g, state.solids, coupling)),
-      full_(s.layout, -s.band()),
-      input_{.layout = s.layout,
-             .halo = s.halo,
-             .ranks = s.ranks,
-             .sides = s.sides,
+      full_(domain.layout, -domain.band()),
+      input_{.layout = domain.layout,
+             .halo = domain.halo,
+             .ranks = domain.ranks,
+             .sides = domain.sides,
              .phi = in.has_gas() ? full_ : in.phi,
              .faces = in.faces,
              .psi = g.psi,
@@ -131,21 +141,21 @@ ViscousStep<Dim>::ViscousStep(const Setup<Dim>& s, const ProjectionInput<Dim>& i
              .rows = rows,
              .edge_viscosity = mu.edge ? &*mu.edge : nullptr},
       system_(assemble_viscosity(input_)),
-      J_(scaled(coupling.J, s.layout.geometry().face_area())),
-      J_held_(scaled(coupling.J_held, s.layout.geometry().face_area())) {
+      J_(scaled(coupling.J, domain.layout.geometry().face_area())),
+      J_held_(scaled(coupling.J_held, domain.layout.geometry().face_area())) {
   separate_held();
   for (std::size_t k = 0; k < state.solids.size(); ++k) motion_.push_back(state.solids[k].viscous_motion(solids_[k]));
 }
 
 template <int Dim>
 void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux) {
-  const Layout<Dim>& layout = setup_.layout;
+  const Layout<Dim>& layout = domain_.layout;
   FaceField<Dim> added(layout);
   add_no_slip_flux(input_, *system_.samples, motion_, flow, added);
   for (int a = 0; a < Dim; ++a)
     for_each_site(layout, layout.grown(1), [&](Site f) { closed_flux.at(a, f) += added.at(a, f); });
   const auto net = net_over_rows(
-      layout, setup_.ranks, rows_, [](Site) { return 0.0; }, [&](int a, Site f) { return added.at(a, f); });
+      layout, domain_.ranks, rows_, [](Site) { return 0.0; }, [&](int a, Site f) { return added.at(a, f); });
   for (std::size_t n = 0; n < net.size(); ++n) system_.q[n] -= net[n] * layout.geometry().face_area();
 }
 
@@ -186,8 +196,8 @@ void ViscousStep<Dim>::scatter(const Vector& rows, FaceField<Dim>& u) const {
 template <int Dim>
 std::vector<ViscousLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
   std::vector<Vec3> about;
-  for (std::size_t k = 0; k < setup_.bodies.size(); ++k)
-    about.push_back(geometry_.placed[k].pose.apply(setup_.bodies[k].reference_point()));
+  for (std::size_t k = 0; k < all_.bodies.size(); ++k)
+    about.push_back(geometry_.placed[k].pose.apply(all_.bodies[k].reference_point()));
   return viscous_forces(input_, system_, u, v, about);
 }
 
@@ -196,9 +206,10 @@ double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::Vecto
   return viscous_dissipation(input_, system_, u, v);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template ViscosityField<D> measure_viscosity<D>(const Setup<D>&, const CellField<D>&, const Level<D>&, double); \
-  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);                       \
+#define SEICHE_INSTANTIATE(D)                                                                        \
+  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const Tampering&, \
+                                                  const CellField<D>&, const Level<D>&, double);     \
+  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);          \
   template class ViscousStep<D>;
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

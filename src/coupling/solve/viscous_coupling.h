@@ -1,6 +1,12 @@
 #pragma once
 // What viscosity adds to the one solve of a step.
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "coupling/state/tampering.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/viscosity/viscosity.h"
 
 namespace seiche {
@@ -17,8 +23,8 @@ struct ViscosityField {
 // As the scene gives it at time t, of shear-dependent liquid for the velocities of `flow`. Collective. Throws
 // Error(cannot_continue) where a formula is not a number or negative.
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow,
-                                      double t);
+ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Tampering& tampering,
+                                      const CellField<Dim>& phi, const Level<Dim>& flow, double t);
 
 // split: viscosity acts first, pressure then; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };
@@ -32,9 +38,9 @@ ViscousRoute choose_route(const Setup<Dim>& setup, const ViscosityField<Dim>& vi
 template <int Dim>
 class ViscousStep {
  public:
-  ViscousStep(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-              const StepGeometry<Dim>& geometry, const State<Dim>& state, const SolidCoupling<Dim>& coupling,
-              const ViscosityField<Dim>& viscosity, const FaceField<Dim>& u_star);
+  ViscousStep(const Domain<Dim>& domain, const Solids<Dim>& all, const ProjectionInput<Dim>& in,
+              const PressureRows<Dim>& rows, const StepGeometry<Dim>& geometry, const State<Dim>& state,
+              const SolidCoupling<Dim>& coupling, const ViscosityField<Dim>& viscosity, const FaceField<Dim>& u_star);
 
   const ViscousSystem<Dim>& system() const { return system_; }
   const BlockColumns& J() const { return J_; }  // volume a unit of time, not a unit of face area
@@ -53,7 +59,8 @@ class ViscousStep {
  private:
   void separate_held();
 
-  const Setup<Dim>& setup_;
+  const Domain<Dim>& domain_;
+  const Solids<Dim>& all_;
   const StepGeometry<Dim>& geometry_;
   const SolidCoupling<Dim>& coupling_;
   const PressureRows<Dim>& rows_;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "coupling/solve/viscous_problem.h"
+#include "coupling/state/setup.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -36,7 +37,7 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                        .mass = v.mass,
                        .axis = std::move(axes),
                        .position = std::move(positions)},
-                      {.tolerance = in.setup.scene.solver.tolerance}, in.setup.ranks);
+                      {.tolerance = in.setup.scene.solver.tolerance}, in.setup.domain.ranks);
 }
 
 // u + by (slope), on faces with an unknown velocity.
@@ -47,7 +48,7 @@ FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, dou
     for_each_site(in.liquid.layout, in.liquid.layout.faces(a), [&](Site f) {
       if (in.liquid.faces.is_unknown(a, f)) r.at(a, f) += by * in.slope.at(a, f);
     });
-  fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.sides, r);
+  fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.domain.sides, r);
   return r;
 }
 
@@ -72,15 +73,16 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   FaceGeometry<Dim> faces = in.liquid.faces;
   faces.side_pressure.fill(0);  // part of the slope
   const ProjectionInput<Dim> unpressed = with_faces(in.liquid, faces);
-  ViscousStep<Dim> viscous(in.setup, unpressed, r.rows, in.geometry, in.state, coupling, *in.viscosity, pressed);
+  ViscousStep<Dim> viscous(in.setup.domain, in.setup.solids, unpressed, r.rows, in.geometry, in.state, coupling,
+                           *in.viscosity, pressed);
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const ViscousSystem<Dim>& system = viscous.system();
   SaddleSolver solver = make_solver(in, liquid, system, system.G, viscous.J());
   Vector p = guessed_pressure(in, r.rows), u = viscous.gather(pressed);
-  Eigen::VectorXd impulse = dt * multiply_transposed(viscous.J(), p, in.setup.ranks);
-  make_identical(impulse, in.setup.ranks);
+  Eigen::VectorXd impulse = dt * multiply_transposed(viscous.J(), p, in.setup.domain.ranks);
+  make_identical(impulse, in.setup.domain.ranks);
   Eigen::VectorXd push = coupling.push + impulse + system.g, v = coupling.free;
-  BodyMatrix H(in.setup.ranks);
+  BodyMatrix H(in.setup.domain.ranks);
   if (!H.set(uncouple_held(coupling, coupling.mass + system.Hvv, push))) {
     r.failure = "the matrix of the solids' inertia and drag is not positive definite";
     return;
@@ -93,13 +95,13 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                             report.iterations);
     return;
   }
-  Eigen::VectorXd drag = multiply_transposed(system.G, u, in.setup.ranks);
-  drag += multiply_transposed(viscous.G_held(), u, in.setup.ranks);
-  make_identical(drag, in.setup.ranks);
+  Eigen::VectorXd drag = multiply_transposed(system.G, u, in.setup.domain.ranks);
+  drag += multiply_transposed(viscous.G_held(), u, in.setup.domain.ranks);
+  make_identical(drag, in.setup.domain.ranks);
   coupling.push += system.g - system.Hvv * v - drag;
   FaceField<Dim> moved = pressed;
   viscous.scatter(u, moved);
-  fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.sides, moved);
+  fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.domain.sides, moved);
   r.u_star = shifted(in, moved, dt);
   r.solids = v;
   take_loads(viscous, moved, r);
@@ -110,7 +112,8 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
                           const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
   const Setup<Dim>& s = in.setup;
   const double dt = in.liquid.dt;
-  ViscousStep<Dim> viscous(s, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity, in.u_star);
+  ViscousStep<Dim> viscous(s.domain, s.solids, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity,
+                           in.u_star);
   viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
   const BlockColumns none;
   SaddleSolver solver = make_solver(in, liquid, viscous.system(), viscous.system().G, viscous.J());
@@ -122,23 +125,24 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   refuse_impossible_motion(in, liquid, solver.sensed_components(), r);
   Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
   for (double& x : p) x *= -dt;
-  ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.layout.geometry().face_area(), u, p, s.ranks);
+  ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.domain.layout.geometry().face_area(), u, p,
+                              s.domain.ranks);
   r.solids = find_minimum(in, coupling, problem, {}, r);
   refuse_unbalanced_chambers(in, liquid, solver.sensed_components(), r);
   for (double& x : p) x /= -dt;
   set_pressure(in, p, r);
   FaceField<Dim> solved = in.u_star;
   viscous.scatter(u, solved);
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, solved);
+  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, solved);
   if (!r.failure.empty()) return;
   take_loads(viscous, solved, r);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
       r.u_star.at(a, f) = solved.at(a, f);
       if (in.liquid.faces.is_unknown(a, f))
         r.u_star.at(a, f) += dt * face_pressure_slope(in.liquid, r.rows, r.pressure, a, f);
     });
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, r.u_star);
+  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u_star);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \

@@ -5,6 +5,9 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -26,28 +29,29 @@ FieldRecord empty_record(const std::string& name, const Box<Dim>& box) {
 }
 
 template <int Dim, class Array>
-FieldRecord record(const Setup<Dim>& s, const std::string& name, const Box<Dim>& box, const Array& f) {
+FieldRecord record(const Domain<Dim>& domain, const std::string& name, const Box<Dim>& box, const Array& f) {
   FieldRecord r = empty_record<Dim>(name, box);
-  for_each_index_in_order(s.layout, box, [&](Site c, const IVec<Dim>&) { r.values.push_back(double(f[c])); });
+  for_each_index_in_order(domain.layout, box, [&](Site c, const IVec<Dim>&) { r.values.push_back(double(f[c])); });
   return r;
 }
 
 template <int Dim, class Array>
-void restore(const Setup<Dim>& s, const CheckpointData& data, const std::string& name, const Box<Dim>& box, Array& f) {
+void restore(const Domain<Dim>& domain, const CheckpointData& data, const std::string& name, const Box<Dim>& box,
+             Array& f) {
   const auto found =
       std::find_if(data.fields.begin(), data.fields.end(), [&](const auto& r) { return r.name == name; });
   if (found == data.fields.end() || std::int64_t(found->values.size()) != box.size())
     throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
   std::size_t n = 0;
-  for_each_index_in_order(s.layout, box,
+  for_each_index_in_order(domain.layout, box,
                           [&](Site c, const IVec<Dim>&) { f[c] = std::decay_t<decltype(f[c])>(found->values[n++]); });
 }
 
 // visit(name, axis) of the face fields of a level.
 template <int Dim, class Visit>
-void for_each_level_field(const Setup<Dim>& s, const std::string& level, const Visit& visit) {
+void for_each_level_field(const Fluids& fluids, const std::string& level, const Visit& visit) {
   std::vector<const char*> fields{"u", "valid", "q"};
-  if (s.is_viscous()) fields.push_back("n");
+  if (fluids.is_viscous()) fields.push_back("n");
   for (int a = 0; a < Dim; ++a)
     for (const char* field : fields) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
 }
@@ -62,46 +66,49 @@ void for_each_film_field(AnyFilm& film, const Visit& visit) {
 }
 
 template <int Dim>
-void save_level(const Setup<Dim>& s, const std::string& name, const Level<Dim>& level, CheckpointData& data) {
-  for_each_level_field(s, name, [&](const std::string& field, char which, int a) {
-    const Box<Dim> box = s.layout.faces(a);
-    if (which == 'u') data.fields.push_back(record<Dim>(s, field, box, level.u[a]));
-    if (which == 'v') data.fields.push_back(record<Dim>(s, field, box, level.valid[a]));
-    if (which == 'q') data.fields.push_back(record<Dim>(s, field, box, level.q[a]));
-    if (which == 'n') data.fields.push_back(record<Dim>(s, field, box, level.n[a]));
+void save_level(const Domain<Dim>& domain, const Fluids& fluids, const std::string& name, const Level<Dim>& level,
+                CheckpointData& data) {
+  for_each_level_field<Dim>(fluids, name, [&](const std::string& field, char which, int a) {
+    const Box<Dim> box = domain.layout.faces(a);
+    if (which == 'u') data.fields.push_back(record<Dim>(domain, field, box, level.u[a]));
+    if (which == 'v') data.fields.push_back(record<Dim>(domain, field, box, level.valid[a]));
+    if (which == 'q') data.fields.push_back(record<Dim>(domain, field, box, level.q[a]));
+    if (which == 'n') data.fields.push_back(record<Dim>(domain, field, box, level.n[a]));
   });
 }
 
 template <int Dim>
-std::shared_ptr<const Level<Dim>> load_level(const Setup<Dim>& s, const std::string& name, const CheckpointData& data) {
-  auto level = std::make_shared<Level<Dim>>(empty_level(s));
-  for_each_level_field(s, name, [&](const std::string& field, char which, int a) {
-    const Box<Dim> box = s.layout.faces(a);
-    if (which == 'u') restore<Dim>(s, data, field, box, level->u[a]);
-    if (which == 'v') restore<Dim>(s, data, field, box, level->valid[a]);
-    if (which == 'q') restore<Dim>(s, data, field, box, level->q[a]);
-    if (which == 'n') restore<Dim>(s, data, field, box, level->n[a]);
+std::shared_ptr<const Level<Dim>> load_level(const Domain<Dim>& domain, const Fluids& fluids, const std::string& name,
+                                             const CheckpointData& data) {
+  auto level = std::make_shared<Level<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
+  for_each_level_field<Dim>(fluids, name, [&](const std::string& field, char which, int a) {
+    const Box<Dim> box = domain.layout.faces(a);
+    if (which == 'u') restore<Dim>(domain, data, field, box, level->u[a]);
+    if (which == 'v') restore<Dim>(domain, data, field, box, level->valid[a]);
+    if (which == 'q') restore<Dim>(domain, data, field, box, level->q[a]);
+    if (which == 'n') restore<Dim>(domain, data, field, box, level->n[a]);
   });
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, level->u);
-  s.halo.fill_ghosts(level->valid);
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, level->u);
+  domain.halo.fill_ghosts(level->valid);
   return level;
 }
 
 // Levels that there are not are saved as `none`.
 template <int Dim>
-void save_flow(const Setup<Dim>& s, const LevelNames& names, const Flow<Dim>& flow, const Level<Dim>& none,
-               CheckpointData& data) {
-  save_level(s, names[0], *flow.now, data);
-  save_level(s, names[1], flow.before ? *flow.before : none, data);
-  save_level(s, names[2], flow.earlier ? *flow.earlier : none, data);
+void save_flow(const Domain<Dim>& domain, const Fluids& fluids, const LevelNames& names, const Flow<Dim>& flow,
+               const Level<Dim>& none, CheckpointData& data) {
+  save_level(domain, fluids, names[0], *flow.now, data);
+  save_level(domain, fluids, names[1], flow.before ? *flow.before : none, data);
+  save_level(domain, fluids, names[2], flow.earlier ? *flow.earlier : none, data);
 }
 
 template <int Dim>
-Flow<Dim> load_flow(const Setup<Dim>& s, const LevelNames& names, int levels, const CheckpointData& data) {
+Flow<Dim> load_flow(const Domain<Dim>& domain, const Fluids& fluids, const LevelNames& names, int levels,
+                    const CheckpointData& data) {
   Flow<Dim> flow;
-  flow.now = load_level(s, names[0], data);
-  if (levels >= 2) flow.before = load_level(s, names[1], data);
-  if (levels >= 3) flow.earlier = load_level(s, names[2], data);
+  flow.now = load_level(domain, fluids, names[0], data);
+  if (levels >= 2) flow.before = load_level(domain, fluids, names[1], data);
+  if (levels >= 3) flow.earlier = load_level(domain, fluids, names[2], data);
   return flow;
 }
 
@@ -156,51 +163,54 @@ void visit_all(Participants<Dim>& solids, StateVisitor&& visitor) {
 
 // What is scalars alone: `scalar(name)` gives one. The step must be known.
 template <int Dim, class Scalar>
-void load_viscous_loads(const Setup<Dim>& s, const Scalar& scalar, State<Dim>& state) {
-  if (s.is_viscous() && state.step > 0) state.viscous_loads.resize(s.bodies.size());
+void load_viscous_loads(const Fluids& fluids, const Solids<Dim>& solids, const Scalar& scalar, State<Dim>& state) {
+  if (fluids.is_viscous() && state.step > 0) state.viscous_loads.resize(solids.bodies.size());
   for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
 }
 
 // Of enclosed air: whose each cell is and the volumes, as bytes.
 template <int Dim>
-void save_air(const Setup<Dim>& s, const State<Dim>& state, CheckpointData& data) {
-  data.fields.push_back(record<Dim>(s, "air", s.layout.cells(), state.air.label));
+void save_air(const Domain<Dim>& domain, const State<Dim>& state, CheckpointData& data) {
+  data.fields.push_back(record<Dim>(domain, "air", domain.layout.cells(), state.air.label));
   const std::vector<double>& v = state.air.volume;
   data.texts["air.volume"] = std::string(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(double));
   data.scalars["air.lost"] = state.lost_air;
 }
 
 template <int Dim, class Scalar>
-void load_air(const Setup<Dim>& s, const CheckpointData& data, const Scalar& scalar, State<Dim>& state) {
-  if (!s.keeps_air()) return;
+void load_air(const Domain<Dim>& domain, const Fluids& fluids, const CheckpointData& data, const Scalar& scalar,
+              State<Dim>& state) {
+  if (!fluids.keeps_air()) return;
   state.lost_air = scalar("air.lost");
   const auto found = data.texts.find("air.volume");
   if (found == data.texts.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks 'air.volume'");
   state.air.volume.resize(found->second.size() / sizeof(double));
   if (!found->second.empty()) std::memcpy(state.air.volume.data(), found->second.data(), found->second.size());
-  state.air.label = CellField<Dim, std::int64_t>(s.layout, no_air);
-  restore<Dim>(s, data, "air", s.layout.cells(), state.air.label);
-  s.halo.fill_ghosts({state.air.label.data()});
+  state.air.label = CellField<Dim, std::int64_t>(domain.layout, no_air);
+  restore<Dim>(domain, data, "air", domain.layout.cells(), state.air.label);
+  domain.halo.fill_ghosts({state.air.label.data()});
 }
 
 // Of cells, where the scene has them.
 template <int Dim>
-void load_marks(const Setup<Dim>& s, const CheckpointData& data, State<Dim>& state) {
-  if (s.scene.liquid.separates) {
-    state.parting = Parting<Dim>(s.layout);
-    restore<Dim>(s, data, "gap", s.layout.cells(), state.parting.gap);
+void load_marks(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const CheckpointData& data,
+                State<Dim>& state) {
+  if (fluids.liquid.separates) {
+    state.parting = Parting<Dim>(domain.layout);
+    restore<Dim>(domain, data, "gap", domain.layout.cells(), state.parting.gap);
   }
-  if (s.may_seal()) {
-    state.sealed = CellField<Dim, char>(s.layout);
-    restore<Dim>(s, data, "sealed", s.layout.cells(), state.sealed);
-    s.halo.fill_ghosts({state.sealed.data()});
+  if (solids.may_seal()) {
+    state.sealed = CellField<Dim, char>(domain.layout);
+    restore<Dim>(domain, data, "sealed", domain.layout.cells(), state.sealed);
+    domain.halo.fill_ghosts({state.sealed.data()});
   }
 }
 
 }  // namespace
 
 template <int Dim>
-CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
+CheckpointData save_state(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                          const State<Dim>& state) {
   CheckpointData data;
   data.scalars = {{"time", state.time},
                   {"step", double(state.step)},
@@ -213,25 +223,27 @@ CheckpointData save_state(const Setup<Dim>& s, const State<Dim>& state) {
                                             : 1.0},
                   {"expected_volume", state.expected_volume},
                   {"corrected_volume", state.corrected_volume}};
-  Participants<Dim> solids = state.solids;
-  visit_all(solids, Saver(data));
+  Participants<Dim> saved = state.solids;
+  visit_all(saved, Saver(data));
   for_each_load(state.viscous_loads, [&](const std::string& n, double x) { data.scalars[n] = x; });
-  data.fields.push_back(record<Dim>(s, "phi", s.layout.cells(), state.phi));
-  data.fields.push_back(record<Dim>(s, "pressure", s.layout.cells(), state.pressure));
-  if (s.scene.liquid.separates) data.fields.push_back(record<Dim>(s, "gap", s.layout.cells(), state.parting.gap));
-  if (s.may_seal()) data.fields.push_back(record<Dim>(s, "sealed", s.layout.cells(), state.sealed));
-  if (s.keeps_air()) save_air(s, state, data);
+  data.fields.push_back(record<Dim>(domain, "phi", domain.layout.cells(), state.phi));
+  data.fields.push_back(record<Dim>(domain, "pressure", domain.layout.cells(), state.pressure));
+  if (fluids.liquid.separates)
+    data.fields.push_back(record<Dim>(domain, "gap", domain.layout.cells(), state.parting.gap));
+  if (solids.may_seal()) data.fields.push_back(record<Dim>(domain, "sealed", domain.layout.cells(), state.sealed));
+  if (fluids.keeps_air()) save_air(domain, state, data);
   for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
-    data.fields.push_back(record<Dim>(s, name, s.layout.faces(a), f));
+    data.fields.push_back(record<Dim>(domain, name, domain.layout.faces(a), f));
   });
-  const Level<Dim> none = empty_level(s);
-  save_flow(s, level_names, liquid_flow(state), none, data);
-  if (s.has_gas()) save_flow(s, gas_level_names, state.gas, none, data);
+  const Level<Dim> none = empty_level(domain.layout, fluids.is_viscous());
+  save_flow(domain, fluids, level_names, liquid_flow(state), none, data);
+  if (fluids.has_gas()) save_flow(domain, fluids, gas_level_names, state.gas, none, data);
   return data;
 }
 
 template <int Dim>
-State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
+State<Dim> load_state(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                      const CheckpointData& data) {
   const auto scalar = [&](const std::string& name) {
     const auto found = data.scalars.find(name);
     if (found == data.scalars.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + name + "'");
@@ -246,53 +258,54 @@ State<Dim> load_state(const Setup<Dim>& s, const CheckpointData& data) {
   state.viscous_rate = scalar("viscous_rate");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
-  load_viscous_loads(s, scalar, state);
-  load_air(s, data, scalar, state);
-  state.solids = s.at_start;
+  load_viscous_loads(fluids, solids, scalar, state);
+  load_air(domain, fluids, data, scalar, state);
+  state.solids = solids.at_start;
   visit_all(state.solids, Loader(data));
-  state.phi = CellField<Dim>(s.layout);
-  state.pressure = CellField<Dim>(s.layout);
-  restore<Dim>(s, data, "phi", s.layout.cells(), state.phi);
-  restore<Dim>(s, data, "pressure", s.layout.cells(), state.pressure);
-  load_marks(s, data, state);
-  state.film = {FaceField<Dim>(s.layout), FaceField<Dim>(s.layout)};
-  for_each_film_field<Dim>(
-      state.film, [&](const std::string& name, auto& f, int a) { restore<Dim>(s, data, name, s.layout.faces(a), f); });
-  fill_level_set_ghosts(s.layout, s.halo, state.phi);
-  s.halo.fill_ghosts(state.pressure);
+  state.phi = CellField<Dim>(domain.layout);
+  state.pressure = CellField<Dim>(domain.layout);
+  restore<Dim>(domain, data, "phi", domain.layout.cells(), state.phi);
+  restore<Dim>(domain, data, "pressure", domain.layout.cells(), state.pressure);
+  load_marks(domain, fluids, solids, data, state);
+  state.film = {FaceField<Dim>(domain.layout), FaceField<Dim>(domain.layout)};
+  for_each_film_field<Dim>(state.film, [&](const std::string& name, auto& f, int a) {
+    restore<Dim>(domain, data, name, domain.layout.faces(a), f);
+  });
+  fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
+  domain.halo.fill_ghosts(state.pressure);
   const int levels = int(scalar("levels"));
-  const Flow<Dim> liquid = load_flow(s, level_names, levels, data);
+  const Flow<Dim> liquid = load_flow(domain, fluids, level_names, levels, data);
   std::tie(state.now, state.before, state.earlier) = std::tie(liquid.now, liquid.before, liquid.earlier);
-  if (s.has_gas()) state.gas = load_flow(s, gas_level_names, levels, data);
+  if (fluids.has_gas()) state.gas = load_flow(domain, fluids, gas_level_names, levels, data);
   return state;
 }
 
 template <int Dim>
-std::vector<FieldRecord> state_boxes(const Setup<Dim>& s) {
-  std::vector<FieldRecord> boxes{empty_record<Dim>("phi", s.layout.cells()),
-                                 empty_record<Dim>("pressure", s.layout.cells())};
-  if (s.scene.liquid.separates) boxes.push_back(empty_record<Dim>("gap", s.layout.cells()));
-  if (s.may_seal()) boxes.push_back(empty_record<Dim>("sealed", s.layout.cells()));
-  if (s.keeps_air()) boxes.push_back(empty_record<Dim>("air", s.layout.cells()));
+std::vector<FieldRecord> state_boxes(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids) {
+  std::vector<FieldRecord> boxes{empty_record<Dim>("phi", domain.layout.cells()),
+                                 empty_record<Dim>("pressure", domain.layout.cells())};
+  if (fluids.liquid.separates) boxes.push_back(empty_record<Dim>("gap", domain.layout.cells()));
+  if (solids.may_seal()) boxes.push_back(empty_record<Dim>("sealed", domain.layout.cells()));
+  if (fluids.keeps_air()) boxes.push_back(empty_record<Dim>("air", domain.layout.cells()));
   const Film<Dim> film;
   for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {
-    boxes.push_back(empty_record<Dim>(name, s.layout.faces(a)));
+    boxes.push_back(empty_record<Dim>(name, domain.layout.faces(a)));
   });
   const auto add_levels = [&](const LevelNames& names) {
     for (const char* level : names)
-      for_each_level_field(s, level, [&](const std::string& field, char, int a) {
-        boxes.push_back(empty_record<Dim>(field, s.layout.faces(a)));
+      for_each_level_field<Dim>(fluids, level, [&](const std::string& field, char, int a) {
+        boxes.push_back(empty_record<Dim>(field, domain.layout.faces(a)));
       });
   };
   add_levels(level_names);
-  if (s.has_gas()) add_levels(gas_level_names);
+  if (fluids.has_gas()) add_levels(gas_level_names);
   return boxes;
 }
 
-#define SEICHE_INSTANTIATE(D)                                              \
-  template CheckpointData save_state<D>(const Setup<D>&, const State<D>&); \
-  template State<D> load_state<D>(const Setup<D>&, const CheckpointData&); \
-  template std::vector<FieldRecord> state_boxes<D>(const Setup<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template CheckpointData save_state<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const State<D>&); \
+  template State<D> load_state<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const CheckpointData&); \
+  template std::vector<FieldRecord> state_boxes<D>(const Domain<D>&, const Fluids&, const Solids<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

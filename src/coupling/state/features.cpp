@@ -5,6 +5,10 @@
 #include <algorithm>
 
 #include "base/expression.h"
+#include "base/time_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 
 namespace seiche {
 namespace {
@@ -21,23 +25,22 @@ struct FeatureText {
 };
 
 template <int Dim>
-bool any_body(const Setup<Dim>& s, bool (*holds)(const Body<Dim>&)) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(), holds);
+bool any_body(const Solids<Dim>& solids, bool (*holds)(const Body<Dim>&)) {
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(), holds);
 }
 
 template <int Dim>
-bool has_kinematic(const Setup<Dim>& s) {
-  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.kind().is_prescribed(); });
+bool has_kinematic(const Solids<Dim>& solids) {
+  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.kind().is_prescribed(); });
 }
 
 template <int Dim>
-bool has_elements(const Setup<Dim>& s) {
-  return any_body<Dim>(s, [](const Body<Dim>& b) { return b.elements() != nullptr; });
+bool has_elements(const Solids<Dim>& solids) {
+  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.elements() != nullptr; });
 }
 
-template <int Dim>
-bool is_second_order(const Setup<Dim>& s) {
-  return s.scene.time.scheme == TimeScheme::second_order && !s.has_prescribed_flow();
+bool is_second_order(const Fluids& fluids, const TimeSpec& time) {
+  return time.scheme == TimeScheme::second_order && !fluids.has_prescribed_flow();
 }
 
 template <int Dim>
@@ -47,31 +50,30 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
       {F::steps_by_halves, "steps by halves",
        "surface and bodies move at once, before the solve; positions are of first order in the step where its length "
        "changes",
-       [](S s) { return is_second_order(s); }},
+       [](S s) { return is_second_order(s.fluids, s.scene.time); }},
       {F::shared_viscosity, "viscous stress shared between start and end of a step",
        "it is taken at the end of the step; its error in time is four times as large",
-       [](S s) { return is_second_order(s) && s.is_viscous(); }},
+       [](S s) { return is_second_order(s.fluids, s.scene.time) && s.fluids.is_viscous(); }},
       {F::shear_jump, "jump of shear across the surface between fluids",
-       "shear beside the surface is smeared over a cell", [](S s) { return s.has_gas() && s.is_viscous(); }},
+       "shear beside the surface is smeared over a cell",
+       [](S s) { return s.fluids.has_gas() && s.fluids.is_viscous(); }},
       {F::kinks, "one-sided interpolation at the medial axis of the surface's distance",
        "the surface is interpolated across its medial axis, and thin films are transported less sharply",
        [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
-       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s); }},
+       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }},
       {F::multigrid, "the program's own multigrid as preconditioner", "algebraic multigrid (BoomerAMG) is used",
        [](S s) { return s.scene.solver.preconditioner == "auto"; }}};
   return table;
 }
 
-template <int Dim>
-bool has_formula_of_viscosity(const Setup<Dim>& s) {
-  return !s.scene.liquid.rheology.model.empty() || !Expression(s.scene.liquid.viscosity).is_constant();
+bool has_formula_of_viscosity(const Fluids& fluids) {
+  return !fluids.liquid.rheology.model.empty() || !Expression(fluids.liquid.viscosity).is_constant();
 }
 
-template <int Dim>
-bool one_is_inviscid(const Setup<Dim>& s) {
-  if (has_formula_of_viscosity(s)) return false;
-  return Expression(s.scene.liquid.viscosity)(Vec3::Zero(), 0) == 0 || s.scene.gas.viscosity == 0;
+bool one_is_inviscid(const Fluids& fluids) {
+  if (has_formula_of_viscosity(fluids)) return false;
+  return Expression(fluids.liquid.viscosity)(Vec3::Zero(), 0) == 0 || fluids.gas.viscosity == 0;
 }
 
 const char* const introduction = R"doc(# Features that others switch off
@@ -94,24 +96,30 @@ const std::vector<Exclusion<Dim>>& exclusions() {
   static const std::vector<Exclusion<Dim>> table{
       {F::steps_by_halves, "scheme = \"first_order\"",
        [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
-      {F::steps_by_halves, "a prescribed flow", [](S s) { return s.has_prescribed_flow(); }},
-      {F::steps_by_halves, "[gas] that flows", [](S s) { return s.has_gas(); }},
-      {F::steps_by_halves, "enclosed air that keeps its volume", [](S s) { return s.keeps_air(); }},
+      {F::steps_by_halves, "a prescribed flow", [](S s) { return s.fluids.has_prescribed_flow(); }},
+      {F::steps_by_halves, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::steps_by_halves, "enclosed air that keeps its volume", [](S s) { return s.fluids.keeps_air(); }},
       {F::steps_by_halves, "rigid beside kinematic solids",
-       [](S s) { return s.has_unknowns() && !has_elements(s) && has_kinematic(s); }},
-      {F::steps_by_halves, "elastic solids", [](S s) { return s.plans_steps(); }},
+       [](S s) { return s.solids.has_unknowns() && !has_elements(s.solids) && has_kinematic(s.solids); }},
+      {F::steps_by_halves, "elastic solids", [](S s) { return s.solids.plans_steps(); }},
       {F::steps_by_halves, "solids thinner than a cell",
-       [](S s) { return any_body<Dim>(s, [](B b) { return b.is_thin(); }); }},
+       [](S s) { return any_body<Dim>(s.solids, [](B b) { return b.is_thin(); }); }},
       {F::shared_viscosity, "scheme = \"first_order\"",
        [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
-      {F::shared_viscosity, "[gas] that flows", [](S s) { return s.has_gas(); }},
-      {F::shared_viscosity, "solids", [](S s) { return !s.bodies.empty(); }},
-      {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return has_formula_of_viscosity(s); }},
-      {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s); }},
-      {F::kinks, "[gas] that flows", [](S s) { return s.has_gas(); }},
-      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.has_gas(); }},
-      {F::multigrid, "[gas] that flows", [](S s) { return s.has_gas(); }}};
+      {F::shared_viscosity, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::shared_viscosity, "solids", [](S s) { return !s.solids.bodies.empty(); }},
+      {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return has_formula_of_viscosity(s.fluids); }},
+      {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s.fluids); }},
+      {F::kinks, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::multigrid, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }}};
   return table;
+}
+
+template <int Dim>
+Features::Features(const Setup<Dim>& s) {
+  for (const Exclusion<Dim>& row : exclusions<Dim>())
+    if (row.present(s)) off_ |= 1u << int(row.feature);
 }
 
 template <int Dim>
@@ -146,6 +154,7 @@ std::string feature_reference() {
 }
 
 #define SEICHE_INSTANTIATE(D)                                                    \
+  template Features::Features(const Setup<D>&);                                  \
   template const std::vector<Exclusion<D>>& exclusions<D>();                     \
   template std::vector<std::string> causes_against<D>(const Setup<D>&, Feature); \
   template std::vector<std::string> describe_features<D>(const Setup<D>&);

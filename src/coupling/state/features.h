@@ -1,13 +1,27 @@
 #pragma once
 // Features that others switch off: one table behind the solver's own decisions, the log and docs/features.md.
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "coupling/state/state.h"
-
 namespace seiche {
 
+template <int Dim>
+struct Setup;
+
 enum class Feature { steps_by_halves, shared_viscosity, shear_jump, kinks, sealed_cavities, multigrid };
+
+// The features that nothing in the scene switches off.
+class Features {
+ public:
+  Features() = default;
+  template <int Dim>
+  explicit Features(const Setup<Dim>& setup);
+  bool has(Feature feature) const { return !(off_ >> int(feature) & 1); }
+
+ private:
+  std::uint32_t off_ = 0;  // a bit a feature
+};
 
 // Something that a feature does not go with.
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "coupling/state/participant.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 

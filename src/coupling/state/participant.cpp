@@ -1,5 +1,6 @@
 #include "coupling/state/participant.h"
 
+#include "base/domain_spec.h"
 #include "geometry/shapes/shapes.h"
 
 namespace seiche {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/gravity.h"
+#include "base/time_spec.h"
 #include "coupling/geometry/step_geometry.h"
 #include "coupling/state/simulation.h"
 #include "fluid/viscosity/viscosity.h"
@@ -101,8 +103,8 @@ class Participant {
 
   // Adds energies and momentum; what solids.csv has of it: place and motion before the loads are known, then loads
   // beyond the pressure on its faces.
-  virtual void measure(const Setup<Dim>&, const State<Dim>&, StepStats&) const {}
-  virtual void describe(const Setup<Dim>&, const State<Dim>&, SolidState&) const {}
+  virtual void measure(const Gravity&, const TimeSpec&, const State<Dim>&, StepStats&) const {}
+  virtual void describe(const TimeSpec&, const State<Dim>&, SolidState&) const {}
   virtual void add_loads(SolidState&) const {}
   // sum f^2/m of the forces that the scene applies at t beside gravity.
   virtual double pull(double /*t*/) const { return 0; }

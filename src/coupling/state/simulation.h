@@ -7,12 +7,13 @@
 
 #include "base/checkpoint_data.h"
 #include "base/communicator.h"
-#include "base/scene.h"
 #include "base/timers.h"
 #include "geometry/mesh/mesh.h"
 #include "solid/mesh/volume_frame.h"
 
 namespace seiche {
+
+struct Scene;
 
 // One row of stats.csv; the contract names the columns. 2D: per metre of depth.
 struct StepStats {

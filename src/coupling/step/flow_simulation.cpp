@@ -2,14 +2,24 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/time_spec.h"
 #include "coupling/report/energy_budget.h"
 #include "coupling/report/measures.h"
 #include "coupling/report/scene_account.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/state/attempt.h"
 #include "coupling/state/checkpoint_state.h"
 #include "coupling/state/features.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+#include "coupling/state/tampering.h"
+#include "coupling/step/initial_state.h"
+#include "coupling/step/step.h"
+#include "coupling/step/step_size.h"
 #include "coupling/thin/thin_weight.h"
 #include "coupling/transport/viscous_transport.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 namespace {
@@ -19,10 +29,12 @@ constexpr int most_halvings = 7;
 // Where viscous liquid fills its domain, steps over more than two cells feed eddies that they do not resolve: a cavity
 // at Re = 5000 swung by 0.2 of the lid's speed at Courant number 4. Empty, or what is said of that. Collective.
 template <int Dim>
-std::string note_on_long_steps(const Setup<Dim>& s, const State<Dim>& state) {
+std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                               const State<Dim>& state) {
   constexpr double resolved = 2;
-  const double cfl = s.scene.time.cfl;
-  if (cfl <= resolved || !s.is_viscous() || s.has_prescribed_flow() || has_surface(s, state.phi)) return {};
+  const double cfl = time.cfl;
+  if (cfl <= resolved || !fluids.is_viscous() || fluids.has_prescribed_flow() || has_surface(domain, state.phi))
+    return {};
   return fmt::format(
       "time.cfl = {:g}: steps over more than {:g} cells do not resolve eddies of viscous liquid that fills its domain; "
       "the flow may come out wrong and unsteady where viscosity is low; lower cfl to {:g}",
@@ -50,9 +62,13 @@ class FlowSimulation : public Simulation {
   std::vector<SolidState> solids() const override { return solids_; }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override { return measure_probe(setup_, state_, setup_.scene.probes.at(k)); }
-  FrameField frame_field(const std::string& name) const override { return make_frame_field(setup_, state_, name); }
-  CheckpointData save() const override { return save_state(setup_, state_); }
-  std::vector<FieldRecord> checkpoint_boxes() const override { return state_boxes(setup_); }
+  FrameField frame_field(const std::string& name) const override {
+    return make_frame_field(setup_.domain, setup_.fluids, state_, name);
+  }
+  CheckpointData save() const override { return save_state(setup_.domain, setup_.fluids, setup_.solids, state_); }
+  std::vector<FieldRecord> checkpoint_boxes() const override {
+    return state_boxes(setup_.domain, setup_.fluids, setup_.solids);
+  }
   const Timers& timers() const override { return phases_.timers; }
   std::vector<std::string> take_warnings() override { return std::exchange(phases_.warnings, {}); }
 
@@ -60,7 +76,8 @@ class FlowSimulation : public Simulation {
     const auto start = std::chrono::steady_clock::now();
     double dt = choose_step(setup_, state_, until);
     std::string failures;
-    for (int halvings = 0; halvings <= most_halvings && dt > 0; ++halvings, dt = hold_back(setup_, state_, dt / 2)) {
+    for (int halvings = 0; halvings <= most_halvings && dt > 0;
+         ++halvings, dt = hold_back(setup_.solids, state_, dt / 2)) {
       Attempt<Dim> a = attempt(dt);
       if (a.failure.empty()) {
         accept(std::move(a));
@@ -73,14 +90,14 @@ class FlowSimulation : public Simulation {
       for (const std::string& line : a.solve.ladder)
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
-    const std::string close = nearest_solids(setup_, state_);
+    const std::string close = nearest_solids(setup_.domain, setup_.solids, setup_.scene.domain, state_);
     throw Error(ExitCode::cannot_continue, fmt::format("{} (after {} halvings; {})", failures, most_halvings,
                                                        close.empty() ? remedy() : "all but touching: " + close));
   }
 
   // The run told of its start when it began. The note on long steps is repeated: `resume --set` may change cfl.
   void load(const CheckpointData& data) override {
-    state_ = load_state(setup_, data);
+    state_ = load_state(setup_.domain, setup_.fluids, setup_.solids, data);
     phases_.warnings.clear();
     warn_of_long_steps();
     geometry_ = measure_geometry();
@@ -107,7 +124,7 @@ class FlowSimulation : public Simulation {
  private:
   // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
   Attempt<Dim> attempt(double dt) {
-    const bool solved = !setup_.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
+    const bool solved = !setup_.fluids.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
     if (state_.step > 0 || !solved) return budgeted_step(state_, dt);
     Attempt<Dim> trial = budgeted_step(state_, dt);
     if (!trial.failure.empty()) return trial;
@@ -122,16 +139,16 @@ class FlowSimulation : public Simulation {
     Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
     if (!a.failure.empty()) return a;
     a.stats = measure(a.state, a.geometry);
-    if (!setup_.has_prescribed_flow()) a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a);
+    if (!setup_.fluids.has_prescribed_flow()) a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a);
     return a;
   }
 
   StepGeometry<Dim> measure_geometry() const {
-    StepGeometry<Dim> g = setup_.solids.measure(place_bodies(setup_, state_), state_.time);
+    StepGeometry<Dim> g = setup_.solids.geometry.measure(place_bodies(state_), state_.time);
     for (std::size_t k = 0; k < state_.solids.size(); ++k) {
       Placement moving = g.placed[k];
       state_.solids[k].set_velocity(moving);
-      set_motion(setup_.layout, int(k), moving, g);
+      set_motion(setup_.domain.layout, int(k), moving, g);
     }
     return g;
   }
@@ -143,7 +160,7 @@ class FlowSimulation : public Simulation {
     std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
     if (state.gas.now) std::tie(state.gas.now, state.gas.before) = inform(*state_.gas.now, *trial.gas.now);
     state.dt_now = dt;
-    for (const auto& interaction : setup_.interactions) interaction->inform(trial, state);
+    for (const auto& interaction : setup_.solids.interactions) interaction->inform(trial, state);
     return state;
   }
 
@@ -183,7 +200,7 @@ class FlowSimulation : public Simulation {
   }
 
   void warn_of_long_steps() {
-    const std::string note = note_on_long_steps(setup_, state_);
+    const std::string note = note_on_long_steps(setup_.domain, setup_.fluids, setup_.scene.time, state_);
     if (!note.empty()) phases_.warnings.push_back(note);
   }
 
@@ -202,10 +219,10 @@ class FlowSimulation : public Simulation {
     stats.step = state.step;
     stats.time = state.time;
     stats.dt = state.dt_now;
-    measure_fluids(setup_, state, geometry.psi, stats);
-    measure_air(setup_, state, geometry.psi, stats);
-    stats.liquid_volume -= volume_beyond(setup_, geometry, state.phi);
-    measure_bodies(setup_, state, stats);
+    measure_fluids(setup_.domain, setup_.fluids, state, geometry.psi, stats);
+    measure_air(setup_.domain, setup_.fluids, state, geometry.psi, stats);
+    stats.liquid_volume -= volume_beyond(setup_.domain, setup_.solids, geometry, state.phi);
+    measure_bodies(setup_.fluids, setup_.scene.time, state, stats);
     return stats;
   }
 
@@ -220,7 +237,7 @@ class FlowSimulation : public Simulation {
     stats_.parting_error = parting_error_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
-    solids_ = measure_solids(setup_, state_, geometry_);
+    solids_ = measure_solids(setup_.domain, setup_.solids, setup_.scene.time, state_, geometry_);
   }
 
   std::vector<SurfaceMesh> rest_surfaces() const {

@@ -1,8 +1,12 @@
 #include "coupling/step/half_steps.h"
 
+#include "base/time_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/state/features.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/source.h"
 #include "coupling/transport/sources.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 namespace {
@@ -15,29 +19,30 @@ bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
 
 }  // namespace
 
-template <int Dim>
-bool may_go_by_halves(const Setup<Dim>& s) {
-  return causes_against(s, Feature::steps_by_halves).empty();
+bool may_go_by_halves(const Features& features) {
+  return features.has(Feature::steps_by_halves);
 }
 
 template <int Dim>
-bool goes_by_halves(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  for (const Source<Dim>& source : s.sources)
+bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
+                    const State<Dim>& state, double dt) {
+  for (const Source<Dim>& source : sources)
     if (opens_or_closes(source, state.time, state.time + dt)) return false;
-  return may_go_by_halves(s) && (!s.has_unknowns() || safe_share(s, state, 2 * dt) >= 1);
+  return may_go_by_halves(features) && (!solids.has_unknowns() || safe_share(solids, state, 2 * dt) >= 1);
 }
 
 template <int Dim>
-bool can_go_on(const Setup<Dim>& s, const State<Dim>& halfway, double dt) {
+bool can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time, const State<Dim>& halfway,
+               double dt) {
   // Redistancing takes in ceil(cfl) + 1 layers, and there are as many halves with this velocity as with the next.
-  const double h = s.layout.h(), most = std::ceil(s.scene.time.cfl) + 1;
-  if (fastest_component(s, halfway) * dt > most * h) return false;
-  if (!s.has_unknowns()) return true;
-  std::vector<Placement> placed = place_bodies(s, halfway);
+  const double h = domain.layout.h(), most = std::ceil(time.cfl) + 1;
+  if (fastest_component(domain, halfway) * dt > most * h) return false;
+  if (!solids.has_unknowns()) return true;
+  std::vector<Placement> placed = place_bodies(halfway);
   for (std::size_t k = 0; k < placed.size(); ++k) halfway.solids[k].set_velocity(placed[k]);
   // One cell a step, and what speeds up within a step or two.
   constexpr double speeding = 1.1;
-  return s.solids.largest_displacement(placed, dt) <= speeding * h && safe_share(s, halfway, dt / 2) >= 1;
+  return solids.geometry.largest_displacement(placed, dt) <= speeding * h && safe_share(solids, halfway, dt / 2) >= 1;
 }
 
 template <int Dim>
@@ -49,23 +54,23 @@ std::vector<Placement> place_halfway(const State<Dim>& state, double dt) {
 }
 
 template <int Dim>
-StepGeometry<Dim> stand_at_end(const Setup<Dim>& s, const State<Dim>& end, StepGeometry<Dim> solved) {
-  const std::vector<Placement> placed = place_bodies(s, end);
-  StepGeometry<Dim> g = s.solids.measure(placed, end.time);
+StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved) {
+  const std::vector<Placement> placed = place_bodies(end);
+  StepGeometry<Dim> g = solids.geometry.measure(placed, end.time);
   solved.psi = std::move(g.psi);
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     solved.placed[k].pose = g.placed[k].pose;
     solved.placed[k].twist.about = placed[k].twist.about;
   }
   return solved;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                \
-  template bool may_go_by_halves<D>(const Setup<D>&);                        \
-  template bool goes_by_halves<D>(const Setup<D>&, const State<D>&, double); \
-  template bool can_go_on<D>(const Setup<D>&, const State<D>&, double);      \
-  template std::vector<Placement> place_halfway<D>(const State<D>&, double); \
-  template StepGeometry<D> stand_at_end<D>(const Setup<D>&, const State<D>&, StepGeometry<D>);
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template bool goes_by_halves<D>(const Solids<D>&, const std::vector<Source<D>>&, const Features&, const State<D>&, \
+                                  double);                                                                           \
+  template bool can_go_on<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&, const State<D>&, double);          \
+  template std::vector<Placement> place_halfway<D>(const State<D>&, double);                                         \
+  template StepGeometry<D> stand_at_end<D>(const Solids<D>&, const State<D>&, StepGeometry<D>);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

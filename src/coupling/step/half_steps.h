@@ -2,7 +2,12 @@
 // Steps that move surface and rigid solids by halves, before and after the solve.
 #include <algorithm>
 
+#include "base/time_spec.h"
+#include "coupling/state/features.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/source.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -13,18 +18,19 @@ namespace seiche {
 // of liquid let go from rest in long steps more. Not for elastic and thin solids, two fluids, enclosed air that keeps
 // its volume, prescribed flows and first order; nor for rigid solids beside ones that move as prescribed: whether a
 // scene has steps by halves at all.
-template <int Dim>
-bool may_go_by_halves(const Setup<Dim>& setup);
+bool may_go_by_halves(const Features& features);
 
 // Whether this step goes so. Near contact, where solids may meet within two steps, a step moves all at once, to where
 // contact is then solved; so does one in which a source opens or closes. Collective.
 template <int Dim>
-bool goes_by_halves(const Setup<Dim>& setup, const State<Dim>& state, double dt);
+bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
+                    const State<Dim>& state, double dt);
 
 // Whether the velocities after the solve, half-way, can be gone on with for the other half: they cross no more cells
 // than the halo and the solids bear, and no solid meets another. Those before the step can. Collective.
 template <int Dim>
-bool can_go_on(const Setup<Dim>& setup, const State<Dim>& halfway, double dt);
+bool can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time, const State<Dim>& halfway,
+               double dt);
 
 // The solids where they stand half-way through the step that ends at state.time, prescribed ones with their twists over
 // the whole of it.
@@ -33,12 +39,12 @@ std::vector<Placement> place_halfway(const State<Dim>& state, double dt);
 
 // Whether solids move.
 template <int Dim>
-bool any_moves(const Setup<Dim>& setup) {
-  return std::any_of(setup.bodies.begin(), setup.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); });
+bool any_moves(const Solids<Dim>& solids) {
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); });
 }
 
 // Of the geometry that was solved with, distances and poses as at the end of the step.
 template <int Dim>
-StepGeometry<Dim> stand_at_end(const Setup<Dim>& setup, const State<Dim>& end, StepGeometry<Dim> solved);
+StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved);
 
 }  // namespace seiche

@@ -1,9 +1,21 @@
 // From a scene to its grid, solids and initial state.
 #include <fmt/format.h>
 
+#include "base/domain_spec.h"
 #include "base/error.h"
+#include "base/time_spec.h"
+#include "coupling/report/measures.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/solid_kinds.h"
+#include "coupling/state/features.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/source.h"
+#include "coupling/state/state.h"
+#include "coupling/state/tampering.h"
+#include "coupling/step/initial_state.h"
+#include "coupling/step/step_size.h"
 #include "coupling/thin/films.h"
 #include "coupling/thin/thin_solids.h"
 #include "coupling/thin/thin_weight.h"
@@ -14,27 +26,11 @@
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
 namespace seiche {
 namespace {
-
-template <int Dim>
-Geometry<Dim> grid_geometry(const DomainSpec& d) {
-  Geometry<Dim> g;
-  g.lower = truncate<Dim>(d.lower);
-  g.h = d.cell_size;
-  for (int a = 0; a < Dim; ++a) {
-    g.cells[a] = d.cells[a];
-    g.periodic[a] = d.sides[a][0].type == SideType::periodic;
-  }
-  return g;
-}
-
-// Cells a step can carry values across, and the reach of the four-point stencils.
-int halo_width(const Scene& scene) {
-  return int(std::ceil(scene.time.cfl)) + 3;
-}
 
 // Inertia below this share of that of the liquid cannot be told from none: the pressure that carries a body is known to
 // 1e-16 of itself, and its velocity is that over its mass.
@@ -93,8 +89,8 @@ std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::strin
 
 // What is said of an initial velocity that is not finite; `region` is its index, -1 for the liquid's own.
 template <int Dim>
-std::string velocity_fault(const Setup<Dim>& s, int region, int axis, double value, const Vec<Dim>& x) {
-  const LiquidSpec& liquid = s.scene.liquid;
+std::string velocity_fault(const Fluids& fluids, int region, int axis, double value, const Vec<Dim>& x) {
+  const LiquidSpec& liquid = fluids.liquid;
   const std::string key = region < 0 ? "liquid" : fmt::format("liquid.region.{}", region);
   const Formula& formula = (region < 0 ? liquid.velocity : *liquid.regions[region].velocity)[axis];
   return not_finite_text<Dim>(fmt::format("{}.velocity[{}]", key, axis), formula, value, x, 0);
@@ -103,38 +99,39 @@ std::string velocity_fault(const Setup<Dim>& s, int region, int axis, double val
 // Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid. `fault` says where a formula is
 // not finite.
 template <int Dim>
-FaceField<Dim> initial_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near,
+FaceField<Dim> initial_velocity(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim, char>& near,
                                 const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes, std::string& fault) {
-  FaceField<Dim> u(s.layout);
-  const VectorExpression everywhere(s.scene.liquid.velocity);
+  FaceField<Dim> u(domain.layout);
+  const VectorExpression everywhere(fluids.liquid.velocity);
   std::vector<std::optional<VectorExpression>> own;
-  for (const auto& region : s.scene.liquid.regions) {
+  for (const auto& region : fluids.liquid.regions) {
     own.emplace_back();
     if (region.velocity) own.back().emplace(*region.velocity);
   }
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+    for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       if (!near.at(a, f)) return;
-      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
       int region = -1;
       for (std::size_t k = 0; k < shapes.size(); ++k)
-        if (own[k] && (*shapes[k])(x) < s.layout.h()) region = int(k);
+        if (own[k] && (*shapes[k])(x) < domain.layout.h()) region = int(k);
       const VectorExpression& v = region < 0 ? everywhere : *own[region];
       u.at(a, f) = v.component(a, extend<Dim>(x), 0);
-      if (fault.empty() && !std::isfinite(u.at(a, f))) fault = velocity_fault(s, region, a, u.at(a, f), x);
+      if (fault.empty() && !std::isfinite(u.at(a, f))) fault = velocity_fault(fluids, region, a, u.at(a, f), x);
     });
   return u;
 }
 
 template <int Dim>
-FaceField<Dim> initial_gas_velocity(const Setup<Dim>& s, const FaceField<Dim, char>& near, std::string& fault) {
-  FaceField<Dim> u(s.layout);
-  const VectorFormula& formula = s.scene.gas.velocity;
+FaceField<Dim> initial_gas_velocity(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim, char>& near,
+                                    std::string& fault) {
+  FaceField<Dim> u(domain.layout);
+  const VectorFormula& formula = fluids.gas.velocity;
   const VectorExpression velocity(formula);
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+    for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       if (!near.at(a, f)) return;
-      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+      const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
       u.at(a, f) = velocity.component(a, extend<Dim>(x), 0);
       if (fault.empty() && !std::isfinite(u.at(a, f)))
         fault = not_finite_text<Dim>(fmt::format("gas.velocity[{}]", a), formula[a], u.at(a, f), x, 0);
@@ -144,63 +141,60 @@ FaceField<Dim> initial_gas_velocity(const Setup<Dim>& s, const FaceField<Dim, ch
 
 // A fluid's level at the start, with the velocity u on the faces near it.
 template <int Dim>
-std::shared_ptr<const Level<Dim>> initial_level(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+std::shared_ptr<const Level<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                const Solids<Dim>& solids, const StepGeometry<Dim>& g,
                                                 const FaceField<Dim, char>& near, FaceField<Dim> u) {
-  Level<Dim> level = empty_level(s);
+  Level<Dim> level = empty_level(domain.layout, fluids.is_viscous());
   level.valid = near;
   level.u = std::move(u);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
       if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
     });
-  continue_level(s, g, near, level);
+  continue_level(domain, fluids, solids, g, near, level);
   return std::make_shared<Level<Dim>>(std::move(level));
 }
 
 }  // namespace
 
 template <int Dim>
-Setup<Dim>::Setup(const Scene& sc, const Communicator& r, const Tampering& t)
-    : scene(sc),
-      tampering(t),
-      viscous(seiche::is_viscous(sc.liquid) || (sc.gas.flows() && sc.gas.viscosity > 0)),
-      gravity(sc.gravity),
-      ranks(r),
-      layout(grid_geometry<Dim>(sc.domain), partition(grid_geometry<Dim>(sc.domain), r.size())[r.rank()],
-             halo_width(sc)),
-      halo(layout, partition(layout.geometry(), r.size()), r),
-      sides(sc.domain, viscous ? WallFlow::sticks : WallFlow::slips),
-      bodies(make_bodies<Dim>(sc, notes)),
-      solids(layout, sides, bodies),
+Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const Tampering& tampering,
+                    std::vector<std::string>& notes)
+    : bodies(make_bodies<Dim>(scene, notes)),
+      geometry(domain.layout, domain.sides, bodies),
       at_start(make_participants(bodies)),
-      interactions(make_interactions(bodies)),
-      sources(make_sources<Dim>(sc, notes)) {
-  if (has_unknowns()) contact.emplace(make_contact_scene(sc, at_start, tampering));
-  followed = find_followed_points(*this);
+      interactions(make_interactions(bodies)) {
+  if (has_unknowns()) contact.emplace(make_contact_scene(scene, at_start, tampering));
 }
 
 template <int Dim>
-bool Setup<Dim>::has_unknowns() const {
+bool Solids<Dim>::has_unknowns() const {
   return at_start.any([](const Participant<Dim>& p) { return p.unknowns() > 0; });
 }
 
 template <int Dim>
-bool Setup<Dim>::plans_steps() const {
+bool Solids<Dim>::plans_steps() const {
   return at_start.any([](const Participant<Dim>& p) { return p.plans_steps(); });
 }
 
 template <int Dim>
-bool Setup<Dim>::may_seal() const {
+bool Solids<Dim>::may_seal() const {
   return at_start.any([](const Participant<Dim>& p) { return p.may_seal(); });
 }
 
 template <int Dim>
-std::vector<Placement> place_bodies(const Setup<Dim>&, const State<Dim>& state) {
-  std::vector<Placement> placed;
-  for (std::size_t k = 0; k < state.solids.size(); ++k)
-    placed.push_back(state.solids[k].place(state.time - state.dt_now, state.time, state.time));
-  return placed;
+Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const Tampering& operators)
+    : scene(from),
+      tampering(operators),
+      fluids(from),
+      domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
+             ranks),
+      solids(from, domain, tampering, notes),
+      sources(make_sources<Dim>(from, notes)),
+      followed(find_followed_points(from.probes, solids)) {
+  fluids.rheology.yield_stress *= tampering.yield_stress;
+  features = Features(*this);
 }
 
 // What a pinned step will meet is known at the start as far as the initial velocity and the solids' motions go; of
@@ -211,9 +205,9 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
   const TimeSpec& time = s.scene.time;
   if (!time.fixed_step || time.end <= 0) return;
   const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
-  const double most = std::min(most_looks, budget / double(s.bodies.size() + 1));
+  const double most = std::min(most_looks, budget / double(s.solids.bodies.size() + 1));
   const double looks = std::clamp(std::floor(time.end / dt), 1.0, most);
-  std::string fault = fault_of_pinned_flow(s, start, dt);
+  std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene.time, start, dt);
   for (int n = 0; fault.empty() && n < looks; ++n) {
     const double t = time.end * n / looks;
     std::vector<Placement> placed;
@@ -221,7 +215,7 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
       placed.push_back(start.solids[k].place(t, t + dt, t + dt));
       if (n == 0) start.solids[k].set_velocity(placed.back());
     }
-    fault = fault_of_pinned_solids(s, placed, t, dt);
+    fault = fault_of_pinned_solids(s.domain, s.solids, s.scene.time, placed, t, dt);
   }
   if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
 }
@@ -229,38 +223,40 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
 template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& s) {
   std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
-  for (const auto& region : s.scene.liquid.regions)
-    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.layout.h(), nullptr}));
+  for (const auto& region : s.fluids.liquid.regions)
+    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.domain.layout.h(), nullptr}));
   State<Dim> state;
-  state.pressure = CellField<Dim>(s.layout);
-  if (s.scene.liquid.separates) state.parting = Parting<Dim>(s.layout);
-  if (s.may_seal()) state.sealed = CellField<Dim, char>(s.layout);
-  state.solids = s.at_start;
-  refuse_overlaps(s, state);
-  const StepGeometry<Dim> g = s.solids.measure(place_bodies(s, state), 0);
-  state.phi = initial_surface(s, g, shapes);
-  if (has_thin_elastic(s)) keep_sides_apart(s, state, g, state.phi);
-  state.expected_volume = liquid_volume(s, state.phi, g.psi) - volume_beyond(s, g, state.phi);
-  if (s.keeps_air()) state.air = initial_air(s, g, state.phi);
+  state.pressure = CellField<Dim>(s.domain.layout);
+  if (s.fluids.liquid.separates) state.parting = Parting<Dim>(s.domain.layout);
+  if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(s.domain.layout);
+  state.solids = s.solids.at_start;
+  refuse_overlaps(s.domain, s.solids, s.scene.domain, state);
+  const StepGeometry<Dim> g = s.solids.geometry.measure(place_bodies(state), 0);
+  state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);
+  if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, state, g, state.phi);
+  state.expected_volume = liquid_volume(s.domain, state.phi, g.psi) - volume_beyond(s.domain, s.solids, g, state.phi);
+  if (s.fluids.keeps_air()) state.air = initial_air(s.domain, g, state.phi);
 
   std::string fault;
-  const FaceField<Dim, char> wet = faces_near_liquid(s, state.phi);
-  FaceField<Dim> u = initial_velocity(s, wet, shapes, fault);
-  if (s.has_gas()) {
-    const FaceField<Dim, char> near = faces_near_gas(s, state.phi);
-    state.gas.now = initial_level(s, g, near, initial_gas_velocity(s, near, fault));
+  const FaceField<Dim, char> wet = faces_near_liquid(s.domain, state.phi);
+  FaceField<Dim> u = initial_velocity(s.domain, s.fluids, wet, shapes, fault);
+  if (s.fluids.has_gas()) {
+    const FaceField<Dim, char> near = faces_near_gas(s.domain, state.phi);
+    state.gas.now =
+        initial_level(s.domain, s.fluids, s.solids, g, near, initial_gas_velocity(s.domain, s.fluids, near, fault));
   }
   check_formulas_at_start(s, g, fault);
-  state.now = s.has_prescribed_flow() ? prescribed_level(s, state.phi, 0) : initial_level(s, g, wet, std::move(u));
-  state.film = measure_film(s, g.faces, state.now->u, state.now->u);
+  state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
+                                             : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
+  state.film = measure_film(s.domain, g.faces, state.now->u, state.now->u);
   check_fixed_step(s, state);
   return state;
 }
 
+template struct Solids<2>;
+template struct Solids<3>;
 template struct Setup<2>;
 template struct Setup<3>;
-template std::vector<Placement> place_bodies<2>(const Setup<2>&, const State<2>&);
-template std::vector<Placement> place_bodies<3>(const Setup<3>&, const State<3>&);
 template State<2> initial_state<2>(const Setup<2>&);
 template State<3> initial_state<3>(const Setup<3>&);
 

@@ -2,12 +2,17 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/time_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "coupling/step/step_size.h"
 #include "coupling/tension/surface_tension.h"
 #include "coupling/transport/given_motion.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/viscous_transport.h"
+#include "fluid/boundary/domain.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
 
@@ -15,70 +20,38 @@ namespace seiche {
 
 namespace {
 
-// Inflow moves the surface in the air before it, too.
-template <int Dim>
-double fastest_inflow(const Setup<Dim>& s, const Level<Dim>& level) {
-  double fastest = 0;
-  for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2; ++side) {
-      if (s.sides.type(a, side) != SideType::inflow) continue;
-      const Box<Dim> box = faces_of_side(s.layout, a, side);
-      fastest = std::max(fastest, local_max(s.layout, box, 0.0, [&](Site f) { return std::abs(level.u.at(a, f)); }));
-    }
-  return fastest;
-}
-
-template <int Dim>
-double speed_at(const Level<Dim>& level, int axis, Site f) {
-  return level.valid.at(axis, f) ? std::abs(level.u.at(axis, f)) : 0.0;
-}
-
-}  // namespace
-
-template <int Dim>
-double fastest_component(const Setup<Dim>& s, const State<Dim>& state) {
-  double fastest = 0;
-  for (int a = 0; a < Dim; ++a)
-    fastest =
-        std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) {
-                   return std::max(speed_at(*state.now, a, f), state.gas.now ? speed_at(*state.gas.now, a, f) : 0.0);
-                 }));
-  return s.ranks.global_max(std::max(fastest, fastest_inflow(s, *state.now)));
-}
-
-namespace {
-
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
 // omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension
 // add.
 template <int Dim>
-double limit_of_present_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
-  if (s.has_prescribed_flow()) return limit_of_prescribed(s, state, until - state.time);
-  const double v = fastest_component(s, state), g = s.gravity.largest(state.time, until),
-               reach = s.scene.time.cfl * s.layout.h();
-  const double capillary = capillary_step(s);
+double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                             const State<Dim>& state, double until) {
+  if (fluids.has_prescribed_flow()) return limit_of_prescribed(domain, fluids, time, state, until - state.time);
+  const double v = fastest_component(domain, state), g = fluids.gravity.largest(state.time, until),
+               reach = time.cfl * domain.layout.h();
+  const double capillary = capillary_step(domain, fluids);
   if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
-  if (!s.has_gas() && !has_surface(s, state.phi)) return std::min(flow, capillary);  // nothing to wave
-  const double waves = 1.5 * std::sqrt(s.layout.h() / (3.14159265358979323846 * g));
+  if (!fluids.has_gas() && !has_surface(domain, state.phi)) return std::min(flow, capillary);  // nothing to wave
+  const double waves = 1.5 * std::sqrt(domain.layout.h() / (3.14159265358979323846 * g));
   return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
 }
 
 // So does what the scene gives, which the flow follows before it is seen in it.
 template <int Dim>
 double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
-  const double limit = limit_of_present_flow(s, state, until);
-  if (s.has_prescribed_flow()) return limit;
-  const double span = std::min(limit, until - state.time), given = limit_of_given_flow(s, state.time, span);
+  const double limit = limit_of_present_flow(s.domain, s.fluids, s.scene.time, state, until);
+  if (s.fluids.has_prescribed_flow()) return limit;
+  const double span = std::min(limit, until - state.time),
+               given = limit_of_given_flow(s.domain, s.scene.time, s.sources, state.time, span);
   return given < span ? given : limit;
 }
 
 constexpr double rounding = 1e-9;  // relative, of a motion that takes just the whole reach
 
-template <int Dim>
-std::string pinned_step(const Setup<Dim>& s, double t, double dt) {
-  return fmt::format("time.fixed_step = {:g} s: the step of {:.6g} s from time {:.6g} s carries",
-                     *s.scene.time.fixed_step, dt, t);
+std::string pinned_step(const TimeSpec& time, double t, double dt) {
+  return fmt::format("time.fixed_step = {:g} s: the step of {:.6g} s from time {:.6g} s carries", *time.fixed_step, dt,
+                     t);
 }
 
 // The solids as they will move in the coming dt.
@@ -94,18 +67,18 @@ std::vector<Placement> motion_ahead(const State<Dim>& state, double dt) {
 
 // How far solids go in dt. Those that move as prescribed may be back where they began by then.
 template <int Dim>
-double largest_way(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+double largest_way(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   double largest = 0;
   for (const double part : {1.0, 0.29, 0.5})
-    largest = std::max(largest, s.solids.largest_displacement(motion_ahead(state, part * dt), part * dt));
+    largest = std::max(largest, solids.geometry.largest_displacement(motion_ahead(state, part * dt), part * dt));
   return largest;
 }
 
 // Moving solids go at most one cell a step.
 template <int Dim>
-double limit_of_solids(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  if (s.contact && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
-  for (int n = 0; n < 60 && largest_way(s, state, dt) > s.layout.h(); ++n) dt /= 2;
+double limit_of_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state, double dt) {
+  if (solids.contact && state.step > 0) dt = std::min(dt, step_growth * state.dt_now);
+  for (int n = 0; n < 60 && largest_way(solids, state, dt) > domain.layout.h(); ++n) dt /= 2;
   return dt;
 }
 
@@ -129,9 +102,9 @@ double until_frame(const TimeSpec& spec, double t) {
 
 // The share of the straight way of a step other than the one solved for on which no element turns inside out.
 template <int Dim>
-double share_without_damage(const Setup<Dim>& s, const State<Dim>& state, double dt) {
+double share_without_damage(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   double share = 1;
-  const std::vector<Eigen::VectorXd> v = each_velocity_over(s, state, dt);
+  const std::vector<Eigen::VectorXd> v = each_velocity_over(solids, state, dt);
   for (std::size_t k = 0; k < v.size(); ++k) share = std::min(share, state.solids[k].possible_share(dt * v[k]));
   return share;
 }
@@ -148,12 +121,12 @@ std::string too_short(double dt, double remaining, double h, const std::string& 
 // Each look is along straight paths to where the solids are at the end of the step: a shorter step has other ends, so
 // it is looked at again.
 template <int Dim>
-double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  if (s.plans_steps() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
+double hold_back(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
+  if (solids.plans_steps() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
   constexpr int most_looks = 40;
   constexpr double margin = 0.9;  // so that the next look finds the share of gaps it wants left
   for (int n = 0; n < most_looks; ++n) {
-    const double share = std::min(safe_share(s, state, dt), share_without_damage(s, state, dt));
+    const double share = std::min(safe_share(solids, state, dt), share_without_damage(solids, state, dt));
     if (share >= 1) return dt;
     dt *= margin * share;
   }
@@ -162,24 +135,27 @@ double hold_back(const Setup<Dim>& s, const State<Dim>& state, double dt) {
 
 // The halo holds paths of ceil(cfl) cells.
 template <int Dim>
-std::string fault_of_pinned_flow(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  const double h = s.layout.h(), cfl = s.scene.time.cfl, most = std::ceil(cfl);
-  const double speed =
-      s.has_prescribed_flow() ? fastest_prescribed(s, state.phi, state.time + 0.5 * dt) : fastest_component(s, state);
+std::string fault_of_pinned_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                                 const State<Dim>& state, double dt) {
+  const double h = domain.layout.h(), cfl = time.cfl, most = std::ceil(cfl);
+  const double speed = fluids.has_prescribed_flow()
+                           ? fastest_prescribed(domain, fluids, state.phi, state.time + 0.5 * dt)
+                           : fastest_component(domain, state);
   const double crossed = speed * dt / h;
   if (crossed <= most * (1 + rounding)) return {};
   return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
-                     pinned_step(s, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
+                     pinned_step(time, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
 }
 
 // A solid that goes further than a cell leaps over faces.
 template <int Dim>
-std::string fault_of_pinned_solids(const Setup<Dim>& s, const std::vector<Placement>& placed, double t, double dt) {
-  const double h = s.layout.h(), crossed = s.solids.largest_displacement(placed, dt) / h;
+std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
+                                   const std::vector<Placement>& placed, double t, double dt) {
+  const double h = domain.layout.h(), crossed = solids.geometry.largest_displacement(placed, dt) / h;
   if (crossed <= 1 + rounding) return {};
   return fmt::format(
       "{} a solid {:.3g} cells of {:g} m; at most 1 is possible; lower fixed_step or slow the solid down",
-      pinned_step(s, t, dt), crossed, h);
+      pinned_step(time, t, dt), crossed, h);
 }
 
 // Where the flow may speed up, 0.9 of what it allows now: then the coming step can be taken as it was solved for. Steps
@@ -188,20 +164,20 @@ std::string fault_of_pinned_solids(const Setup<Dim>& s, const std::vector<Placem
 template <int Dim>
 double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const TimeSpec& spec = s.scene.time;
-  if (!s.plans_steps()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
+  if (!s.solids.plans_steps()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
   const double remaining = until_frame(spec, next.time);
   if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
   constexpr double margin = 0.9;
   double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next, next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
-  return share_evenly(limit_of_solids(s, next, plan), remaining);
+  return share_evenly(limit_of_solids(s.domain, s.solids, next, plan), remaining);
 }
 
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene.time, state.time);
   const double dt = std::min(state.horizon, limit_of_flow(s, state, until));
-  return limit_of_solids(s, state, dt) >= state.horizon * (1 - 1e-9);
+  return limit_of_solids(s.domain, s.solids, state, dt) >= state.horizon * (1 - 1e-9);
 }
 
 template <int Dim>
@@ -210,43 +186,45 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
-  const bool planned = s.plans_steps() && state.step > 0 && !spec.fixed_step;
+  const bool planned = s.solids.plans_steps() && state.step > 0 && !spec.fixed_step;
   double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(state, std::min(dt, remaining));
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
     dt = state.horizon;
   else if (!spec.fixed_step)
-    dt = limit_of_solids(s, state, std::min(dt, remaining));
-  if (s.plans_steps() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
+    dt = limit_of_solids(s.domain, s.solids, state, std::min(dt, remaining));
+  if (s.solids.plans_steps() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
-    std::string fault = fault_of_pinned_flow(s, state, dt);
-    if (fault.empty()) fault = fault_of_pinned_solids(s, motion_ahead(state, dt), state.time, dt);
+    std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene.time, state, dt);
+    if (fault.empty())
+      fault = fault_of_pinned_solids(s.domain, s.solids, s.scene.time, motion_ahead(state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   }
-  const bool as_planned = s.plans_steps() && dt == state.horizon;
+  const bool as_planned = s.solids.plans_steps() && dt == state.horizon;
   if (!as_planned && !spec.fixed_step) dt = land(dt, remaining);
-  const double free = hold_back(s, state, dt);
+  const double free = hold_back(s.solids, state, dt);
   if (!(free * double(most_steps_a_frame) > remaining))
     throw Error(ExitCode::cannot_continue,
-                too_short(free, remaining, s.layout.h(),
-                          free < dt ? nearest_solids(s, state) : solids_at_periodic_sides(s, state)));
+                too_short(free, remaining, s.domain.layout.h(),
+                          free < dt ? nearest_solids(s.domain, s.solids, s.scene.domain, state)
+                                    : solids_at_periodic_sides(s.domain, s.solids, state)));
   return free;
 }
 
-template double fastest_component<2>(const Setup<2>&, const State<2>&);
-template double fastest_component<3>(const Setup<3>&, const State<3>&);
-template std::string fault_of_pinned_flow<2>(const Setup<2>&, const State<2>&, double);
-template std::string fault_of_pinned_solids<2>(const Setup<2>&, const std::vector<Placement>&, double, double);
-template std::string fault_of_pinned_flow<3>(const Setup<3>&, const State<3>&, double);
-template std::string fault_of_pinned_solids<3>(const Setup<3>&, const std::vector<Placement>&, double, double);
+template std::string fault_of_pinned_flow<2>(const Domain<2>&, const Fluids&, const TimeSpec&, const State<2>&, double);
+template std::string fault_of_pinned_solids<2>(const Domain<2>&, const Solids<2>&, const TimeSpec&,
+                                               const std::vector<Placement>&, double, double);
+template std::string fault_of_pinned_flow<3>(const Domain<3>&, const Fluids&, const TimeSpec&, const State<3>&, double);
+template std::string fault_of_pinned_solids<3>(const Domain<3>&, const Solids<3>&, const TimeSpec&,
+                                               const std::vector<Placement>&, double, double);
 template double choose_horizon<2>(const Setup<2>&, const State<2>&, double);
 template double choose_horizon<3>(const Setup<3>&, const State<3>&, double);
 template bool can_go_as_planned<2>(const Setup<2>&, const State<2>&);
 template bool can_go_as_planned<3>(const Setup<3>&, const State<3>&);
-template double hold_back<2>(const Setup<2>&, const State<2>&, double);
-template double hold_back<3>(const Setup<3>&, const State<3>&, double);
+template double hold_back<2>(const Solids<2>&, const State<2>&, double);
+template double hold_back<3>(const Solids<3>&, const State<3>&, double);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);
 template double choose_step<3>(const Setup<3>&, const State<3>&, double);
 

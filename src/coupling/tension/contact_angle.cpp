@@ -1,6 +1,9 @@
 #include "coupling/tension/contact_angle.h"
 
 #include "coupling/geometry/cell_distance.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -85,13 +88,13 @@ bool is_wall(SideType type) {
 }
 
 template <int Dim>
-void continue_beyond_walls(const Setup<Dim>& s, CellField<Dim>& phi) {
-  const double shift = cotangent(s.scene.liquid.contact_angle);
+void continue_beyond_walls(const Domain<Dim>& domain, const Fluids& fluids, CellField<Dim>& phi) {
+  const double shift = cotangent(fluids.liquid.contact_angle);
   for (int a = 0; a < Dim; ++a)
     for (int layer = 1; layer <= depth; ++layer) {
       for (int side = 0; side < 2; ++side)
-        if (is_wall(s.sides.type(a, side))) BeyondSide<Dim>(s.layout, a, side, shift, phi).fill(layer);
-      s.halo.fill_ghosts(phi);
+        if (is_wall(domain.sides.type(a, side))) BeyondSide<Dim>(domain.layout, a, side, shift, phi).fill(layer);
+      domain.halo.fill_ghosts(phi);
     }
 }
 
@@ -104,57 +107,62 @@ struct Buried {
 };
 
 template <int Dim>
-double shift_at(const Setup<Dim>& s, const StepGeometry<Dim>& g, Site cell) {
-  const SolidSpec& solid = s.bodies[std::size_t(g.body[cell])].spec();
-  return cotangent(solid.contact_angle.value_or(s.scene.liquid.contact_angle));
+double shift_at(const Fluids& fluids, const Solids<Dim>& solids, const StepGeometry<Dim>& g, Site cell) {
+  const SolidSpec& solid = solids.bodies[std::size_t(g.body[cell])].spec();
+  return cotangent(solid.contact_angle.value_or(fluids.liquid.contact_angle));
 }
 
 // From depth d below a solid's surface phi is looked up at 2 d towards the flow, at most a cell, as far as the surface
 // is mirrored, deeper than that carried on along straight lines.
 template <int Dim>
-std::vector<Buried<Dim>> buried_cells(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+std::vector<Buried<Dim>> buried_cells(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                      const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
   std::vector<Buried<Dim>> cells;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (std::abs(phi[c]) > (depth + 2) * s.layout.h()) return;
-    const auto [psi, slope] = distance_at_cell<Dim>(s.layout, g.psi, c);
-    const double d = -psi / s.layout.h();
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (std::abs(phi[c]) > (depth + 2) * domain.layout.h()) return;
+    const auto [psi, slope] = distance_at_cell<Dim>(domain.layout, g.psi, c);
+    const double d = -psi / domain.layout.h();
     if (d <= 0 || d > depth || slope.norm() == 0 || g.body[c] < 0) return;
     const Vec<Dim> out = slope.normalized(), x = i.template cast<double>();
     const double up = std::min(2 * d, 1.0);
-    const Tangent<Dim> t = tangent_at<Dim>(s.layout, phi.data(), x + (std::min(d, 1.0) + 1) * out, out);
-    cells.push_back({c, x + up * (out - shift_at(s, g, c) * t.e), t.weight});
+    const Tangent<Dim> t = tangent_at<Dim>(domain.layout, phi.data(), x + (std::min(d, 1.0) + 1) * out, out);
+    cells.push_back({c, x + up * (out - shift_at(fluids, solids, g, c) * t.e), t.weight});
   });
   return cells;
 }
 
 // Each pass carries phi about a cell deeper; those next to the surface lean on each other.
 template <int Dim>
-void continue_into_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+void continue_into_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                          const StepGeometry<Dim>& g, CellField<Dim>& phi) {
   constexpr int passes = 2 * depth;
-  const std::vector<Buried<Dim>> cells = buried_cells(s, g, phi);
+  const std::vector<Buried<Dim>> cells = buried_cells(domain, fluids, solids, g, phi);
   std::vector<double> straight(cells.size()), next(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n) straight[n] = phi[cells[n].site];
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t n = 0; n < cells.size(); ++n)
       next[n] = (1 - cells[n].weight) * straight[n] +
-                cells[n].weight * interpolate_cubic<Dim>(s.layout, phi.data(), cells[n].from);
+                cells[n].weight * interpolate_cubic<Dim>(domain.layout, phi.data(), cells[n].from);
     for (std::size_t n = 0; n < cells.size(); ++n) phi[cells[n].site] = next[n];
-    s.halo.fill_ghosts(phi);
+    domain.halo.fill_ghosts(phi);
   }
 }
 
 }  // namespace
 
 template <int Dim>
-CellField<Dim> continue_at_contact_angle(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+CellField<Dim> continue_at_contact_angle(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                         const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
   CellField<Dim> continued = phi;
-  fill_level_set_ghosts(s.layout, s.halo, continued);
-  if (!s.bodies.empty()) continue_into_solids(s, g, continued);
-  continue_beyond_walls(s, continued);
+  fill_level_set_ghosts(domain.layout, domain.halo, continued);
+  if (!solids.bodies.empty()) continue_into_solids(domain, fluids, solids, g, continued);
+  continue_beyond_walls(domain, fluids, continued);
   return continued;
 }
 
-template CellField<2> continue_at_contact_angle<2>(const Setup<2>&, const StepGeometry<2>&, const CellField<2>&);
-template CellField<3> continue_at_contact_angle<3>(const Setup<3>&, const StepGeometry<3>&, const CellField<3>&);
+template CellField<2> continue_at_contact_angle<2>(const Domain<2>&, const Fluids&, const Solids<2>&,
+                                                   const StepGeometry<2>&, const CellField<2>&);
+template CellField<3> continue_at_contact_angle<3>(const Domain<3>&, const Fluids&, const Solids<3>&,
+                                                   const StepGeometry<3>&, const CellField<3>&);
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #pragma once
 // The cells at both ends of links that the surface crosses, and the links between any two of them.
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "linalg/core/vector_ops.h"
 
@@ -10,13 +11,14 @@ namespace seiche {
 template <int Dim>
 class SurfaceGraph {
  public:
-  SurfaceGraph(const Setup<Dim>& s, const FaceField<Dim, char>& crossed) : s_(s), member_(s.layout), value_(s.layout) {
-    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
+  SurfaceGraph(const Domain<Dim>& domain, const FaceField<Dim, char>& crossed)
+      : domain_(domain), member_(domain.layout), value_(domain.layout) {
+    for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
       for (int a = 0; a < Dim; ++a)
-        if (crossed.at(a, c) || crossed.at(a, c + s.layout.stride(a))) member_[c] = 1;
+        if (crossed.at(a, c) || crossed.at(a, c + domain.layout.stride(a))) member_[c] = 1;
       if (member_[c]) cells_.push_back(c);
     });
-    s.halo.fill_ghosts({member_.data()});
+    domain.halo.fill_ghosts({member_.data()});
   }
 
   const std::vector<Site>& cells() const { return cells_; }
@@ -37,7 +39,7 @@ class SurfaceGraph {
   // x on the grid, halo filled.
   const CellField<Dim>& spread(const Vector& x) const {
     for (std::size_t n = 0; n < cells_.size(); ++n) value_[cells_[n]] = x[n];
-    s_.halo.fill_ghosts(value_);
+    domain_.halo.fill_ghosts(value_);
     return value_;
   }
 
@@ -45,12 +47,12 @@ class SurfaceGraph {
   template <class Visit>
   void for_each_neighbour(Site c, const Visit& visit) const {
     for (int a = 0; a < Dim; ++a)
-      for (Site d : {-s_.layout.stride(a), s_.layout.stride(a)})
+      for (Site d : {-domain_.layout.stride(a), domain_.layout.stride(a)})
         if (member_[c + d]) visit(c + d);
   }
 
  private:
-  const Setup<Dim>& s_;
+  const Domain<Dim>& domain_;
   CellField<Dim, char> member_;
   std::vector<Site> cells_;
   mutable CellField<Dim> value_;

@@ -1,13 +1,11 @@
 #pragma once
 // Surface tension: the jump of the pressure over the surface, and how long a step it bears.
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
-
-template <int Dim>
-bool has_surface_tension(const Setup<Dim>& setup) {
-  return setup.scene.liquid.surface_tension > 0;
-}
 
 // The jump on the faces whose cells' link the surface crosses, and how its curvatures were found.
 template <int Dim>
@@ -26,6 +24,6 @@ SurfaceTension<Dim> surface_tension(const Setup<Dim>& setup, const StepGeometry<
 // 2: the shortest waves of the grid, omega^2 = 8 (3D; 2D 4) * 2.3 (1.8) sigma/(rho h^3) by the symbols of curvature and
 // projection, have omega dt = 1.21 (0.75) there.
 template <int Dim>
-double capillary_step(const Setup<Dim>& setup);
+double capillary_step(const Domain<Dim>& domain, const Fluids& fluids);
 
 }  // namespace seiche

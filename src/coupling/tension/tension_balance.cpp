@@ -5,6 +5,7 @@
 #include <map>
 
 #include "coupling/tension/surface_graph.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 namespace {
@@ -21,10 +22,10 @@ std::int64_t global_number(const Layout<Dim>& layout, Site cell) {
 // For each cell of the graph the least number of its connected piece: passed on along the list of cells, back, and
 // between ranks until nothing changes.
 template <int Dim>
-CellField<Dim, std::int64_t> label_pieces(const Setup<Dim>& s, const SurfaceGraph<Dim>& graph) {
-  CellField<Dim, std::int64_t> label(s.layout, -1);
+CellField<Dim, std::int64_t> label_pieces(const Domain<Dim>& domain, const SurfaceGraph<Dim>& graph) {
+  CellField<Dim, std::int64_t> label(domain.layout, -1);
   const std::vector<Site>& cells = graph.cells();
-  for (Site c : cells) label[c] = global_number(s.layout, c);
+  for (Site c : cells) label[c] = global_number(domain.layout, c);
   bool changed = true;
   const auto adopt = [&](Site c) {
     graph.for_each_neighbour(c, [&](Site across) {
@@ -34,11 +35,11 @@ CellField<Dim, std::int64_t> label_pieces(const Setup<Dim>& s, const SurfaceGrap
     });
   };
   do {
-    s.halo.fill_ghosts({label.data()});
+    domain.halo.fill_ghosts({label.data()});
     changed = false;
     for (Site c : cells) adopt(c);
     for (auto c = cells.rbegin(); c != cells.rend(); ++c) adopt(*c);
-  } while (s.ranks.any(changed));
+  } while (domain.ranks.any(changed));
   return label;
 }
 
@@ -120,17 +121,17 @@ bool is_held(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, Site cel
 }  // namespace
 
 template <int Dim>
-void balance_closed_pieces(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const CellField<Dim>& phi,
+void balance_closed_pieces(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& phi,
                            const FaceField<Dim, char>& crossed, FaceField<Dim>& kappa) {
-  const SurfaceGraph<Dim> graph(s, crossed);
-  const CellField<Dim, std::int64_t> label = label_pieces(s, graph);
+  const SurfaceGraph<Dim> graph(domain, crossed);
+  const CellField<Dim, std::int64_t> label = label_pieces(domain, graph);
   Pieces<Dim> mine;
-  for (Site c : graph.cells()) mine[label[c]].held += is_held(s.layout, faces, c);
+  for (Site c : graph.cells()) mine[label[c]].held += is_held(domain.layout, faces, c);
   // Each link once: with the cell above it, which this rank owns.
   const auto for_each_link = [&](const auto& visit) {
     for (Site c : graph.cells())
       for (int a = 0; a < Dim; ++a)
-        if (crossed.at(a, c)) visit(a, c, normal_at(s.layout, phi, a, c));
+        if (crossed.at(a, c)) visit(a, c, normal_at(domain.layout, phi, a, c));
   };
   for_each_link([&](int a, Site f, const Vec<Dim>& n) {
     Piece<Dim>& piece = mine[label[f]];
@@ -138,16 +139,16 @@ void balance_closed_pieces(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, 
     piece.force[a] += sign * kappa.at(a, f);
     piece.response.row(a) += sign * n.transpose();
   });
-  const Pieces<Dim> all = sum_over_ranks(mine, s.ranks);
+  const Pieces<Dim> all = sum_over_ranks(mine, domain.ranks);
   std::map<std::int64_t, Vec<Dim>> shift;
   for (const auto& [piece, sums] : all)
     if (mine.count(piece)) shift[piece] = sums.shift();
   for_each_link([&](int a, Site f, const Vec<Dim>& n) { kappa.at(a, f) -= shift.at(label[f]).dot(n); });
 }
 
-template void balance_closed_pieces<2>(const Setup<2>&, const FaceGeometry<2>&, const CellField<2>&,
+template void balance_closed_pieces<2>(const Domain<2>&, const FaceGeometry<2>&, const CellField<2>&,
                                        const FaceField<2, char>&, FaceField<2>&);
-template void balance_closed_pieces<3>(const Setup<3>&, const FaceGeometry<3>&, const CellField<3>&,
+template void balance_closed_pieces<3>(const Domain<3>&, const FaceGeometry<3>&, const CellField<3>&,
                                        const FaceField<3, char>&, FaceField<3>&);
 
 }  // namespace seiche

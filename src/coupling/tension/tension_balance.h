@@ -1,6 +1,7 @@
 #pragma once
 // A closed surface pulls itself nowhere.
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -10,7 +11,7 @@ namespace seiche {
 // piece's links along each axis of +-kappa is 0: its pressure jump keeps the momentum to rounding. Pieces next to
 // walls, solids or open sides, where others hold them, stay as they are. Collective.
 template <int Dim>
-void balance_closed_pieces(const Setup<Dim>& setup, const FaceGeometry<Dim>& faces, const CellField<Dim>& phi,
+void balance_closed_pieces(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& phi,
                            const FaceField<Dim, char>& crossed, FaceField<Dim>& kappa);
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #include "coupling/tension/tension_filter.h"
 
 #include "coupling/tension/surface_graph.h"
+#include "fluid/boundary/domain.h"
 #include "linalg/krylov/krylov.h"
 
 namespace seiche {
@@ -61,29 +62,29 @@ double filter_length(double sigma, double density, double h, double dt) {
 }
 
 template <int Dim>
-void filter_curvature(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
+void filter_curvature(const Domain<Dim>& domain, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
                       double length, FaceField<Dim>& kappa) {
-  const SurfaceGraph<Dim> graph(s, crossed);
-  const Vector before = mean_at_cells(s.layout, graph.cells(), crossed, kappa);
+  const SurfaceGraph<Dim> graph(domain, crossed);
+  const Vector before = mean_at_cells(domain.layout, graph.cells(), crossed, kappa);
   Vector after = before;
   Filter<Dim> filter(graph, length);
   constexpr double tolerance = 1e-10;  // far below the error of curvature
   constexpr int most = 2000;           // what is left then is still a curvature, only less smooth
-  conjugate_gradients(filter, filter, before, after, {tolerance * norm(before, s.ranks), most}, s.ranks);
+  conjugate_gradients(filter, filter, before, after, {tolerance * norm(before, domain.ranks), most}, domain.ranks);
   // What links of one cell differ by is as short as can be: it goes as well.
   const CellField<Dim>& smooth = graph.spread(after);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (!crossed.at(a, f)) return;
-      const Site low = f - s.layout.stride(a);
+      const Site low = f - domain.layout.stride(a);
       const double t = phi[low] / (phi[low] - phi[f]);
       kappa.at(a, f) = (1 - t) * smooth[low] + t * smooth[f];
     });
 }
 
-template void filter_curvature<2>(const Setup<2>&, const CellField<2>&, const FaceField<2, char>&, double,
+template void filter_curvature<2>(const Domain<2>&, const CellField<2>&, const FaceField<2, char>&, double,
                                   FaceField<2>&);
-template void filter_curvature<3>(const Setup<3>&, const CellField<3>&, const FaceField<3, char>&, double,
+template void filter_curvature<3>(const Domain<3>&, const CellField<3>&, const FaceField<3, char>&, double,
                                   FaceField<3>&);
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #pragma once
 // Curvature as steps longer than the shortest capillary waves bear it.
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -17,7 +18,7 @@ namespace seiche {
 // `kappa` (1/m) on faces whose link the surface crosses (`crossed`), l in cells; solved on the graph of the cells at
 // both ends of these links, Lap_s its Laplacian, to 1e-10. Collective.
 template <int Dim>
-void filter_curvature(const Setup<Dim>& setup, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
+void filter_curvature(const Domain<Dim>& domain, const CellField<Dim>& phi, const FaceField<Dim, char>& crossed,
                       double length, FaceField<Dim>& kappa);
 
 // l in cells for steps of dt; 0 for steps that explicit tension bears.

@@ -1,5 +1,6 @@
 #include "coupling/thin/films.h"
 
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -23,11 +24,11 @@ bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis
 }  // namespace
 
 template <int Dim>
-Film<Dim> measure_film(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
                        const FaceField<Dim>& continued) {
   Film<Dim> film{faces.open, continued};
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (faces.open.at(a, f) < least_open) film.u.at(a, f) = solved.at(a, f);
     });
   return film;
@@ -36,19 +37,20 @@ Film<Dim> measure_film(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, cons
 // With w u^2 kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as it
 // does in inviscid liquid that comes in from rest.
 template <int Dim>
-void set_film_velocity(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const Film<Dim>& film, const Vec3& g,
+void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film, const Vec3& g,
                        double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+    for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       const double before = film.open.at(a, f), open = faces.open.at(a, f);
-      if (open <= before || !is_slit(s.layout, faces, a, f, i)) return;
+      if (open <= before || !is_slit(domain.layout, faces, a, f, i)) return;
       u.at(a, f) = film.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
     });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template Film<D> measure_film<D>(const Setup<D>&, const FaceGeometry<D>&, const FaceField<D>&, const FaceField<D>&); \
-  template void set_film_velocity<D>(const Setup<D>&, const FaceGeometry<D>&, const Film<D>&, const Vec3&, double,     \
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template Film<D> measure_film<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&,                   \
+                                   const FaceField<D>&);                                                            \
+  template void set_film_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const Film<D>&, const Vec3&, double, \
                                      FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

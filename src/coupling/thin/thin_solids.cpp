@@ -1,6 +1,8 @@
 #include "coupling/thin/thin_solids.h"
 
 #include "coupling/geometry/placed_solid.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -16,8 +18,8 @@ struct Near {
 
 // What stood next to x on its side of a thin body.
 template <int Dim>
-Near find_near(const Setup<Dim>& s, const CellField<Dim>& phi, const PlacedSolid<Dim>& solid, const Vec<Dim>& x) {
-  const Geometry<Dim>& g = s.layout.geometry();
+Near find_near(const Domain<Dim>& domain, const CellField<Dim>& phi, const PlacedSolid<Dim>& solid, const Vec<Dim>& x) {
+  const Geometry<Dim>& g = domain.layout.geometry();
   constexpr int neighbours = Dim == 2 ? 9 : 27;
   Near near;
   for (int n = 0; n < neighbours && !(near.wet && near.dry); ++n) {
@@ -27,43 +29,44 @@ Near find_near(const Setup<Dim>& s, const CellField<Dim>& phi, const PlacedSolid
       i[a] = int(std::floor((x[a] - g.lower[a]) / g.h)) + left % 3 - 1;
       within = within && (g.periodic[a] || (i[a] >= 0 && i[a] < g.cells[a]));
     }
-    if (!within || !s.layout.padded().contains(i)) continue;
-    bool& present = phi[s.layout.site(i)] < 0 ? near.wet : near.dry;
-    present = present || !solid.lies_between(x, s.layout.position(i, cell_offset<Dim>()));
+    if (!within || !domain.layout.padded().contains(i)) continue;
+    bool& present = phi[domain.layout.site(i)] < 0 ? near.wet : near.dry;
+    present = present || !solid.lies_between(x, domain.layout.position(i, cell_offset<Dim>()));
   }
   return near;
 }
 
 template <int Dim>
 struct ThinSolids {
-  const Setup<Dim>& s;
+  const Domain<Dim>& domain;
+  const Solids<Dim>& solids;
   const State<Dim>& before;
   const StepGeometry<Dim>& g;
   std::vector<std::unique_ptr<PlacedSolid<Dim>>> now, earlier;  // null: not thin
-  FaceField<Dim, char> sealed{s.layout, 0};
+  FaceField<Dim, char> sealed{domain.layout, 0};
 
-  ThinSolids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry)
-      : s(setup), before(state), g(geometry) {
+  ThinSolids(const Domain<Dim>& on, const Solids<Dim>& all, const State<Dim>& state, const StepGeometry<Dim>& geometry)
+      : domain(on), solids(all), before(state), g(geometry) {
     for (const SealedFace& f : g.sealed) sealed.at(f.axis, f.face) = 1;
-    const std::vector<Placement> placed = place_bodies(s, before);
-    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+    const std::vector<Placement> placed = place_bodies(before);
+    for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
       now.push_back(place(k, g.placed[k]));
       earlier.push_back(place(k, placed[k]));
     }
   }
 
   std::unique_ptr<PlacedSolid<Dim>> place(std::size_t k, const Placement& placed) const {
-    if (!s.bodies[k].is_thin()) return nullptr;
-    return place_solid(s.layout, s.bodies[k], placed);
+    if (!solids.bodies[k].is_thin()) return nullptr;
+    return place_solid(domain.layout, solids.bodies[k], placed);
   }
 
   // phi of a cell beside body k as its own side allows.
   double allowed(int k, Site cell, double phi) const {
     const PlacedSolid<Dim>&solid = *now[std::size_t(k)], &then = *earlier[std::size_t(k)];
-    const Vec<Dim> x = s.layout.position(s.layout.index(cell), cell_offset<Dim>());
-    const double distance = solid.distance(x), least = std::max(distance, least_distance * s.layout.h());
+    const Vec<Dim> x = domain.layout.position(domain.layout.index(cell), cell_offset<Dim>());
+    const double distance = solid.distance(x), least = std::max(distance, least_distance * domain.layout.h());
     if (distance <= 0) return phi;
-    const Near near = find_near(s, before.phi, then, solid.carried_to(then, x));
+    const Near near = find_near(domain, before.phi, then, solid.carried_to(then, x));
     if (phi < 0 && !near.wet) return least;
     if (phi >= 0 && !near.dry) return -least;
     return phi;
@@ -71,13 +74,13 @@ struct ThinSolids {
 
   // Of a wet cell before face f, dry across it: as deep as the cell behind it.
   double as_behind(const CellField<Dim>& phi, const SealedFace& f, Site wet, int away) const {
-    const Site d = away * s.layout.stride(f.axis), between = away > 0 ? wet + d : wet;
+    const Site d = away * domain.layout.stride(f.axis), between = away > 0 ? wet + d : wet;
     return sealed.at(f.axis, between) ? phi[wet] : std::min(phi[wet], phi[wet + d]);
   }
 
   bool has_wet_neighbour(const CellField<Dim>& phi, Site cell) const {
     bool any = false;
-    for_each_face_of(s.layout, cell, [&](int a, Site face, int, Site across) {
+    for_each_face_of(domain.layout, cell, [&](int a, Site face, int, Site across) {
       any = any || (!sealed.at(a, face) && phi[across] < 0);
     });
     return any;
@@ -87,17 +90,18 @@ struct ThinSolids {
 }  // namespace
 
 template <int Dim>
-void keep_sides_apart(const Setup<Dim>& s, const State<Dim>& before, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (std::none_of(s.bodies.begin(), s.bodies.end(), [](const auto& b) { return b.is_thin(); })) return;
-  const ThinSolids<Dim> thin(s, before, g);
+void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& before,
+                      const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+  if (std::none_of(solids.bodies.begin(), solids.bodies.end(), [](const auto& b) { return b.is_thin(); })) return;
+  const ThinSolids<Dim> thin(domain, solids, before, g);
   const auto for_both_cells = [&](const SealedFace& f, const auto& visit) {
-    const Site low = f.face - s.layout.stride(f.axis);
-    if (s.layout.cells().contains(s.layout.index(low))) visit(low, f.face, -1);
-    if (s.layout.cells().contains(s.layout.index(f.face))) visit(f.face, low, 1);
+    const Site low = f.face - domain.layout.stride(f.axis);
+    if (domain.layout.cells().contains(domain.layout.index(low))) visit(low, f.face, -1);
+    if (domain.layout.cells().contains(domain.layout.index(f.face))) visit(f.face, low, 1);
   };
   for (const SealedFace& f : g.sealed)
     for_both_cells(f, [&](Site c, Site, int) { phi[c] = thin.allowed(f.body, c, phi[c]); });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
   const CellField<Dim> known = phi;
   for (const SealedFace& f : g.sealed)
     for_both_cells(f, [&](Site c, Site across, int away) {
@@ -105,10 +109,12 @@ void keep_sides_apart(const Setup<Dim>& s, const State<Dim>& before, const StepG
       if (known[c] >= 0 && known[across] < 0 && !thin.has_wet_neighbour(known, c))
         phi[c] = std::max(phi[c], -thin.as_behind(known, f, across, -away));
     });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
 }
 
-template void keep_sides_apart<2>(const Setup<2>&, const State<2>&, const StepGeometry<2>&, CellField<2>&);
-template void keep_sides_apart<3>(const Setup<3>&, const State<3>&, const StepGeometry<3>&, CellField<3>&);
+template void keep_sides_apart<2>(const Domain<2>&, const Solids<2>&, const State<2>&, const StepGeometry<2>&,
+                                  CellField<2>&);
+template void keep_sides_apart<3>(const Domain<3>&, const Solids<3>&, const State<3>&, const StepGeometry<3>&,
+                                  CellField<3>&);
 
 }  // namespace seiche

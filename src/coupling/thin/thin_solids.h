@@ -1,6 +1,8 @@
 #pragma once
 // Liquid beside solids that are thinner than a cell: the level set knows one surface, not on which side of them it is.
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -9,7 +11,7 @@ namespace seiche {
 // solid does not part from it. And where there is liquid on one side alone, the level set there does not tell how near
 // the solid is: liquid goes on towards it as behind. Collective.
 template <int Dim>
-void keep_sides_apart(const Setup<Dim>& setup, const State<Dim>& before, const StepGeometry<Dim>& geometry,
-                      CellField<Dim>& phi);
+void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& before,
+                      const StepGeometry<Dim>& geometry, CellField<Dim>& phi);
 
 }  // namespace seiche

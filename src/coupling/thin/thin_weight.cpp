@@ -2,6 +2,9 @@
 
 #include <Eigen/Geometry>
 
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "levelset/fractions.h"
 
 namespace seiche {
@@ -9,9 +12,9 @@ namespace {
 
 // A wet cell without a row, among sealed faces alone.
 template <int Dim>
-bool is_shut_in(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, Site cell) {
+bool is_shut_in(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi, Site cell) {
   bool shut = phi[cell] < 0;
-  for_each_face_of(s.layout, cell, [&](int a, Site f, int, Site) { shut = shut && !g.faces.is_unknown(a, f); });
+  for_each_face_of(domain.layout, cell, [&](int a, Site f, int, Site) { shut = shut && !g.faces.is_unknown(a, f); });
   return shut;
 }
 
@@ -24,16 +27,16 @@ struct Depths {
 
 // Of the cells that are this rank's.
 template <int Dim>
-Depths wet_depths(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+Depths wet_depths(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                   const CellField<Dim>& phi, const SealedFace& f) {
-  const std::array<Site, 2> cells = {f.face - s.layout.stride(f.axis), f.face};
+  const std::array<Site, 2> cells = {f.face - domain.layout.stride(f.axis), f.face};
   Depths sum;
   for (std::size_t side = 0; side < 2; ++side) {
     const Site c = cells[side];
-    if (!s.layout.cells().contains(s.layout.index(c))) continue;
+    if (!domain.layout.cells().contains(domain.layout.index(c))) continue;
     const bool shut = rows.row[c] == PressureRows<Dim>::no_row;
-    if (shut && !is_shut_in(s, g, phi, c)) continue;
-    const double depth = shut ? 0.5 * s.layout.h() : f.gaps[side];
+    if (shut && !is_shut_in(domain, g, phi, c)) continue;
+    const double depth = shut ? 0.5 * domain.layout.h() : f.gaps[side];
     sum.inert += depth;
     if (!shut || f.gaps[side] > 0) sum.heavy += depth;
   }
@@ -48,8 +51,8 @@ double slowed(double a, double dt, double h) {
 }  // namespace
 
 template <int Dim>
-LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                           const State<Dim>& state, double dt, int k) {
+LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, const StepGeometry<Dim>& g,
+                           const PressureRows<Dim>& rows, const State<Dim>& state, double dt, int k) {
   const FaceShares& shares = *g.shares[std::size_t(k)];
   const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
   const auto size = std::size_t(w.size());
@@ -59,18 +62,18 @@ LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
     const SurfaceWeights& hung = (*g.attached[std::size_t(k)])[n];
-    const double area = shares[n].closed * s.layout.geometry().face_area();
-    const Depths depths = wet_depths(s, g, rows, state.phi, f);
-    const double mass = area * s.density() * depths.inert, heavy = area * s.density() * depths.heavy;
+    const double area = shares[n].closed * domain.layout.geometry().face_area();
+    const Depths depths = wet_depths(domain, g, rows, state.phi, f);
+    const double mass = area * fluids.density() * depths.inert, heavy = area * fluids.density() * depths.heavy;
     const double mean = velocity_at<Dim>(hung, f.axis, w), flow = state.now->u.at(f.axis, f.face);
     for (const auto& [node, weight] : hung) {
       const auto i = std::size_t(Dim * node + f.axis);
       sums[i] += mass * weight;
       sums[size + i] += heavy * weight;
-      sums[2 * size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, s.layout.h()));
+      sums[2 * size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, domain.layout.h()));
     }
   }
-  s.ranks.global_sum(sums);
+  domain.ranks.global_sum(sums);
   const auto part = [&](std::size_t first) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + first, Eigen::Index(size)));
   };
@@ -78,14 +81,16 @@ LiquidBeside liquid_beside(const Setup<Dim>& s, const StepGeometry<Dim>& g, cons
 }
 
 template <int Dim>
-bool has_thin_elastic(const Setup<Dim>& s) {
-  return std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body<Dim>& b) { return b.is_thin() && b.elements(); });
+bool has_thin_elastic(const Solids<Dim>& solids) {
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(),
+                     [](const Body<Dim>& b) { return b.is_thin() && b.elements(); });
 }
 
 template <int Dim>
-double volume_beyond(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
-  if (!has_thin_elastic(s)) return 0;
-  const Layout<Dim>& l = s.layout;
+double volume_beyond(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+                     const CellField<Dim>& phi) {
+  if (!has_thin_elastic(solids)) return 0;
+  const Layout<Dim>& l = domain.layout;
   double sum = 0;
   for (const SealedFace& f : g.sealed) {
     const std::array<Site, 2> cells = {f.face - l.stride(f.axis), f.face};
@@ -97,7 +102,7 @@ double volume_beyond(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Cell
       sum += f.weight * (counted - f.gaps[side]) * l.geometry().face_area();
     }
   }
-  return s.ranks.global_sum(sum);
+  return domain.ranks.global_sum(sum);
 }
 
 template <int Dim>
@@ -113,11 +118,11 @@ Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd
   return load;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template LiquidBeside liquid_beside<D>(const Setup<D>&, const StepGeometry<D>&, const PressureRows<D>&, \
-                                         const State<D>&, double, int);                                   \
-  template bool has_thin_elastic<D>(const Setup<D>&);                                                     \
-  template double volume_beyond<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);         \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template LiquidBeside liquid_beside<D>(const Domain<D>&, const Fluids&, const StepGeometry<D>&,                    \
+                                         const PressureRows<D>&, const State<D>&, double, int);                      \
+  template bool has_thin_elastic<D>(const Solids<D>&);                                                               \
+  template double volume_beyond<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, const CellField<D>&); \
   template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,6 +1,9 @@
 #pragma once
 // The mass and the volume of the liquid beside elastic solids that are thinner than a cell.
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -16,19 +19,20 @@ struct LiquidBeside {
   Eigen::VectorXd mass, heavy, momentum;  // heavy: what of the mass weighs, not that of cells which the body fills
 };
 template <int Dim>
-LiquidBeside liquid_beside(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                           const State<Dim>& state, double dt, int k);
+LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, const StepGeometry<Dim>& geometry,
+                           const PressureRows<Dim>& rows, const State<Dim>& state, double dt, int k);
 
 // Liquid beside thin elastic solids ends in whole cells, the solids between: what that counts too much, m^Dim,
 //   sum_f n_a^2 A (h/2 - d) over the sides of a sealed face with liquid,
 // the mean over the axes of what is between face and solid; what a cell in the solid has of liquid counts too much,
 // too. Of the sum of all ranks. Collective.
 template <int Dim>
-double volume_beyond(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const CellField<Dim>& phi);
+double volume_beyond(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& geometry,
+                     const CellField<Dim>& phi);
 
 // Whether there are thin elastic solids.
 template <int Dim>
-bool has_thin_elastic(const Setup<Dim>& setup);
+bool has_thin_elastic(const Solids<Dim>& solids);
 
 // Force and torque about the origin that forces on the nodes add up to (ElasticMotion::extra_load, reaction).
 template <int Dim>

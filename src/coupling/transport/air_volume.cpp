@@ -4,6 +4,7 @@
 #include <map>
 
 #include "coupling/transport/transport.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
@@ -13,44 +14,44 @@ namespace {
 
 // Region of each cell and of the cells around it, layer by layer, first through open faces alone; open air is the last.
 template <int Dim>
-CellField<Dim, std::int64_t> nearest_regions(const Setup<Dim>& s, const AirRegions<Dim>& air, const CellField<Dim>& phi,
-                                             const FaceGeometry<Dim>* faces) {
+CellField<Dim, std::int64_t> nearest_regions(const Domain<Dim>& domain, const AirRegions<Dim>& air,
+                                             const CellField<Dim>& phi, const FaceGeometry<Dim>* faces) {
   constexpr int own_side = 2;
   CellField<Dim, std::int64_t> near = air.label;
-  for_each_site(s.layout, s.layout.padded(), [&](Site c) {
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) {
     if (near[c] == open_air) near[c] = air.count();
   });
-  const int layers = int(std::ceil(s.band() / s.layout.h())) + 1;
+  const int layers = int(std::ceil(domain.band() / domain.layout.h())) + 1;
   for (int layer = 0; layer < layers; ++layer) {
     const CellField<Dim, std::int64_t> old = near;
-    for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+    for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
       if (old[c] >= 0) return;
       double largest = -std::numeric_limits<double>::infinity();
-      for_each_face_of(s.layout, c, [&](int a, Site f, int, Site across) {
+      for_each_face_of(domain.layout, c, [&](int a, Site f, int, Site across) {
         if (old[across] < 0 || phi[across] <= largest) return;
         if (layer < own_side && faces && !faces->is_unknown(a, f)) return;
         near[c] = old[across];
         largest = phi[across];
       });
     });
-    s.halo.fill_ghosts({near.data()});
+    domain.halo.fill_ghosts({near.data()});
   }
   return near;
 }
 
 // Air in the owned cells of each region, summed over the ranks.
 template <int Dim>
-std::vector<double> volumes_of(const Setup<Dim>& s, const CellField<Dim, std::int64_t>& near, std::int64_t count,
+std::vector<double> volumes_of(const Domain<Dim>& domain, const CellField<Dim, std::int64_t>& near, std::int64_t count,
                                const NodeField<Dim>& psi, const CellField<Dim>& phi, double shift) {
-  CellField<Dim> depth(s.layout);  // below zero in the air
-  for_each_site(s.layout, s.layout.padded(),
-                [&](Site c) { depth[c] = -phi[c] - (std::abs(phi[c]) < s.band() ? shift : 0); });
+  CellField<Dim> depth(domain.layout);  // below zero in the air
+  for_each_site(domain.layout, domain.layout.padded(),
+                [&](Site c) { depth[c] = -phi[c] - (std::abs(phi[c]) < domain.band() ? shift : 0); });
   std::vector<double> volume(std::size_t(count + 1));
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
-    if (near[c] >= 0) volume[std::size_t(near[c])] += liquid_share(s.layout, depth, psi, c);
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (near[c] >= 0) volume[std::size_t(near[c])] += liquid_share(domain.layout, depth, psi, c);
   });
-  s.ranks.global_sum(volume);
-  for (double& v : volume) v *= s.layout.geometry().cell_volume();
+  domain.ranks.global_sum(volume);
+  for (double& v : volume) v *= domain.layout.geometry().cell_volume();
   return volume;
 }
 
@@ -75,12 +76,12 @@ Site origin(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, Site 
 
 // How many cells each region now has of each before, over all ranks.
 template <int Dim>
-Overlaps overlaps(const Setup<Dim>& s, const AirRegions<Dim>& before, const AirRegions<Dim>& now,
+Overlaps overlaps(const Domain<Dim>& domain, const AirRegions<Dim>& before, const AirRegions<Dim>& now,
                   const FaceField<Dim>& u, double dt) {
   Overlaps mine, all;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
     if (now.label[c] == no_air) return;
-    std::int64_t from = dt > 0 ? before.label[origin(s.layout, u, dt, c)] : no_air;
+    std::int64_t from = dt > 0 ? before.label[origin(domain.layout, u, dt, c)] : no_air;
     if (from == no_air) from = before.label[c];
     if (from != no_air) mine[{from, now.label[c]}] += 1;
   });
@@ -89,7 +90,7 @@ Overlaps overlaps(const Setup<Dim>& s, const AirRegions<Dim>& before, const AirR
     const Overlap o{pair.first, pair.second, cells};
     bytes.append(reinterpret_cast<const char*>(&o), sizeof o);
   }
-  for (const std::string& part : s.ranks.all_gather(bytes))
+  for (const std::string& part : domain.ranks.all_gather(bytes))
     for (std::size_t n = 0; n < part.size(); n += sizeof(Overlap)) {
       Overlap o;
       std::memcpy(&o, part.data() + n, sizeof o);
@@ -123,9 +124,9 @@ Overlaps without_blur(Overlaps cells, const std::vector<double>& measured, std::
 
 // V_n = sum_b V_b m_bn / sum_n m_bn, m_bn the part of n's measured volume that came from b; from what was open m_n.
 template <int Dim>
-void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before, const Overlaps& found,
+void hand_on_volumes(const Domain<Dim>& domain, const AirRegions<Dim>& before, const Overlaps& found,
                      const std::vector<double>& measured, AirRegions<Dim>& now, double& lost) {
-  const double cell = s.layout.geometry().cell_volume();
+  const double cell = domain.layout.geometry().cell_volume();
   const Overlaps cells = without_blur<Dim>(found, measured, before.volume.size(), cell);
   std::vector<double> in_all(now.volume.size()), kept(before.volume.size());
   std::vector<char> known(now.volume.size());
@@ -156,35 +157,36 @@ void hand_on_volumes(const Setup<Dim>& s, const AirRegions<Dim>& before, const O
 }  // namespace
 
 template <int Dim>
-std::vector<double> air_volumes(const Setup<Dim>& s, const AirRegions<Dim>& air, const NodeField<Dim>& psi,
+std::vector<double> air_volumes(const Domain<Dim>& domain, const AirRegions<Dim>& air, const NodeField<Dim>& psi,
                                 const CellField<Dim>& phi) {
-  return volumes_of(s, nearest_regions<Dim>(s, air, phi, nullptr), air.count(), psi, phi, 0);
+  return volumes_of(domain, nearest_regions<Dim>(domain, air, phi, nullptr), air.count(), psi, phi, 0);
 }
 
 template <int Dim>
-AirRegions<Dim> initial_air(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
-  AirRegions<Dim> air = find_air_regions(s.layout, s.halo, s.ranks, phi, g.faces);
-  std::vector<double> measured = air_volumes(s, air, g.psi, phi);
+AirRegions<Dim> initial_air(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+  AirRegions<Dim> air = find_air_regions(domain.layout, domain.halo, domain.ranks, phi, g.faces);
+  std::vector<double> measured = air_volumes(domain, air, g.psi, phi);
   measured.pop_back();
   air.volume = std::move(measured);
   return air;
 }
 
 template <int Dim>
-AirRegions<Dim> follow_air(const Setup<Dim>& s, const AirRegions<Dim>& before, const FaceField<Dim>& u, double dt,
+AirRegions<Dim> follow_air(const Domain<Dim>& domain, const AirRegions<Dim>& before, const FaceField<Dim>& u, double dt,
                            const StepGeometry<Dim>& g, const CellField<Dim>& phi, double& lost) {
-  AirRegions<Dim> now = find_air_regions(s.layout, s.halo, s.ranks, phi, g.faces);
-  hand_on_volumes(s, before, overlaps(s, before, now, u, dt), air_volumes(s, now, g.psi, phi), now, lost);
+  AirRegions<Dim> now = find_air_regions(domain.layout, domain.halo, domain.ranks, phi, g.faces);
+  hand_on_volumes(domain, before, overlaps(domain, before, now, u, dt), air_volumes(domain, now, g.psi, phi), now,
+                  lost);
   return now;
 }
 
 template <int Dim>
-double control_volumes(const Setup<Dim>& s, const StepGeometry<Dim>& g, double expected, double limit,
+double control_volumes(const Domain<Dim>& domain, const StepGeometry<Dim>& g, double expected, double limit,
                        AirRegions<Dim>& air, CellField<Dim>& phi) {
-  const double probe = 1e-3 * s.layout.h(), liquid = liquid_volume(s, phi, g.psi);
-  const auto near = nearest_regions(s, air, phi, &g.faces);
-  const std::vector<double> volume = volumes_of(s, near, air.count(), g.psi, phi, 0);
-  const std::vector<double> grown = volumes_of(s, near, air.count(), g.psi, phi, probe);
+  const double probe = 1e-3 * domain.layout.h(), liquid = liquid_volume(domain, phi, g.psi);
+  const auto near = nearest_regions(domain, air, phi, &g.faces);
+  const std::vector<double> volume = volumes_of(domain, near, air.count(), g.psi, phi, 0);
+  const std::vector<double> grown = volumes_of(domain, near, air.count(), g.psi, phi, probe);
   const std::size_t open = air.volume.size();
   double enclosed = 0, lacking = 0;  // of the regions' volumes
   for (std::size_t k = 0; k < open; ++k) enclosed += air.volume[k], lacking += air.volume[k] - volume[k];
@@ -197,20 +199,20 @@ double control_volumes(const Setup<Dim>& s, const StepGeometry<Dim>& g, double e
                  wanted = k < open ? air.volume[k] - volume[k] : excess - lacking;
     shift[k] = area > 0 ? std::clamp(wanted / area, -limit, limit) : 0;
   }
-  for_each_site(s.layout, s.layout.padded(), [&](Site c) {
-    if (near[c] >= 0 && std::abs(phi[c]) < s.band()) phi[c] += shift[std::size_t(near[c])];
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) {
+    if (near[c] >= 0 && std::abs(phi[c]) < domain.band()) phi[c] += shift[std::size_t(near[c])];
   });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
-  return liquid_volume(s, phi, g.psi) - liquid;
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
+  return liquid_volume(domain, phi, g.psi) - liquid;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                 \
-  template std::vector<double> air_volumes<D>(const Setup<D>&, const AirRegions<D>&, const NodeField<D>&,     \
-                                              const CellField<D>&);                                           \
-  template AirRegions<D> initial_air<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&);        \
-  template AirRegions<D> follow_air<D>(const Setup<D>&, const AirRegions<D>&, const FaceField<D>&, double,    \
-                                       const StepGeometry<D>&, const CellField<D>&, double&);                 \
-  template double control_volumes<D>(const Setup<D>&, const StepGeometry<D>&, double, double, AirRegions<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template std::vector<double> air_volumes<D>(const Domain<D>&, const AirRegions<D>&, const NodeField<D>&,     \
+                                              const CellField<D>&);                                            \
+  template AirRegions<D> initial_air<D>(const Domain<D>&, const StepGeometry<D>&, const CellField<D>&);        \
+  template AirRegions<D> follow_air<D>(const Domain<D>&, const AirRegions<D>&, const FaceField<D>&, double,    \
+                                       const StepGeometry<D>&, const CellField<D>&, double&);                  \
+  template double control_volumes<D>(const Domain<D>&, const StepGeometry<D>&, double, double, AirRegions<D>&, \
                                      CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -2,9 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "base/domain_spec.h"
 #include "base/error.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/source.h"
 #include "coupling/transport/liquid_viscosity.h"
 #include "coupling/transport/sources.h"
+#include "fluid/boundary/domain.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
 
@@ -13,15 +19,16 @@ namespace {
 
 // Empty, or what is not finite at a face of a side at time t: all components, also those that the flow does not feel.
 template <int Dim>
-std::string fault_at_side(const Setup<Dim>& s, int axis, int side, const Vec<Dim>& x, double t) {
-  const SideSpec& spec = s.scene.domain.sides[axis][side];
+std::string fault_at_side(const Domain<Dim>& domain, const DomainSpec& extent, int axis, int side, const Vec<Dim>& x,
+                          double t) {
+  const SideSpec& spec = extent.sides[axis][side];
   const auto key = [&] { return fmt::format("domain.boundary.{}_{}", "xyz"[axis], side == 0 ? "lower" : "upper"); };
-  if (s.sides.is_outflow(axis, side)) {
-    const double p = s.sides.pressure(axis, side, x, t);
+  if (domain.sides.is_outflow(axis, side)) {
+    const double p = domain.sides.pressure(axis, side, x, t);
     return std::isfinite(p) ? "" : not_finite_text<Dim>(key() + ".pressure", spec.pressure, p, x, t);
   }
   for (int c = 0; c < Dim; ++c) {
-    const double v = s.sides.velocity(axis, side, c, x, t);
+    const double v = domain.sides.velocity(axis, side, c, x, t);
     if (!std::isfinite(v))
       return not_finite_text<Dim>(fmt::format("{}.velocity[{}]", key(), c), spec.velocity[c], v, x, t);
   }
@@ -30,26 +37,26 @@ std::string fault_at_side(const Setup<Dim>& s, int axis, int side, const Vec<Dim
 
 // The first of this rank's faults on faces that solids leave open.
 template <int Dim>
-std::string fault_of_sides(const Setup<Dim>& s, const StepGeometry<Dim>& g, double t) {
+std::string fault_of_sides(const Domain<Dim>& domain, const DomainSpec& extent, const StepGeometry<Dim>& g, double t) {
   std::string fault;
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
-      const SideType type = s.sides.type(a, side);
+      const SideType type = domain.sides.type(a, side);
       if (type != SideType::inflow && type != SideType::moving_wall && type != SideType::outflow) continue;
-      for_each_index_in_order(s.layout, faces_of_side(s.layout, a, side), [&](Site f, const IVec<Dim>& i) {
+      for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>& i) {
         if (fault.empty() && g.faces.kind_at(a, f) != FaceKind::closed)
-          fault = fault_at_side<Dim>(s, a, side, s.layout.position(i, face_offset<Dim>(a)), t);
+          fault = fault_at_side<Dim>(domain, extent, a, side, domain.layout.position(i, face_offset<Dim>(a)), t);
       });
     }
   return fault;
 }
 
 template <int Dim>
-std::string fault_of_motions(const Setup<Dim>& s, const StepGeometry<Dim>& g, double t) {
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+std::string fault_of_motions(const Solids<Dim>& solids, const StepGeometry<Dim>& g, double t) {
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Twist& v = g.placed[k].twist;
     if (!v.linear.allFinite() || !v.angular.allFinite() || !v.about.allFinite())
-      return fmt::format("solid '{}': its motion is not finite at t = {:g} s", s.bodies[k].spec().name, t);
+      return fmt::format("solid '{}': its motion is not finite at t = {:g} s", solids.bodies[k].spec().name, t);
   }
   return {};
 }
@@ -84,36 +91,41 @@ std::string first_text(const Communicator& ranks, const std::string& mine) {
 
 template <int Dim>
 void check_formulas_at_start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::string& fault) {
-  std::string mine = fault.empty() ? s.gravity.fault(0) : fault;
-  if (mine.empty()) mine = fault_of_sides(s, g, 0);
-  if (mine.empty()) mine = fault_of_viscosity(s, 0);
+  std::string mine = fault.empty() ? s.fluids.gravity.fault(0) : fault;
+  if (mine.empty()) mine = fault_of_sides(s.domain, s.scene.domain, g, 0);
+  if (mine.empty()) mine = fault_of_viscosity(s.domain, s.fluids, 0);
   for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
-    mine = fault_of_source(s, k, std::max(0.0, s.sources[k].spec.from));
-  if (const std::string text = first_text(s.ranks, mine); !text.empty()) throw Error(ExitCode::bad_input, text);
+    mine = fault_of_source(s.domain, s.sources, k, std::max(0.0, s.sources[k].spec.from));
+  if (const std::string text = first_text(s.domain.ranks, mine); !text.empty()) throw Error(ExitCode::bad_input, text);
 }
 
 template <int Dim>
-void check_forces_of_step(const Setup<Dim>& s, double t0, double t1) {
-  std::string mine = s.gravity.fault(0.5 * (t0 + t1));
-  if (mine.empty()) mine = s.gravity.fault(t1);
-  if (mine.empty()) mine = fault_of_viscosity(s, t1);
-  for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
-    if (const auto open = open_in_step(s.sources[k].spec, t0, t1)) mine = fault_of_source(s, k, open->begin);
-  stop_where_any(s.ranks, mine, t0, t1);
+void check_forces_of_step(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Source<Dim>>& sources,
+                          double t0, double t1) {
+  std::string mine = fluids.gravity.fault(0.5 * (t0 + t1));
+  if (mine.empty()) mine = fluids.gravity.fault(t1);
+  if (mine.empty()) mine = fault_of_viscosity(domain, fluids, t1);
+  for (std::size_t k = 0; mine.empty() && k < sources.size(); ++k)
+    if (const auto open = open_in_step(sources[k].spec, t0, t1))
+      mine = fault_of_source(domain, sources, k, open->begin);
+  stop_where_any(domain.ranks, mine, t0, t1);
 }
 
 template <int Dim>
-void check_geometry_of_step(const Setup<Dim>& s, const StepGeometry<Dim>& g, double t0, double t1) {
-  const std::string motion = fault_of_motions(s, g, t1);
-  stop_where_any(s.ranks, motion.empty() ? fault_of_sides(s, g, t1) : motion, t0, t1);
+void check_geometry_of_step(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
+                            const StepGeometry<Dim>& g, double t0, double t1) {
+  const std::string motion = fault_of_motions(solids, g, t1);
+  stop_where_any(domain.ranks, motion.empty() ? fault_of_sides(domain, extent, g, t1) : motion, t0, t1);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                 \
-  template std::string place_text<D>(const Vec<D>&);                                                          \
-  template std::string not_finite_text<D>(const std::string&, const Formula&, double, const Vec<D>&, double); \
-  template void check_formulas_at_start<D>(const Setup<D>&, const StepGeometry<D>&, const std::string&);      \
-  template void check_forces_of_step<D>(const Setup<D>&, double, double);                                     \
-  template void check_geometry_of_step<D>(const Setup<D>&, const StepGeometry<D>&, double, double);
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template std::string place_text<D>(const Vec<D>&);                                                            \
+  template std::string not_finite_text<D>(const std::string&, const Formula&, double, const Vec<D>&, double);   \
+  template void check_formulas_at_start<D>(const Setup<D>&, const StepGeometry<D>&, const std::string&);        \
+  template void check_forces_of_step<D>(const Domain<D>&, const Fluids&, const std::vector<Source<D>>&, double, \
+                                        double);                                                                \
+  template void check_geometry_of_step<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&,                \
+                                          const StepGeometry<D>&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,6 +1,12 @@
 #pragma once
 // Formulas of a scene that give no finite number: found before they reach the flow, and said by key, place and time.
+#include "base/domain_spec.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/source.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -24,8 +30,10 @@ void check_formulas_at_start(const Setup<Dim>& setup, const StepGeometry<Dim>& g
 // (or negative) or of a source, before the transport, and of a side or a solid's motion, as measured in `geometry`.
 // Collective.
 template <int Dim>
-void check_forces_of_step(const Setup<Dim>& setup, double t0, double t1);
+void check_forces_of_step(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Source<Dim>>& sources,
+                          double t0, double t1);
 template <int Dim>
-void check_geometry_of_step(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, double t0, double t1);
+void check_geometry_of_step(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
+                            const StepGeometry<Dim>& geometry, double t0, double t1);
 
 }  // namespace seiche

@@ -1,6 +1,9 @@
 #include "coupling/transport/given_motion.h"
 
+#include "base/time_spec.h"
+#include "coupling/state/source.h"
 #include "coupling/transport/sources.h"
+#include "fluid/boundary/domain.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
 
@@ -9,26 +12,26 @@ namespace {
 
 // Along a side only what it drags or brings counts.
 template <int Dim>
-double fastest_of_side(const Setup<Dim>& s, int axis, int side, double t) {
-  const SideType type = s.sides.type(axis, side);
+double fastest_of_side(const Domain<Dim>& domain, int axis, int side, double t) {
+  const SideType type = domain.sides.type(axis, side);
   if (type != SideType::inflow && type != SideType::moving_wall) return 0;
   double fastest = 0;
-  for_each_index_in_order(s.layout, faces_of_side(s.layout, axis, side), [&](Site, const IVec<Dim>& i) {
-    const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(axis));
-    const bool along = s.sides.sticks(axis, side) || s.sides.inward_speed(axis, side, x, t) > 0;
+  for_each_index_in_order(domain.layout, faces_of_side(domain.layout, axis, side), [&](Site, const IVec<Dim>& i) {
+    const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(axis));
+    const bool along = domain.sides.sticks(axis, side) || domain.sides.inward_speed(axis, side, x, t) > 0;
     for (int b = 0; b < Dim; ++b)
-      if (b == axis || along) fastest = std::max(fastest, std::abs(s.sides.velocity(axis, side, b, x, t)));
+      if (b == axis || along) fastest = std::max(fastest, std::abs(domain.sides.velocity(axis, side, b, x, t)));
   });
   return fastest;
 }
 
 // At the cells that the source fills.
 template <int Dim>
-double fastest_of_source(const Setup<Dim>& s, const Source<Dim>& source, double t) {
+double fastest_of_source(const Domain<Dim>& domain, const Source<Dim>& source, double t) {
   if (source.velocity.is_constant()) return truncate<Dim>(source.velocity(Vec3::Zero(), t)).cwiseAbs().maxCoeff();
   double fastest = 0;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site, const IVec<Dim>& i) {
-    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site, const IVec<Dim>& i) {
+    const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
     if ((*source.shape)(x) > 0) return;
     const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), t));
     if (v.allFinite()) fastest = std::max(fastest, v.cwiseAbs().maxCoeff());
@@ -37,33 +40,35 @@ double fastest_of_source(const Setup<Dim>& s, const Source<Dim>& source, double 
 }
 
 template <int Dim>
-double fastest_given(const Setup<Dim>& s, double t0, double t1, double t) {
+double fastest_given(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
+                     double t) {
   double fastest = 0;
   for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2; ++side) fastest = std::max(fastest, fastest_of_side(s, a, side, t));
-  for (const Source<Dim>& source : s.sources)
+    for (int side = 0; side < 2; ++side) fastest = std::max(fastest, fastest_of_side(domain, a, side, t));
+  for (const Source<Dim>& source : sources)
     if (const auto open = open_in_step(source.spec, t0, t1))
-      fastest = std::max(fastest, fastest_of_source(s, source, std::clamp(t, open->begin, open->end)));
-  return s.ranks.global_max(std::isfinite(fastest) ? fastest : 0);
+      fastest = std::max(fastest, fastest_of_source(domain, source, std::clamp(t, open->begin, open->end)));
+  return domain.ranks.global_max(std::isfinite(fastest) ? fastest : 0);
 }
 
 }  // namespace
 
 // Looked at where no motion of whole or half periods is zero by chance.
 template <int Dim>
-double fastest_given_flow(const Setup<Dim>& s, double t, double dt) {
+double fastest_given_flow(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t, double dt) {
   double fastest = 0;
   for (const double part : {0.0, 0.29, 0.5, 1.0})
-    fastest = std::max(fastest, fastest_given(s, t, t + dt, t + part * dt));
+    fastest = std::max(fastest, fastest_given(domain, sources, t, t + dt, t + part * dt));
   return fastest;
 }
 
 template <int Dim>
-double limit_of_given_flow(const Setup<Dim>& s, double t, double dt) {
+double limit_of_given_flow(const Domain<Dim>& domain, const TimeSpec& time, const std::vector<Source<Dim>>& sources,
+                           double t, double dt) {
   constexpr int most_looks = 20;
-  const double reach = s.scene.time.cfl * s.layout.h();
+  const double reach = time.cfl * domain.layout.h();
   for (int n = 0; n < most_looks; ++n) {
-    const double fastest = fastest_given_flow(s, t, dt);
+    const double fastest = fastest_given_flow(domain, sources, t, dt);
     if (fastest * dt <= reach) break;
     dt = reach / fastest;
   }
@@ -76,9 +81,10 @@ double limit_of_given_velocity(const State<Dim>& start, double dt) {
   return dt;
 }
 
-#define SEICHE_INSTANTIATE(D)                                              \
-  template double fastest_given_flow<D>(const Setup<D>&, double, double);  \
-  template double limit_of_given_flow<D>(const Setup<D>&, double, double); \
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template double fastest_given_flow<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double);          \
+  template double limit_of_given_flow<D>(const Domain<D>&, const TimeSpec&, const std::vector<Source<D>>&, double, \
+                                         double);                                                                  \
   template double limit_of_given_velocity<D>(const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,7 +1,10 @@
 #include "coupling/transport/initial_surface.h"
 
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/transport.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -15,8 +18,7 @@ bool needs_redistancing(const ShapeSpec& s) {
 template <int Dim>
 class Regions {
  public:
-  Regions(const Setup<Dim>& s, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes)
-      : band_(s.band()), shapes_(shapes) {}
+  Regions(double band, const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) : band_(band), shapes_(shapes) {}
 
   double operator()(const Vec<Dim>& x) const {
     double d = band_;
@@ -71,62 +73,64 @@ void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, const
 // Whether a formula jumps and its values at cell centres misplace its zero. Distances change by a cell from one to the
 // next; what changes by more than two has jumped. Collective.
 template <int Dim>
-bool misplaces_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
+bool misplaces_zero(const Domain<Dim>& domain, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
                     const CellField<Dim>& phi) {
   bool misplaced = false;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     if (misplaced) return;
-    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
-    for_each_across(s.layout, phi, closed, c, i, [&](int, Site other, const Vec<Dim>& step) {
-      const bool jumps = std::abs(phi[c] - phi[other]) > 2 * s.layout.h();
+    const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
+    for_each_across(domain.layout, phi, closed, c, i, [&](int, Site other, const Vec<Dim>& step) {
+      const bool jumps = std::abs(phi[c] - phi[other]) > 2 * domain.layout.h();
       misplaced = misplaced || (jumps && !regions.is_straight(x, step, phi[c], phi[other]));
     });
   });
-  return s.ranks.any(misplaced);
+  return domain.ranks.any(misplaced);
 }
 
 // Distance of the cells beside the zero from the plane through the zeros theta_a h away along the axes,
 // d = h / sqrt(sum 1/theta_a^2); the band elsewhere. What a jump leaves farther off would draw the zero along.
 template <int Dim>
-void place_zero(const Setup<Dim>& s, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
+void place_zero(const Domain<Dim>& domain, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
                 CellField<Dim>& phi) {
   constexpr double least = 1e-3;
   const CellField<Dim> old = phi;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
     Vec<Dim> inverse = Vec<Dim>::Zero();
-    for_each_across(s.layout, old, closed, c, i, [&](int a, Site, const Vec<Dim>& step) {
+    for_each_across(domain.layout, old, closed, c, i, [&](int a, Site, const Vec<Dim>& step) {
       inverse[a] = std::max(inverse[a], 1 / std::max(least, regions.crossing(x, step, old[c] < 0)));
     });
-    phi[c] = std::copysign(inverse.isZero(0) ? s.band() : s.layout.h() / inverse.norm(), old[c]);
+    phi[c] = std::copysign(inverse.isZero(0) ? domain.band() : domain.layout.h() / inverse.norm(), old[c]);
   });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
 }
 
 }  // namespace
 
 template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& s, const StepGeometry<Dim>& g,
+CellField<Dim> initial_surface(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                               const StepGeometry<Dim>& g,
                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes) {
-  CellField<Dim> phi(s.layout, s.band());
-  const Regions<Dim> distance(s, shapes);
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    phi[c] = distance(s.layout.position(i, cell_offset<Dim>()));
+  CellField<Dim> phi(domain.layout, domain.band());
+  const Regions<Dim> distance(domain.band(), shapes);
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    phi[c] = distance(domain.layout.position(i, cell_offset<Dim>()));
   });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
-  const auto& regions = s.scene.liquid.regions;
-  const CellField<Dim, char> closed = closed_cells(s, g);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
+  const auto& regions = fluids.liquid.regions;
+  const CellField<Dim, char> closed = closed_cells(domain, solids, g);
   if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); })) {
-    if (misplaces_zero(s, distance, closed, phi)) place_zero(s, distance, closed, phi);
-    const RedistanceOptions options{s.band() / s.layout.h(), 40, s.layout.halo(), settled_of_surface(s)};
-    redistance_beside_solids(s, closed, options, 20, phi);
+    if (misplaces_zero(domain, distance, closed, phi)) place_zero(domain, distance, closed, phi);
+    const RedistanceOptions options{domain.band() / domain.layout.h(), 40, domain.layout.halo(),
+                                    settled_of_surface(fluids)};
+    redistance_beside_solids(domain, solids, closed, options, 20, phi);
   }
   return phi;
 }
 
-template CellField<2> initial_surface<2>(const Setup<2>&, const StepGeometry<2>&,
+template CellField<2> initial_surface<2>(const Domain<2>&, const Fluids&, const Solids<2>&, const StepGeometry<2>&,
                                          const std::vector<std::unique_ptr<ShapeField<2>>>&);
-template CellField<3> initial_surface<3>(const Setup<3>&, const StepGeometry<3>&,
+template CellField<3> initial_surface<3>(const Domain<3>&, const Fluids&, const Solids<3>&, const StepGeometry<3>&,
                                          const std::vector<std::unique_ptr<ShapeField<3>>>&);
 
 }  // namespace seiche

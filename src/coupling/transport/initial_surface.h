@@ -1,13 +1,17 @@
 #pragma once
 // The level set that a run begins with.
 #include "coupling/geometry/step_geometry.h"
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // Distance to the union of the regions' shapes, within the band; ghosts filled. Collective.
 template <int Dim>
-CellField<Dim> initial_surface(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+CellField<Dim> initial_surface(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                               const StepGeometry<Dim>& geometry,
                                const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes);
 
 }  // namespace seiche

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "coupling/geometry/cell_distance.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -19,10 +21,11 @@ bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
 
 // 1 in the cells of the domain but for those deeper than that in deformed bodies.
 template <int Dim>
-std::vector<char> cells_near_outside(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
-  std::vector<char> near(std::size_t(s.layout.size()), 0);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
-    const bool deep = is_in_deformed(g, c) && distance_at_cell(s.layout, g.psi, c).first <= -depth * s.layout.h();
+std::vector<char> cells_near_outside(const Domain<Dim>& domain, const StepGeometry<Dim>& g) {
+  std::vector<char> near(std::size_t(domain.layout.size()), 0);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    const bool deep =
+        is_in_deformed(g, c) && distance_at_cell(domain.layout, g.psi, c).first <= -depth * domain.layout.h();
     near[std::size_t(c)] = deep ? 0 : 1;
   });
   return near;
@@ -30,10 +33,10 @@ std::vector<char> cells_near_outside(const Setup<Dim>& s, const StepGeometry<Dim
 
 // 1 for the bodies that have not moved since the start; none of those that forces move.
 template <int Dim>
-std::vector<char> unmoved_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
+std::vector<char> unmoved_bodies(const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
   std::vector<char> unmoved;
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) {
-    const Body<Dim>& body = s.bodies[k];
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
+    const Body<Dim>& body = solids.bodies[k];
     const Pose start = body.pose(0), &now = g.placed[k].pose;
     const bool same = start.displacement == now.displacement && start.rotation == now.rotation;
     unmoved.push_back(same && g.placed[k].twist.at_rest() && !body.kind().is_free());
@@ -43,12 +46,13 @@ std::vector<char> unmoved_bodies(const Setup<Dim>& s, const StepGeometry<Dim>& g
 
 // Whether unmoved solids fill a cell wholly.
 template <int Dim>
-bool is_closed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::vector<char>& unmoved, Site cell) {
+bool is_closed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const std::vector<char>& unmoved, Site cell) {
   bool closed = true;
-  for_each_face_of(s.layout, cell, [&](int a, Site f, int, Site) { closed = closed && g.faces.open.at(a, f) == 0; });
+  for_each_face_of(domain.layout, cell,
+                   [&](int a, Site f, int, Site) { closed = closed && g.faces.open.at(a, f) == 0; });
   for (int k = 0; k < (1 << Dim) && closed; ++k) {
     Site node = cell;
-    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * s.layout.stride(a);
+    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * domain.layout.stride(a);
     closed = g.psi[node] <= 0 && unmoved[std::size_t(g.body[node])];
   }
   return closed;
@@ -57,91 +61,96 @@ bool is_closed(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::vecto
 }  // namespace
 
 template <int Dim>
-CellField<Dim, char> closed_cells(const Setup<Dim>& s, const StepGeometry<Dim>& g) {
-  CellField<Dim, char> closed(s.layout, 0);
-  if (s.bodies.empty()) return closed;
-  const std::vector<char> unmoved = unmoved_bodies(s, g);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) { closed[c] = is_closed(s, g, unmoved, c) ? 1 : 0; });
-  s.halo.fill_ghosts({closed.data()});
+CellField<Dim, char> closed_cells(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
+  CellField<Dim, char> closed(domain.layout, 0);
+  if (solids.bodies.empty()) return closed;
+  const std::vector<char> unmoved = unmoved_bodies(solids, g);
+  for_each_site(domain.layout, domain.layout.cells(),
+                [&](Site c) { closed[c] = is_closed(domain, g, unmoved, c) ? 1 : 0; });
+  domain.halo.fill_ghosts({closed.data()});
   return closed;
 }
 
 template <int Dim>
-void continue_level_set(const Setup<Dim>& s, const CellField<Dim, char>& closed, CellField<Dim>& phi) {
-  if (s.bodies.empty()) return;
-  std::vector<char> known(std::size_t(s.layout.size()), 0);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) { known[std::size_t(c)] = closed[c] ? 0 : 1; });
-  std::vector<double> f(phi.data(), phi.data() + s.layout.size());
-  extrapolate_straight(s.layout, s.halo, s.layout.cells(), layers, (1 - 1e-9) * s.band(), f, known);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) { phi[c] = f[std::size_t(c)]; });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
+void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
+                        CellField<Dim>& phi) {
+  if (solids.bodies.empty()) return;
+  std::vector<char> known(std::size_t(domain.layout.size()), 0);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) { known[std::size_t(c)] = closed[c] ? 0 : 1; });
+  std::vector<double> f(phi.data(), phi.data() + domain.layout.size());
+  extrapolate_straight(domain.layout, domain.halo, domain.layout.cells(), layers, (1 - 1e-9) * domain.band(), f, known);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) { phi[c] = f[std::size_t(c)]; });
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
 }
 
 template <int Dim>
-CellField<Dim, char> cells_to_continue(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
+CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+                                       const CellField<Dim>& phi) {
   constexpr double near = 2, least = 0.1;  // cells
-  CellField<Dim, char> closed = closed_cells(s, g);
-  if (s.bodies.empty()) return closed;
+  CellField<Dim, char> closed = closed_cells(domain, solids, g);
+  if (solids.bodies.empty()) return closed;
   CellField<Dim> straight = phi;
-  continue_level_set(s, closed, straight);
-  std::vector<double> differing(s.bodies.size(), 0);
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) {
-    if (!closed[c] || std::min(std::abs(phi[c]), std::abs(straight[c])) >= near * s.layout.h()) return;
-    if (std::abs(phi[c] - straight[c]) > least * s.layout.h()) ++differing[std::size_t(g.body[c])];
+  continue_level_set(domain, solids, closed, straight);
+  std::vector<double> differing(solids.bodies.size(), 0);
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (!closed[c] || std::min(std::abs(phi[c]), std::abs(straight[c])) >= near * domain.layout.h()) return;
+    if (std::abs(phi[c] - straight[c]) > least * domain.layout.h()) ++differing[std::size_t(g.body[c])];
   });
-  s.ranks.global_sum(differing);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+  domain.ranks.global_sum(differing);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     if (closed[c] && differing[std::size_t(g.body[c])] == 0) closed[c] = 0;
   });
-  s.halo.fill_ghosts({closed.data()});
+  domain.halo.fill_ghosts({closed.data()});
   return closed;
 }
 
 template <int Dim>
-void redistance_beside_solids(const Setup<Dim>& s, const CellField<Dim, char>& closed, const RedistanceOptions& options,
-                              int passes, CellField<Dim>& phi) {
-  const Site cells = s.layout.size();
-  if (!s.ranks.any(std::any_of(closed.data(), closed.data() + cells, [](char c) { return c != 0; })))
-    return redistance(s.layout, s.halo, options, phi);
+void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
+                              const RedistanceOptions& options, int passes, CellField<Dim>& phi) {
+  const Site cells = domain.layout.size();
+  if (!domain.ranks.any(std::any_of(closed.data(), closed.data() + cells, [](char c) { return c != 0; })))
+    return redistance(domain.layout, domain.halo, options, phi);
   const CellField<Dim> within = phi;
   RedistanceOptions outside = options;
   outside.iterations /= passes;
   for (int n = 0; n < passes; ++n) {
-    continue_level_set(s, closed, phi);
-    redistance(s.layout, s.halo, outside, phi, &closed);
+    continue_level_set(domain, solids, closed, phi);
+    redistance(domain.layout, domain.halo, outside, phi, &closed);
   }
-  CellField<Dim, char> open(s.layout, 0);
+  CellField<Dim, char> open(domain.layout, 0);
   for (Site c = 0; c < cells; ++c) {
     open[c] = closed[c] ? 0 : 1;
     if (closed[c]) phi[c] = within[c];
   }
-  redistance(s.layout, s.halo, options, phi, &open);
+  redistance(domain.layout, domain.halo, options, phi, &open);
 }
 
 template <int Dim>
-void keep_sides_of_walls(const Setup<Dim>& s, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
   if (std::none_of(g.attached.begin(), g.attached.end(), [](const auto& list) { return list != nullptr; })) return;
-  std::vector<char> known = cells_near_outside(s, g);
-  std::vector<double> outside(phi.data(), phi.data() + s.layout.size());
-  extrapolate(s.layout, s.halo, s.layout.cells(), {layers, 0}, outside, known);
-  for_each_site(s.layout, s.layout.cells(), [&](Site c) {
+  std::vector<char> known = cells_near_outside(domain, g);
+  std::vector<double> outside(phi.data(), phi.data() + domain.layout.size());
+  extrapolate(domain.layout, domain.halo, domain.layout.cells(), {layers, 0}, outside, known);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     const double value = outside[std::size_t(c)];
     if (known[std::size_t(c)] > 1 && (value < 0) != (phi[c] < 0)) phi[c] = value;
   });
-  fill_level_set_ghosts(s.layout, s.halo, phi);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
 }
 
-template CellField<2, char> closed_cells<2>(const Setup<2>&, const StepGeometry<2>&);
-template CellField<3, char> closed_cells<3>(const Setup<3>&, const StepGeometry<3>&);
-template CellField<2, char> cells_to_continue<2>(const Setup<2>&, const StepGeometry<2>&, const CellField<2>&);
-template CellField<3, char> cells_to_continue<3>(const Setup<3>&, const StepGeometry<3>&, const CellField<3>&);
-template void continue_level_set<2>(const Setup<2>&, const CellField<2, char>&, CellField<2>&);
-template void continue_level_set<3>(const Setup<3>&, const CellField<3, char>&, CellField<3>&);
-template void redistance_beside_solids<2>(const Setup<2>&, const CellField<2, char>&, const RedistanceOptions&, int,
-                                          CellField<2>&);
-template void redistance_beside_solids<3>(const Setup<3>&, const CellField<3, char>&, const RedistanceOptions&, int,
-                                          CellField<3>&);
-template void keep_sides_of_walls<2>(const Setup<2>&, const StepGeometry<2>&, CellField<2>&);
-template void keep_sides_of_walls<3>(const Setup<3>&, const StepGeometry<3>&, CellField<3>&);
+template CellField<2, char> closed_cells<2>(const Domain<2>&, const Solids<2>&, const StepGeometry<2>&);
+template CellField<3, char> closed_cells<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&);
+template CellField<2, char> cells_to_continue<2>(const Domain<2>&, const Solids<2>&, const StepGeometry<2>&,
+                                                 const CellField<2>&);
+template CellField<3, char> cells_to_continue<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&,
+                                                 const CellField<3>&);
+template void continue_level_set<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&, CellField<2>&);
+template void continue_level_set<3>(const Domain<3>&, const Solids<3>&, const CellField<3, char>&, CellField<3>&);
+template void redistance_beside_solids<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&,
+                                          const RedistanceOptions&, int, CellField<2>&);
+template void redistance_beside_solids<3>(const Domain<3>&, const Solids<3>&, const CellField<3, char>&,
+                                          const RedistanceOptions&, int, CellField<3>&);
+template void keep_sides_of_walls<2>(const Domain<2>&, const StepGeometry<2>&, CellField<2>&);
+template void keep_sides_of_walls<3>(const Domain<3>&, const StepGeometry<3>&, CellField<3>&);
 
 }  // namespace seiche

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "coupling/state/fluids.h"
 #include "coupling/transport/formula_checks.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/rheology/rheology.h"
 #include "grid/loops.h"
 
@@ -18,11 +20,11 @@ std::string bad_value_text(const Formula& formula, double value, const Vec<Dim>&
 
 // visit(site, value) of the formula in this rank's cells; the first value that is none, as a text.
 template <int Dim, class Visit>
-std::string evaluate(const Setup<Dim>& s, const Formula& formula, double t, const Visit& visit) {
+std::string evaluate(const Domain<Dim>& domain, const Formula& formula, double t, const Visit& visit) {
   const Expression value_of(formula);
   std::string fault;
-  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
     const double value = value_of(extend<Dim>(x), t);
     if (fault.empty() && !(std::isfinite(value) && value >= 0)) fault = bad_value_text<Dim>(formula, value, x, t);
     visit(c, value);
@@ -32,45 +34,31 @@ std::string evaluate(const Setup<Dim>& s, const Formula& formula, double t, cons
 
 }  // namespace
 
-bool is_viscous(const LiquidSpec& liquid) {
-  if (!liquid.rheology.model.empty()) return true;
-  const Expression value(liquid.viscosity);
-  return !value.is_constant() || value(Vec3::Zero(), 0) != 0;
-}
-
 template <int Dim>
-RheologySpec rheology_of(const Setup<Dim>& s) {
-  RheologySpec spec = resolve_rheology(s.scene);
-  spec.yield_stress *= s.tampering.yield_stress;
-  return spec;
-}
-
-template <int Dim>
-std::string set_liquid_viscosity(const Setup<Dim>& s, const FaceField<Dim>& u, const FaceField<Dim, char>& valid,
-                                 double t, CellField<Dim>& mu) {
-  const LiquidSpec& liquid = s.scene.liquid;
+std::string set_liquid_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim>& u,
+                                 const FaceField<Dim, char>& valid, double t, CellField<Dim>& mu) {
+  const LiquidSpec& liquid = fluids.liquid;
   if (!liquid.rheology.model.empty()) {
-    set_viscosity(s.layout, s.halo, rheology_of(s), u, valid, mu);
+    set_viscosity(domain.layout, domain.halo, fluids.rheology, u, valid, mu);
     return {};
   }
-  const std::string fault = evaluate(s, liquid.viscosity, t, [&](Site c, double value) { mu[c] = value; });
-  s.halo.fill_ghosts(mu);
-  extend_beyond_sides<Dim>(s.layout, mu.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::constant));
+  const std::string fault = evaluate(domain, liquid.viscosity, t, [&](Site c, double value) { mu[c] = value; });
+  domain.halo.fill_ghosts(mu);
+  extend_beyond_sides<Dim>(domain.layout, mu.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::constant));
   return fault;
 }
 
 template <int Dim>
-std::string fault_of_viscosity(const Setup<Dim>& s, double t) {
-  const LiquidSpec& liquid = s.scene.liquid;
+std::string fault_of_viscosity(const Domain<Dim>& domain, const Fluids& fluids, double t) {
+  const LiquidSpec& liquid = fluids.liquid;
   const bool asked = liquid.rheology.model.empty() && !Expression(liquid.viscosity).is_constant();
-  return asked ? evaluate(s, liquid.viscosity, t, [](Site, double) {}) : std::string();
+  return asked ? evaluate(domain, liquid.viscosity, t, [](Site, double) {}) : std::string();
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template RheologySpec rheology_of<D>(const Setup<D>&);                                                        \
-  template std::string set_liquid_viscosity<D>(const Setup<D>&, const FaceField<D>&, const FaceField<D, char>&, \
-                                               double, CellField<D>&);                                          \
-  template std::string fault_of_viscosity<D>(const Setup<D>&, double);
+#define SEICHE_INSTANTIATE(D)                                                                        \
+  template std::string set_liquid_viscosity<D>(const Domain<D>&, const Fluids&, const FaceField<D>&, \
+                                               const FaceField<D, char>&, double, CellField<D>&);    \
+  template std::string fault_of_viscosity<D>(const Domain<D>&, const Fluids&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

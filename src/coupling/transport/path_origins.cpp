@@ -1,6 +1,9 @@
 #include "coupling/transport/path_origins.h"
 
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
 #include "coupling/transport/restore.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/boundary/inflow.h"
 #include "fluid/transport/advection.h"
 #include "grid/interpolation.h"
@@ -50,24 +53,25 @@ Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int compone
 // Acceleration by gravity, pressure and viscosity as the last step left it. Impacts change velocity at once whatever dt
 // is, so that it is at most that of gravity or h/4 in a step. Free fall where nothing was solved for.
 template <int Dim>
-double acceleration_at(const Setup<Dim>& s, const Level<Dim>& level, int axis, Site f, double g, double dt) {
+double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const Level<Dim>& level, int axis, Site f,
+                       double g, double dt) {
   if (level.valid.at(axis, f) != face_solved) return g;
-  const double most = std::max(std::abs(g), 0.25 * s.layout.h() / (dt * dt));
-  const double viscous = s.is_viscous() ? level.n.at(axis, f) : 0;
+  const double most = std::max(std::abs(g), 0.25 * domain.layout.h() / (dt * dt));
+  const double viscous = fluids.is_viscous() ? level.n.at(axis, f) : 0;
   return std::clamp(g - level.q.at(axis, f) + viscous, -most, most);
 }
 
 }  // namespace
 
 template <int Dim>
-void limit_at_surfaces(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths,
+void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    for_each_index(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+    for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
       if (!paths.near.at(a, f) || interior.at(a, f)) return;
-      const Vec<Dim> from = departure_of_face(s.layout, paths.velocity, a, f, i, paths.dt);
-      Range range = valid_range(s.layout, level, a, nearest_face(s.layout, a, from));
-      if (range.first > range.second) range = valid_range(s.layout, level, a, f);
+      const Vec<Dim> from = departure_of_face(domain.layout, paths.velocity, a, f, i, paths.dt);
+      Range range = valid_range(domain.layout, level, a, nearest_face(domain.layout, a, from));
+      if (range.first > range.second) range = valid_range(domain.layout, level, a, f);
       if (range.first <= range.second) u.at(a, f) = std::clamp(u.at(a, f), range.first, range.second);
     });
 }
@@ -78,28 +82,30 @@ template <int Dim>
 void let_liquid_in(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
                    const FaceField<Dim>& memory, FaceField<Dim>& u) {
   const double dt = paths.dt;
-  const Vec3 g = s.tampering.gravity * s.gravity.of_step(t + dt, dt);
+  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(t + dt, dt);
   const int reach = int(std::ceil(s.scene.time.cfl)) + 1;
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
-      if (s.sides.type(axis, side) != SideType::inflow) continue;
+      if (s.domain.sides.type(axis, side) != SideType::inflow) continue;
       for (int a = 0; a < Dim; ++a)
         for_each_index_in_order(
-            s.layout, faces_behind(s.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
+            s.domain.layout, faces_behind(s.domain.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
               if (!paths.near.at(a, f)) return;
-              const Vec<Dim> from = departure_of_face(s.layout, paths.velocity, a, f, i, dt);
-              const auto entry = find_entry(s.layout, s.sides, from, s.layout.position(i, face_offset<Dim>(a)), t, dt);
+              const Vec<Dim> from = departure_of_face(s.domain.layout, paths.velocity, a, f, i, dt);
+              const auto entry = find_entry(s.domain.layout, s.domain.sides, from,
+                                            s.domain.layout.position(i, face_offset<Dim>(a)), t, dt);
               if (!entry) return;
-              const double before = dt - entry->inside, acc = acceleration_at(s, level, a, f, g[a], dt);
-              u.at(a, f) = velocity_of(s.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
+              const double before = dt - entry->inside,
+                           acc = acceleration_at(s.domain, s.fluids, level, a, f, g[a], dt);
+              u.at(a, f) = velocity_of(s.domain.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
             });
     }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template void limit_at_surfaces<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, const FaceField<D, char>&, \
-                                     FaceField<D>&);                                                                   \
-  template void let_liquid_in<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, double, const FaceField<D>&,   \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                         \
+                                     const FaceField<D, char>&, FaceField<D>&);                                      \
+  template void let_liquid_in<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, double, const FaceField<D>&, \
                                  FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

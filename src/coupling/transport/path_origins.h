@@ -1,6 +1,8 @@
 #pragma once
 // Paths of transport that begin where the flow tells nothing: in air and beyond inflow sides.
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -16,7 +18,7 @@ struct FacePaths {
 // grows along a thin film without bound. Off the interior it keeps to the range of the valid faces where the path
 // begins, or, where none is there, where it ends.
 template <int Dim>
-void limit_at_surfaces(const Setup<Dim>& setup, const Level<Dim>& level, const FacePaths<Dim>& paths,
+void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u);
 
 // u before the projection where liquid came in through a side during the step from t on: its velocity there, plus what

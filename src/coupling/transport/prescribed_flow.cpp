@@ -4,8 +4,11 @@
 
 #include "base/error.h"
 #include "base/expression.h"
+#include "base/time_spec.h"
+#include "coupling/state/fluids.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/restore.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -29,10 +32,10 @@ void grow(const Layout<Dim>& layout, int layers, Mask<Dim>& mask) {
 
 // The cells that the flow carries values to, |phi| < band, and `layers` around them.
 template <int Dim>
-Mask<Dim> around_surface(const Setup<Dim>& s, const CellField<Dim>& phi, int layers) {
-  Mask<Dim> mask(s.layout);
-  for_each_site(s.layout, s.layout.padded(), [&](Site c) { mask[c] = std::abs(phi[c]) < s.band(); });
-  grow(s.layout, layers, mask);
+Mask<Dim> around_surface(const Domain<Dim>& domain, const CellField<Dim>& phi, int layers) {
+  Mask<Dim> mask(domain.layout);
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { mask[c] = std::abs(phi[c]) < domain.band(); });
+  grow(domain.layout, layers, mask);
   return mask;
 }
 
@@ -46,20 +49,20 @@ IVec<Dim> within_period(const Geometry<Dim>& g, IVec<Dim> i) {
 
 // The formulas at time t on the low faces of the cells of a mask.
 template <int Dim>
-FaceField<Dim> evaluate(const Setup<Dim>& s, const Mask<Dim>& where, double t) {
-  const VectorFormula& text = *s.scene.liquid.prescribed_velocity;
+FaceField<Dim> evaluate(const Domain<Dim>& domain, const Fluids& fluids, const Mask<Dim>& where, double t) {
+  const VectorFormula& text = *fluids.liquid.prescribed_velocity;
   const VectorExpression formula(text);
-  FaceField<Dim> u(s.layout);
+  FaceField<Dim> u(domain.layout);
   std::string fault;
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(s.layout, s.layout.padded(), [&](Site f, const IVec<Dim>& i) {
+    for_each_index_in_order(domain.layout, domain.layout.padded(), [&](Site f, const IVec<Dim>& i) {
       if (!where[f]) return;
-      const Vec<Dim> x = s.layout.position(within_period(s.layout.geometry(), i), face_offset<Dim>(a));
+      const Vec<Dim> x = domain.layout.position(within_period(domain.layout.geometry(), i), face_offset<Dim>(a));
       u.at(a, f) = formula.component(a, extend<Dim>(x), t);
       if (fault.empty() && !std::isfinite(u.at(a, f)))
         fault = not_finite_text<Dim>(fmt::format("liquid.prescribed_velocity[{}]", a), text[a], u.at(a, f), x, t);
     });
-  fault = first_text(s.ranks, fault);
+  fault = first_text(domain.ranks, fault);
   if (!fault.empty()) throw Error(t > 0 ? ExitCode::cannot_continue : ExitCode::bad_input, fault);
   return u;
 }
@@ -67,48 +70,50 @@ FaceField<Dim> evaluate(const Setup<Dim>& s, const Mask<Dim>& where, double t) {
 }  // namespace
 
 template <int Dim>
-FaceField<Dim> prescribed_flow(const Setup<Dim>& s, const CellField<Dim>& phi, double t) {
-  return evaluate(s, around_surface(s, phi, s.layout.halo()), t);
+FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t) {
+  return evaluate(domain, fluids, around_surface(domain, phi, domain.layout.halo()), t);
 }
 
 template <int Dim>
-std::shared_ptr<const Level<Dim>> prescribed_level(const Setup<Dim>& s, const CellField<Dim>& phi, double t) {
-  Mask<Dim> wet(s.layout);
-  for_each_site(s.layout, s.layout.padded(), [&](Site c) { wet[c] = phi[c] < s.band(); });
-  grow(s.layout, 1, wet);
-  auto level = std::make_shared<Level<Dim>>(empty_level(s));
-  level->u = evaluate(s, wet, t);
+std::shared_ptr<const Level<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                   const CellField<Dim>& phi, double t) {
+  Mask<Dim> wet(domain.layout);
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { wet[c] = phi[c] < domain.band(); });
+  grow(domain.layout, 1, wet);
+  auto level = std::make_shared<Level<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
+  level->u = evaluate(domain, fluids, wet, t);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (wet[f]) level->valid.at(a, f) = face_prescribed;
     });
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, level->u);
-  s.halo.fill_ghosts(level->valid);
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, level->u);
+  domain.halo.fill_ghosts(level->valid);
   return level;
 }
 
 template <int Dim>
-double fastest_prescribed(const Setup<Dim>& s, const CellField<Dim>& phi, double t) {
-  const FaceField<Dim> u = evaluate(s, around_surface(s, phi, 1), t);
+double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t) {
+  const FaceField<Dim> u = evaluate(domain, fluids, around_surface(domain, phi, 1), t);
   double fastest = 0;
   for (int a = 0; a < Dim; ++a)
-    fastest =
-        std::max(fastest, local_max(s.layout, s.layout.faces(a), 0.0, [&](Site f) { return std::abs(u.at(a, f)); }));
-  return s.ranks.global_max(fastest);
+    fastest = std::max(
+        fastest, local_max(domain.layout, domain.layout.faces(a), 0.0, [&](Site f) { return std::abs(u.at(a, f)); }));
+  return domain.ranks.global_max(fastest);
 }
 
 // Looked at where no flow of whole or half periods is zero by chance; a step is at most twice as long as the last one.
 template <int Dim>
-double limit_of_prescribed(const Setup<Dim>& s, const State<Dim>& state, double remaining) {
+double limit_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                           const State<Dim>& state, double remaining) {
   constexpr int most_looks = 20;
   constexpr double rounding = 1e-9;
-  const double reach = s.scene.time.cfl * s.layout.h(), now = fastest_prescribed(s, state.phi, state.time);
+  const double reach = time.cfl * domain.layout.h(), now = fastest_prescribed(domain, fluids, state.phi, state.time);
   double dt = state.step > 0 ? std::min(remaining, 2 * state.dt_now) : remaining;
   if (now * dt > reach) dt = reach / now;
   for (int n = 0; n < most_looks; ++n) {
     double fastest = 0;
     for (const double part : {0.29, 0.5, 1.0})
-      fastest = std::max(fastest, fastest_prescribed(s, state.phi, state.time + part * dt));
+      fastest = std::max(fastest, fastest_prescribed(domain, fluids, state.phi, state.time + part * dt));
     if (fastest * dt <= reach * (1 + rounding)) break;
     dt = reach / fastest;
   }
@@ -117,31 +122,34 @@ double limit_of_prescribed(const Setup<Dim>& s, const State<Dim>& state, double 
 
 // What carries the surface is the flow at the middle of the step.
 template <int Dim>
-std::string fault_of_prescribed(const Setup<Dim>& s, const State<Dim>& state, double dt) {
-  const double most = std::ceil(s.scene.time.cfl);
-  const double crossed = fastest_prescribed(s, state.phi, state.time + 0.5 * dt) * dt / s.layout.h();
+std::string fault_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                                const State<Dim>& state, double dt) {
+  const double most = std::ceil(time.cfl);
+  const double crossed = fastest_prescribed(domain, fluids, state.phi, state.time + 0.5 * dt) * dt / domain.layout.h();
   if (crossed <= most * (1 + 1e-6)) return {};
   return fmt::format(
       "the prescribed flow crosses {:.3g} cells of {:g} m in a step; at most {:g} are possible at cfl = {:g}", crossed,
-      s.layout.h(), most, s.scene.time.cfl);
+      domain.layout.h(), most, time.cfl);
 }
 
 template <int Dim>
-double largest_divergence(const Setup<Dim>& s, const CellField<Dim>& phi, const FaceField<Dim>& u) {
-  return s.ranks.global_max(local_max(s.layout, s.layout.cells(), 0.0, [&](Site c) {
+double largest_divergence(const Domain<Dim>& domain, const CellField<Dim>& phi, const FaceField<Dim>& u) {
+  return domain.ranks.global_max(local_max(domain.layout, domain.layout.cells(), 0.0, [&](Site c) {
     double sum = 0;
-    for (int a = 0; a < Dim; ++a) sum += u.at(a, c + s.layout.stride(a)) - u.at(a, c);
-    return phi[c] < 0 ? std::abs(sum) / s.layout.h() : 0.0;
+    for (int a = 0; a < Dim; ++a) sum += u.at(a, c + domain.layout.stride(a)) - u.at(a, c);
+    return phi[c] < 0 ? std::abs(sum) / domain.layout.h() : 0.0;
   }));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                 \
-  template FaceField<D> prescribed_flow<D>(const Setup<D>&, const CellField<D>&, double);                     \
-  template std::shared_ptr<const Level<D>> prescribed_level<D>(const Setup<D>&, const CellField<D>&, double); \
-  template double fastest_prescribed<D>(const Setup<D>&, const CellField<D>&, double);                        \
-  template double limit_of_prescribed<D>(const Setup<D>&, const State<D>&, double);                           \
-  template std::string fault_of_prescribed<D>(const Setup<D>&, const State<D>&, double);                      \
-  template double largest_divergence<D>(const Setup<D>&, const CellField<D>&, const FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template FaceField<D> prescribed_flow<D>(const Domain<D>&, const Fluids&, const CellField<D>&, double);            \
+  template std::shared_ptr<const Level<D>> prescribed_level<D>(const Domain<D>&, const Fluids&, const CellField<D>&, \
+                                                               double);                                              \
+  template double fastest_prescribed<D>(const Domain<D>&, const Fluids&, const CellField<D>&, double);               \
+  template double limit_of_prescribed<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const State<D>&, double); \
+  template std::string fault_of_prescribed<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const State<D>&,     \
+                                              double);                                                               \
+  template double largest_divergence<D>(const Domain<D>&, const CellField<D>&, const FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -3,9 +3,13 @@
 #include <optional>
 #include <unordered_map>
 
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 #include "coupling/thin/films.h"
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -52,9 +56,9 @@ Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, in
 template <int Dim>
 class SolidVelocities {
  public:
-  SolidVelocities(const Setup<Dim>& s, const StepGeometry<Dim>& g)
-      : g_(g), layout_(s.layout), shares_(s.bodies.size()) {
-    for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+  SolidVelocities(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g)
+      : g_(g), layout_(domain.layout), shares_(solids.bodies.size()) {
+    for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
       if (!g.deforms(int(k))) continue;
       for (std::size_t n = 0; n < g.shares[k]->size(); ++n)
         shares_[k][std::size_t((*g.shares[k])[n].axis)][(*g.shares[k])[n].face] = n;
@@ -83,53 +87,54 @@ class SolidVelocities {
 
 // Whether viscous liquid has the velocity of this body (-1: none) at its surface.
 template <int Dim>
-bool liquid_sticks_to(const Setup<Dim>& s, int body) {
-  return s.is_viscous() && body >= 0 && s.bodies[std::size_t(body)].spec().slip == Slip::no_slip;
+bool liquid_sticks_to(const Fluids& fluids, const Solids<Dim>& solids, int body) {
+  return fluids.is_viscous() && body >= 0 && solids.bodies[std::size_t(body)].spec().slip == Slip::no_slip;
 }
 
 // In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n. Solved faces keep theirs.
 // Where liquid sticks to the solid, what is continued straight passes through the solid's velocity at its surface;
 // farther in than that goes all of it is the solid's.
 template <int Dim>
-void follow_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g, const SolidVelocities<Dim>& solids,
-                   const FaceField<Dim, char>& valid, const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
+void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                   const StepGeometry<Dim>& g, const SolidVelocities<Dim>& moving, const FaceField<Dim, char>& valid,
+                   const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
   const FaceField<Dim> old = u;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * s.layout.h()) return;
-      const FaceDistance<Dim> d = distance_at_face(s.layout, g.psi, a, f);
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * domain.layout.h()) return;
+      const FaceDistance<Dim> d = distance_at_face(domain.layout, g.psi, a, f);
       const double norm = d.gradient.norm();
       if (d.psi >= 0 || norm == 0) return;
       const Vec<Dim> n = d.gradient / norm;
-      const std::optional<Vec<Dim>> v = solids.at(g.body[f], a, f);
-      if (v && liquid_sticks_to(s, g.body[f])) {
-        if (d.psi < -straight_layers * s.layout.h()) u.at(a, f) = (*v)[a];
+      const std::optional<Vec<Dim>> v = moving.at(g.body[f], a, f);
+      if (v && liquid_sticks_to(fluids, solids, g.body[f])) {
+        if (d.psi < -straight_layers * domain.layout.h()) u.at(a, f) = (*v)[a];
         return;
       }
-      if (v) u.at(a, f) += (*v - velocity_at_face(s.layout, old, a, f)).dot(n) * n[a];
+      if (v) u.at(a, f) += (*v - velocity_at_face(domain.layout, old, a, f)).dot(n) * n[a];
     });
 }
 
 // The given velocity on walls and inflow, wet or dry. Fills ghosts.
 template <int Dim>
-void keep_prescribed(const Setup<Dim>& s, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
+void keep_prescribed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (g.faces.kind_at(a, f) == FaceKind::prescribed) u.at(a, f) = g.faces.prescribed.at(a, f);
     });
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, u);
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
 }
 
 }  // namespace
 
 template <int Dim>
-void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
-                       FaceField<Dim>& u) {
+void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                       const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid, FaceField<Dim>& u) {
   FaceField<Dim, char> reached = valid;
-  const SolidVelocities<Dim> solids(s, g);
+  const SolidVelocities<Dim> moving(domain, solids, g);
   for (int a = 0; a < Dim; ++a) {
     // Inflow feeds the air before it, too.
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (valid.at(a, f)) reached.at(a, f) = 1;
       if (g.faces.kind_at(a, f) != FaceKind::prescribed) return;
       u.at(a, f) = g.faces.prescribed.at(a, f);
@@ -137,33 +142,34 @@ void continue_velocity(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Fa
     });
     for (const SealedFace& f : g.sealed)
       if (f.axis == a && !valid.at(a, f.face)) {
-        u.at(a, f.face) = solids.at(f.body, a, f.face).value_or(Vec<Dim>::Zero())[a];
+        u.at(a, f.face) = moving.at(f.body, a, f.face).value_or(Vec<Dim>::Zero())[a];
         reached.at(a, f.face) = 1;
       }
-    extrapolate(s.layout, s.halo, s.layout.faces(a), {s.extrapolated_layers(), straight_layers}, u[a], reached[a]);
+    extrapolate(domain.layout, domain.halo, domain.layout.faces(a), {domain.extrapolated_layers(), straight_layers},
+                u[a], reached[a]);
   }
-  keep_prescribed(s, g, u);
-  if (s.bodies.empty()) return;
-  follow_solids(s, g, solids, valid, reached, u);
-  keep_prescribed(s, g, u);
+  keep_prescribed(domain, g, u);
+  if (solids.bodies.empty()) return;
+  follow_solids(domain, fluids, solids, g, moving, valid, reached, u);
+  keep_prescribed(domain, g, u);
 }
 
 template <int Dim>
-void continue_level(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& near,
-                    Level<Dim>& level) {
-  if (s.has_gas()) keep_faces(s.layout, near, level);
-  continue_velocity(s, g, level.valid, level.u);
-  s.halo.fill_ghosts(level.valid);
+void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                    const StepGeometry<Dim>& g, const FaceField<Dim, char>& near, Level<Dim>& level) {
+  if (fluids.has_gas()) keep_faces(domain.layout, near, level);
+  continue_velocity(domain, fluids, solids, g, level.valid, level.u);
+  domain.halo.fill_ghosts(level.valid);
 }
 
 template <int Dim>
 Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
                                const StepGeometry<Dim>& g) {
-  Level<Dim> next = empty_level(s);
+  Level<Dim> next = empty_level(s.domain.layout, s.fluids.is_viscous());
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
-      const Site low = f - s.layout.stride(a);
+    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
+      const Site low = f - s.domain.layout.stride(a);
       const bool wet = rows.touch_pressure(low, f);
       if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
@@ -171,29 +177,31 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
         next.u.at(a, f) = in.faces.prescribed.at(a, f);
         return;
       }
-      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s, g.body[f])) next.valid.at(a, f) = face_solved;
+      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s.fluids, s.solids, g.body[f]))
+        next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
       next.u.at(a, f) = u_star.at(a, f) - s.tampering.pressure_gradient * in.dt * next.q.at(a, f);
     });
-  s.halo.fill_ghosts(next.u);
+  s.domain.halo.fill_ghosts(next.u);
   Restored<Dim> restored;
   restored.divergence = max_divergence(in, rows, next.u);
   const FaceField<Dim> solved = next.u;
   if (in.has_gas()) {
     restored.gas = next;
-    continue_level(s, g, faces_near_gas(s, in.phi), restored.gas);
+    continue_level(s.domain, s.fluids, s.solids, g, faces_near_gas(s.domain, in.phi), restored.gas);
   }
-  continue_level(s, g, faces_near_liquid(s, in.phi), next);
-  restored.film = measure_film(s, in.faces, solved, next.u);
+  continue_level(s.domain, s.fluids, s.solids, g, faces_near_liquid(s.domain, in.phi), next);
+  restored.film = measure_film(s.domain, in.faces, solved, next.u);
   restored.level = std::move(next);
   return restored;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template void continue_level<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&, Level<D>&); \
-  template void continue_velocity<D>(const Setup<D>&, const StepGeometry<D>&, const FaceField<D, char>&,          \
-                                     FaceField<D>&);                                                              \
-  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,    \
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
+                                  const FaceField<D, char>&, Level<D>&);                                        \
+  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&, \
+                                     const FaceField<D, char>&, FaceField<D>&);                                 \
+  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,  \
                                            const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,6 +1,10 @@
 #pragma once
 // After the solve: velocity and pressure slope on the faces next to liquid, continued beyond it.
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -24,12 +28,12 @@ Restored<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Di
 
 // Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
 template <int Dim>
-void continue_velocity(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid,
-                       FaceField<Dim>& u);
+void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                       const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid, FaceField<Dim>& u);
 
 // Continues a fluid's level from the faces near it, its only valid ones where there is another fluid.
 template <int Dim>
-void continue_level(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near,
-                    Level<Dim>& level);
+void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                    const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, Level<Dim>& level);
 
 }  // namespace seiche

@@ -1,7 +1,9 @@
 #include "coupling/transport/shear_jump.h"
 
 #include "coupling/state/features.h"
+#include "coupling/state/fluids.h"
 #include "coupling/transport/restore.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/pressure/pressure.h"
 #include "grid/loops.h"
 
@@ -19,9 +21,9 @@ struct OneFluid {
 };
 
 template <int Dim>
-OneFluid<Dim> make_fluid(const Setup<Dim>& s, const Level<Dim>& level, double density, double viscosity) {
+OneFluid<Dim> make_fluid(const Domain<Dim>& domain, const Level<Dim>& level, double density, double viscosity) {
   OneFluid<Dim> fluid{density, viscosity, level.n, level};
-  fill_velocity_ghosts(s.layout, s.halo, s.sides, fluid.n);
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, fluid.n);
   return fluid;
 }
 
@@ -80,22 +82,24 @@ struct BothFluids {
 }  // namespace
 
 template <int Dim>
-void add_shear_jump(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
-                    FaceField<Dim>& u) {
-  if (!s.has_gas() || !s.is_viscous() || !causes_against(s, Feature::shear_jump).empty()) return;
-  const double liquid = Expression(s.scene.liquid.viscosity)(Vec3::Zero(), 0), gas = s.scene.gas.viscosity;
-  const BothFluids<Dim> both{s.layout, phi, make_fluid(s, *state.now, s.density(), liquid),
-                             make_fluid(s, *state.gas.now, s.gas_density(), gas)};
+void add_shear_jump(const Domain<Dim>& domain, const Fluids& fluids, const Features& features, const State<Dim>& state,
+                    const CellField<Dim>& phi, double dt, FaceField<Dim>& u) {
+  if (!fluids.has_gas() || !fluids.is_viscous() || !features.has(Feature::shear_jump)) return;
+  const double liquid = Expression(fluids.liquid.viscosity)(Vec3::Zero(), 0), gas = fluids.gas.viscosity;
+  const BothFluids<Dim> both{domain.layout, phi, make_fluid(domain, *state.now, fluids.density(), liquid),
+                             make_fluid(domain, *state.gas.now, fluids.gas_density(), gas)};
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.layout, s.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       double force = 0;
       for (int d = 0; d < Dim; ++d)
-        if (d != a) force += both.excess(a, f - s.layout.stride(d), d) - both.excess(a, f, d);
+        if (d != a) force += both.excess(a, f - domain.layout.stride(d), d) - both.excess(a, f, d);
       if (force != 0) u.at(a, f) += dt * force / both.density(a, f);
     });
 }
 
-template void add_shear_jump<2>(const Setup<2>&, const State<2>&, const CellField<2>&, double, FaceField<2>&);
-template void add_shear_jump<3>(const Setup<3>&, const State<3>&, const CellField<3>&, double, FaceField<3>&);
+template void add_shear_jump<2>(const Domain<2>&, const Fluids&, const Features&, const State<2>&, const CellField<2>&,
+                                double, FaceField<2>&);
+template void add_shear_jump<3>(const Domain<3>&, const Fluids&, const Features&, const State<3>&, const CellField<3>&,
+                                double, FaceField<3>&);
 
 }  // namespace seiche

@@ -1,6 +1,9 @@
 #pragma once
 // What differences across the surface of two viscous fluids miss of the stress.
+#include "coupling/state/features.h"
+#include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -13,7 +16,7 @@ namespace seiche {
 // that a+- = (rho n +- epsilon/h)/mu+-, which is solved for epsilon. The n are those of the last step. Left out where
 // viscosity is no constant. Collective.
 template <int Dim>
-void add_shear_jump(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi, double dt,
-                    FaceField<Dim>& u);
+void add_shear_jump(const Domain<Dim>& domain, const Fluids& fluids, const Features& features, const State<Dim>& state,
+                    const CellField<Dim>& phi, double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

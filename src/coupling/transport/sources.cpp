@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "coupling/state/solids.h"
+#include "coupling/state/source.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/transport.h"
+#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -38,46 +41,49 @@ std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, 
 }
 
 template <int Dim>
-double add_sources(const Setup<Dim>& s, const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
-  const bool any = std::any_of(s.sources.begin(), s.sources.end(),
+double add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+                   const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
+  const bool any = std::any_of(sources.begin(), sources.end(),
                                [&](const auto& x) { return open_in_step(x.spec, t0, t1).has_value(); });
   if (!any) return 0;
-  const NodeField<Dim> psi = s.solids.measure(place_bodies(s, state), t0).psi;
-  const double before = liquid_volume(s, phi, psi);
-  for (const Source<Dim>& source : s.sources) {
+  const NodeField<Dim> psi = solids.geometry.measure(place_bodies(state), t0).psi;
+  const double before = liquid_volume(domain, phi, psi);
+  for (const Source<Dim>& source : sources) {
     const auto open = open_in_step(source.spec, t0, t1);
     if (!open) continue;
-    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-      const Vec<Dim> x = s.layout.position(i, cell_offset<Dim>());
-      phi[c] = std::min(phi[c], distance_to_brought(s.layout, source, *open, x));
+    for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+      const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
+      phi[c] = std::min(phi[c], distance_to_brought(domain.layout, source, *open, x));
     });
   }
-  fill_level_set_ghosts(s.layout, s.halo, phi);
-  return liquid_volume(s, phi, psi) - before;
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
+  return liquid_volume(domain, phi, psi) - before;
 }
 
 template <int Dim>
-void set_source_velocity(const Setup<Dim>& s, double t0, double t1, FaceField<Dim>& u) {
-  for (const Source<Dim>& source : s.sources) {
+void set_source_velocity(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
+                         FaceField<Dim>& u) {
+  for (const Source<Dim>& source : sources) {
     const auto open = open_in_step(source.spec, t0, t1);
     if (!open) continue;
     for (int a = 0; a < Dim; ++a)
-      for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-        const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
-        if (distance_to_brought(s.layout, source, *open, x) <= 0)
+      for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+        const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
+        if (distance_to_brought(domain.layout, source, *open, x) <= 0)
           u.at(a, f) = source.velocity.component(a, extend<Dim>(x), open->begin);
       });
   }
 }
 
 template <int Dim>
-std::string fault_of_source(const Setup<Dim>& s, std::size_t index, double t) {
-  const Source<Dim>& source = s.sources[index];
+std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, std::size_t index,
+                            double t) {
+  const Source<Dim>& source = sources[index];
   std::string fault;
   if (source.velocity.is_constant() && source.velocity(Vec3::Zero(), t).allFinite()) return fault;
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(s.layout, s.layout.faces(a), [&](Site, const IVec<Dim>& i) {
-      const Vec<Dim> x = s.layout.position(i, face_offset<Dim>(a));
+    for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site, const IVec<Dim>& i) {
+      const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
       if (!fault.empty() || (*source.shape)(x) > 0) return;
       const double v = source.velocity.component(a, extend<Dim>(x), t);
       if (std::isfinite(v)) return;
@@ -87,10 +93,12 @@ std::string fault_of_source(const Setup<Dim>& s, std::size_t index, double t) {
   return fault;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                      \
-  template double add_sources<D>(const Setup<D>&, const State<D>&, double, double, CellField<D>&); \
-  template void set_source_velocity<D>(const Setup<D>&, double, double, FaceField<D>&);            \
-  template std::string fault_of_source<D>(const Setup<D>&, std::size_t, double);
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template double add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&, const State<D>&, \
+                                 double, double, CellField<D>&);                                                     \
+  template void set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double,              \
+                                       FaceField<D>&);                                                               \
+  template std::string fault_of_source<D>(const Domain<D>&, const std::vector<Source<D>>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

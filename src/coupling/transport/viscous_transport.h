@@ -1,7 +1,11 @@
 #pragma once
 // What transport knows of viscous liquid that fills the domain: fourth order between walls, and flow that goes on into
 // solids that it sticks to.
+#include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 #include "fluid/viscosity/wall_layer.h"
 
 namespace seiche {
@@ -24,36 +28,36 @@ ViscousPlan plan_viscosity(const Setup<Dim>& setup, const State<Dim>& state, con
 
 // Whether any cell holds no liquid. Collective.
 template <int Dim>
-bool has_surface(const Setup<Dim>& setup, const CellField<Dim>& phi);
+bool has_surface(const Domain<Dim>& domain, const CellField<Dim>& phi);
 
 // Whether liquid sticks to solids that are static or move as prescribed.
 template <int Dim>
-bool sticks_to_known_solids(const Setup<Dim>& setup);
+bool sticks_to_known_solids(const Fluids& fluids, const Solids<Dim>& solids);
 
 // The valid faces and those that such solids close: velocity passes through the solid's at its surface there, so that
 // transport needs no other order beside it. Halo filled.
 template <int Dim>
-FaceField<Dim, char> faces_known_to_transport(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
-                                              const FaceField<Dim, char>& valid);
+FaceField<Dim, char> faces_known_to_transport(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                              const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid);
 
 // The valid faces that no solid cuts. Halo filled.
 template <int Dim>
-FaceField<Dim, char> uncut_faces(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+FaceField<Dim, char> uncut_faces(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry,
                                  const FaceField<Dim, char>& valid);
 
 // Continues f from the valid faces into the others, straight for two layers. Ghosts are filled.
 template <int Dim>
-void continue_into_solids(const Setup<Dim>& setup, const FaceField<Dim, char>& valid, FaceField<Dim>& f);
+void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f);
 
 // Velocities at face centres from means over the faces, on whole faces; all with ghosts filled.
 template <int Dim>
-FaceField<Dim> points_of_means(const Setup<Dim>& setup, const FaceField<Dim, char>& whole, const FaceField<Dim>& u,
+FaceField<Dim> points_of_means(const Domain<Dim>& domain, const FaceField<Dim, char>& whole, const FaceField<Dim>& u,
                                double t);
 
 // u += dt nu times what the viscous operator lacks to fourth order, of the velocities `now` at the start of the step
 // continued beyond walls, where nu is the same everywhere.
 template <int Dim>
-void add_missing_viscosity(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim, char>& whole,
-                           const FaceField<Dim>& now, double dt, FaceField<Dim>& u);
+void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                           const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

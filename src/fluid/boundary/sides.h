@@ -2,6 +2,7 @@
 // The sides of the domain: what they let through, and the values beyond them.
 #include <vector>
 
+#include "base/domain_spec.h"
 #include "base/expression.h"
 #include "grid/ghosts.h"
 #include "grid/halo.h"

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/gravity.h"
+#include "base/scene.h"
 #include "fluid/rheology/rows.h"
 #include "fluid/rheology/shear_rates.h"
 #include "grid/ghosts.h"

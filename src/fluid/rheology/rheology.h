@@ -5,10 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "base/scene.h"
+#include "base/fluid_spec.h"
 #include "grid/halo.h"
 
 namespace seiche {
+
+struct Scene;
 
 // A row of the table: a model, the keys it has (names of RheologySpec's members) and its viscosity.
 struct RheologyModel {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
+#include "base/shape_spec.h"
 #include "geometry/mesh/mesh.h"
 
 namespace seiche {

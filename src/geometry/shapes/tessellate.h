@@ -1,6 +1,6 @@
 #pragma once
 // Primitive shapes as closed, outward-oriented surfaces in the shape's own frame, corners on the shape's surface.
-#include "base/scene.h"
+#include "base/shape_spec.h"
 #include "geometry/mesh/mesh.h"
 
 namespace seiche {

@@ -1,6 +1,6 @@
 #pragma once
 // An elastic solid of a scene: finite elements, surface, pins and loads.
-#include "base/scene.h"
+#include "base/solid_spec.h"
 #include "geometry/shapes/shapes.h"
 #include "solid/elastic/body.h"
 #include "solid/elastic/minimize.h"

@@ -1,6 +1,6 @@
 #pragma once
 // Meshes the shape of an elastic solid.
-#include "base/scene.h"
+#include "base/solid_spec.h"
 #include "geometry/shapes/shapes.h"
 #include "solid/mesh/mesh.h"
 

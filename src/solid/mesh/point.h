@@ -1,6 +1,6 @@
 #pragma once
 // Material points of an elastic body, followed as it deforms.
-#include "base/scene.h"
+#include "base/probe_spec.h"
 #include "solid/mesh/mesh.h"
 
 namespace seiche {

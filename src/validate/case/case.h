@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
+#include "base/formula.h"
 #include "scene/reader.h"
 #include "validate/measure/spec.h"
 

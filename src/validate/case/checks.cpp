@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/suggest.h"
 #include "files/checked_file.h"
 #include "files/csv.h"

@@ -2,10 +2,11 @@
 // Checks a case before anything is run.
 #include <string>
 
-#include "base/scene.h"
 #include "validate/case/case.h"
 
 namespace seiche {
+
+struct Scene;
 
 // Throws Error(bad_input) if the scene lacks the probe or solid or ends too early, if runs write no such column, if the
 // data are unreadable or outside the domain, or if an error would be divided by zero. `where` starts the message;

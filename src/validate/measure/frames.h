@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
+#include "base/formula.h"
 #include "geometry/vdb/openvdb_adapter.h"
 
 namespace seiche {

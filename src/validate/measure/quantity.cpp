@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "validate/measure/kinds.h"
 
 namespace seiche {

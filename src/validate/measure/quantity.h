@@ -2,10 +2,11 @@
 // Description and unit of a measure.
 #include <string>
 
-#include "base/scene.h"
 #include "validate/measure/spec.h"
 
 namespace seiche {
+
+struct Scene;
 
 // Description, such as "mean of a probe in a time, weighted with sin^2". From a table with a row for each kind.
 std::string what_is_measured(const MeasureSpec& measure);

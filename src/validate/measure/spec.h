@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/scene.h"
+#include "base/formula.h"
 
 namespace seiche {
 

@@ -11,6 +11,7 @@
 
 #include "base/crc32c.h"
 #include "base/error.h"
+#include "base/scene.h"
 #include "files/checked_file.h"
 #include "scene/writer.h"
 #include "validate/record/cache.h"

@@ -5,11 +5,12 @@
 #include <optional>
 #include <string>
 
-#include "base/scene.h"
 #include "validate/case/case.h"
 #include "validate/measure/measures.h"
 
 namespace seiche {
+
+struct Scene;
 
 // Origin of a run: build, date, ranks and machine.
 struct Origin {

@@ -1,5 +1,6 @@
 #pragma once
 // Plan of a validation: its runs.
+#include "base/scene.h"
 #include "validate/run/run.h"
 
 namespace seiche {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/scene.h"
+
 namespace {
 
 constexpr double width = 0.5, height = 0.5;

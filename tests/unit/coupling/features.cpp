@@ -1,4 +1,6 @@
 #include "coupling/state/features.h"
+#include "base/scene.h"
+#include "coupling/state/setup.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -1,6 +1,8 @@
 // Where pinned ends of elastic solids stand on others, and what that closes.
 #include <catch2/catch.hpp>
 
+#include "base/domain_spec.h"
+#include "base/solid_spec.h"
 #include "coupling/geometry/step_geometry.h"
 #include "unit/solid/wall_specs.h"
 

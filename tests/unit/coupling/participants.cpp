@@ -4,8 +4,11 @@
 #include <map>
 #include <set>
 
+#include "base/scene.h"
 #include "coupling/solids/solid_kinds.h"
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/step/initial_state.h"
 #include "verification/scenes.h"
 
 using namespace seiche;

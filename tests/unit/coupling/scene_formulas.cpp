@@ -1,6 +1,7 @@
 // Formulas that give no finite number, at the start and later.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "unit/coupling/end.h"
 #include "verification/scenes.h"
 

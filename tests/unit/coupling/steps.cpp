@@ -1,6 +1,7 @@
 // Pinned steps, sources that open and close within steps, and what is reported at the start and in the air.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "unit/coupling/end.h"
 #include "verification/scenes.h"
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/scene.h"
 #include "files/checked_file.h"
 #include "files/frames.h"
 #include "files/point_cache.h"

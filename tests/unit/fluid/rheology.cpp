@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/fluid_spec.h"
 #include "fluid/rheology/rheology.h"
 #include "grid/loops.h"
 

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "base/domain_spec.h"
 #include "fluid/viscosity/wall_layer.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"

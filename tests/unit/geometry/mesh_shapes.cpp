@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/shape_spec.h"
 #include "geometry/mesh/distance.h"
 #include "geometry/shapes/shapes.h"
 #include "grid/serial.h"

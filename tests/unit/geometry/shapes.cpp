@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/shape_spec.h"
 #include "geometry/shapes/shapes.h"
 
 using namespace seiche;

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/shape_spec.h"
 #include "geometry/shapes/shapes.h"
 #include "geometry/vdb/openvdb_adapter.h"
 

@@ -1,4 +1,5 @@
 #include "run/loop.h"
+#include "base/scene.h"
 
 #include <catch2/catch.hpp>
 #include <csignal>

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "run/mesh_extents.h"
 #include "unit/files/scratch.h"
 

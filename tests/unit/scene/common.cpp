@@ -1,4 +1,5 @@
 #include "unit/scene/common.h"
+#include "base/scene.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

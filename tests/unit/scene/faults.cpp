@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/gravity.h"
+#include "base/scene.h"
 #include "unit/scene/common.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Flows that are given for all times, in scene files.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "scene/writer.h"
 #include "unit/scene/common.h"
 

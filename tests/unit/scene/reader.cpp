@@ -5,6 +5,7 @@
 #include <locale>
 
 #include "base/gravity.h"
+#include "base/scene.h"
 #include "unit/scene/common.h"
 
 using namespace seiche;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "run/scene.h"
 #include "scene/writer.h"
 #include "unit/scene/common.h"

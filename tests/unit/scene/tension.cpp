@@ -1,6 +1,7 @@
 // Surface tension and contact angles in scene files.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "unit/scene/common.h"
 
 using namespace seiche;

@@ -1,6 +1,7 @@
 // Keys of viscous liquid.
 #include <catch2/catch.hpp>
 
+#include "base/scene.h"
 #include "fluid/rheology/rheology.h"
 #include "unit/scene/common.h"
 

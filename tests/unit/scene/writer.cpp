@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/gravity.h"
+#include "base/scene.h"
 #include "unit/scene/common.h"
 
 using namespace seiche;

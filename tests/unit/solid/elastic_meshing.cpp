@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/solid_spec.h"
 #include "solid/body/thinness.h"
 #include "solid/elastic/solid.h"
 #include "solid/mesh/outline.h"

@@ -1,5 +1,6 @@
 // Stresses that frames show, and points that probes follow.
 #include "base/error.h"
+#include "base/probe_spec.h"
 #include "solid/elastic/output.h"
 #include "solid/mesh/point.h"
 #include "unit/solid/elastic_cases.h"

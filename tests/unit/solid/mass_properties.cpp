@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/shape_spec.h"
 #include "geometry/shapes/closed_surface.h"
 #include "solid/body/mass_properties.h"
 #include "unit/solid/surface_checks.h"

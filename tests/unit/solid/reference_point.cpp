@@ -1,6 +1,7 @@
 // The point of a solid that tables report.
 #include <catch2/catch.hpp>
 
+#include "base/solid_spec.h"
 #include "solid/body/body.h"
 
 using namespace seiche;

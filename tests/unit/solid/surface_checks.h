@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/shape_spec.h"
 #include "geometry/shapes/shapes.h"
 
 namespace seiche::testing {

@@ -1,6 +1,7 @@
 // Pieces of a surface that pins leave, and what those of several solids enclose together.
 #include <catch2/catch.hpp>
 
+#include "base/solid_spec.h"
 #include "solid/body/enclosed_volume.h"
 #include "solid/elastic/surface_patches.h"
 #include "unit/solid/wall_specs.h"

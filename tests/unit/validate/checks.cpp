@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "unit/validate/cases.h"
 #include "validate/case/checks.h"
 #include "validate/record/record.h"

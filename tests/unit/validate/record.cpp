@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/version.h"
 #include "files/json.h"
 #include "unit/validate/cases.h"

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <utility>
 
+#include "base/scene.h"
 #include "files/json.h"
 #include "unit/validate/cases.h"
 

@@ -1,0 +1,12 @@
+#pragma once
+// Formulas as a scene file has them, as text.
+#include <array>
+#include <string>
+
+namespace seiche {
+
+// A number or a formula in x, y, z, t, as text for base/expression.h ("0.5", "6*y*(1-y)").
+using Formula = std::string;
+using VectorFormula = std::array<Formula, 3>;
+
+}  // namespace seiche

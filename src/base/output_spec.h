@@ -1,0 +1,14 @@
+#pragma once
+// The table [output] of a scene.
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct OutputSpec {
+  std::vector<std::string> frames{"surface", "velocity"};
+  std::vector<std::string> formats{"vdb"};
+  int checkpoint_every = 10;  // frames
+};
+
+}  // namespace seiche

@@ -1,0 +1,36 @@
+#pragma once
+// Shapes of a scene: liquid, solids, sources, pins. Plain data in SI units.
+#include <filesystem>
+
+#include "base/formula.h"
+#include "base/vec.h"
+
+namespace seiche {
+
+struct RotationSpec {
+  Vec3 axis{0, 0, 1};
+  double degrees = 0;
+};
+
+// x -> translate + R (scale x): scale first, then rotate about the origin, then translate.
+struct TransformSpec {
+  double scale = 1;
+  RotationSpec rotate;
+  Vec3 translate{0, 0, 0};
+};
+
+struct ShapeSpec {
+  std::string kind;  // a name of the table in geometry/shapes/shapes.h
+  Vec3 lower{0, 0, 0}, upper{0, 0, 0};
+  Vec3 center{0, 0, 0};
+  Vec3 from{0, 0, 0}, to{0, 0, 0};
+  Vec3 point{0, 0, 0}, normal{0, 1, 0};
+  double radius = 0;
+  std::filesystem::path file;  // resolved against the scene's folder
+  Formula phi;                 // negative inside
+  bool invert = false;
+  TransformSpec transform;
+  std::string where;  // "scene.toml:14" for messages
+};
+
+}  // namespace seiche

@@ -1,0 +1,32 @@
+#pragma once
+// The solids of a scene, fixed for the run: shapes, kinds, and the state they begin with.
+#include <optional>
+
+#include "coupling/state/interaction.h"
+#include "coupling/state/tampering.h"
+#include "fluid/boundary/domain.h"
+
+namespace seiche {
+
+struct Scene;
+struct Tampering;
+
+// Keeps references to its own members: neither copied nor moved.
+template <int Dim>
+struct Solids {
+  std::vector<Body<Dim>> bodies;
+  SolidGeometry<Dim> geometry;
+  Participants<Dim> at_start;
+  Interactions<Dim> interactions;
+  std::optional<ContactScene<Dim>> contact;  // set if any solid has unknowns
+
+  // Appends notes of reading the shapes, for the log. The domain must outlive the solids.
+  Solids(const Scene& scene, const Domain<Dim>& domain, const Tampering& tampering, std::vector<std::string>& notes);
+  Solids(const Solids&) = delete;
+
+  bool has_unknowns() const;
+  bool plans_steps() const;  // Participant::plans_steps
+  bool may_seal() const;     // Participant::may_seal
+};
+
+}  // namespace seiche

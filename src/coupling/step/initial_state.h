@@ -1,0 +1,12 @@
+#pragma once
+// The start of a run.
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// The initial state of a scene.
+template <int Dim>
+State<Dim> initial_state(const Setup<Dim>& setup);
+
+}  // namespace seiche

@@ -1,0 +1,13 @@
+#pragma once
+// One step of liquid and solids.
+#include "coupling/state/attempt.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// Advances by dt. Collective; the same verdict on all ranks.
+template <int Dim>
+[[nodiscard]] Attempt<Dim> attempt_step(const Setup<Dim>& setup, const State<Dim>& state, double dt, Phases& phases);
+
+}  // namespace seiche

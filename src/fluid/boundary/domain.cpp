@@ -1,0 +1,33 @@
+#include "fluid/boundary/domain.h"
+
+namespace seiche {
+namespace {
+
+constexpr int reach_of_stencils = 3;  // cells, of interpolation between four points and of one-sided slopes
+
+template <int Dim>
+Geometry<Dim> grid_geometry(const DomainSpec& spec) {
+  Geometry<Dim> g;
+  g.lower = truncate<Dim>(spec.lower);
+  g.h = spec.cell_size;
+  for (int a = 0; a < Dim; ++a) {
+    g.cells[a] = spec.cells[a];
+    g.periodic[a] = spec.sides[a][0].type == SideType::periodic;
+  }
+  return g;
+}
+
+}  // namespace
+
+template <int Dim>
+Domain<Dim>::Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& r)
+    : ranks(r),
+      layout(grid_geometry<Dim>(spec), partition(grid_geometry<Dim>(spec), r.size())[r.rank()],
+             reach + reach_of_stencils),
+      halo(layout, partition(layout.geometry(), r.size()), r),
+      sides(spec, flow) {}
+
+template struct Domain<2>;
+template struct Domain<3>;
+
+}  // namespace seiche
