@@ -131,9 +131,10 @@ std::size_t index_of(const Solids<Dim>& solids, const std::string& solid) {
 }
 
 template <int Dim>
-Vec3 displacement_of(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
-  const std::size_t k = index_of(s.solids, probe.solid);
-  return extend<Dim>(interpolate<Dim>(s.solids.bodies[k].elastic().body.mesh, s.followed.at(probe.name),
+Vec3 displacement_of(const Solids<Dim>& solids, const MaterialPoint& point, const State<Dim>& state,
+                     const ProbeSpec& probe) {
+  const std::size_t k = index_of(solids, probe.solid);
+  return extend<Dim>(interpolate<Dim>(solids.bodies[k].elastic().body.mesh, point,
                                       state.solids[k].place(state.time, state.time, state.time).displacement));
 }
 
@@ -186,7 +187,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
       break;
     case ProbeKind::displacement:
       out.is_vector = true;
-      out.vector = displacement_of(s, state, probe);
+      out.vector = displacement_of(s.solids, s.followed.at(probe.name), state, probe);
       break;
   }
   return out;

@@ -117,17 +117,19 @@ void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount
 }  // namespace
 
 template <int Dim>
-SceneAccount account_scene(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
+SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                           const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi) {
   SceneAccount account;
-  account_liquid(s.domain, s.fluids, state, psi, account);
-  const std::size_t count = s.solids.bodies.size();
-  for (std::size_t k = 0; k < std::min(count, most_lines); ++k)
-    account_solid(s.scene.domain, s.solids.bodies[k], account);
+  account_liquid(domain, fluids, state, psi, account);
+  const std::size_t count = solids.bodies.size();
+  for (std::size_t k = 0; k < std::min(count, most_lines); ++k) account_solid(extent, solids.bodies[k], account);
   if (count > most_lines) account.lines.push_back(fmt::format("        and {} more solids", count - most_lines));
   return account;
 }
 
-template SceneAccount account_scene<2>(const Setup<2>&, const State<2>&, const NodeField<2>&);
-template SceneAccount account_scene<3>(const Setup<3>&, const State<3>&, const NodeField<3>&);
+template SceneAccount account_scene<2>(const Domain<2>&, const Fluids&, const Solids<2>&, const DomainSpec&,
+                                       const State<2>&, const NodeField<2>&);
+template SceneAccount account_scene<3>(const Domain<3>&, const Fluids&, const Solids<3>&, const DomainSpec&,
+                                       const State<3>&, const NodeField<3>&);
 
 }  // namespace seiche

@@ -15,6 +15,7 @@ struct SceneAccount {
 
 // Of the initial state, psi the solids' distance at its nodes. Collective; equal on all ranks.
 template <int Dim>
-SceneAccount account_scene(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi);
+SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                           const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi);
 
 }  // namespace seiche

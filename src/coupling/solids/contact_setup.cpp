@@ -65,14 +65,14 @@ std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horiz
 // whatever the step: bodies at rest are thrown up where the stiffness grows under them. Without gravity what crosses
 // the domain in ten frames serves as one.
 template <int Dim>
-ContactOptions contact_options(const Setup<Dim>& s) {
-  const Scene& scene = s.scene;
-  const double length = (scene.domain.upper - scene.domain.lower).norm(), rate = 0.1 * scene.time.frame_rate;
-  const double h = s.domain.layout.h(), weight = s.fluids.gravity.largest(0, scene.time.end),
+ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& extent, const TimeSpec& time,
+                               const Gravity& gravity, const Tampering& tampering) {
+  const double length = (extent.upper - extent.lower).norm(), rate = 0.1 * time.frame_rate;
+  const double h = domain.layout.h(), weight = gravity.largest(0, time.end),
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = s.tampering.contact * g;
+  o.acceleration = tampering.contact * g;
   o.usual_speed = std::sqrt(g * h);
   o.creep_speed = 1e-4 * o.usual_speed;
   o.speed_tolerance = 0.01 * o.creep_speed;
@@ -227,13 +227,14 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
   return largest_safe_fraction(*solids.contact, contact_motions(state, dt), dt, velocities_over(solids, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);         \
-  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);          \
-  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&); \
-  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);       \
-  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                                    \
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);          \
+  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
+  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);  \
+  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);        \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                 \
+  template ContactOptions contact_options<D>(const Domain<D>&, const DomainSpec&, const TimeSpec&, const Gravity&, \
+                                             const Tampering&);                                                    \
   template double safe_share<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -25,7 +25,8 @@ std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horiz
 
 // Reach, stiffness and speeds of contact on this grid.
 template <int Dim>
-ContactOptions contact_options(const Setup<Dim>& setup);
+ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& extent, const TimeSpec& time,
+                               const Gravity& gravity, const Tampering& tampering);
 
 // Names of the solids with unknowns that reach a periodic side, for messages.
 template <int Dim>

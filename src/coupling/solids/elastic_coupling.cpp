@@ -225,18 +225,19 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
                             step_load(s.fluids.gravity, solid, state, dt, horizon));
   add_inertia(p, e.u, dt, horizon, first, parts);
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-  if (body.is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
-  BodyEntries mine{k, first, spread_shares(s, shares, attached, rows)};
-  bring_home_air(s, rows, 0, mine.entries);
+  if (body.is_thin())
+    add_liquid_beside(liquid_beside(s.domain, s.fluids, g, rows, state, dt, k), g_nodes, dt, first, parts);
+  BodyEntries mine{k, first, spread_shares(s.domain, shares, attached, rows)};
+  bring_home_air(s.domain, rows, 0, mine.entries);
   mine.shown = mine.entries.size();
   if (body.is_thin() || is_divided(solid))
-    keep_to_own_side(s, solid, shares, attached, rows, mine.entries);
+    keep_to_own_side(s.domain, solid, shares, attached, rows, mine.entries);
   else
     hang_on_facets(step, e.u, gravity, mine, parts);
-  bring_home_air(s, rows, mine.shown, mine.entries);
+  bring_home_air(s.domain, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));
   c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
-  const double most = highest_pressure_beside(s, shares, rows, state.pressure);
+  const double most = highest_pressure_beside(s.domain, shares, rows, state.pressure);
   const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)};
   parts.potentials.push_back(
       std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(), s.tampering.elastic_forces * dt, horizon));

@@ -67,7 +67,9 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.swept);
-  const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
+  const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, s.scene.solver.viscosity,
+                                                            *input.viscosity, input.liquid.dt)
+                                             : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
   } else {

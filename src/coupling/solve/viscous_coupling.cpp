@@ -99,13 +99,13 @@ ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& f
 }
 
 template <int Dim>
-ViscousRoute choose_route(const Setup<Dim>& s, const ViscosityField<Dim>& mu, double dt) {
+ViscousRoute choose_route(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                          ViscousSolve asked, const ViscosityField<Dim>& mu, double dt) {
   constexpr double reaches_a_cell = 0.5;
-  const ViscousSolve asked = s.scene.solver.viscosity;
   if (asked != ViscousSolve::automatic)
     return asked == ViscousSolve::split ? ViscousRoute::split : ViscousRoute::coupled;
-  if (sticks_to_what_it_moves(s.solids)) return ViscousRoute::coupled;
-  const double reach = mu.largest * dt / (s.fluids.density() * s.domain.layout.h() * s.domain.layout.h());
+  if (sticks_to_what_it_moves(solids)) return ViscousRoute::coupled;
+  const double reach = mu.largest * dt / (fluids.density() * domain.layout.h() * domain.layout.h());
   return reach < reaches_a_cell ? ViscousRoute::split : ViscousRoute::coupled;
 }
 
@@ -206,10 +206,11 @@ double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::Vecto
   return viscous_dissipation(input_, system_, u, v);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                        \
-  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const Tampering&, \
-                                                  const CellField<D>&, const Level<D>&, double);     \
-  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);          \
+#define SEICHE_INSTANTIATE(D)                                                                            \
+  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const Tampering&,     \
+                                                  const CellField<D>&, const Level<D>&, double);         \
+  template ViscousRoute choose_route<D>(const Domain<D>&, const Fluids&, const Solids<D>&, ViscousSolve, \
+                                        const ViscosityField<D>&, double);                               \
   template class ViscousStep<D>;
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -32,7 +32,8 @@ enum class ViscousRoute { none, split, coupled };
 // As the scene asks; "auto": coupled from mu dt/(rho h^2) = 0.5 on, and beside no-slip solids that it moves. Below, a
 // step of viscosity reaches less than a cell and pressure undoes little of it.
 template <int Dim>
-ViscousRoute choose_route(const Setup<Dim>& setup, const ViscosityField<Dim>& viscosity, double dt);
+ViscousRoute choose_route(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                          ViscousSolve asked, const ViscosityField<Dim>& viscosity, double dt);
 
 // The viscous operator of a step and the solids in it. Keeps references.
 template <int Dim>

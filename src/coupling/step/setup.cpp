@@ -245,7 +245,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
     state.gas.now =
         initial_level(s.domain, s.fluids, s.solids, g, near, initial_gas_velocity(s.domain, s.fluids, near, fault));
   }
-  check_formulas_at_start(s, g, fault);
+  check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene.domain, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.film = measure_film(s.domain, g.faces, state.now->u, state.now->u);

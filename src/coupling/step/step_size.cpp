@@ -39,11 +39,12 @@ double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, co
 
 // So does what the scene gives, which the flow follows before it is seen in it.
 template <int Dim>
-double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
-  const double limit = limit_of_present_flow(s.domain, s.fluids, s.scene.time, state, until);
-  if (s.fluids.has_prescribed_flow()) return limit;
+double limit_of_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                     const std::vector<Source<Dim>>& sources, const State<Dim>& state, double until) {
+  const double limit = limit_of_present_flow(domain, fluids, time, state, until);
+  if (fluids.has_prescribed_flow()) return limit;
   const double span = std::min(limit, until - state.time),
-               given = limit_of_given_flow(s.domain, s.scene.time, s.sources, state.time, span);
+               given = limit_of_given_flow(domain, time, sources, state.time, span);
   return given < span ? given : limit;
 }
 
@@ -168,7 +169,8 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const double remaining = until_frame(spec, next.time);
   if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
   constexpr double margin = 0.9;
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next, next.time + remaining));
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, next,
+                                                                  next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   return share_evenly(limit_of_solids(s.domain, s.solids, next, plan), remaining);
 }
@@ -176,7 +178,7 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene.time, state.time);
-  const double dt = std::min(state.horizon, limit_of_flow(s, state, until));
+  const double dt = std::min(state.horizon, limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until));
   return limit_of_solids(s.domain, s.solids, state, dt) >= state.horizon * (1 - 1e-9);
 }
 
@@ -187,7 +189,8 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   const bool planned = s.solids.plans_steps() && state.step > 0 && !spec.fixed_step;
-  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
+  double dt =
+      spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(state, std::min(dt, remaining));
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))

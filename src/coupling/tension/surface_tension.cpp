@@ -93,33 +93,34 @@ CellField<Dim> look_ahead(const Domain<Dim>& domain, const Fluids& fluids, const
 }  // namespace
 
 template <int Dim>
-SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& before,
-                                    const CellField<Dim>& phi, double lead, double dt) {
-  SurfaceTension<Dim> r{FaceField<Dim>(s.domain.layout)};
-  FaceField<Dim, char> crossed(s.domain.layout);
-  const CellField<Dim> continued = continue_at_contact_angle(s.domain, s.fluids, s.solids, g,
-                                                             look_ahead(s.domain, s.fluids, before, phi, dt / lead));
+SurfaceTension<Dim> surface_tension(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                    const Tampering& tampering, const StepGeometry<Dim>& g,
+                                    const CellField<Dim>& before, const CellField<Dim>& phi, double lead, double dt) {
+  SurfaceTension<Dim> r{FaceField<Dim>(domain.layout)};
+  FaceField<Dim, char> crossed(domain.layout);
+  const CellField<Dim> continued =
+      continue_at_contact_angle(domain, fluids, solids, g, look_ahead(domain, fluids, before, phi, dt / lead));
   double crossings = 0, by_differences = 0;
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(s.domain.layout, s.domain.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      if ((phi[f - s.domain.layout.stride(a)] < 0) == (phi[f] < 0) || !g.faces.is_unknown(a, f)) return;
-      const SurfaceCurvature kappa = curvature_at_crossing<Dim>(s.domain.layout, continued, a, f);
+    for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      if ((phi[f - domain.layout.stride(a)] < 0) == (phi[f] < 0) || !g.faces.is_unknown(a, f)) return;
+      const SurfaceCurvature kappa = curvature_at_crossing<Dim>(domain.layout, continued, a, f);
       crossed.at(a, f) = 1;
       r.jump.at(a, f) = kappa.value;
       ++crossings;
       by_differences += kappa.source == CurvatureSource::differences;
     });
-  r.crossings = std::int64_t(s.domain.ranks.global_sum(crossings));
-  r.by_differences = std::int64_t(s.domain.ranks.global_sum(by_differences));
-  s.domain.halo.fill_ghosts(crossed);
-  s.domain.halo.fill_ghosts(r.jump);
-  agree_in_slivers(s.domain, s.fluids, phi, crossed, r.jump);
-  filter_for_step(s.domain, s.fluids, phi, crossed, dt, r.jump);
-  balance_closed_pieces(s.domain, g.faces, phi, crossed, r.jump);
-  const double sigma = s.tampering.surface_tension * s.fluids.liquid.surface_tension;
+  r.crossings = std::int64_t(domain.ranks.global_sum(crossings));
+  r.by_differences = std::int64_t(domain.ranks.global_sum(by_differences));
+  domain.halo.fill_ghosts(crossed);
+  domain.halo.fill_ghosts(r.jump);
+  agree_in_slivers(domain, fluids, phi, crossed, r.jump);
+  filter_for_step(domain, fluids, phi, crossed, dt, r.jump);
+  balance_closed_pieces(domain, g.faces, phi, crossed, r.jump);
+  const double sigma = tampering.surface_tension * fluids.liquid.surface_tension;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });
-  s.domain.halo.fill_ghosts(r.jump);
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });
+  domain.halo.fill_ghosts(r.jump);
   return r;
 }
 
@@ -132,9 +133,10 @@ double capillary_step(const Domain<Dim>& domain, const Fluids& fluids) {
   return std::sqrt(density_at_surface(fluids) * h * h * h / (4 * pi * liquid.surface_tension));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                 \
-  template SurfaceTension<D> surface_tension<D>(const Setup<D>&, const StepGeometry<D>&, const CellField<D>&, \
-                                                const CellField<D>&, double, double);                         \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template SurfaceTension<D> surface_tension<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const Tampering&, \
+                                                const StepGeometry<D>&, const CellField<D>&, const CellField<D>&,    \
+                                                double, double);                                                     \
   template double capillary_step<D>(const Domain<D>&, const Fluids&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

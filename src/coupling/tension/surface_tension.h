@@ -16,7 +16,8 @@ struct SurfaceTension {
 
 // For phi (m) and solids as a step of dt is solved with, and phi `lead` seconds before (lead <= dt). Collective.
 template <int Dim>
-SurfaceTension<Dim> surface_tension(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+SurfaceTension<Dim> surface_tension(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                    const Tampering& tampering, const StepGeometry<Dim>& geometry,
                                     const CellField<Dim>& before, const CellField<Dim>& phi, double lead, double dt);
 
 // Longest step for capillary waves, s: sqrt((rho + rho_gas) h^3/(4 pi sigma)) (Brackbill, Kothe, Zemach 1992);

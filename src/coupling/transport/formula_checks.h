@@ -24,7 +24,8 @@ std::string first_text(const Communicator& ranks, const std::string& mine);
 // Throws Error(bad_input) with `fault` or where gravity, the viscosity or a side's or a source's formula is not finite
 // as the run begins (a source: as it begins), or the viscosity is negative. Collective.
 template <int Dim>
-void check_formulas_at_start(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const std::string& fault);
+void check_formulas_at_start(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Source<Dim>>& sources,
+                             const DomainSpec& extent, const StepGeometry<Dim>& geometry, const std::string& fault);
 
 // Throw Error(cannot_continue) where a formula is not finite in a step from t0 to t1: gravity, the viscosity
 // (or negative) or of a source, before the transport, and of a side or a solid's motion, as measured in `geometry`.

@@ -79,34 +79,34 @@ void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const
 // With tau the time since the entry, A the acceleration, u_in + tau A is wanted. The solve adds dt (A - g) and the
 // viscous share that memory leaves: u* = u_in + dt g - (dt - tau) A + memory.
 template <int Dim>
-void let_liquid_in(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
-                   const FaceField<Dim>& memory, FaceField<Dim>& u) {
+void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time, const Tampering& tampering,
+                   const Level<Dim>& level, const FacePaths<Dim>& paths, double t, const FaceField<Dim>& memory,
+                   FaceField<Dim>& u) {
   const double dt = paths.dt;
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(t + dt, dt);
-  const int reach = int(std::ceil(s.scene.time.cfl)) + 1;
+  const Vec3 g = tampering.gravity * fluids.gravity.of_step(t + dt, dt);
+  const int reach = int(std::ceil(time.cfl)) + 1;
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
-      if (s.domain.sides.type(axis, side) != SideType::inflow) continue;
+      if (domain.sides.type(axis, side) != SideType::inflow) continue;
       for (int a = 0; a < Dim; ++a)
         for_each_index_in_order(
-            s.domain.layout, faces_behind(s.domain.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
+            domain.layout, faces_behind(domain.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
               if (!paths.near.at(a, f)) return;
-              const Vec<Dim> from = departure_of_face(s.domain.layout, paths.velocity, a, f, i, dt);
-              const auto entry = find_entry(s.domain.layout, s.domain.sides, from,
-                                            s.domain.layout.position(i, face_offset<Dim>(a)), t, dt);
+              const Vec<Dim> from = departure_of_face(domain.layout, paths.velocity, a, f, i, dt);
+              const auto entry =
+                  find_entry(domain.layout, domain.sides, from, domain.layout.position(i, face_offset<Dim>(a)), t, dt);
               if (!entry) return;
-              const double before = dt - entry->inside,
-                           acc = acceleration_at(s.domain, s.fluids, level, a, f, g[a], dt);
-              u.at(a, f) = velocity_of(s.domain.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
+              const double before = dt - entry->inside, acc = acceleration_at(domain, fluids, level, a, f, g[a], dt);
+              u.at(a, f) = velocity_of(domain.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
             });
     }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                         \
-                                     const FaceField<D, char>&, FaceField<D>&);                                      \
-  template void let_liquid_in<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, double, const FaceField<D>&, \
-                                 FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                          \
+                                     const FaceField<D, char>&, FaceField<D>&);                                       \
+  template void let_liquid_in<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const Tampering&, const Level<D>&, \
+                                 const FacePaths<D>&, double, const FaceField<D>&, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -24,7 +24,8 @@ void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const
 // u before the projection where liquid came in through a side during the step from t on: its velocity there, plus what
 // the time since then has added. `memory` is the viscous one of transport.
 template <int Dim>
-void let_liquid_in(const Setup<Dim>& setup, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
-                   const FaceField<Dim>& memory, FaceField<Dim>& u);
+void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time, const Tampering& tampering,
+                   const Level<Dim>& level, const FacePaths<Dim>& paths, double t, const FaceField<Dim>& memory,
+                   FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -163,13 +163,14 @@ void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solid
 }
 
 template <int Dim>
-Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                               const StepGeometry<Dim>& g) {
-  Level<Dim> next = empty_level(s.domain.layout, s.fluids.is_viscous());
+Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                               const Tampering& tampering, const ProjectionInput<Dim>& in,
+                               const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
+                               const FaceField<Dim>& u_star, const StepGeometry<Dim>& g) {
+  Level<Dim> next = empty_level(domain.layout, fluids.is_viscous());
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
-      const Site low = f - s.domain.layout.stride(a);
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      const Site low = f - domain.layout.stride(a);
       const bool wet = rows.touch_pressure(low, f);
       if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
@@ -177,32 +178,33 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
         next.u.at(a, f) = in.faces.prescribed.at(a, f);
         return;
       }
-      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s.fluids, s.solids, g.body[f]))
+      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(fluids, solids, g.body[f]))
         next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
-      next.u.at(a, f) = u_star.at(a, f) - s.tampering.pressure_gradient * in.dt * next.q.at(a, f);
+      next.u.at(a, f) = u_star.at(a, f) - tampering.pressure_gradient * in.dt * next.q.at(a, f);
     });
-  s.domain.halo.fill_ghosts(next.u);
+  domain.halo.fill_ghosts(next.u);
   Restored<Dim> restored;
   restored.divergence = max_divergence(in, rows, next.u);
   const FaceField<Dim> solved = next.u;
   if (in.has_gas()) {
     restored.gas = next;
-    continue_level(s.domain, s.fluids, s.solids, g, faces_near_gas(s.domain, in.phi), restored.gas);
+    continue_level(domain, fluids, solids, g, faces_near_gas(domain, in.phi), restored.gas);
   }
-  continue_level(s.domain, s.fluids, s.solids, g, faces_near_liquid(s.domain, in.phi), next);
-  restored.film = measure_film(s.domain, in.faces, solved, next.u);
+  continue_level(domain, fluids, solids, g, faces_near_liquid(domain, in.phi), next);
+  restored.film = measure_film(domain, in.faces, solved, next.u);
   restored.level = std::move(next);
   return restored;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
-                                  const FaceField<D, char>&, Level<D>&);                                        \
-  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&, \
-                                     const FaceField<D, char>&, FaceField<D>&);                                 \
-  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,  \
-                                           const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,       \
+                                  const FaceField<D, char>&, Level<D>&);                                           \
+  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
+                                     const FaceField<D, char>&, FaceField<D>&);                                    \
+  template Restored<D> restore_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const Tampering&,    \
+                                           const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, \
+                                           const FaceField<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

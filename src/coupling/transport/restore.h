@@ -22,9 +22,10 @@ struct Restored {
 
 // u = u* - dt grad p/rho on unknown faces, the given velocity on prescribed ones, q = grad p/rho; then u continued.
 template <int Dim>
-Restored<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                               const StepGeometry<Dim>& geometry);
+Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                               const Tampering& tampering, const ProjectionInput<Dim>& in,
+                               const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
+                               const FaceField<Dim>& u_star, const StepGeometry<Dim>& geometry);
 
 // Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
 template <int Dim>

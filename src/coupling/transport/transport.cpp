@@ -115,19 +115,20 @@ FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, c
 // the start and in first order. Impacts change velocity at once whatever dt is, so that their A says nothing of the
 // next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of order h there).
 template <int Dim>
-FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
-  FaceField<Dim> acc(s.domain.layout);
-  if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
-  const FaceField<Dim> trend = slope_trend(s.domain, state, flow, dt);
+FaceField<Dim> acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                            const Tampering& tampering, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
+  FaceField<Dim> acc(domain.layout);
+  if (state.dt_now == 0 || time.scheme == TimeScheme::first_order) return acc;
+  const FaceField<Dim> trend = slope_trend(domain, state, flow, dt);
   const Level<Dim>& level = *flow.now;
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
-  const double limit = 0.25 * s.domain.layout.h() / (dt * dt);
+  const Vec3 g = tampering.gravity * fluids.gravity.of_step(state.time + dt, dt);
+  const double limit = 0.25 * domain.layout.h() / (dt * dt);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (level.valid.at(a, f) == face_solved)
         acc.at(a, f) = std::clamp(g[a] - level.q.at(a, f) - trend.at(a, f), -limit, limit);
     });
-  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, acc);
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, acc);
   return acc;
 }
 
@@ -228,7 +229,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   const Surroundings<Dim> known(s.domain, s.fluids, s.solids, geometry, flow.now->valid, plan);
   const FaceField<Dim, char>& interior = known.interior;
   const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, interior, plan, dt);
-  FaceField<Dim> acc = acceleration(s, state, flow, dt),
+  FaceField<Dim> acc = acceleration(s.domain, s.fluids, s.scene.time, s.tampering, state, flow, dt),
                  memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, known.liquid, dt, plan);
   if (known.enters_solids) continue_into_solids(s.domain, flow.now->valid, acc);
   Carried<Dim> carried{flow.now->u, flow.now->u};
@@ -254,7 +255,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
       if (near.at(a, f) || s.fluids.is_viscous())
         u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
     });
-  let_liquid_in(s, *flow.now, paths, state.time, memory, u);
+  let_liquid_in(s.domain, s.fluids, s.scene.time, s.tampering, *flow.now, paths, state.time, memory, u);
   return u;
 }
 
@@ -303,11 +304,12 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
 }
 
 template <int Dim>
-void make_distance(const Setup<Dim>& s, const CellField<Dim, char>& closed, CellField<Dim>& phi) {
-  const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
-  redistance_beside_solids(s.domain, s.solids, closed,
-                           {s.domain.band() / s.domain.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s.fluids)},
-                           1, phi);
+void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const TimeSpec& time,
+                   const CellField<Dim, char>& closed, CellField<Dim>& phi) {
+  const int moved = int(std::ceil(time.cfl)) + 1;
+  redistance_beside_solids(domain, solids, closed,
+                           {domain.band() / domain.layout.h(), 6 + 2 * moved, moved, settled_of_surface(fluids)}, 1,
+                           phi);
 }
 
 template <int Dim>
@@ -369,7 +371,8 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
   template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);               \
   template double transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double, \
                                        CellField<D>&);                                                        \
-  template void make_distance<D>(const Setup<D>&, const CellField<D, char>&, CellField<D>&);                  \
+  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,          \
+                                 const CellField<D, char>&, CellField<D>&);                                   \
   template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                    \
   template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                       \
   template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,  \

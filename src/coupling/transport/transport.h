@@ -16,7 +16,8 @@ double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const
 
 // Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells (coupling/level_in_solids.h).
 template <int Dim>
-void make_distance(const Setup<Dim>& setup, const CellField<Dim, char>& closed, CellField<Dim>& phi);
+void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const TimeSpec& time,
+                   const CellField<Dim, char>& closed, CellField<Dim>& phi);
 
 // Cells from the surface that are taken to their distance from it by its nearest points (levelset/redistance.h).
 // Curvature reads them, and where two fluids flow nothing tells their volumes apart but the surface.

@@ -24,7 +24,8 @@ struct ViscousPlan {
 
 // phi that of the end of the step. Collective.
 template <int Dim>
-ViscousPlan plan_viscosity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi, double dt);
+ViscousPlan plan_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                           const Features& features, const State<Dim>& state, const CellField<Dim>& phi, double dt);
 
 // Whether any cell holds no liquid. Collective.
 template <int Dim>
