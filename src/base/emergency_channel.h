@@ -1,5 +1,5 @@
 #pragma once
-// End of the program after an error: an error on all ranks ends it in the ordinary way, an error on some ranks only
+// End of the program after an error. An error on all ranks ends it in the ordinary way. An error on only some ranks
 // aborts the whole job at once.
 #include <mpi.h>
 

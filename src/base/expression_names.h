@@ -15,8 +15,8 @@ struct NameInText {
 // Variables, constants and functions in the order of the text. The e of an exponent is not a name.
 std::vector<NameInText> names_in(const std::string& text);
 
-// Message about the first name that is unknown or misplaced (a function without argument, a variable called like a
-// function, a number right before a name); nullopt if there is none.
+// Message about the first name that is unknown or misplaced; nullopt if there is none. Misplaced: a function without
+// argument, a variable called like a function, a number right before a name.
 std::optional<std::string> fault_of_names(const std::string& text);
 
 }  // namespace seiche

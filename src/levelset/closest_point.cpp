@@ -41,8 +41,8 @@ ValueAndGradient<Dim> interpolate(const Layout<Dim>& layout, const double* f, co
 }
 
 // True if the interpolant at x does not read phi across a medial axis. Tests the second differences at the inner points
-// of its stencil: they add up to 2 |n_a| across the medial axis of two parallel surfaces of normal n, and are (1 -
-// n_a^2)/R on a sphere of R cells.
+// of its stencil. On a sphere of R cells they are (1 - n_a^2)/R. Across the medial axis of two parallel surfaces of
+// normal n they add up to 2 |n_a|.
 template <int Dim>
 bool is_smooth_around(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
   constexpr double most = 0.3;

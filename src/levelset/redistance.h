@@ -18,8 +18,8 @@ struct RedistanceOptions {
 // 2000; du Chene, Min, Gibou 2008). This moves the zero by some 1e-3 cells per call, non-uniformly, so that volume
 // drifts and curvature becomes noisy. Within `settled` cells, closest-point redistancing is used instead: phi <- phi +
 // w (d - phi), d the distance from the zero of the cubic interpolant (levelset/closest_point.h). The weight w grows
-// from 0 at a relative error of 2 % to 1 at 10 %, so that the correction follows the distortion of phi, not the number
-// of calls. If no closest point is found, phi stays if |grad phi| is within 0.1 of 1, and is relaxed otherwise.
+// from 0 at a relative error of 2 % to 1 at 10 %. The correction thus depends on the distortion of phi, not on the
+// number of calls. If no closest point is found, phi stays if |grad phi| is within 0.1 of 1, and is relaxed otherwise.
 template <int Dim>
 void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
                 const CellField<Dim, char>* kept = nullptr);

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// Rows of cells are joined by open faces. Each region of air is a further node after this rank's rows, shared by all
-// ranks, so that all rows that touch it are joined.
+// Rows of cells are joined by open faces. Each region of air is a further node after this rank's rows. All ranks share
+// these nodes, so that all rows that touch a region are joined.
 template <int Dim>
 class Labelling {
  public:

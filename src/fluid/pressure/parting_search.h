@@ -5,8 +5,9 @@
 namespace seiche {
 
 // Block principal pivoting (Judice, Pires 1994). Each round flips all wrong guesses, which is policy iteration. After
-// five rounds without fewer wrong guesses it flips only the last one in the order of the cells, until there are fewer
-// than ever before (Murty's rule, which terminates for positive definite matrices). At most 50 rounds.
+// five rounds without progress it flips only the last wrong guess in the order of the cells (Murty's rule, which
+// terminates for positive definite matrices). It flips all again once there are fewer wrong ones than ever before. At
+// most 50 rounds.
 template <int Dim>
 class PartingSearch {
  public:

@@ -34,8 +34,8 @@ struct ProjectionInput {
   double missing_flux(Site cell) const { return parting ? parting->gap[cell] * layout.h() / dt : 0; }
 };
 
-// The unknowns: one row per cell of liquid or flowing gas that has a face of unknown velocity and is not parted, then
-// one row per region of enclosed air.
+// The unknowns: one row per cell of liquid or flowing gas, then one per region of enclosed air. A cell must have a face
+// of unknown velocity and must not be parted.
 template <int Dim>
 struct PressureRows {
   static constexpr std::int64_t no_row = -1, parted_row = -2;
@@ -117,8 +117,8 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
 template <int Dim>
 RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 
-// Sets the pressure of each region of enclosed air, in all its cells, so that its volume balance holds to rounding for
-// the liquid's given pressures. Fills ghosts. Collective.
+// Sets the pressure of each region of enclosed air, in all its cells. For the liquid's given pressures, its volume
+// balance then holds to round-off. Fills ghosts. Collective.
 template <int Dim>
 void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
                 CellField<Dim>& pressure);

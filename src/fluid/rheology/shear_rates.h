@@ -22,8 +22,8 @@ class ShearRates {
   double of_cell(Site cell, const IVec<Dim>& index) const;
 
   // rate^2 = (d_a u_b + d_b u_a)^2 at the edge itself plus the mean of the other terms over the adjacent cells. On a
-  // side of the domain the edge's shear is extrapolated from the three edges inside (a parabola). If the shear needs an
-  // invalid face, or the edge lies on two sides, the result is the mean of all terms over the adjacent cells.
+  // side of the domain the edge's shear is extrapolated from the three edges inside (a parabola). If there is no shear
+  // (an invalid face, or an edge on two sides), the result is the mean of all terms over the adjacent cells.
   double of_edge(int plane, Site edge, const IVec<Dim>& index) const;
 
  private:

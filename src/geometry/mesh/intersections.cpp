@@ -122,8 +122,8 @@ std::map<Edge, std::vector<int>> triangles_at_edges(const SurfaceMesh& mesh) {
   return result;
 }
 
-// All pairs of triangles that may intersect: those that share an edge, and those where an edge of one is close to the
-// other. (If triangles meet, an edge of one meets the other.) Lower index first, each once.
+// All pairs of triangles that may intersect, lower index first, each once: those that share an edge, and those where an
+// edge of one is close to the other. If triangles meet, an edge of one meets the other.
 std::vector<std::array<int, 2>> candidates(const SurfaceMesh& mesh) {
   const auto owners = triangles_at_edges(mesh);
   std::vector<Edge> edges;

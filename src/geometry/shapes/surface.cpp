@@ -51,8 +51,8 @@ std::vector<float> sample(const ShapeField<Dim>& field, const Nodes<Dim>& nodes)
 }
 
 // Marching squares. Corners of a square are counter-clockwise: (0,0), (1,0), (1,1), (0,1). Edge e joins corners e and e
-// + 1. A segment begins on an edge from inside to outside and ends on one from outside to inside, so that the inside is
-// to its left.
+// + 1. A segment begins on an edge from inside to outside and ends on one from outside to inside. The inside is to its
+// left.
 class MarchingSquares {
  public:
   MarchingSquares(const std::vector<float>& values, const Nodes<2>& nodes) : values_(values), nodes_(nodes) {}

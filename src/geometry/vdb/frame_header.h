@@ -7,8 +7,8 @@
 
 namespace seiche::vdb {
 
-// Throws Error(bad_input) if a length in the header reaches beyond the end of the file, or if the file is not in the
-// format that Seiche writes. OpenVDB allocates the lengths of texts, metadata and tables without such a check.
+// Throws Error(bad_input) if a length in the header reaches beyond the end of the file, or if the format is not the one
+// that Seiche writes. OpenVDB allocates the lengths of texts, metadata and tables without such a check.
 void require_sound_header(const std::filesystem::path& file, const std::string& bytes);
 
 // Overwrites the transforms of all grids of a frame so that voxel i is at first + i h (m). The frame must have been
