@@ -93,7 +93,7 @@ double jump_over(const ProjectionInput<Dim>& in, int axis, Site face);
 
 // The pressure system, with p = jump at the surface if there is no gas (Gibou et al. 2002; Ng, Min, Gibou 2009):
 //   sum_f w rho/rho_f (p_i - p_j -+ jump) = -(rho h/dt) (sum_f +-(w u* + closed flux) + cell flux + missing flux).
-// It is the volume balance of a cell (m^Dim/s) times h^(2-Dim) rho/dt. The right side is collective.
+// It is the volume balance of a cell (m^Dim/s) times h^(2-Dim) rho/dt. Collective.
 template <int Dim>
 DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 template <int Dim>

@@ -7,8 +7,8 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-// The side of the line through a and b on which p lies, seen along an axis. A point on the line is perturbed by e^2
-// along the first and e along the second axis of the view, e -> 0, equally for all lines (simulation of simplicity;
+// The side of the line through a and b on which p lies, seen along an axis. A point on the line is perturbed equally
+// for all lines: by e^2 along the first and e along the second axis of the view, e -> 0 (simulation of simplicity;
 // Edelsbrunner, Muecke 1990). No ray then meets an edge, and each line crosses a closed surface an even number of
 // times.
 int side_of(const Vec3& a, const Vec3& b, const Vec3& p, int axis) {
