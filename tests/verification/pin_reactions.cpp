@@ -13,7 +13,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-// A tank for solids and liquid given in x and y; in 3D their depth is given too.
+// A point; z counts in 3D only.
 Vec3 corner(int dim, double x, double y, double z) {
   return {x, y, dim == 3 ? z : 0};
 }
