@@ -142,8 +142,8 @@ FaceField<Dim> projected(const ProjectionInput<Dim>& in, const PressureRows<Dim>
   return restored;
 }
 
-// The balance of each region is closed to round-off at any tolerance of the solve. Two bubbles and a pocket below the
-// surface of the domain's top, with random velocities before the projection.
+// The balance of each region is closed to round-off at any tolerance of the solve. Two bubbles below open air, with
+// random velocities before the projection.
 template <int Dim>
 void check_balance() {
   Geometry<Dim> geometry;

@@ -159,7 +159,7 @@ Scene flooded_bellows() {
 }
 
 // Area between the inner sides of both walls, floor and plate: trapezia between the sides' points, upwards along the
-// lower wall and downwards along the upper one (in x).
+// wall at low x and downwards along the other.
 double bellows_volume(const Simulation& sim, const std::array<SurfaceMesh, 2>& at_rest) {
   std::vector<Vec3> loop;
   for (std::size_t k : {0, 1}) {
