@@ -27,7 +27,7 @@ struct Bent {
   MinimizeReport report;
 };
 
-// Tip deflection, over L, of a strip under a dead tip load P with the given P L^2 / (E I).
+// Displacement of the tip, across and along, over the length, under a dead tip load P with the given P L^2 / (E I).
 Bent bend(const Strip& s, double bending_stiffness, double load_number, int load_steps) {
   const double P = load_number * bending_stiffness / (s.length * s.length);
   const Eigen::VectorXd load = traction_force<2>(s.body, s.end, [&](const Vec<2>&) -> Vec<2> {
