@@ -119,8 +119,7 @@ TEST_CASE("means and points of a face differ by what its second differences say;
   const FaceField<2> u = box.faces([](int, const Vec<2>& x) { return 5 * x[1] * x[1]; });
   const double h = box.layout.h();
   CHECK(excess_of_mean(box.layout, u, 0, box.layout.site({5, 5})) == Approx(5 * h * h / 12));
-  CHECK(excess_of_mean(box.layout, u, 1, box.layout.site({5, 5})) ==
-        Approx(0).margin(1e-15));  // only tangential counts
+  CHECK(excess_of_mean(box.layout, u, 1, box.layout.site({5, 5})) == Approx(0).margin(1e-15));  // no tangential change
   DomainSpec channel = walls<2>();
   channel.sides[0][0].type = SideType::inflow;
   const FaceField<2, char> valid(box.layout, 1);
