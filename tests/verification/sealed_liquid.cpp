@@ -130,7 +130,7 @@ std::pair<double, double> sweeping_errors() {
   return {sums.cwiseAbs().maxCoeff() / size, flux_error};
 }
 
-// Water between two elastic walls that are held by the floor and by a descending plate.
+// Water between two elastic walls pinned to the floor and to a descending plate.
 Scene flooded_bellows() {
   Scene s = box_scene(2, 80);
   s.gravity = {0, -9.81, 0};

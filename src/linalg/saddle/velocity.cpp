@@ -125,7 +125,7 @@ void VelocityPreconditioner::find_directions() {
   multiply_out(GM);
 }
 
-// Solves F W ~ G m for each direction. An accurate W saves outer iterations if light bodies are held by viscosity only.
+// Solves F W ~ G m for each direction. An accurate W saves outer iterations if only viscosity couples light bodies.
 std::vector<SparseVector> VelocityPreconditioner::extend(const std::vector<Vector>& GM) const {
   constexpr double enough = 1e-3, roughly = 1e-2;
   constexpr int at_most = 12;
