@@ -179,7 +179,7 @@ void SolidGeometry<Dim>::measure_static() {
   for (FaceShares& s : shares) still_.shares.push_back(std::make_shared<const FaceShares>(std::move(s)));
 }
 
-// Shares that body k closes if no other moving body is there. Sets its attachments if it deforms.
+// Shares that body k closes without other moving bodies. Sets its attachments if it deforms.
 template <int Dim>
 FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, NodeField<Dim>& scratch,
                                               StepGeometry<Dim>& g) const {
@@ -222,9 +222,10 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const PlacedSolid<Dim>& solid, con
   return shares;
 }
 
-// Static bodies keep their share of a face. Moving ones share the rest in proportion to what each would close alone, if
-// together they would close more or leave a gap below the tolerance. At joints the gap from psi of all solids together
-// counts, if smaller. At edges psi is not linear, so the shares of two touching solids leave slits.
+// Static bodies keep their share of a face. Moving ones share the rest in proportion to the share that each would close
+// alone. They are scaled if together they would close more, or leave a gap below the tolerance. At joints the gap from
+// psi of all solids together counts, if smaller. At edges psi is not linear, so the shares of two touching solids leave
+// slits.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
   FaceField<Dim> moving(layout_);

@@ -14,8 +14,8 @@
 namespace seiche {
 namespace {
 
-// Record names of the time levels. All levels are always stored. Levels that do not exist yet are zero, and the scalar
-// "levels" tells their number.
+// Record names of the time levels. All levels are always stored. Levels that do not exist yet are zero; the scalar
+// "levels" is the number that exist.
 using LevelNames = std::array<const char*, 3>;
 constexpr LevelNames level_names{"now", "before", "earlier"};
 constexpr LevelNames gas_level_names{"gas.now", "gas.before", "gas.earlier"};

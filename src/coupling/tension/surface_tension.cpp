@@ -39,9 +39,9 @@ double link_density(const Fluids& fluids, double phi_low, double phi_high) {
 
 // Averages kappa over links that the surface crosses next to the centre of their liquid cell. Such links cross it at
 // about the same point, but errors of their jumps act on almost massless faces. The flow through the cell would gain
-// rho/rho_f times that error (for one step, 15 m/s in a drop that oscillates at 0.4 m/s). Below rho_f/rho = 1/50, kappa
-// goes over to a mean of such links of the cell, weighted by rho/rho_f - 50. On other links kappa varies along the
-// surface, and that accelerates the liquid along it. Halos of kappa and crossed must be filled.
+// rho/rho_f times that error. In a drop that oscillates at 0.4 m/s it reached 15 m/s for one step. Below rho_f/rho =
+// 1/50, kappa goes over to a mean of such links of the cell, weighted by rho/rho_f - 50. On other links kappa varies
+// along the surface, and that accelerates the liquid along it. Halos of kappa and crossed must be filled.
 template <int Dim>
 void agree_in_slivers(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
                       const FaceField<Dim, char>& crossed, FaceField<Dim>& kappa) {

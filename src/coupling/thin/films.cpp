@@ -35,8 +35,8 @@ Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
   return film;
 }
 
-// If w u^2 is conserved, a plate of width L that lifts off a floor obeys (v/delta)' = F/k - (v/delta)^2/2 with k = rho
-// L^3/12. This is the exact law for inviscid liquid that enters from rest.
+// A plate of width L lifts off a floor with (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, if w u^2 is conserved.
+// This is the exact law for inviscid liquid that enters from rest.
 template <int Dim>
 void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film, const Vec3& g,
                        double dt, FaceField<Dim>& u) {

@@ -17,8 +17,8 @@ Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
 
 // On faces of slits that have widened,
 //   u = film.u sqrt(film.open/open) + dt g.
-// The velocity extrapolated from beside a slit misses the motion of the liquid within it. That liquid has most of the
-// inertia of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
+// The velocity extrapolated from beside a slit misses the motion of the liquid within it, which has most of the inertia
+// of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
 template <int Dim>
 void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film,
                        const Vec3& gravity, double dt, FaceField<Dim>& u);

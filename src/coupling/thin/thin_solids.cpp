@@ -72,8 +72,8 @@ struct ThinSolids {
     return phi;
   }
 
-  // phi of a cell that is wet while the cell across sealed face f is dry, or of the cell behind it if that is deeper.
-  // `away`: direction away from the face, +-1.
+  // phi of wet cell `wet` beside sealed face f, dry across it, or of the cell behind if that is deeper. `away`:
+  // direction away from the face, +-1.
   double as_behind(const CellField<Dim>& phi, const SealedFace& f, Site wet, int away) const {
     const Site d = away * domain.layout.stride(f.axis), between = away > 0 ? wet + d : wet;
     return sealed.at(f.axis, between) ? phi[wet] : std::min(phi[wet], phi[wet + d]);

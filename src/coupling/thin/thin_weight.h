@@ -12,7 +12,7 @@ namespace seiche {
 // the body moves with it and weighs on it. Its mass per unknown, kg, is
 //   sum_f s A rho (d_low + d_high),
 // with d the gaps of cells with a row, and h/2 for cells that sealed faces shut in. Nodes share it with the weights of
-// the face velocity. A wet body then feels rho g times its volume along each axis, columns of liquid rest on it with
+// the face velocity. A wet body then feels rho g times its volume along each axis. Columns of liquid rest on it with
 // full weight, and light sheets have inertia. The momentum (kg m/s) is that of the last face velocity u_f, the liquid's
 // if the face was open. Nodes that lag or race without effect on any face contribute none. The deviation a of a node
 // from the face mean decays by |a| a/h, as motion through liquid over one cell does. Collective.

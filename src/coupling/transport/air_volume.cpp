@@ -102,9 +102,9 @@ Overlaps overlaps(const Domain<Dim>& domain, const AirRegions<Dim>& before, cons
   return all;
 }
 
-// Drops overlaps that are noise. Where a rim cuts off the surface, cells beside it alternate between both sides, and
-// each would carry a cell of air along. So up to 2^Dim cells between a persisting region and the open air do not count.
-// Splinters smaller than one cell (`cell`, m^Dim) leave their volume to the larger part and vanish.
+// Drops overlaps that are noise. At a rim that cuts off the surface, cells alternate between both sides, and each would
+// carry a cell of air along. So up to 2^Dim cells between a persisting region and the open air do not count. Splinters
+// smaller than one cell (`cell`, m^Dim) leave their volume to the larger part and vanish.
 template <int Dim>
 Overlaps without_blur(Overlaps cells, const std::vector<double>& measured, std::size_t before, double cell) {
   constexpr double blur = 1 << Dim;

@@ -22,9 +22,10 @@ template <int Dim>
 std::vector<double> air_volumes(const Domain<Dim>& domain, const AirRegions<Dim>& air, const NodeField<Dim>& psi,
                                 const CellField<Dim>& phi);
 
-// Shifts phi around each region so that it has its volume, and at open surfaces so that the liquid has the expected one
-// (m^Dim). Shifts are at most `limit` (m). Without open air both cannot hold: the regions then share the space that the
-// liquid leaves, in proportion to their volumes. Returns the liquid restored, m^Dim. Fills ghosts. Collective.
+// Shifts phi around each region so that it has its volume. Shifts phi at open surfaces so that the liquid has the
+// expected volume (m^Dim). Shifts are at most `limit` (m). Without open air both cannot hold: the regions then share
+// the space that the liquid leaves, in proportion to their volumes. Returns the liquid restored, m^Dim. Fills ghosts.
+// Collective.
 template <int Dim>
 double control_volumes(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, double expected, double limit,
                        AirRegions<Dim>& air, CellField<Dim>& phi);

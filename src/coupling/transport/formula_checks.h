@@ -22,8 +22,8 @@ std::string not_finite_text(const std::string& key, const Formula& formula, doub
 // The first nonempty text in the order of the ranks, on all ranks. Collective.
 std::string first_text(const Communicator& ranks, const std::string& mine);
 
-// Throws Error(bad_input) with `fault`, if any. Also throws if gravity, the viscosity or the formula of a side is not
-// finite at t = 0, or that of a source when it first opens, or if the viscosity is negative. Collective.
+// Throws Error(bad_input) with `fault`, if any, or on a formula that is not finite. Checked are gravity, sides and
+// viscosity (also for negative values) at t = 0, and each source when it first opens. Collective.
 template <int Dim>
 void check_formulas_at_start(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const std::string& fault);
 

@@ -17,8 +17,8 @@ double limit_of_given_flow(const Domain<Dim>& domain, const TimeSpec& time, cons
 template <int Dim>
 double fastest_given_flow(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t, double dt);
 
-// Longest first step up to dt (s) in which the initial velocities of elastic bodies cause an elastic energy of at most
-// 1e-3 of their kinetic energy.
+// Longest first step up to dt (s) after which the initial velocities have given elastic bodies an elastic energy of at
+// most 1e-3 of their kinetic energy.
 template <int Dim>
 double limit_of_given_velocity(const State<Dim>& start, double dt);
 

@@ -36,10 +36,10 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi);
 
 // Keeps phi on the two sides of thick elastic walls apart. In elastic bodies phi moves with the body only near its
-// surface. Deeper inside it stays behind, and liquid from one side would emerge at the other. From a depth of 1.5 cells
-// on, for four layers, phi is compared with that of the nearest cells less deep. That is the mean of the neighbours one
-// layer nearer to them. If the signs differ, phi takes this value. Cells less deep count as they are, also along sides
-// and solids that the body touches. All other cells are left alone. Fills ghosts. Collective.
+// surface. Deeper inside it stays behind, and liquid from one side would emerge at the other. Four layers from a depth
+// of 1.5 cells on are checked against the nearest cells less deep: phi with another sign takes their value, the mean of
+// the neighbours one layer nearer to them. Cells less deep count as they are, also along sides and solids that the body
+// touches. Other cells keep phi. Fills ghosts. Collective.
 template <int Dim>
 void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, CellField<Dim>& phi);
 

@@ -15,7 +15,7 @@ namespace {
 
 // Distance (m) to the liquid that a source brings: its shape moved with its own velocity, min over the ages a of
 // shape(x - a v(x)). Ages are at most one cell's crossing apart. The sum of the domain's cells over all axes bounds
-// their number. Where the velocity's formula is not finite, the shape is not moved.
+// their number. The shape is not moved to points at which the velocity's formula is not finite.
 template <int Dim>
 double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open,
                            const Vec<Dim>& x) {

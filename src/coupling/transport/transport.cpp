@@ -259,7 +259,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   return u;
 }
 
-// Merges the gas's velocity into u: liquid faces keep u, gas faces take the gas's. Where the surface crosses a link,
+// Merges the gas's velocity into u: liquid faces keep u, gas faces take the gas's. On links that the surface crosses,
 // momenta add up, rho_f u = theta rho u_liquid + (1 - theta) rho_gas u_gas.
 template <int Dim>
 void join(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, const FaceField<Dim>& gas,

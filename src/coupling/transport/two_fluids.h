@@ -11,10 +11,10 @@ namespace seiche {
 template <int Dim>
 FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
 
-// True if one velocity, interpolated across the surface, transports both fluids and the surface. That holds for
-// densities within a factor of 4 and no surface tension. Interpolation then exchanges little momentum between the
-// fluids. Separate flows extrapolated beyond the surface would transport shear at the surface wrongly. That makes a
-// dent at the top of a Rayleigh-Taylor bubble.
+// True if one velocity, interpolated across the surface, transports both fluids and the surface: densities within a
+// factor of 4 and no surface tension. Interpolation then exchanges little momentum between the fluids. Separate flows
+// extrapolated beyond the surface would transport shear at the surface wrongly, with a dent at the top of a
+// Rayleigh-Taylor bubble.
 bool flow_as_one(const Fluids& fluids);
 
 // Time levels of the composite flow. Collective.
@@ -23,8 +23,8 @@ Flow<Dim> flow_of_both(const Domain<Dim>& domain, const Fluids& fluids, const St
 
 // Velocity that transports the surface, m/s: the composite one if flow_as_one(). Otherwise it depends on the Reynolds
 // number of a cell. Up to 10 it is the mean of both extrapolated flows, which agree there but for errors of
-// extrapolation. From 20 on it is the liquid's alone, since the fluids may slip along each other on the scale of the
-// grid. In between it goes from one to the other. Without surface tension or with variable viscosity it is the
+// extrapolation. From 20 on it is the liquid's velocity, since the fluids may slip along each other on the scale of the
+// grid. Between 10 and 20 it is blended linearly. Without surface tension or with variable viscosity it is the
 // liquid's. Collective.
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state);

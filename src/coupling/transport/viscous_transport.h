@@ -18,8 +18,8 @@ struct ViscousPlan {
   bool full = false;
   // Share of the viscous stress that is taken at the end of the step. With 9/16, 3/8 at the start and 1/16 a step
   // earlier, the error in time is a quarter of that of 1 with a trend. Bodies would not feel the explicit shares. With
-  // the explicit terms of fourth order, stability ends at mu dt/(rho h^2) of about 1. So it is used in full domains
-  // without bodies, up to 1/2.
+  // the explicit terms of fourth order, stability ends at mu dt/(rho h^2) of about 1. So 9/16 is used only in full
+  // domains without bodies, up to 1/2.
   double implicit = 1;
 };
 
