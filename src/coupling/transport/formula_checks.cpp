@@ -17,7 +17,8 @@
 namespace seiche {
 namespace {
 
-// Empty, or what is not finite at a face of a side at time t: all components, also those that the flow does not feel.
+// Names a value that is not finite at a face of a side at time t; else empty. Checks all components, also those that do
+// not act on the flow.
 template <int Dim>
 std::string fault_at_side(const Domain<Dim>& domain, const DomainSpec& extent, int axis, int side, const Vec<Dim>& x,
                           double t) {
@@ -35,7 +36,7 @@ std::string fault_at_side(const Domain<Dim>& domain, const DomainSpec& extent, i
   return {};
 }
 
-// The first of this rank's faults on faces that solids leave open.
+// First fault of this rank on faces of the sides that solids leave open.
 template <int Dim>
 std::string fault_of_sides(const Domain<Dim>& domain, const DomainSpec& extent, const StepGeometry<Dim>& g, double t) {
   std::string fault;
