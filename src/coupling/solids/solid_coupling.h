@@ -25,7 +25,7 @@ struct SolidCoupling {
   BlockColumns J_held;   // columns of J of pinned nodes alone
   SparseMatrix mass;     // M; elastic bodies: dt H (M/gamma^2 + C/gamma), see IncrementalPotential
   Eigen::VectorXd push;  // M v*, v* the velocities without liquid, contact and elastic forces
-  Eigen::VectorXd free;  // without liquid and contact; elastic bodies: v + dt g, as a scale only
+  Eigen::VectorXd free;  // without liquid and contact; elastic bodies: v + dt g, a scale and first guess
   // v* of rigid bodies, with the buoyancy correction; else 0.
   Eigen::VectorXd target;
   // Loads for the difference between a body's volume and that of its face shares: wet bodies feel exactly rho g times
