@@ -17,7 +17,7 @@ namespace seiche {
 namespace {
 
 constexpr std::size_t most_lines = 20;        // of solids
-constexpr double nothing = 1e-6, all = 1e-3;  // shares of a volume that count as none, as lost
+constexpr double nothing = 1e-6, all = 1e-3;  // tolerances as shares of a volume: for none, and for losses
 
 template <int Dim>
 std::string place_text(const Vec3& x) {
@@ -73,7 +73,7 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   if (whole - wet > all * whole)
     line += fmt::format("; {} of its regions lies inside solids", volume_text<Dim>(whole - wet));
   account.lines.push_back(line);
-  constexpr std::size_t most_regions = 20;  // each takes a look at the whole grid
+  constexpr std::size_t most_regions = 20;  // each costs a loop over the whole grid
   for (std::size_t k = 0; k < std::min(most_regions, fluids.liquid.regions.size()); ++k)
     account_region(domain, fluids, k, psi, account);
 }
