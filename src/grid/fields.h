@@ -1,9 +1,9 @@
 #pragma once
 // Fields whose type states the location of their values. All fields of a rank have the shape of its Layout.
 #include <array>
-#include <vector>
 
 #include "grid/layout.h"
+#include "grid/recycled_memory.h"
 
 namespace seiche {
 
@@ -24,7 +24,7 @@ class Field {
   void fill(T value) { std::fill(data_.begin(), data_.end(), value); }
 
  private:
-  std::vector<T> data_;
+  FieldValues<T> data_;
 };
 
 template <int Dim, class T = double>
@@ -40,8 +40,8 @@ class FaceField {
   explicit FaceField(const Layout<Dim>& layout, T value = T{}) {
     for (auto& c : components_) c.assign(std::size_t(layout.size()), value);
   }
-  std::vector<T>& operator[](int axis) { return components_[axis]; }
-  const std::vector<T>& operator[](int axis) const { return components_[axis]; }
+  FieldValues<T>& operator[](int axis) { return components_[axis]; }
+  const FieldValues<T>& operator[](int axis) const { return components_[axis]; }
   T& at(int axis, Site s) { return components_[axis][std::size_t(s)]; }
   const T& at(int axis, Site s) const { return components_[axis][std::size_t(s)]; }
   void fill(T value) {
@@ -49,7 +49,7 @@ class FaceField {
   }
 
  private:
-  std::array<std::vector<T>, Dim> components_;
+  std::array<FieldValues<T>, Dim> components_;
 };
 
 // One component per plane of rotation, on the low edge of each cell. In 3D component c is on edges along axis c; in 2D
@@ -62,11 +62,11 @@ class EdgeField {
   explicit EdgeField(const Layout<Dim>& layout, T value = T{}) {
     for (auto& c : components_) c.assign(std::size_t(layout.size()), value);
   }
-  std::vector<T>& operator[](int edge) { return components_[edge]; }
-  const std::vector<T>& operator[](int edge) const { return components_[edge]; }
+  FieldValues<T>& operator[](int edge) { return components_[edge]; }
+  const FieldValues<T>& operator[](int edge) const { return components_[edge]; }
 
  private:
-  std::array<std::vector<T>, count> components_;
+  std::array<FieldValues<T>, count> components_;
 };
 
 }  // namespace seiche

@@ -18,8 +18,8 @@ double minmod(double a, double b) {
 template <int Dim>
 struct Predictor {
   const Layout<Dim>& layout;
-  const std::vector<double>& f;
-  const std::vector<char>& known;
+  const FieldValues<double>& f;
+  const FieldValues<char>& known;
   int linear_layers;
 
   bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
@@ -50,8 +50,8 @@ struct Predictor {
 template <int Dim>
 struct StraightPredictor {
   const Layout<Dim>& layout;
-  const std::vector<double>& f;
-  const std::vector<char>& known;
+  const FieldValues<double>& f;
+  const FieldValues<char>& known;
   double limit;
 
   bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
@@ -81,8 +81,8 @@ struct StraightPredictor {
 // Fills unknown sites with the predictor's values, layer by layer.
 template <int Dim, class Predictor>
 void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
-                 const Predictor& predictor, std::vector<double>& f, std::vector<char>& known) {
-  std::vector<char> next = known;  // neighbours still read `known` while this is written
+                 const Predictor& predictor, FieldValues<double>& f, FieldValues<char>& known) {
+  FieldValues<char> next = known;  // neighbours still read `known` while this is written
   for (int n = 0; n < layers; ++n) {
     const char layer = char(n + 2);
     for_each_site(layout, box, [&](Site s) {
@@ -102,7 +102,7 @@ void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
 
 template <int Dim>
 void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
-                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known) {
+                 const ExtrapolateOptions& options, FieldValues<double>& f, FieldValues<char>& known) {
   halo.fill_ghosts({f.data()});
   halo.fill_ghosts({known.data()});
   const Predictor<Dim> predictor{layout, f, known, options.linear_layers};
@@ -111,7 +111,7 @@ void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
 
 template <int Dim>
 void extrapolate_straight(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
-                          double limit, std::vector<double>& f, std::vector<char>& known) {
+                          double limit, FieldValues<double>& f, FieldValues<char>& known) {
   halo.fill_ghosts({f.data()});
   halo.fill_ghosts({known.data()});
   const StraightPredictor<Dim> predictor{layout, f, known, limit};
@@ -119,12 +119,12 @@ void extrapolate_straight(const Layout<Dim>& layout, const Halo<Dim>& halo, cons
 }
 
 template void extrapolate<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, const ExtrapolateOptions&,
-                             std::vector<double>&, std::vector<char>&);
+                             FieldValues<double>&, FieldValues<char>&);
 template void extrapolate<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, const ExtrapolateOptions&,
-                             std::vector<double>&, std::vector<char>&);
+                             FieldValues<double>&, FieldValues<char>&);
 template void extrapolate_straight<2>(const Layout<2>&, const Halo<2>&, const Box<2>&, int, double,
-                                      std::vector<double>&, std::vector<char>&);
+                                      FieldValues<double>&, FieldValues<char>&);
 template void extrapolate_straight<3>(const Layout<3>&, const Halo<3>&, const Box<3>&, int, double,
-                                      std::vector<double>&, std::vector<char>&);
+                                      FieldValues<double>&, FieldValues<char>&);
 
 }  // namespace seiche

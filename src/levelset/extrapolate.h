@@ -14,13 +14,13 @@ struct ExtrapolateOptions {
 // domain are not filled. Collective.
 template <int Dim>
 void extrapolate(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box,
-                 const ExtrapolateOptions& options, std::vector<double>& f, std::vector<char>& known);
+                 const ExtrapolateOptions& options, FieldValues<double>& f, FieldValues<char>& known);
 
 // The same, but only linearly, for distances in metres. Values of magnitude `limit` and more do not count, since they
 // may be clamped. A site needs two known sites in a line behind it; a slope from just two is limited to 1. Other sites
 // wait for later layers and keep their value if none reaches them.
 template <int Dim>
 void extrapolate_straight(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
-                          double limit, std::vector<double>& f, std::vector<char>& known);
+                          double limit, FieldValues<double>& f, FieldValues<char>& known);
 
 }  // namespace seiche

@@ -9,17 +9,18 @@ struct RedistanceOptions {
   int iterations = 8;  // each carries distance 0.45 cells outwards
   int entering = 2;    // layers beyond the band that may enter it: the interface's motion since the last call, cells
   // Width of closest-point redistancing on each side of the zero, cells; at most halo - 1. 0: relaxation only.
-  double settled = 0;
+  double closest_point_cells = 0;
 };
 
 // Redistances phi (m). Cells where `kept` is set are read but keep phi. Fills ghosts. Collective.
 //
 // Relaxes |grad phi| = 1 in pseudo-time with second-order ENO differences that stop at the interface (Russo, Smereka
 // 2000; du Chene, Min, Gibou 2008). This moves the zero by some 1e-3 cells per call, non-uniformly, so that volume
-// drifts and curvature becomes noisy. Within `settled` cells, closest-point redistancing is used instead: phi <- phi +
-// w (d - phi), d the distance from the zero of the cubic interpolant (levelset/closest_point.h). The weight w grows
-// from 0 at a relative error of 2 % to 1 at 10 %. The correction thus depends on the distortion of phi, not on the
-// number of calls. If no closest point is found, phi stays if |grad phi| is within 0.1 of 1, and is relaxed otherwise.
+// drifts and curvature becomes noisy. Within `closest_point_cells` cells, closest-point redistancing is used instead:
+// phi <- phi + w (d - phi), d the distance from the zero of the cubic interpolant (levelset/closest_point.h). The
+// weight w grows from 0 at a relative error of 2 % to 1 at 10 %. The correction thus depends on the distortion of phi,
+// not on the number of calls. If no closest point is found, phi stays if |grad phi| is within 0.1 of 1, and is relaxed
+// otherwise.
 template <int Dim>
 void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
                 const CellField<Dim, char>* kept = nullptr);

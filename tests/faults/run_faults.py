@@ -142,7 +142,7 @@ def scene_is_accounted_for(bench):
             for figure, right in zip(figures.groups(), (0.4, 400.0, 0.11)):   # corners are cut off within their cells
                 expect(abs(float(figure) - right) < 0.05 * right, f"{figure} where {right} is right")
     thin = '[[solid]]\nname = "sheet"\nkind = "static"\nshape = "box"\nlower = [0.5, 0.2]\nupper = [0.51, 0.9]\n'
-    bench.run("check", bench.scene(box_scene([16, 16], pool, thin))).needs(0, "off: steps by halves (because of: solids thinner than a cell)")
+    bench.run("check", bench.scene(box_scene([16, 16], pool, thin))).needs(0, "off: leapfrog of surface and velocity (because of: solids thinner than a cell)")
 
 
 def nothing_to_do(bench):

@@ -95,7 +95,7 @@ TEST_CASE("a body let go in liquid is not late after long steps") {
 
 // A disc sinks to the floor. Steps are leapfrog, x1 = x0 + dt/2 (v0 + v1), until it could touch within two steps, and
 // full steps from then on. A run resumed from a checkpoint at any step gives the same bits.
-TEST_CASE("steps by halves and whole ones go on from a checkpoint with the same bits") {
+TEST_CASE("leapfrog steps and whole ones go on from a checkpoint with the same bits") {
   Scene s = test::box_scene(2, 24);
   s.gravity = {0, -9.81, 0};
   test::add_pool(s, 0.8);
@@ -118,7 +118,7 @@ TEST_CASE("steps by halves and whole ones go on from a checkpoint with the same 
     if (disc.velocity.norm() > 1e-3) ++(off.norm() < 1e-14 ? by_halves : as_whole);  // at rest both agree
     touching += a.contacts > 0;
   }
-  WARN(by_halves << " steps by halves, " << as_whole << " as a whole, " << touching << " in contact");
+  WARN(by_halves << " leapfrog steps, " << as_whole << " as a whole, " << touching << " in contact");
   CHECK(by_halves >= 3);
   CHECK(as_whole >= 1);
   CHECK(touching >= 3);

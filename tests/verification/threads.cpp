@@ -43,7 +43,7 @@ double aslant(int dim, double width) {
 // Cubic interpolation across the middle of a thread, where phi has a kink, widened threads by 178, 61, 13 % over this
 // distance of 16 cells along an axis in 2D, and by 120, 17, 1.4 % at 45 degrees. One-sided interpolation gives 0.5,
 // 1.7, 1.2 % and 1.3, 2.4, 0.3 %; sheets in 3D, at half the distance, less. The rest is due to redistancing and to
-// kinks that count in part. The bars are about twice these values.
+// medial axes that count in part. The bars are about twice these values.
 TEST_CASE("threads and sheets of liquid fly on about as thick as they are") {
   const std::pair<double, double> bars[] = {{2, 0.03}, {3, 0.05}, {4, 0.025}};  // width in cells; bar
   std::string text;

@@ -13,7 +13,7 @@ namespace {
 
 // du_b/dx_a at cell centres by central differences of face means.
 template <int Dim>
-double cell_gradient(const Layout<Dim>& layout, const std::vector<double>& u, int b, int a, Site c) {
+double cell_gradient(const Layout<Dim>& layout, const FieldValues<double>& u, int b, int a, Site c) {
   const Site da = layout.stride(a), db = layout.stride(b);
   if (a == b) return (u[c + da] - u[c]) / layout.h();
   return (u[c + da] + u[c + da + db] - u[c - da] - u[c - da + db]) / (4 * layout.h());
@@ -60,7 +60,7 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
   if (name == "surface")
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
   else if (name == "vel")
-    fill(FrameField::Kind::staggered_vector, [&, u = of_both(domain, state, &Level<Dim>::u)](Site c) {
+    fill(FrameField::Kind::staggered_vector, [&, u = of_both(domain, state, &TimeLevel<Dim>::u)](Site c) {
       for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(u.at(std::min(a, Dim - 1), c)) : 0.0f);
     });
   else if (name == "pressure")
@@ -69,7 +69,7 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
     fill(FrameField::Kind::scalar,
          [&, mu = viscosity(domain, fluids, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
-    fill(FrameField::Kind::scalar, [&, u = of_both(domain, state, &Level<Dim>::u)](Site c) {
+    fill(FrameField::Kind::scalar, [&, u = of_both(domain, state, &TimeLevel<Dim>::u)](Site c) {
       out.values.push_back(float(vorticity(domain, fluids, state, u, c)));
     });
   else

@@ -61,8 +61,8 @@ bool has_pressure(const Domain<Dim>& domain, const Fluids& fluids, const State<D
 // Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall.
 template <int Dim>
 double pressure_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
-  std::vector<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
-  std::vector<char> known(p.size(), 0);
+  FieldValues<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
+  FieldValues<char> known(p.size(), 0);
   const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
   for_each_site(domain.layout, domain.layout.cells(),
                 [&](Site c) { known[c] = (state.phi[c] < 0) == in_liquid && p[c] != 0; });
@@ -155,7 +155,7 @@ std::map<std::string, MaterialPoint> find_followed_points(const std::vector<Prob
 // Velocity at x, equal on all ranks; zero if nothing flows there. Collective.
 template <int Dim>
 Vec3 velocity_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
-  const FaceField<Dim> u = of_both(domain, state, &Level<Dim>::u);
+  const FaceField<Dim> u = of_both(domain, state, &TimeLevel<Dim>::u);
   Vec3 v = Vec3::Zero();
   if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, u, x));
   domain.ranks.global_sum(std::span<double>(v.data(), 3));

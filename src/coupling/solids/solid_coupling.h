@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -32,13 +32,13 @@ struct SolidCoupling {
   // their volume. Rigid bodies: force and torque (N, N m). Elastic bodies: nodal forces (N), which for thin ones are
   // the weight of the liquid beside them. Else 0.
   Eigen::VectorXd buoyancy_correction;
-  // Mass (kg) and momentum before the step (kg m/s) of liquid that moves with thin elastic bodies (thin_weight.h). Both
-  // are part of `mass` and `push`.
+  // Mass (kg) and momentum before the step (kg m/s) of liquid that moves with thin elastic bodies (liquid_beside.h).
+  // Both are part of `mass` and `push`.
   Eigen::VectorXd mass_beside, momentum_beside;
   std::vector<Freedom> freedom;
   Eigen::VectorXd held;                                // prescribed velocities of fixed unknowns; else 0
   std::shared_ptr<const VelocityPotential> potential;  // null: none
-  std::vector<SweptCavity<Dim>> swept;
+  std::vector<CavityConstraint<Dim>> cavities;
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // one a block: fluxes beyond those of the face shares
 
   int size() const { return first.back(); }

@@ -55,13 +55,22 @@ FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, dou
 
 template <int Dim>
 ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometry<Dim>& faces) {
-  return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.parting, p.gas_density, nullptr, p.air};
+  return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.separation, p.gas_density, nullptr, p.air};
 }
 
 template <int Dim>
 void take_loads(const ViscousStep<Dim>& viscous, const FaceField<Dim>& u, CoupledSolution<Dim>& r) {
   r.viscous_loads = viscous.loads(u, r.solids);
   r.dissipation = viscous.dissipation(u, r.solids);
+}
+
+// Drag of the velocities u on the unknowns of the solids, N, the same on all ranks.
+template <int Dim>
+Eigen::VectorXd drag_on_solids(const ViscousStep<Dim>& viscous, const Vector& u, const Communicator& ranks) {
+  Eigen::VectorXd drag = multiply_transposed(viscous.system().G, u, ranks);
+  drag += multiply_transposed(viscous.G_held(), u, ranks);
+  make_identical(drag, ranks);
+  return drag;
 }
 
 }  // namespace
@@ -90,16 +99,13 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   }
   const SaddleReport report = solver.solve_viscous(H, system.f, push, u, v);
   r.report.iterations = report.iterations;
-  r.report.ladder = report.ladder;
+  r.report.failed_attempts = report.failed_attempts;
   if (!report.converged) {
     r.failure = fmt::format("the solve of viscosity stopped at residual {:.2e} after {} iterations", report.residual,
                             report.iterations);
     return;
   }
-  Eigen::VectorXd drag = multiply_transposed(system.G, u, in.setup.domain.ranks);
-  drag += multiply_transposed(viscous.G_held(), u, in.setup.domain.ranks);
-  make_identical(drag, in.setup.domain.ranks);
-  coupling.push += system.g - system.Hvv * v - drag;
+  coupling.push += system.g - system.Hvv * v - drag_on_solids(viscous, u, in.setup.domain.ranks);
   FaceField<Dim> moved = pressed;
   viscous.scatter(u, moved);
   fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.domain.sides, moved);

@@ -10,7 +10,7 @@
 namespace seiche {
 
 // A step from `start` to start + dt. The solve finds surface and solids `lead` after the start: half-way in a leapfrog
-// step (half_steps.h), else at the end.
+// step (leapfrog.h), else at the end.
 struct StepTimes {
   double start, dt, lead;  // s
   bool leapfrog;

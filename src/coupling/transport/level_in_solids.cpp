@@ -21,8 +21,8 @@ bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
 
 // 1 in the cells of the domain, except those deeper than `depth` in deforming bodies.
 template <int Dim>
-std::vector<char> cells_near_outside(const Domain<Dim>& domain, const StepGeometry<Dim>& g) {
-  std::vector<char> near(std::size_t(domain.layout.size()), 0);
+FieldValues<char> cells_near_outside(const Domain<Dim>& domain, const StepGeometry<Dim>& g) {
+  FieldValues<char> near(std::size_t(domain.layout.size()), 0);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     const bool deep =
         is_in_deformed(g, c) && distance_at_cell(domain.layout, g.psi, c).first <= -depth * domain.layout.h();
@@ -75,9 +75,9 @@ template <int Dim>
 void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                         CellField<Dim>& phi) {
   if (solids.bodies.empty()) return;
-  std::vector<char> known(std::size_t(domain.layout.size()), 0);
+  FieldValues<char> known(std::size_t(domain.layout.size()), 0);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) { known[std::size_t(c)] = closed[c] ? 0 : 1; });
-  std::vector<double> f(phi.data(), phi.data() + domain.layout.size());
+  FieldValues<double> f(phi.data(), phi.data() + domain.layout.size());
   extrapolate_straight(domain.layout, domain.halo, domain.layout.cells(), layers, (1 - 1e-9) * domain.band(), f, known);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) { phi[c] = f[std::size_t(c)]; });
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
@@ -127,9 +127,10 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
 
 template <int Dim>
 void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (std::none_of(g.attached.begin(), g.attached.end(), [](const auto& list) { return list != nullptr; })) return;
-  std::vector<char> known = cells_near_outside(domain, g);
-  std::vector<double> outside(phi.data(), phi.data() + domain.layout.size());
+  if (std::none_of(g.face_weights.begin(), g.face_weights.end(), [](const auto& list) { return list != nullptr; }))
+    return;
+  FieldValues<char> known = cells_near_outside(domain, g);
+  FieldValues<double> outside(phi.data(), phi.data() + domain.layout.size());
   extrapolate(domain.layout, domain.halo, domain.layout.cells(), {layers, 0}, outside, known);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     const double value = outside[std::size_t(c)];

@@ -78,7 +78,7 @@ FaceField<Dim, char> uncut_faces(const Domain<Dim>& domain, const StepGeometry<D
 template <int Dim>
 void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f) {
   for (int a = 0; a < Dim; ++a) {
-    std::vector<char> known = valid[a];
+    FieldValues<char> known = valid[a];
     extrapolate(domain.layout, domain.halo, domain.layout.faces(a), {domain.extrapolated_layers(), 2}, f[a], known);
   }
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);

@@ -81,7 +81,7 @@ bool BodyMatrix::factor_shared() {
 }
 
 bool BodyMatrix::set(SparseMatrix H) {
-  H_ = std::move(H);
+  H_.swap(H);  // Eigen 3.4 copies where it should move
   find_parts();
   share_out();
   bool good = factor_shared();

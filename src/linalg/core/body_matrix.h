@@ -23,7 +23,7 @@ class BodyMatrix {
   // are unchanged reuse their ordering. Collective.
   [[nodiscard]] bool set(SparseMatrix H);
   // Stores H without factors: products and size only.
-  void keep(SparseMatrix H) { H_ = std::move(H); }
+  void keep(const SparseMatrix& H) { H_ = H; }
   const SparseMatrix& matrix() const { return H_; }
   int size() const { return int(H_.rows()); }
   // H^-1 b, the same bits on all ranks. Collective.

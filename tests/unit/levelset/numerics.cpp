@@ -111,8 +111,8 @@ TEMPLATE_TEST_CASE_SIG("redistancing leaves planes alone and keeps the volume of
 
 TEST_CASE("extrapolation continues straight lines, then constants, and nothing from thin drops") {
   const Fixture<2> f(16);
-  std::vector<double> u(std::size_t(f.layout.size()), -99.0);
-  std::vector<char> known(u.size(), 0);
+  FieldValues<double> u(std::size_t(f.layout.size()), -99.0);
+  FieldValues<char> known(u.size(), 0);
   for_each_index_in_order(f.layout, f.layout.cells(), [&](Site s, const IVec<2>& i) {
     if (i[0] < 6) u[s] = 3.0 * i[0], known[s] = 1;
   });

@@ -1,0 +1,48 @@
+#pragma once
+// The sides of the domain: boundary conditions, and the values beyond the sides.
+#include <vector>
+
+#include "base/domain_spec.h"
+#include "base/expression.h"
+#include "grid/ghosts.h"
+#include "grid/halo.h"
+
+namespace seiche {
+
+// Tangential condition at no-slip and moving walls. slips: none, for inviscid liquid. sticks: the wall's velocity.
+enum class WallFlow { slips, sticks };
+
+template <int Dim>
+class DomainBoundary {
+ public:
+  explicit DomainBoundary(const DomainSpec& domain, WallFlow flow = WallFlow::slips);
+
+  SideType type(int axis, int side) const { return types_[axis][side]; }
+  bool is_outflow(int axis, int side) const { return type(axis, side) == SideType::outflow; }
+  // Velocity of the wall or the inflow at x, m/s (one component); 0 on sides of other types.
+  double velocity(int axis, int side, int component, const Vec<Dim>& x, double t) const;
+  // Pressure beyond an outflow side, Pa.
+  double pressure(int axis, int side, const Vec<Dim>& x, double t) const;
+  // Speed into the domain through an inflow side, m/s; 0 if the flow points outward or the side is of another type.
+  double inward_speed(int axis, int side, const Vec<Dim>& x, double t) const;
+  bool any_inflow() const;
+
+  // True if liquid has the tangential velocity of this side.
+  bool sticks(int axis, int side) const;
+  // Extension of a velocity component beyond the sides: constant at inflow and outflow, linear for tangential
+  // components at walls that liquid sticks to, mirror at other walls.
+  Extensions<Dim> velocity_extensions(int component) const;
+
+ private:
+  std::array<std::array<SideType, 2>, Dim> types_{};
+  WallFlow flow_;
+  std::vector<VectorExpression> velocity_;
+  std::vector<Expression> pressure_;
+};
+
+// Halo exchange and extension beyond the sides. Collective.
+template <int Dim>
+void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const DomainBoundary<Dim>& sides,
+                          FaceField<Dim>& u);
+
+}  // namespace seiche
