@@ -16,6 +16,8 @@ namespace {
   fail_in_line_of(document.source, array.byte, "array '" + array.name + "' " + message);
 }
 
+constexpr const char* beyond_length = "goes on behind the length it announces";
+
 std::string without_white_space(std::string_view text) {
   std::string rest;
   rest.reserve(text.size());
@@ -48,11 +50,13 @@ std::string bytes_of_base64(const VtkDocument& document, const VtkArray& array, 
   const bool apart = start.size() == header;  // padded: neither 4 nor 8 bytes fill their letters
   const std::uint64_t length = announced(std::string_view(start).substr(0, header));
   if (length > text.size()) fail(document, array, "is cut short");
-  const std::size_t first = apart ? letters : 0, total = base64_length(length + (apart ? 0 : header));
+  const std::uint64_t expected = length + (apart ? 0 : header);
+  const std::size_t first = apart ? letters : 0, total = base64_length(expected);
   if (total > text.size() - first) fail(document, array, "is cut short");
   const std::string bytes = decode(document, array, text.substr(first, total));
   text.remove_prefix(first + total);
-  if (bytes.size() != length + (apart ? 0 : header)) fail(document, array, "is padded where it should go on");
+  if (bytes.size() < expected) fail(document, array, "is padded where it should go on");
+  if (bytes.size() > expected) fail(document, array, beyond_length);
   return apart ? bytes : bytes.substr(header);
 }
 
@@ -60,7 +64,7 @@ std::string bytes_inline(const VtkDocument& document, const VtkArray& array) {
   const std::string letters = without_white_space(array.text);
   std::string_view rest = letters;
   std::string bytes = bytes_of_base64(document, array, rest);
-  if (!rest.empty()) fail(document, array, "goes on behind the length it announces");
+  if (!rest.empty()) fail(document, array, beyond_length);
   return bytes;
 }
 
