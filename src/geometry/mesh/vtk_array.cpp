@@ -13,7 +13,8 @@ namespace seiche::mesh {
 namespace {
 
 [[noreturn]] void fail(const VtkDocument& document, const VtkArray& array, const std::string& message) {
-  fail_in_line_of(document.source, array.byte, "array '" + array.name + "' " + message);
+  const std::string& name = array.name.empty() ? array.section : array.name;
+  fail_in_line_of(document.source, array.byte, "array '" + name + "' " + message);
 }
 
 constexpr const char* beyond_length = "goes on behind the length it announces";
