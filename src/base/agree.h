@@ -1,5 +1,5 @@
 #pragma once
-// Work that may fail on some ranks only, and whose failure all ranks must learn of.
+// Runs work that may fail on some ranks only and makes all ranks throw the same error.
 #include <functional>
 #include <string>
 
@@ -7,12 +7,12 @@
 
 namespace seiche {
 
-// Runs `work`, which must not communicate, on every rank and then agrees on the outcome: if it threw anywhere, the
-// exception of the lowest failing rank is thrown on all of them as the same Error. A rank above 0 is named in the
-// message. Running out of memory becomes Error(machine, "out of memory while <doing>"). Collective.
+// Runs `work` on every rank; it must not communicate. If it threw on any rank, the exception of the lowest failing rank
+// is thrown on all of them as Error. The message names a rank above 0. Running out of memory becomes Error(machine,
+// "out of memory while <doing>"), any other foreign exception Error(bug). Collective.
 void agree(const Communicator& ranks, const std::string& doing, const std::function<void()>& work);
 
-// The same for work that only rank 0 does.
+// The same, but only rank 0 runs `work`. Collective.
 void agree_on_root(const Communicator& ranks, const std::string& doing, const std::function<void()>& work);
 
 }  // namespace seiche

@@ -17,7 +17,7 @@ struct FieldRecord {
 };
 
 struct CheckpointData {
-  std::map<std::string, double> scalars;     // equal on all ranks; kept to the bit
+  std::map<std::string, double> scalars;     // equal on all ranks; stored exactly
   std::map<std::string, std::string> texts;  // equal on all ranks
   std::vector<FieldRecord> fields;           // same names in the same order on all ranks
 };

@@ -40,11 +40,11 @@ std::vector<std::string> split(const Pieces& p) {
 
 }  // namespace
 
-// What the environment says already stays.
+// Variables that the environment sets already keep their values.
 MpiSession::MpiSession(int& argc, char**& argv) {
-  // A rank that waits lets others have its core: where anything else is busy, ranks would wait for those that wait.
+  // Waiting ranks yield their core. Otherwise, on a busy machine, they would block the ranks that they wait for.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-  // Without mpirun Open MPI starts a daemon for the one process, which can fail where many start at once.
+  // Without mpirun, Open MPI starts a daemon for the single process, which can fail if many processes start at once.
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);

@@ -1,5 +1,6 @@
 #pragma once
-// The ranks of a run. All MPI calls of Seiche are here, in src/grid/halo, and in src/linalg (column halo, hypre).
+// The ranks of a run. MPI is called only here, in emergency_channel, in src/grid/halo, and in src/linalg (column halo,
+// hypre).
 #include <mpi.h>
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t reversed_polynomial = 0x82f63b78u;
 using Tables = std::array<std::array<std::uint32_t, 256>, 8>;
 
-// tables[k][b]: the checksum of byte b followed by k zero bytes, so that eight bytes are taken at a time.
+// tables[k][b]: the checksum of byte b followed by k zero bytes, so that the loop processes eight bytes at a time.
 constexpr Tables make_tables() {
   Tables tables{};
   for (std::uint32_t b = 0; b < 256; ++b) {

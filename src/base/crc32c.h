@@ -5,7 +5,7 @@
 
 namespace seiche {
 
-// `before`: the checksum of the bytes that come before these.
+// `before`: the checksum of the preceding bytes.
 std::uint32_t crc32c(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace seiche

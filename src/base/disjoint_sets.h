@@ -1,5 +1,5 @@
 #pragma once
-// Sets of whole numbers that are joined step by step (union-find).
+// Disjoint sets of the integers 0 ... n - 1 (union-find).
 #include <algorithm>
 #include <cstddef>
 #include <numeric>

@@ -14,7 +14,7 @@ EmergencyChannel::EmergencyChannel(const Communicator& ranks) : codes_(std::size
   MPI_Comm_dup(ranks.handle(), &handle_);
 }
 
-// The duplicate goes with MPI_Finalize: freeing it is collective, and a failing rank may be alone here.
+// Leaves the duplicate to MPI_Finalize: freeing it is collective, and a failing rank may be alone here.
 EmergencyChannel::~EmergencyChannel() = default;
 
 std::optional<std::vector<int>> EmergencyChannel::meet(int code, std::chrono::milliseconds patience) const {
@@ -38,7 +38,7 @@ void EmergencyChannel::abort(int code) const {
 
 namespace {
 
-// The ranks of this machine; to be freed.
+// The ranks of this machine. The caller frees the communicator.
 MPI_Comm split_by_machine(const Communicator& ranks) {
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(ranks.handle(), MPI_COMM_TYPE_SHARED, ranks.rank(), MPI_INFO_NULL, &machine);
@@ -55,7 +55,7 @@ int ranks_on_this_machine(const Communicator& ranks) {
   return count;
 }
 
-// mpirun may bind each rank to some processors: the masks of all ranks together count.
+// mpirun may bind each rank to some of the processors, so the ranks' masks are combined.
 int processors_of_this_machine(const Communicator& ranks) {
   std::array<unsigned long, 1024> mask{};  // room for 65536 processors
   const int failed = sched_getaffinity(0, sizeof mask, reinterpret_cast<cpu_set_t*>(mask.data()));

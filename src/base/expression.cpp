@@ -9,7 +9,7 @@
 namespace seiche {
 namespace {
 
-// Names are told first: the parser's own words for them ("unexpected parenthesis") do not help.
+// Reports faulty names first, since the parser's own messages for them ("unexpected parenthesis") do not help.
 std::string describe_fault(const Formula& text, const std::string& parser_message) {
   return "expression '" + text + "': " + fault_of_names(text).value_or(parser_message);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Formulas in x, y, z, t (muParser behind it). One object is not to be used by two threads at once.
+// Formulas in x, y, z, t, parsed by muParser. Two threads must not use the same object at once.
 #include <memory>
 #include <string>
 
@@ -16,7 +16,7 @@ class Expression {
   Expression& operator=(Expression&&) noexcept;
 
   double operator()(const Vec3& x, double t) const;
-  bool is_constant() const;  // mentions none of x, y, z, t
+  bool is_constant() const;  // true if none of x, y, z, t occurs
 
  private:
   struct Impl;

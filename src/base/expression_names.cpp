@@ -18,7 +18,7 @@ bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) || c == '.';
 }
 
-// The end of the number that starts here, its exponent included.
+// The end of the number that starts at `at`, its exponent included.
 std::size_t skip_number(const std::string& text, std::size_t at) {
   while (at < text.size() && is_digit(text[at])) ++at;
   if (at >= text.size() || (text[at] != 'e' && text[at] != 'E')) return at;

@@ -38,7 +38,7 @@ std::string section(const char* title, TermKind kind) {
   text += kind == K::variable ? "| name | meaning |\n|---|---|\n" : "| name | meaning | example |\n|---|---|---|\n";
   for (const ExpressionTerm& term : expression_terms()) {
     if (term.kind != kind) continue;
-    // A bar inside a table's cell.
+    // Escapes bars, which would end the table's cell.
     const auto cell = [](std::string shown) {
       for (std::size_t at = 0; (at = shown.find('|', at)) != std::string::npos; at += 2) shown.insert(at, 1, '\\');
       return shown;

@@ -1,5 +1,5 @@
 #pragma once
-// The language of expressions as users may write it: one table behind docs/expressions.md and the error messages.
+// The expression language: one table behind docs/expressions.md and the error messages.
 #include <string>
 #include <vector>
 
@@ -15,10 +15,10 @@ struct ExpressionTerm {
   double value = 0;     // of the example
 };
 
-// All terms, in the order of the page; operations by falling precedence.
+// All terms, in the order of docs/expressions.md; operators in order of decreasing precedence.
 const std::vector<ExpressionTerm>& expression_terms();
 
-// Names of the functions that the parser takes, and of its constants: what the table has to hold.
+// Names of the parser's functions and constants. A test checks that the table is complete.
 std::vector<std::string> parser_functions();
 std::vector<std::string> parser_constants();
 

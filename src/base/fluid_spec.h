@@ -20,7 +20,7 @@ struct LiquidSourceSpec {
   double until = std::numeric_limits<double>::infinity();
 };
 
-// Viscosity by shear rate; which of the numbers a model has, the table in fluid/rheology/rheology.h says.
+// Viscosity as a function of the shear rate. The table in fluid/rheology/rheology.h lists the parameters of each model.
 struct RheologySpec {
   std::string model;                     // a name of that table; empty: the liquid is Newtonian
   double viscosity = 0;                  // Pa s
@@ -28,36 +28,35 @@ struct RheologySpec {
   double exponent = 1;                   // of the shear rate in the stress
   double yield_stress = 0;               // Pa
   double viscosity_zero = 0;             // Pa s, at rest
-  double viscosity_infinity = 0;         // Pa s, at any large shear rate
+  double viscosity_infinity = 0;         // Pa s, limit at large shear rates
   double time = 0;                       // s
-  std::optional<double> regularisation;  // shear rate below which stiffness is bounded, 1/s; unset: see fluid/rheology
+  std::optional<double> regularisation;  // shear rate below which viscosity is bounded, 1/s; unset: see fluid/rheology
 };
 
-// What holds the surface back: its tension as it is, in steps short enough for the shortest capillary waves, or as
-// waves that a step cannot follow bear it, which leaves the step free.
+// explicit_steps: the step size is limited by the shortest capillary waves. semi_implicit: the curvature is filtered of
+// the waves that are too short for the step, which then has no such limit.
 enum class TensionScheme { explicit_steps, semi_implicit };
 
 struct LiquidSpec {
   double density = 1000;
   double surface_tension = 0;  // N/m
-  double contact_angle = 90;   // degrees, within the liquid, where its surface meets walls and solids
+  double contact_angle = 90;   // degrees, measured in the liquid, at walls and solids
   TensionScheme tension_scheme = TensionScheme::explicit_steps;
-  Formula viscosity = "0.0";  // Pa s; not used where there is a rheology
+  Formula viscosity = "0.0";  // Pa s; unused if there is a rheology
   RheologySpec rheology;
-  bool separates = false;  // pressure at walls and solids is held at or above zero: liquid may part from them
+  bool separates = false;  // separating walls: the pressure at walls and solids is at least 0
   VectorFormula velocity{"0", "0", "0"};
-  std::optional<VectorFormula> prescribed_velocity;  // at all times: nothing is solved, the surface alone moves
+  std::optional<VectorFormula> prescribed_velocity;  // at all times; no solve, only the surface moves
   std::vector<LiquidRegionSpec> regions;
   std::vector<LiquidSourceSpec> sources;
 };
 
-// "resolved": gas flows; "volume_conserving": it has a pressure alone, one in each enclosed region, which keeps its
-// volume.
+// resolved: gas flows. volume_conserving: gas has one pressure per enclosed region, which keeps that region's volume.
 enum class Bubbles { resolved, volume_conserving };
 
-// What is beyond the liquid's surface.
+// The gas beyond the liquid's surface.
 struct GasSpec {
-  bool present = false;  // else pressure 0
+  bool present = false;  // false: vacuum of pressure 0
   Bubbles bubbles = Bubbles::resolved;
   double density = 1.2;  // kg/m^3
   double viscosity = 0;  // Pa s

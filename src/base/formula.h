@@ -1,5 +1,5 @@
 #pragma once
-// Formulas as a scene file has them, as text.
+// The text of formulas in a scene file.
 #include <array>
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Gravity as it changes in time.
+// Gravity as a function of time.
 #include "base/expression.h"
 #include "base/gravity_spec.h"
 
@@ -7,16 +7,16 @@ namespace seiche {
 
 class Gravity {
  public:
-  // Throws Error(bad_input) where a formula is none.
+  // Throws Error(bad_input) if a formula is not valid.
   explicit Gravity(const GravitySpec& spec) : spec_(spec), value_(spec.formula) {}
 
   // m/s^2, at time t.
   Vec3 at(double t) const { return value_({0, 0, 0}, t); }
-  // Of the step of dt that ends at `end`: gravity at its middle, for liquid and bodies alike.
+  // Gravity of the step of dt that ends at `end`: its value at the middle. Liquid and bodies use the same one.
   Vec3 of_step(double end, double dt) const;
-  // The largest |g| in [from, to] (m/s^2), looked at at a thousand times; what is not finite does not count.
+  // The largest finite |g| (m/s^2) among 1001 equally spaced samples of [from, to].
   double largest(double from, double to) const;
-  // Empty, or which formula is not finite at t.
+  // Message that names the component that is not finite at t; empty if all are finite.
   std::string fault(double t) const;
 
  private:

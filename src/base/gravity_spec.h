@@ -1,11 +1,11 @@
 #pragma once
-// Gravity as a scene gives it.
+// Gravity in a scene file.
 #include "base/formula.h"
 #include "base/vec.h"
 
 namespace seiche {
 
-// The acceleration of gravity, the same everywhere, m/s^2: numbers, or formulas in t.
+// Uniform acceleration of gravity, m/s^2: numbers, or formulas in t.
 struct GravitySpec {
   VectorFormula formula{"0.0", "-9.81", "0.0"};
 

@@ -1,6 +1,6 @@
 #pragma once
-// The options registry: what a key of the scene file may hold. One row a key feeds the reader, its error messages, the
-// normalised scene and the reference page.
+// The options registry: the values that a key of the scene file may hold. One row per key feeds the reader, its error
+// messages, the normalised scene and the reference page.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,8 +15,8 @@ enum class OptionType {
   choice,          // one of `choices`
   choice_list,     // any of `choices`, each at most once
   vector,          // as many numbers as the scene has dimensions
-  axis,            // three numbers in either dimension
-  spin,            // a rate of rotation: three numbers; in 2D one, about z
+  axis,            // three numbers in 2D and 3D
+  spin,            // angular velocity: three numbers; in 2D one, about z
   formula,         // a number or an expression
   formula_vector,  // as many formulas as the scene has dimensions
   file,            // a path, relative to the scene's folder
@@ -25,9 +25,9 @@ enum class OptionType {
 };
 
 enum class Presence { required, optional };
-enum class Availability { present, later };  // later: of the contract, but not in this version
+enum class Availability { present, later };  // later: documented, but not in this version
 
-// Every number of a scene stays below this in magnitude, so that squares and volumes cannot overflow.
+// Largest magnitude of any number in a scene, so that squares and volumes cannot overflow.
 inline constexpr double number_limit = 1e15;
 
 enum class Bound { included, excluded };
@@ -41,15 +41,15 @@ Range any_number();
 Range positive(double high = number_limit);  // 0 < value <= high
 Range between(double low, double high);      // low <= value <= high
 bool contains(const Range& range, double value);
-std::string describe(const Range& range);  // "> 0 and <= 8"; empty where only number_limit bounds it
+std::string describe(const Range& range);  // "> 0 and <= 8"; empty if only number_limit bounds it
 
-// The key has a meaning only where another key of the same table holds one of these values.
+// The key is valid only if another key of the same table holds one of these values.
 struct Condition {
   std::string key;
   std::vector<std::string> values;
 };
 
-// A value of the contract that this version does not have.
+// A documented value that this version does not have.
 struct Refusal {
   std::string value, reason;
 };
@@ -61,15 +61,15 @@ struct Option {
   Range range{};       // of the number, or of each component
   std::vector<std::string> choices{};
   std::vector<Refusal> refused{};
-  std::string variables{};  // of a formula: those of x, y, z, t that it may use, "xyzt"
+  std::string variables{};  // of a formula: the variables that it may use, e.g. "xyzt"
   Condition only_for{};     // empty key: always
   Presence presence = Presence::optional;
   Availability availability = Availability::present;
   std::string fallback{};  // default as TOML text; empty: none
-  std::string unset{};     // what it means when it is not given and has no default value
+  std::string unset{};     // the behaviour if the key is not given and has no default value
   std::string doc{};       // one line
-  std::size_t most = 0;    // entries a table_list may have
-  std::string path{};      // "solid[].rotate.degrees"; filled where options are listed
+  std::size_t most = 0;    // largest number of entries of a table_list
+  std::string path{};      // "solid[].rotate.degrees"; filled when options are listed
 };
 
 std::string type_name(OptionType type);                          // "a number"

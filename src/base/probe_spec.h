@@ -14,7 +14,7 @@ struct ProbeSpec {
   ProbeKind kind = ProbeKind::pressure;
   Vec3 position{0, 0, 0};
   std::optional<double> every;  // s; unset: each step
-  std::string solid{};          // displacement: the elastic solid, of which position is a point at rest
+  std::string solid{};          // displacement: the elastic solid; position is one of its points at rest
   std::string where{};          // "scene.toml:14" for messages
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// A scene file as plain data in SI units, one header a table. Scene vectors always have three components; in 2D the
-// third is zero. Filled by src/scene/reader, which has checked every value. The simulation includes the headers of the
-// tables that it reads, not this one: a new key then builds little anew.
+// A scene file as plain data in SI units, one header per table. Scene vectors always have three components; in 2D the
+// third is zero. src/scene/reader fills it and checks every value. The simulation includes the headers of the tables
+// that it reads, not this one, so that a new key causes little recompilation.
 #include "base/domain_spec.h"
 #include "base/fluid_spec.h"
 #include "base/gravity_spec.h"

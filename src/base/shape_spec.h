@@ -20,7 +20,7 @@ struct TransformSpec {
 };
 
 struct ShapeSpec {
-  std::string kind;  // a name of the table in geometry/shapes/shapes.h
+  std::string kind;  // a name from the table in geometry/shapes/shapes.h
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};
   Vec3 center{0, 0, 0};
   Vec3 from{0, 0, 0}, to{0, 0, 0};

@@ -1,16 +1,16 @@
 #pragma once
-// A kind of solid as scenes, files and pictures see it. Its class does the rest (coupling/participant.h).
+// A kind of solid as scenes, files and pictures see it. Its class in coupling/state/participant.h does the rest.
 #include <string_view>
 
 namespace seiche {
 
-enum class Drive : char { none, prescribed, forces };  // what moves a solid
+enum class Drive : char { none, prescribed, forces };  // the cause of a solid's motion
 
-// One row of the table of kinds (coupling/solid_kinds.h).
+// One row of the table of kinds (coupling/solids/solid_kinds.h).
 struct SolidKind {
   const char* name;  // in scenes
   Drive drive;
-  bool has_elements = false;  // its shape is meshed by finite elements, and deforms
+  bool has_elements = false;  // its shape is meshed with finite elements and deforms
   bool may_turn = true;       // false: forces only translate it
 
   constexpr bool moves() const { return drive != Drive::none; }

@@ -25,28 +25,28 @@ struct RigidSpec {
   std::array<bool, 3> fixed_position{false, false, false}, fixed_rotation{false, false, false};  // world axes
 };
 
-// A region of an elastic solid at rest whose nodes move as prescribed.
+// A region of an elastic solid at rest whose nodes have a prescribed motion.
 struct PinSpec {
   ShapeSpec shape;
   MotionSpec motion;
 };
 
-// A force on part of an elastic solid's boundary: on the sides of elements whose nodes all lie in a shape at rest.
+// A traction on part of an elastic solid's boundary: on the element sides whose nodes all lie in `shape` at rest.
 struct TractionSpec {
   ShapeSpec shape;
   VectorFormula stress{"0", "0", "0"};  // Pa, per area at rest, in x, y, z at rest and t
 };
 
-// What an elastic solid is made of; its density and initial velocities are those of RigidSpec.
+// Material and discretisation of an elastic solid. Its density and initial velocities are those of RigidSpec.
 struct ElasticSpec {
-  std::string model = "stable_neo_hookean";  // a name of the table in solid/material/material.h
+  std::string model = "stable_neo_hookean";  // a name from the table in solid/material/material.h
   double youngs_modulus = 0;                 // Pa
   double poisson_ratio = 0;
   double damping = 0;                       // Rayleigh's beta (stiffness), s
   double mass_damping = 0;                  // Rayleigh's alpha, 1/s
   double element_size = 0;                  // m
   int element_order = 2;                    // 1: linear, 2: quadratic
-  std::vector<PinSpec> pinned;              // at rest unless they have a motion
+  std::vector<PinSpec> pinned;              // fixed unless they have a motion
   VectorFormula body_force{"0", "0", "0"};  // N/m^3 at rest, in x, y, z at rest and t
   std::vector<TractionSpec> tractions;
 };
@@ -59,9 +59,9 @@ struct SolidSpec {
   MotionSpec motion;                      // kinematic
   RigidSpec rigid;                        // rigid and elastic
   ElasticSpec elastic;                    // elastic
-  std::map<std::string, double> numbers;  // of keys that this kind alone has, as its row of the table lists them
-  std::optional<double> friction;       // Coulomb's coefficient; unset: that of the other solid, 0 where both are unset
-  std::optional<double> contact_angle;  // degrees; unset: that of the liquid
+  std::map<std::string, double> numbers;  // values of the keys that only this kind has, listed in its table row
+  std::optional<double> friction;         // Coulomb's coefficient; unset: that of the other solid, 0 if both are unset
+  std::optional<double> contact_angle;    // degrees; unset: that of the liquid
 };
 
 }  // namespace seiche

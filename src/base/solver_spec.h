@@ -4,16 +4,17 @@
 
 namespace seiche {
 
-// How viscosity is solved for: with the pressure, after it, or by what the viscosity asks for.
+// Order of viscosity and pressure. split: viscosity first, then pressure. coupled: one system for both. automatic: by
+// mu dt/(rho h^2), see coupling/solve/viscous_coupling.h.
 enum class ViscousSolve { automatic, split, coupled };
 
 struct SolverSpec {
   double tolerance = 1e-8;
   std::string preconditioner = "auto";
   ViscousSolve viscosity = ViscousSolve::automatic;
-  double rheology_tolerance = 1e-4;  // change of velocity between outer iterations, relative
-  int rheology_iterations = 30;      // outer ones a step, at most
-  std::string elastic = "auto";      // stiffness of elastic solids in the solve: "factor", "iterate", or by size
+  double rheology_tolerance = 1e-4;  // relative change of velocity between outer iterations
+  int rheology_iterations = 30;      // largest number of outer iterations per step
+  std::string elastic = "auto";      // solver for elastic stiffness: "factor", "iterate", or "auto" by size
 };
 
 }  // namespace seiche

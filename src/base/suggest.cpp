@@ -5,14 +5,14 @@
 namespace seiche {
 namespace {
 
-// Letters that both words begin with.
+// Length of the common prefix.
 std::ptrdiff_t common_start(const std::string& a, const std::string& b) {
   return std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin();
 }
 
 }  // namespace
 
-// Optimal string alignment (Damerau, Levenshtein), three rows at a time.
+// Optimal string alignment (Damerau, Levenshtein), with three rows of the table in memory.
 int edit_distance(const std::string& a, const std::string& b) {
   std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = int(j);
@@ -31,7 +31,7 @@ int edit_distance(const std::string& a, const std::string& b) {
 }
 
 std::optional<std::string> suggest(const std::string& word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t longest_word = 64;  // longer ones are not slips of a key's name
+  constexpr std::size_t longest_word = 64;  // longer words are not misspelt keys
   if (word.size() > longest_word) return std::nullopt;
   std::optional<std::string> best;
   int best_distance = std::max(1, int(word.size() + 1) / 3) + 1;

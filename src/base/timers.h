@@ -8,7 +8,7 @@ namespace seiche {
 
 class Timers {
  public:
-  // Adds the life of the returned object to the phase.
+  // Adds its lifetime (s) to a phase's total.
   class Scope {
    public:
     explicit Scope(double& total) : total_(total), start_(std::chrono::steady_clock::now()) {}

@@ -16,7 +16,7 @@ Vec<Dim> truncate(const Vec3& v) {
   return v.head<Dim>();
 }
 
-// A Dim-vector as a scene vector, missing components zero.
+// A Dim-vector as a scene vector; missing components are zero.
 template <int Dim>
 Vec3 extend(const Vec<Dim>& v) {
   Vec3 r = Vec3::Zero();

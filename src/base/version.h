@@ -6,8 +6,8 @@ namespace seiche {
 // The version of this build, "major.minor.patch".
 std::string version();
 
-// Equal for builds whose runs give the same: of the sources that make runs, the compiler and its flags
-// (cmake/SeicheDigest.cmake).
+// Digest of the sources that affect a run's results, of the compiler and of its flags (cmake/SeicheDigest.cmake). Equal
+// for builds whose runs give the same results.
 std::string build_digest();
 
 }  // namespace seiche

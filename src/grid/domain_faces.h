@@ -4,7 +4,7 @@
 
 namespace seiche {
 
-// Owned faces on a side of the domain (0 lower, 1 upper); none where another rank owns it or the axis is periodic.
+// Owned faces on a side of the domain (0 lower, 1 upper). Empty if another rank owns it or the axis is periodic.
 template <int Dim>
 Box<Dim> faces_of_side(const Layout<Dim>& layout, int axis, int side) {
   if (layout.cells().empty() || !(side == 0 ? layout.at_lower(axis) : layout.at_upper(axis))) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// Fields whose type says where their values sit. All of one rank's fields have the shape of its Layout.
+// Fields whose type states the location of their values. All fields of a rank have the shape of its Layout.
 #include <array>
 #include <vector>
 
@@ -32,7 +32,7 @@ using CellField = Field<T, Dim, location::Cell>;
 template <int Dim, class T = double>
 using NodeField = Field<T, Dim, location::Node>;
 
-// One component an axis, on the low face of each cell across that axis.
+// One component per axis, on the low face of each cell across that axis.
 template <int Dim, class T = double>
 class FaceField {
  public:
@@ -52,7 +52,8 @@ class FaceField {
   std::array<std::vector<T>, Dim> components_;
 };
 
-// One component a plane of rotation, on the low edge of each cell: in 3D along axis c, in 2D the one across the plane.
+// One component per plane of rotation, on the low edge of each cell. In 3D component c is on edges along axis c; in 2D
+// the only one is on nodes.
 template <int Dim, class T = double>
 class EdgeField {
  public:

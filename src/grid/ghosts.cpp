@@ -5,7 +5,8 @@
 namespace seiche {
 namespace {
 
-// Value k steps beyond a side: `at(n)` is the value n steps inside (0 = the last one inside or on the side).
+// Value k steps beyond a side. at(n) is the value n steps inside (0: the outermost one inside or on the side), n <
+// `inside`.
 template <class At>
 double beyond(Extension rule, double on_side, double steepest, int k, int inside, const At& at) {
   switch (rule) {
@@ -19,7 +20,7 @@ double beyond(Extension rule, double on_side, double steepest, int k, int inside
   return 0;
 }
 
-// The stored sites beyond a side; may be empty.
+// The stored sites beyond a side. May be empty.
 template <int Dim>
 Box<Dim> box_beyond(const Layout<Dim>& layout, int axis, int side, double offset) {
   const int n = layout.geometry().cells[axis];
@@ -45,7 +46,7 @@ void extend_one_side(const Layout<Dim>& layout, double* f, int axis, int side, d
   });
 }
 
-// Steps from s to the nearest site inside; 0 along axes along which s is inside, and periodic ones.
+// Steps from the nearest site inside to index i. 0 along periodic axes and along axes where i is inside.
 template <int Dim>
 IVec<Dim> steps_beyond(const Layout<Dim>& layout, const IVec<Dim>& i, const Vec<Dim>& offset) {
   IVec<Dim> steps = IVec<Dim>::Zero();
@@ -56,9 +57,9 @@ IVec<Dim> steps_beyond(const Layout<Dim>& layout, const IVec<Dim>& i, const Vec<
   return steps;
 }
 
-// A site beyond several sides, all of them continued in straight lines:
+// Fills a site beyond several sides if all of them are extended linearly:
 //   f(s) = f(p) + sum_a k_a clamp(slope_a(p)),  p the nearest site inside, k_a the steps from it along axis a.
-// Continued axis by axis, limited slopes would make it depend on the order of the axes.
+// Extension axis by axis would depend on the order of the axes, because slopes are limited.
 template <int Dim>
 void extend_edge(const Layout<Dim>& layout, double* f, Site s, const IVec<Dim>& steps, const Extensions<Dim>& rules,
                  double steepest) {
@@ -75,7 +76,7 @@ void extend_edge(const Layout<Dim>& layout, double* f, Site s, const IVec<Dim>& 
   }
 }
 
-// The sites beyond a side of axis a and one of axis b.
+// Fills the sites beyond both a side of axis a and a side of axis b.
 template <int Dim>
 void extend_edges(const Layout<Dim>& layout, double* f, int a, int b, const Vec<Dim>& offset, double steepest,
                   const Extensions<Dim>& rules) {

@@ -1,12 +1,12 @@
 #pragma once
-// Values beyond the sides of the domain, from those inside.
+// Extends fields beyond the sides of the domain.
 #include "grid/layout.h"
 
 namespace seiche {
 
-// constant: the value at the side; linear: continued in a straight line (planes stay
-// planes), no steeper than `steepest` a cell; mirror: even about the
-// side for values half a cell from it, odd about the side's own value for values that sit on it (a solid wall's flow).
+// constant: the outermost value inside or on the side. linear: continued linearly (planes stay planes), with a slope of
+// at most `steepest` per cell. mirror: even about the side for values half a cell from it; odd about the side's own
+// value for values on it (flow at a solid wall).
 enum class Extension { constant, linear, mirror };
 template <int Dim>
 using Extensions = std::array<std::array<Extension, 2>, Dim>;
@@ -18,7 +18,8 @@ Extensions<Dim> all_sides(Extension e) {
   return r;
 }
 
-// Fills every stored site beyond a non-periodic side. Needs the halo inside the domain to be up to date; local.
+// Fills every stored site beyond a non-periodic side. `offset`: location of the values in a cell (face_offset() etc.).
+// The halo inside the domain must be up to date. Local.
 template <int Dim>
 void extend_beyond_sides(const Layout<Dim>& layout, double* f, const Vec<Dim>& offset, const Extensions<Dim>& rules,
                          double steepest = 1e300);

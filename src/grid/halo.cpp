@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// Shifts of whole periods that can bring a block of the grid into reach of another's halo, in a fixed order.
+// Shifts by whole periods that can bring a block of the grid into the halo of another block, in a fixed order.
 template <int Dim>
 std::vector<IVec<Dim>> period_shifts(const Geometry<Dim>& g, int halo) {
   std::vector<IVec<Dim>> shifts{IVec<Dim>::Zero()};

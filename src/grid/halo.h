@@ -1,5 +1,5 @@
 #pragma once
-// Exchange of halo values between ranks and across periodic sides. The one place where grid fields meet MPI.
+// Exchange of halo values between ranks and across periodic sides. No other code passes grid fields to MPI.
 #include <initializer_list>
 #include <vector>
 
@@ -35,7 +35,7 @@ class Halo {
 
   Communicator ranks_;
   std::vector<Peer> peers_;                // other ranks
-  std::vector<Site> copy_from_, copy_to_;  // periodic images of our own
+  std::vector<Site> copy_from_, copy_to_;  // this rank's own periodic images
 };
 
 }  // namespace seiche

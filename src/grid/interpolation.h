@@ -1,6 +1,6 @@
 #pragma once
-// Tensor-product interpolation of fields at points given in index coordinates g = (x - lower)/h - offset.
-// Points must keep `reach` sites from the end of the padded box; they are moved inside it otherwise.
+// Tensor-product interpolation of fields at points given in index coordinates g = (x - lower)/h - offset. Points whose
+// stencil would leave the padded box are moved to the nearest point whose stencil is inside.
 #include <cmath>
 
 #include "grid/layout.h"
@@ -15,13 +15,13 @@ inline std::array<double, 4> lagrange_weights(double t) {
 
 namespace detail {
 
-// Splits g into the base site and the fraction, with `low` points kept below and `high` above the base.
+// Splits g into base site and fraction t. The stencil has `low` points below and `high` points above the base.
 template <int Dim>
 Site base_site(const Layout<Dim>& layout, const Vec<Dim>& g, int low, int high, Vec<Dim>& t) {
   Site s = 0;
   for (int a = 0; a < Dim; ++a) {
     const int first = layout.padded().lower[a] + low, last = layout.padded().upper[a] - 1 - high;
-    const double x = std::min(std::max(double(first), g[a]), double(last) + 1);  // `first` where g is no number
+    const double x = std::min(std::max(double(first), g[a]), double(last) + 1);  // `first` if g is NaN
     const int i = std::min(int(std::floor(x)), last);
     t[a] = x - i;
     s += (i - layout.padded().lower[a]) * layout.stride(a);
@@ -79,7 +79,7 @@ inline std::array<double, 6> lagrange_weights_six(double t) {
 
 namespace detail {
 
-// Sum over the points of the remaining axes, the last one outermost.
+// Weighted sum over the points along axes 0 ... Axis.
 template <int Dim, int Axis>
 double weigh_six(const Layout<Dim>& layout, const double* p, const std::array<std::array<double, 6>, Dim>& w) {
   const Site d = layout.stride(Axis);
@@ -96,7 +96,7 @@ double weigh_six(const Layout<Dim>& layout, const double* p, const std::array<st
 
 }  // namespace detail
 
-// Tensor product of six-point Lagrange polynomials: sixth order.
+// Tensor product of six-point Lagrange polynomials: sixth order, exact for quintics.
 template <int Dim>
 double interpolate_quintic(const Layout<Dim>& layout, const double* f, const Vec<Dim>& g) {
   Vec<Dim> t;

@@ -47,7 +47,7 @@ IVec<Dim> Layout<Dim>::index(Site site) const {
 
 namespace {
 
-// Surface between blocks of the split, in cells: what the halos will carry.
+// Area between the blocks of a split, in cells: a measure of the halo exchange.
 template <int Dim>
 double split_cost(const IVec<Dim>& cells, const IVec<Dim>& split) {
   double cost = 0;
@@ -77,7 +77,7 @@ void search_split(const IVec<Dim>& cells, int axis, int remaining, IVec<Dim>& sp
   }
 }
 
-// The largest number of ranks <= `ranks` that factors into the grid, and its cheapest factoring.
+// The cheapest split into the largest number of blocks, at most `ranks`, that the cell counts allow.
 template <int Dim>
 IVec<Dim> choose_split(const IVec<Dim>& cells, int ranks) {
   for (int n = ranks; n >= 1; --n) {

@@ -1,6 +1,6 @@
 #pragma once
-// The padded layout all fields of a rank share: one integer Site addresses a cell, its low faces and its low node;
-// neighbours are site +- stride(axis).
+// The padded layout that all fields of a rank share. One integer Site addresses a cell, its low faces and its low node.
+// Neighbours are site +- stride(axis).
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -25,7 +25,7 @@ struct Geometry {
   double face_area() const { return std::pow(h, Dim - 1); }
 };
 
-// Where the values of a field sit within a cell, in units of h from its low corner.
+// Location of a field's values in a cell, in units of h from its low corner.
 template <int Dim>
 Vec<Dim> cell_offset() {
   return Vec<Dim>::Constant(0.5);
@@ -55,9 +55,9 @@ class Layout {
   const Box<Dim>& cells() const { return owned_; }          // owned cells
   Box<Dim> faces(int axis) const;                           // owned low faces, and the domain's last face
   Box<Dim> nodes() const;                                   // owned low nodes, and the domain's last nodes
-  const Box<Dim>& padded() const { return padded_; }        // all sites stored
-  const Box<Dim>& authority() const { return authority_; }  // owned and, beyond the domain's sides, the halo
-  // Owned cells grown by n, within the sites stored.
+  const Box<Dim>& padded() const { return padded_; }        // all stored sites
+  const Box<Dim>& authority() const { return authority_; }  // owned cells and the halo beyond the domain's sides
+  // Owned cells grown by n, within the stored sites.
   Box<Dim> grown(int n) const { return owned_.empty() ? owned_ : owned_.grown(n).cut(padded_); }
   bool at_lower(int axis) const { return !geometry_.periodic[axis] && owned_.lower[axis] == 0; }
   bool at_upper(int axis) const { return !geometry_.periodic[axis] && owned_.upper[axis] == geometry_.cells[axis]; }
@@ -81,7 +81,8 @@ class Layout {
   Site size_ = 0;
 };
 
-// Splits the grid into one block a rank, as cubic as the cell counts allow. Ranks that find no cells get empty boxes.
+// Splits the grid into one block per rank with the smallest area between blocks. Ranks for which there is no block get
+// empty boxes.
 template <int Dim>
 std::vector<Box<Dim>> partition(const Geometry<Dim>& geometry, int ranks);
 

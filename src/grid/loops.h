@@ -1,6 +1,6 @@
 #pragma once
-// The only loops over the grid. Bodies run on several threads unless the name says otherwise; results do not depend on
-// their number: sums are formed row by row in a fixed order.
+// The only loops over the grid. Bodies run on several threads unless the name says otherwise. Results do not depend on
+// the number of threads: sums are formed row by row in a fixed order.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -55,7 +55,7 @@ void for_each_row(const Rows<Dim>& rows, const RowBody& body) {
 
 }  // namespace detail
 
-// body(site) over a box.
+// Calls body(site) for all sites of a box.
 template <int Dim, class Body>
 void for_each_site(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
   const detail::Rows<Dim> rows(layout, box);
@@ -65,7 +65,7 @@ void for_each_site(const Layout<Dim>& layout, const Box<Dim>& box, const Body& b
   });
 }
 
-// body(site, index) over a box.
+// Calls body(site, index) for all sites of a box.
 template <int Dim, class Body>
 void for_each_index(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
   const detail::Rows<Dim> rows(layout, box);
@@ -76,7 +76,7 @@ void for_each_index(const Layout<Dim>& layout, const Box<Dim>& box, const Body& 
   });
 }
 
-// body(site, index) in order on one thread: for formulas and for filling lists.
+// Calls body(site, index) in order on one thread: for formulas and for filling lists.
 template <int Dim, class Body>
 void for_each_index_in_order(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
   const detail::Rows<Dim> rows(layout, box);
@@ -87,7 +87,7 @@ void for_each_index_in_order(const Layout<Dim>& layout, const Box<Dim>& box, con
   }
 }
 
-// body(list[n]) over a list of sites.
+// Calls body(site) for all sites of a list.
 template <class Body>
 void for_each_listed(const std::vector<Site>& list, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, list.size(), detail::sites_a_task), [&](const auto& range) {
@@ -95,7 +95,7 @@ void for_each_listed(const std::vector<Site>& list, const Body& body) {
   });
 }
 
-// Sum of body(site, index) over a box on this rank.
+// Sum of body(site, index) over a box on this rank only.
 template <int Dim, class Body>
 double local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
   const detail::Rows<Dim> rows(layout, box);
@@ -112,7 +112,7 @@ double local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& bod
   return total;
 }
 
-// Largest body(site) over a box on this rank; the given value where the box is empty.
+// Largest body(site) over a box on this rank only, at least `least`.
 template <int Dim, class Body>
 double local_max(const Layout<Dim>& layout, const Box<Dim>& box, double least, const Body& body) {
   const detail::Rows<Dim> rows(layout, box);

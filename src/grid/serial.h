@@ -1,5 +1,5 @@
 #pragma once
-// Work of libraries whose result depends on how TBB splits it.
+// Serial execution of library code whose result depends on TBB's splitting.
 #include <tbb/task_arena.h>
 
 namespace seiche {

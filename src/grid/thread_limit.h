@@ -1,10 +1,10 @@
 #pragma once
-// How many threads the loops of this process may use.
+// Limit on the number of threads of this process's loops.
 #include <memory>
 
 namespace seiche {
 
-// Holds for the life of the object; results do not depend on it.
+// Applies during the object's lifetime. Results do not depend on it.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);  // at least 1

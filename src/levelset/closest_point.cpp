@@ -16,7 +16,7 @@ struct ValueAndGradient {
   Vec<Dim> gradient = Vec<Dim>::Zero();
 };
 
-// Of the cubic interpolant at index coordinates x.
+// Value and gradient of the cubic interpolant at index coordinates x.
 template <int Dim>
 ValueAndGradient<Dim> interpolate(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
   Vec<Dim> t;
@@ -40,8 +40,9 @@ ValueAndGradient<Dim> interpolate(const Layout<Dim>& layout, const double* f, co
   return r;
 }
 
-// Whether the interpolant at x reads phi across no kink: the second differences inside its points, which add up to 2
-// n_a^2 across the middle between two surfaces and are (1 - n_a^2)/R on a sphere of R cells.
+// True if the interpolant at x does not read phi across a medial axis. Tests the second differences at the inner points
+// of its stencil. On a sphere of R cells they are (1 - n_a^2)/R. Across the medial axis of two parallel surfaces of
+// normal n they add up to 2 |n_a|.
 template <int Dim>
 bool is_smooth_around(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
   constexpr double most = 0.3;
@@ -65,8 +66,8 @@ template <int Dim>
 std::optional<Foot> foot_on_zero(const Layout<Dim>& layout, const CellField<Dim>& phi, const IVec<Dim>& cell,
                                  double reach) {
   constexpr int most_steps = 30;
-  constexpr double least_slope = 0.5, largest_slope = 2;    // what may pass for a distance
-  constexpr double on_zero = 1e-12, straight_below = 1e-6;  // cells; the second one counts by its square
+  constexpr double least_slope = 0.5, largest_slope = 2;    // |grad phi| outside this range: not a distance
+  constexpr double on_zero = 1e-12, straight_below = 1e-6;  // cells; the latter's effect on distance is quadratic
   const Vec<Dim> x = cell.template cast<double>();
   Vec<Dim> y = x;
   for (int n = 0; n < most_steps; ++n) {

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-// All lengths here are in cells; phi keeps its unit, in which nothing is measured.
+// All lengths here are in cells. The unit of phi does not matter.
 
 template <int Dim>
 Vec<Dim> central_gradient(const Layout<Dim>& layout, const double* f) {
@@ -19,7 +19,7 @@ Vec<Dim> central_gradient(const Layout<Dim>& layout, const double* f) {
   return g;
 }
 
-// Gradient of the interpolant of phi at x, from half a cell to each side.
+// Gradient of the interpolant of phi at x, by central differences over half a cell to each side.
 template <int Dim>
 Vec<Dim> interpolated_gradient(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
   Vec<Dim> g;
@@ -30,7 +30,7 @@ Vec<Dim> interpolated_gradient(const Layout<Dim>& layout, const double* f, const
   return g;
 }
 
-// Unit vectors across n and, in 3D, across each other.
+// Orthonormal vectors perpendicular to n.
 template <int Dim>
 std::array<Vec<Dim>, Dim - 1> tangents(const Vec<Dim>& n) {
   if constexpr (Dim == 2) return {Vec<2>(-n[1], n[0])};
@@ -44,7 +44,8 @@ std::array<Vec<Dim>, Dim - 1> tangents(const Vec<Dim>& n) {
 
 constexpr double farthest = 1.5;  // a neighbouring height beyond this many cells belongs to another piece of surface
 
-// Height over x along the unit vector n at which phi is zero and grows; `slope` is about dphi/dn. Secant steps.
+// Height over x along the unit vector n at which phi is zero and grows. Secant method; `slope` is an estimate of
+// dphi/dn. Empty if there is no such height within `farthest` cells.
 template <int Dim>
 std::optional<double> height(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x, const Vec<Dim>& n,
                              double slope) {
@@ -64,7 +65,7 @@ std::optional<double> height(const Layout<Dim>& layout, const double* f, const V
   return {};
 }
 
-// kappa per cell of the graph over the tangents at x; liquid below.
+// Curvature (1/cell) of the surface as a graph over the tangent plane at x, g = grad phi there. Liquid is below.
 template <int Dim>
 std::optional<double> graph_curvature(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x,
                                       const Vec<Dim>& g) {
@@ -82,7 +83,7 @@ std::optional<double> graph_curvature(const Layout<Dim>& layout, const double* f
     p[k] = 0.5 * (*high - *low);
     bend[k] = *high - 2 * *middle + *low;
   }
-  // The mixed derivative counts by the product of two slopes over the tangent plane, each of order h^2: left out.
+  // Omits the mixed derivative: its factor is the product of two slopes over the tangent plane, each of order h^2.
   const double one = 1 + p.squaredNorm();
   double sum = 0;
   for (int k = 0; k < Dim - 1; ++k) sum += (one - p[k] * p[k]) * bend[k];

@@ -14,7 +14,7 @@ double minmod(double a, double b) {
   return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b);
 }
 
-// What the sites known from earlier layers predict. Sites are at least four from the end of the stored ones.
+// Extrapolates to a site from the sites of earlier layers. Sites must be at least four from the end of the stored ones.
 template <int Dim>
 struct Predictor {
   const Layout<Dim>& layout;
@@ -24,8 +24,8 @@ struct Predictor {
 
   bool earlier(Site at, char layer) const { return known[at] > 0 && known[at] < layer; }
 
-  // The nearest value along a line, plus the smaller of the two slopes behind it where both are known: continued
-  // straight in smooth flow, constant from drops and sheets too thin to have a slope.
+  // The nearest value along a line, plus the minmod of the two slopes behind it if both are known. The result is linear
+  // in smooth flow, and constant from drops and sheets too thin to have a slope.
   double along(Site s, Site d, char layer) const {
     if (layer - 2 >= linear_layers || !earlier(s + d, layer) || !earlier(s + 2 * d, layer)) return f[s];
     return f[s] + minmod(f[s] - f[s + d], f[s + d] - f[s + 2 * d]);
@@ -46,7 +46,7 @@ struct Predictor {
   }
 };
 
-// Continues straight lines alone, of values below the limit.
+// Extrapolates only linearly, from values below the limit.
 template <int Dim>
 struct StraightPredictor {
   const Layout<Dim>& layout;
@@ -64,10 +64,10 @@ struct StraightPredictor {
     return f[s] + std::clamp(slope, -layout.h(), layout.h());
   }
 
-  // Mean over the lines, added in the order of their values: turned scenes round alike.
+  // Mean over the lines, summed in the order of their values so that rotated scenes have the same round-off.
   bool predict(Site s, char layer, double& value) const {
     std::array<double, 2 * Dim> said;
-    said.fill(std::numeric_limits<double>::infinity());  // behind all others
+    said.fill(std::numeric_limits<double>::infinity());  // sorts behind all others
     int count = 0;
     for (int a = 0; a < Dim; ++a)
       for (const Site d : {-layout.stride(a), layout.stride(a)})
@@ -78,7 +78,7 @@ struct StraightPredictor {
   }
 };
 
-// Layer by layer what the predictor says.
+// Fills unknown sites with the predictor's values, layer by layer.
 template <int Dim, class Predictor>
 void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
                  const Predictor& predictor, std::vector<double>& f, std::vector<char>& known) {

@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// Visits simplices that tile the part of s with f < 0. Splits an edge that f crosses at its zero until none is left.
+// Visits simplices that tile the part of s with f < 0. Splits edges at the zero of f until no edge crosses it.
 template <int N, class Visit>
 void visit_negative(const CutSimplex<N>& s, const Visit& visit) {
   int low = -1, high = -1;
@@ -34,7 +34,7 @@ bool none_negative(const Values& v) {
   return std::none_of(v.begin(), v.end(), [](double x) { return x < 0; });
 }
 
-// Corner values of a cube of D dimensions; corner c has bit a set where it is high along axis a.
+// Corner values of a cube of D dimensions. Bit a of the corner's number is set if it is at the high end of axis a.
 template <int D>
 struct Cube {
   std::array<double, (1 << D)> f, g;
@@ -48,8 +48,8 @@ double mean(const std::array<double, D>& v) {
   return s / D;
 }
 
-// The square's part with f < 0 (and g < 0), as four triangles around its centre, of the given total measure. `apex`
-// joins them to a further point (a tetrahedron each) where N = 3.
+// The square's part with f < 0 and g < 0, from four triangles around its centre, of the given total measure. For N = 3
+// each triangle is extended to a tetrahedron by an apex with the values `apex` of f and g.
 template <int N>
 double square_part(const Cube<2>& q, const std::array<double, 2>& apex, double measure) {
   static constexpr int ring[5] = {0, 1, 3, 2, 0};
@@ -130,7 +130,7 @@ void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceFi
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
   constexpr int corners = 1 << Dim;
-  const double far = 2 * layout.h();  // farther than any corner of the cell
+  const double far = 2 * layout.h();  // farther than any corner of the cell from its centre
   if (phi[cell] > far) return 0;
   if (phi[cell] < -far && psi[cell] > far) return 1;
   Cube<Dim> c;

@@ -1,13 +1,13 @@
 #pragma once
-// Shares of cells and faces cut by level sets that are linear on simplices around the centre (exact for planes, and the
-// same under all rotations and mirrorings of the grid).
+// Fractions of cells and faces cut by level sets that are linear on simplices around the centre. Exact for planes, and
+// equivariant under all rotations and reflections of the grid.
 #include <array>
 
 #include "grid/fields.h"
 
 namespace seiche {
 
-// A simplex of N dimensions with two linear functions given at its corners.
+// A simplex of N dimensions with two linear functions f, g given at its corners.
 template <int N>
 struct CutSimplex {
   std::array<double, N + 1> f, g;
@@ -20,16 +20,16 @@ double negative_measure(const CutSimplex<N>& s);
 template <int N>
 double negative_measure_both(const CutSimplex<N>& s);
 
-// Open fraction of every face: the part with psi > 0, psi given at the nodes (m, negative inside solids).
-// Faces of owned cells on both sides, so within grown(1).
+// Open fraction of faces: the part with psi > 0, psi given at the nodes (m, negative inside solids). Fills the low
+// faces of the cells in grown(2), except the last stored layer at the upper ends.
 template <int Dim>
 void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceField<Dim>& open);
 
-// The same of one face.
+// The same for one face.
 template <int Dim>
 double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face);
 
-// Share of a cell with phi < 0 (phi at cell centres, valid one cell around) and psi > 0.
+// Fraction of a cell with phi < 0 (phi at cell centres, valid one cell around) and psi > 0 (psi at nodes).
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell);
 

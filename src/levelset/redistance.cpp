@@ -12,7 +12,7 @@ double minmod(double a, double b) {
   return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b);
 }
 
-// `cell` is the cell size in the units of phi: no distance changes faster.
+// `cell`: cell size in the units of phi. It limits the slopes beyond the sides, since |grad| of a distance is 1.
 template <int Dim>
 void fill_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, double cell, CellField<Dim>& phi) {
   halo.fill_ghosts(phi);
@@ -24,8 +24,8 @@ double second(const double* f, Site d) {
   return f[-d] - 2 * f[0] + f[d];
 }
 
-// Share t of the way from f[0] to f[d] at which the ENO parabola a + B t + c/2 t^2 crosses zero; signs of f[0], f[d]
-// differ. Written so that nothing cancels as c goes to zero.
+// Fraction t of the way from f[0] to f[d] at which the ENO parabola a + B t + c/2 t^2 crosses zero. The signs of f[0]
+// and f[d] must differ. This form has no cancellation as c goes to zero.
 double crossing(const double* f, Site d) {
   const double c = minmod(second(f, d), second(f + d, d)), a = f[0], b = f[d];
   const double B = b - a - c / 2;
@@ -45,8 +45,9 @@ double smooth_norm(const Layout<Dim>& layout, const double* f) {
   return std::sqrt(sum);
 }
 
-// phi <- phi + w (d - phi), d the distance of the nearest point of the zero, w from 0 to 1 as phi or its slope there is
-// off, but for fixed cells; marks the cells that relaxation is to leave alone. phi in cells, ghosts filled.
+// Closest-point redistancing: phi <- phi + w (d - phi) in cells that are not `fixed`, d the distance from the nearest
+// point of the zero. w grows from 0 to 1 with the error of phi and of |grad phi| there. Adds the cells that relaxation
+// must skip to `fixed`. phi in cells, ghosts filled.
 template <int Dim>
 void settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi, CellField<Dim, char>& fixed) {
   constexpr double none = 0.02, all = 0.1;
@@ -65,15 +66,14 @@ void settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& p
   });
 }
 
-// What the relaxation needs of a band cell's initial values: for each neighbour, the distance in cells to the zero
-// crossing or 1, and the smallest of these for the step.
+// Data of a band cell that follow from the initial values.
 template <int Dim>
 struct BandCell {
   Site site;
   double sign;
-  double step;
-  unsigned sides;  // bit 2 axis + side: no cell of the domain beyond
-  std::array<std::array<double, 2>, Dim> reach;
+  double step;                                   // pseudo-time step: 0.45 times the smallest reach
+  unsigned sides;                                // bit 2 axis + side: this side is a side of the domain
+  std::array<std::array<double, 2>, Dim> reach;  // distance to the zero crossing towards each neighbour, or 1, cells
 };
 
 template <int Dim>
@@ -90,7 +90,7 @@ class Relaxation {
     collect(fixed);
   }
 
-  // Heun steps: two forward steps averaged with the start.
+  // Heun's method: averages two forward steps with the start.
   void run(int iterations) {
     std::vector<double> before(cells_.size());
     for (int n = 0; n < iterations; ++n) {
@@ -113,7 +113,7 @@ class Relaxation {
     change_.resize(cells_.size());
   }
 
-  // In the band, or close enough for the interface to have brought the band here.
+  // True if s is in the band or at most entering_ cells from it.
   bool near_band(Site s) const {
     if (std::abs(start_[s]) < limit_) return true;
     for (int a = 0; a < Dim; ++a)
@@ -123,7 +123,7 @@ class Relaxation {
     return false;
   }
 
-  // Beyond a side of the domain there is no interface to stop at, whatever sign the continued values take.
+  // True if s is next to this side of the domain. No interface lies beyond it, even if extended values change sign.
   bool at_side(Site s, int axis, int side) const {
     const Geometry<Dim>& g = layout_.geometry();
     return !g.periodic[axis] && layout_.index(s)[axis] == (side == 0 ? 0 : g.cells[axis] - 1);
@@ -143,7 +143,7 @@ class Relaxation {
     return c;
   }
 
-  // One-sided slope along +-axis, ending at the interface where it lies between (phi = 0 there).
+  // One-sided slope along the axis. The difference ends at the interface (phi = 0) if it lies between.
   double slope(const BandCell<Dim>& c, int axis, int side) const {
     const Site d = side == 0 ? -layout_.stride(axis) : layout_.stride(axis);
     const double* f = phi_.data() + c.site;
@@ -152,10 +152,10 @@ class Relaxation {
     return rise / reach - 0.5 * reach * minmod(second(f, d), second(f + d, d));
   }
 
-  // Godunov's |grad phi| for a front moving away from the interface, and whether part of it enters through a side.
+  // Godunov's |grad phi| for a front moving away from the interface.
   struct Gradient {
     double norm = 0;
-    bool enters = false;
+    bool enters = false;  // true if a part of it is upwind from beyond a side of the domain
   };
   Gradient gradient(const BandCell<Dim>& c) const {
     Gradient g;
@@ -169,8 +169,8 @@ class Relaxation {
     return g;
   }
 
-  // Beyond a side phi only continues what is inside: a distance must not shrink on its word, or it would shrink without
-  // end (a lower phi at the wall makes the continued slope steeper). It may grow.
+  // Upwind values from beyond a side may make a distance grow but not shrink, because they are extended from inside: a
+  // lower phi at the wall makes the extended slope steeper, so that phi would shrink without end.
   double rate(const BandCell<Dim>& c) const {
     const Gradient g = gradient(c);
     return g.enters && g.norm > 1 ? 0 : 1 - g.norm;

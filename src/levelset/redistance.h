@@ -1,29 +1,30 @@
 #pragma once
-// Makes a level set a signed distance again near its zero without moving the zero.
+// Redistancing: makes a level set a signed distance again near its zero without moving the zero.
 #include "grid/halo.h"
 
 namespace seiche {
 
 struct RedistanceOptions {
-  double band = 5;     // cells on each side within which phi is kept; beyond it is +-band
+  double band = 5;     // width of the band on each side, cells; beyond it phi = +-band
   int iterations = 8;  // each carries distance 0.45 cells outwards
-  int entering = 2;    // layers beyond the band that may enter it: what the interface moved since the last call
-  // Cells from the zero within which phi follows from the nearest points of its zero; at most halo - 1.
+  int entering = 2;    // layers beyond the band that may enter it: the interface's motion since the last call, cells
+  // Width of closest-point redistancing on each side of the zero, cells; at most halo - 1. 0: relaxation only.
   double settled = 0;
 };
 
-// Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka
-// 2000; du Chene, Min, Gibou 2008). Cells where `kept` is set are read but keep phi. Fills ghosts. Collective. The
-// relaxation moves the zero by some 1e-3 cells a call, by another amount at each place, which adds up to volume and
-// which curvature feels. Within `settled` cells phi goes over to its distance from the nearest point of the zero of its
-// cubic interpolant instead (levelset/closest_point.h), none of the way where it is 2 % off, all of it from 10 % on:
-// what strains phi sets how much of it is done, not the number of calls. Where that finds no foot, phi stays if |grad
-// phi| is within a tenth of 1 and is relaxed otherwise.
+// Redistances phi (m). Cells where `kept` is set are read but keep phi. Fills ghosts. Collective.
+//
+// Relaxes |grad phi| = 1 in pseudo-time with second-order ENO differences that stop at the interface (Russo, Smereka
+// 2000; du Chene, Min, Gibou 2008). This moves the zero by some 1e-3 cells per call, non-uniformly, so that volume
+// drifts and curvature becomes noisy. Within `settled` cells, closest-point redistancing is used instead: phi <- phi +
+// w (d - phi), d the distance from the zero of the cubic interpolant (levelset/closest_point.h). The weight w grows
+// from 0 at a relative error of 2 % to 1 at 10 %. The correction thus depends on the distortion of phi, not on the
+// number of calls. If no closest point is found, phi stays if |grad phi| is within 0.1 of 1, and is relaxed otherwise.
 template <int Dim>
 void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options, CellField<Dim>& phi,
                 const CellField<Dim, char>* kept = nullptr);
 
-// Halo exchange and straight continuation beyond the sides, as level sets need it.
+// Halo exchange of a level set (m), and linear extension beyond the sides with slopes of at most 1.
 template <int Dim>
 void fill_level_set_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& phi);
 

@@ -11,20 +11,20 @@
 namespace seiche {
 namespace {
 
-constexpr double reach = 2;  // cells within which facets are searched
+constexpr double reach = 2;  // search distance for facets, cells
 
 std::int64_t edge_key(int a, int b) {
   return (std::int64_t(std::min(a, b)) << 32) | std::int64_t(std::max(a, b));
 }
 
-// Weights of the point nearest to x on a segment.
+// Weights of the point on a segment nearest to x.
 std::array<double, 2> nearest_weights(const std::array<Vec<2>, 2>& p, const Vec<2>& x) {
   const Vec<2> e = p[1] - p[0];
   const double length2 = e.squaredNorm(), t = length2 > 0 ? std::clamp((x - p[0]).dot(e) / length2, 0., 1.) : 0;
   return {1 - t, t};
 }
 
-// On a triangle, by the region of its plane in which x projects (Ericson 2005, 5.1.5).
+// The same on a triangle, by the region of its plane that x projects to (Ericson 2005, 5.1.5).
 std::array<double, 3> nearest_weights(const std::array<Vec<3>, 3>& p, const Vec<3>& x) {
   const Vec3 ab = p[1] - p[0], ac = p[2] - p[0], ap = x - p[0], bp = x - p[1], cp = x - p[2];
   const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
@@ -42,7 +42,8 @@ std::array<double, 3> nearest_weights(const std::array<Vec<3>, 3>& p, const Vec<
   return {va / sum, vb / sum, vc / sum};
 }
 
-// Outward, of the length of the facet's measure: the inside lies left of segments, triangles turn counter-clockwise.
+// Outward normal whose length is the facet's measure. The inside lies left of segments; triangles are counter-clockwise
+// seen from outside.
 Vec<2> facet_normal(const std::array<Vec<2>, 2>& p) {
   return {p[1][1] - p[0][1], p[0][0] - p[1][0]};
 }
@@ -57,7 +58,7 @@ double longest_side(const std::array<Vec<Dim>, Dim>& p) {
   return longest;
 }
 
-// visit(w) of the weights of the centres of equal parts of a facet, its sides cut into n.
+// Calls visit(w) for the centres of equal parts of a facet whose sides are cut into n. w: barycentric weights.
 template <class Visit>
 void visit_parts(std::array<double, 2>, int n, const Visit& visit) {
   for (int i = 0; i < n; ++i) visit(std::array<double, 2>{1 - (i + 0.5) / n, (i + 0.5) / n});
@@ -80,8 +81,8 @@ double corner_angle(const std::array<Vec<3>, 3>& p, int i) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Angle under which a facet is seen from x, signed; a closed surface adds up to 2 pi, or 4 pi, inside (van Oosterom,
-// Strackee 1983).
+// Signed angle (2D) or solid angle (3D) of a facet seen from x (van Oosterom, Strackee 1983). Their sum over a closed
+// surface is 2 pi (2D) or 4 pi (3D) inside, and 0 outside.
 double seen_angle(const std::array<Vec<2>, 2>& p, const Vec<2>& x) {
   const Vec<2> a = p[0] - x, b = p[1] - x;
   return std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
@@ -92,7 +93,7 @@ double seen_angle(const std::array<Vec<3>, 3>& p, const Vec<3>& x) {
   return 2 * std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
 }
 
-// The cells of `within` that come within `distance` cells of the box around some points.
+// The cells of `within` that are at most `distance` cells from the bounding box of some points.
 template <int Dim, class Points>
 Box<Dim> cells_around(const Layout<Dim>& layout, const Points& points, double distance, const Box<Dim>& within) {
   Vec<Dim> low = Vec<Dim>::Constant(1e300), high = -low;
@@ -187,7 +188,7 @@ typename SurfaceDistance<Dim>::Nearest SurfaceDistance<Dim>::search(const Vec<Di
   return best;
 }
 
-// By the normal of the corner, edge or facet that is nearest.
+// The sign follows from the normal of the nearest corner, edge or facet.
 template <int Dim>
 bool SurfaceDistance<Dim>::is_inside(const Vec<Dim>& x, const Nearest& n) const {
   const auto c = corners(n.facet);
@@ -208,7 +209,7 @@ double SurfaceDistance<Dim>::winding_number(const Vec<Dim>& x) const {
   return sum / (Dim == 2 ? 2 * 3.14159265358979323846 : 4 * 3.14159265358979323846);
 }
 
-// Nodes near the surface first; from them their sign spreads.
+// Computes nodes near the surface first, then spreads their sign to the others.
 template <int Dim>
 void SurfaceDistance<Dim>::fill(NodeField<Dim>& distance) const {
   if (box_.empty()) return;
@@ -260,7 +261,7 @@ SurfaceWeights SurfaceDistance<Dim>::nearest_weights(const Vec<Dim>& x) const {
   return weights;
 }
 
-// Facets are cut into parts no longer than a quarter of R, their centres count.
+// Quadrature by the centres of parts of facets, whose sides are at most R/4.
 template <int Dim>
 SurfaceWeights SurfaceDistance<Dim>::mean_around(const Vec<Dim>& x, double R) const {
   std::map<int, double> sums;

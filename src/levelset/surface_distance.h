@@ -1,5 +1,5 @@
 #pragma once
-// Signed distances to a closed surface that changes its shape, and the points of it that are nearest.
+// Signed distances from a closed deforming surface, and its nearest points.
 #include <unordered_map>
 #include <vector>
 
@@ -8,39 +8,40 @@
 
 namespace seiche {
 
-// A point of a surface: on one facet, with the weights of its corners (they add up to one).
+// A point on a facet of a surface. The weights of the corners (point numbers) add up to one.
 template <int Dim>
 struct SurfacePoint {
   std::array<int, Dim> corners{};
   std::array<double, Dim> weights{};
 };
 
-// Some points of a surface and their weights, which add up to one.
+// Points of a surface with weights that add up to one.
 using SurfaceWeights = std::vector<std::pair<int, double>>;
 
 template <int Dim>
 class SurfaceDistance {
  public:
-  // Of what `layout` stores. Facets are those of `facets`, corners at `points` (m).
+  // Covers the sites stored by `layout`. The facets are those of `facets`, with corners at `points` (m). Keeps
+  // references.
   SurfaceDistance(const Layout<Dim>& layout, const SurfaceMesh& facets, const std::vector<Vec<Dim>>& points);
 
-  // Nodes within this box may be nearer than `margin` cells.
+  // Stored nodes around the surface. Nodes outside are at least `margin` cells from it.
   const Box<Dim>& box() const { return box_; }
-  // Writes the distance to all nodes of the box, m, negative inside: within two cells of the surface that to the
-  // nearest facet, elsewhere about h more a cell.
+  // Writes the signed distance (m, negative inside) at all nodes of the box. Nodes farther than two cells from the
+  // surface get +-2 h.
   void fill(NodeField<Dim>& distance) const;
   // The nearest point of the surface, if it is within two cells.
   bool nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) const;
-  // The weights of its corners; empty if it is not.
+  // The nearest point as weights of its facet's corners; empty if it is more than two cells away.
   SurfaceWeights nearest_weights(const Vec<Dim>& x) const;
-  // The mean over the surface around x, by the area of its facets times (1 - r^2/R^2)^2 within the distance R (m, at
-  // most two cells); empty where there is none.
+  // Weights of the mean over the surface within the distance R of x (m, at most two cells), by area times (1 -
+  // r^2/R^2)^2. Empty if there is no surface.
   SurfaceWeights mean_around(const Vec<Dim>& x, double R) const;
-  // The unit normal of the nearest facet, outward; zero if that is more than two cells away.
+  // Outward unit normal of the nearest facet; zero if no facet's box is within two cells of x's cell.
   Vec<Dim> normal_near(const Vec<Dim>& x) const;
-  // Signed distance of a point, m; two cells where it is farther away.
+  // Signed distance of a point, m; +2 h if it is farther than two cells, on either side.
   double distance(const Vec<Dim>& x) const;
-  // The share of the way from p to q at which it meets the surface first; 2 where it does not. q lies at most two cells
+  // Fraction of the way from p to q at which it meets the surface first; 2 if it does not. q must be at most two cells
   // from p's cell along each axis.
   double first_crossing(const Vec<Dim>& p, const Vec<Dim>& q) const;
 
@@ -66,7 +67,7 @@ class SurfaceDistance {
   const SurfaceMesh& facets_;
   const std::vector<Vec<Dim>>& points_;
   Box<Dim> box_;
-  std::unordered_map<Site, std::vector<int>> bins_;          // facets within reach of the points of a cell
+  std::unordered_map<Site, std::vector<int>> bins_;          // by cell: facets whose box is within two cells of it
   std::vector<Vec<Dim>> facet_normals_, point_normals_;      // the latter weighted by angles (Baerentzen, Aanaes 2005)
   std::unordered_map<std::int64_t, Vec<Dim>> edge_normals_;  // 3D
 };

@@ -8,6 +8,10 @@
 #include "geometry/vdb/openvdb_adapter.h"
 #include "render/bvh.h"
 
+namespace seiche {
+struct Scene;
+}
+
 namespace seiche::render {
 
 struct LoadedFrame {

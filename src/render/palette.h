@@ -2,6 +2,10 @@
 // Colours of the solids.
 #include "render/image.h"
 
+namespace seiche {
+struct Scene;
+}
+
 namespace seiche::render {
 
 // Light grey for static solids, dark grey for prescribed ones, and a colour for each rigid body in the order of the

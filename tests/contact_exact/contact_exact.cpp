@@ -1,4 +1,4 @@
-// A tumbling pile never intersects itself, nor the container: triangles against triangles with exact predicates.
+// A tumbling pile intersects neither itself nor the container: triangle tests with exact predicates.
 #include <random>
 
 #include "exact_intersections.h"
@@ -65,5 +65,5 @@ TEST_CASE("a tumbling pile never intersects", "[long]") {
   for (const auto& b : world.bodies)
     if (b.contact.control == BodyControl::free) highest = std::max(highest, b.pose.displacement[1]);
   CAPTURE(world.newton_iterations, world.solves, contacts);
-  CHECK(highest < 1);  // it has come down
+  CHECK(highest < 1);  // the pile has come down
 }

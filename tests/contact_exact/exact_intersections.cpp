@@ -58,7 +58,7 @@ Kernel::Segment_3 side_opposite(const Element<Kernel::Triangle_3>& a, int corner
   return {a.shape.vertex(at + 1), a.shape.vertex(at + 2)};
 }
 
-// Two elements of one surface.
+// Pairs of elements of one surface.
 bool crosses_itself(const Element<Kernel::Triangle_3>& a, const Element<Kernel::Triangle_3>& b) {
   const std::vector<int> common = common_corners(a, b);
   if (common.empty()) return CGAL::do_intersect(a.shape, b.shape);

@@ -1,5 +1,5 @@
 #pragma once
-// Whether surfaces intersect, by CGAL's exact predicates: independent of the distances that contact is solved with.
+// Intersection tests of surfaces by CGAL's exact predicates: independent of the distances used by the contact solver.
 #include <vector>
 
 #include "base/scene.h"
@@ -14,16 +14,16 @@ struct PlacedSurface {
   Mobility mobility = Mobility::free;
 };
 
-// Pairs of triangles (2D: segments) with a common point, of two surfaces of which one at least is not prescribed, or of
-// one deformable surface: there of elements that share no corner, or one side of an element and one that it has a
-// single corner opposite to that side in common with.
+// Number of pairs of triangles (2D: segments) with a common point. Counts pairs of two surfaces, not both prescribed.
+// Within one deformable surface it counts elements without a common corner, and a side of one element with another
+// element that shares only the corner opposite to that side.
 int intersections(const std::vector<PlacedSurface>& surfaces);
 
-// Points of surfaces that are not prescribed on or beyond a side of the domain.
+// Number of points on or beyond a closed side of the domain, of surfaces that are not prescribed.
 int points_outside(const std::vector<PlacedSurface>& surfaces, const Scene& scene);
 
-// For each surface that is not prescribed, in order, how often each other one winds round one of its points: 0 outside.
-// Surfaces that do not intersect, but of which one has got into the other, show here.
+// Winding numbers of the other surfaces about one point of each surface that is not prescribed, in order; 0 is outside.
+// Detects a surface inside another one without intersection.
 std::vector<int> windings(const std::vector<PlacedSurface>& surfaces);
 
 }  // namespace seiche::exact

@@ -1,4 +1,4 @@
-// No accepted state of the program's own steps has surfaces that intersect: the scenes of scenes/ with rigid or elastic
+// No accepted state of the program's steps has intersecting surfaces: the scenes of scenes/ with rigid or elastic
 // solids, and random dam breaks onto boxes, balls and meshes between obstacles and a paddle.
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -19,8 +19,8 @@ using exact::PlacedSurface;
 
 namespace {
 
-// The surfaces of a simulation's solids: of rigid and elastic ones where it says they are, of others where their motion
-// puts them.
+// Surfaces of a simulation's solids: rigid and elastic ones at their current positions, others at their prescribed
+// poses.
 class Surfaces {
  public:
   explicit Surfaces(const Scene& scene) : dimension_(scene.dimension) {
@@ -65,7 +65,8 @@ struct Faults {
   double least_volume = 1;  // det F of elastic solids
 };
 
-// Gradients of a simplex's shape functions by barycentric coordinates; nodes in the order of VTK. Row a is node a.
+// Gradients of a simplex's shape functions with respect to barycentric coordinates; nodes in VTK order. Row a belongs
+// to node a.
 Eigen::MatrixXd barycentric_gradients(const Eigen::VectorXd& at, int nodes) {
   static const std::array<std::array<int, 2>, 6> sides{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
   const int n = int(at.size());
@@ -79,7 +80,7 @@ Eigen::MatrixXd barycentric_gradients(const Eigen::VectorXd& at, int nodes) {
   return g;
 }
 
-// The least det F over a lattice of points in each element, corners and sides included, from what a frame holds.
+// Smallest det F over a lattice of points in each element, corners and sides included, from a frame's data.
 double least_volume_ratio(const VolumeFrame& frame) {
   const int dim = frame.dimension, n = dim + 1, nodes = frame.order == 1 ? n : n * (n + 1) / 2;
   double least = 1e300;
@@ -99,7 +100,7 @@ double least_volume_ratio(const VolumeFrame& frame) {
           if (dim == 3) at[3] = double(k) / parts;
           at[0] = 1 - at.tail(dim).sum();
           const Eigen::MatrixXd g = barycentric_gradients(at, nodes);
-          // Derivatives by lambda_1 ... lambda_dim, lambda_0 being the rest.
+          // Derivatives with respect to lambda_1 ... lambda_dim; lambda_0 is one minus their sum.
           const Eigen::MatrixXd d = g.rightCols(dim) - g.col(0).replicate(1, dim);
           least = std::min(least, (x * d).determinant() / (X * d).determinant());
         }
@@ -111,7 +112,7 @@ Faults run(const Scene& scene, int steps) {
   const auto sim = make_simulation(scene, Communicator());
   const Surfaces surfaces(scene);
   const std::vector<int> windings = exact::windings(surfaces.at(*sim));
-  const int standing = exact::points_outside(surfaces.at(*sim), scene);  // pinned on a side of the domain
+  const int standing = exact::points_outside(surfaces.at(*sim), scene);  // pinned points on a side of the domain
   Faults faults;
   for (int n = 0; n < steps; ++n) {
     const StepStats stats = sim->step(sim->time() + 1);
@@ -143,7 +144,7 @@ bool has_free_solids(const Scene& scene) {
                      [](const SolidSpec& s) { return s.kind == SolidKind::rigid || s.kind == SolidKind::elastic; });
 }
 
-// A scene on cells twice as large, where the domain takes them, with as many solids as this test has time for.
+// A scene on cells twice as large, if the domain allows it, with as many solids as the test has time for.
 Scene coarse_scene(const std::filesystem::path& file) {
   Scene scene = read_scene(file);
   bool even = true;
@@ -156,7 +157,7 @@ Scene coarse_scene(const std::filesystem::path& file) {
 
 using Dice = std::function<double(double low, double high)>;
 
-// A tank of 1 m with a dam, an obstacle, and a paddle that swings.
+// A tank of 1 m with a dam, an obstacle, and a swinging paddle.
 Scene dam_and_paddle(int dim) {
   Scene s = test::box_scene(dim, dim == 2 ? 32 : 16);
   s.gravity = {0, -9.81, 0};
@@ -176,7 +177,7 @@ Scene dam_and_paddle(int dim) {
   return s;
 }
 
-// The n-th body, in a slot of its own: a box, a ball, in 3D also a mesh.
+// The n-th body, in a slot of its own: a box or a ball, in 3D also a mesh.
 SolidSpec random_body(int dim, int n, const Dice& dice) {
   const int rows = dim == 3 ? 2 : 1;
   const Vec3 slot(0.14 + 0.2 * (n % 4), 0.37 + 0.22 * (n / 4 / rows), dim == 3 ? 0.25 + 0.5 * (n / 4 % rows) : 0);
@@ -205,7 +206,7 @@ Scene random_scene(int dim, unsigned seed) {
   return s;
 }
 
-// A soft ball thrown among boxes into shallow water before a soft gate.
+// A soft ball thrown among boxes into shallow water in front of a soft gate.
 Scene soft_scene() {
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -9.81, 0};
@@ -233,7 +234,7 @@ TEST_CASE("the exact tests see what intersects, what is outside and what has got
         {{low, low, 0}, {high, low, 0}, {high, high, 0}, {low, high, 0}}, {}, {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}}};
     return PlacedSurface{mesh, Mobility::free};
   };
-  CHECK(exact::intersections({square(0.1, 0.5), square(0.5, 0.6)}) > 0);  // they touch in a corner
+  CHECK(exact::intersections({square(0.1, 0.5), square(0.5, 0.6)}) > 0);  // they touch at a corner
   CHECK(exact::intersections({square(0.1, 0.5), square(std::nextafter(0.5, 1), 0.6)}) == 0);
   CHECK(exact::intersections({square(0.1, 0.5), square(0.2, 0.3)}) == 0);
   CHECK(exact::windings({square(0.1, 0.5), square(0.2, 0.3)}) == std::vector<int>{0, 1});
@@ -254,7 +255,7 @@ TEST_CASE("no accepted state of the scenes has solids that intersect", "[long]")
       check(file.stem().string(), scene,
             scene.dimension == 2 ? 100
             : deforms            ? 8
-                                 : 50);  // seconds a step where it does
+                                 : 50);  // a deforming 3D scene takes seconds a step
     }
   }
 }
@@ -280,6 +281,6 @@ TEST_CASE("the least det F is seen anywhere in an element", "[elastic]") {
   for (int a = 0; a < 6; ++a) frame.displacement[std::size_t(a)] = -0.5 * frame.rest[std::size_t(a)];
   CHECK(least_volume_ratio(frame) == Approx(0.25));
   frame.displacement.assign(6, Vec3::Zero());
-  frame.displacement[3] = {-0.26, 0, 0};  // a node of a side beyond its quarter
+  frame.displacement[3] = {-0.26, 0, 0};  // moves a side node past the quarter point
   CHECK(least_volume_ratio(frame) < 0);
 }

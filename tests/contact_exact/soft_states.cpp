@@ -41,7 +41,7 @@ SoftWorld<Dim> heap() {
   SoftWorld<Dim> world;
   world.gravity = Vec3(0, -9.81, 0);
   world.options.acceleration = 100;
-  world.options.creep_speed = 0.01;  // violent piles take many iterations where it is far below their speeds
+  world.options.creep_speed = 0.01;  // far lower creep speeds cost violent piles many iterations
   world.walls = {{Vec3::Zero(), Vec3::UnitY()},
                  {Vec3(-0.2, 0, 0), Vec3::UnitX()},
                  {Vec3(0.2, 0, 0), -Vec3::UnitX()},

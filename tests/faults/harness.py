@@ -1,4 +1,4 @@
-"""What the tests of the built program share: scenes, running it with or without mpirun, and reading what it leaves."""
+"""Helpers for tests of the built program: scenes, runs with or without mpirun, and readers of the output."""
 import contextlib
 import csv
 import json
@@ -19,7 +19,7 @@ from read_frames import frame_faults
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
                    "OMPI_MCA_mpi_yield_when_idle": "1"}
-LONGEST_RUN = 60   # s; far above what any of these runs takes, even on a busy machine
+LONGEST_RUN = 60   # s; far above the time of any of these runs, even on a busy machine
 
 DAM = """\
 dimension = 2
@@ -67,7 +67,7 @@ class Result:
         self.code, self.output, self.errors, self.seconds = process.returncode, output, errors, seconds
 
     def needs(self, code, *texts):
-        """The exit code, and texts that the program must have printed (on either stream)."""
+        """Requires the exit code, and texts that the program must have printed (on either stream)."""
         said = f"\n--- output\n{self.output}\n--- errors\n{self.errors}"
         expect(self.code == code, f"exit code {self.code}, not {code}{said}")
         for text in texts:
@@ -124,7 +124,7 @@ class Bench:
 
 
 def wait_for(condition, what, limit=LONGEST_RUN):
-    """Waits until the condition holds; fails with a text that says what was waited for."""
+    """Waits until the condition holds; fails after `limit` seconds with a text that contains `what`."""
     until = time.monotonic() + limit
     while not condition():
         expect(time.monotonic() < until, f"waited {limit} s for {what}")
@@ -140,12 +140,12 @@ def wait_for_steps(bench, out="out", steps=3):
 
 
 def root_process(bench, out="out"):
-    """The process id of rank 0, from the run directory's lock."""
+    """Process id of rank 0, from the run directory's lock."""
     return int((bench.path(out) / "lock").read_text())
 
 
 def rank_processes(mpirun):
-    """Process ids of the ranks; those of threads that end meanwhile are left out."""
+    """Process ids of the ranks, without threads that end meanwhile."""
     children = []
     for thread in pathlib.Path(f"/proc/{mpirun.pid}/task").glob("*/children"):
         with contextlib.suppress(FileNotFoundError, ProcessLookupError):
@@ -160,7 +160,7 @@ def table(folder, name):
 
 
 def stats(folder, without=("wall_seconds",)):
-    """Rows of stats.csv as dictionaries of texts, without the columns that no two runs share."""
+    """Rows of stats.csv as dictionaries of texts, without the columns that differ between any two runs."""
     return [{k: v for k, v in row.items() if k not in without} for row in table(folder, "stats.csv")]
 
 
@@ -186,7 +186,7 @@ def frame_voxels(path):
 
 
 def frames_are_good(folder, count=None):
-    """Every frame under a final name is whole, finite and within the domain, as OpenVDB's own module reads it."""
+    """Every frame under a final name is complete, finite and within the domain, by OpenVDB's own module."""
     files = frame_files(folder)
     if count is not None:
         expect(len(files) == count, f"{len(files)} frames, not {count}")
@@ -227,7 +227,7 @@ def crc32c(data):
 
 
 def recommit(checkpoint):
-    """Makes COMMIT agree again with files that a test has changed on purpose."""
+    """Updates COMMIT to match files that a test has changed on purpose."""
     head = (checkpoint / "COMMIT").read_text().splitlines()[:2]
     for file in sorted(checkpoint.glob("rank.*")):
         data = file.read_bytes()
@@ -237,7 +237,7 @@ def recommit(checkpoint):
 
 
 def run_table(tables, arguments):
-    """Runs PROGRAM GROUP [CASE ...]: every function of the group gets a fresh bench; returns the number of failures."""
+    """Runs PROGRAM GROUP [CASE ...] with a new bench for each function of the group. Returns the number of failures."""
     if len(arguments) < 2 or arguments[1] not in tables:
         sys.exit(f"usage: PROGRAM GROUP [CASE ...]; groups: {', '.join(tables)}")
     program, group, chosen = arguments[0], arguments[1], arguments[2:]

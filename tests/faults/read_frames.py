@@ -53,7 +53,7 @@ def level_set_faults(grid, values):
     band = grid.background
     if not band > 0 or numpy.abs(values).max() > band:
         yield f"{grid.name}: values beyond the background {band}"
-    for axis in range(3):  # neighbours may not jump from deep inside to far outside
+    for axis in range(3):  # neighbours must not jump from deep inside to far outside
         steps = numpy.abs(numpy.diff(values, axis=axis))
         if steps.size and steps.max() >= 2 * band:
             yield f"{grid.name}: inside meets outside along axis {axis} without a surface between"
@@ -100,7 +100,7 @@ def main(paths):
     for path in paths:
         try:
             faults = frame_faults(path)
-        except Exception as error:  # whatever the reader throws is the fault
+        except Exception as error:  # any exception of the reader is a fault
             faults = [f"cannot be read: {error}"]
         for fault in faults:
             print(f"{path}: {fault}")

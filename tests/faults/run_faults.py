@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Faults of files, signals, memory, ranks and checkpoints, and awkward domains, driven through the built program.
 
-Usage: run_faults.py PROGRAM GROUP [CASE ...]. The docstring of each case names the fault and what must come of it."""
+Usage: run_faults.py PROGRAM GROUP [CASE ...]. The docstring of each case names the fault and the required outcome."""
 import base64
 import csv
 import os
@@ -21,7 +21,7 @@ from harness import (DAM, crc32c, expect, frame_files, frame_voxels, frames_are_
                      rank_processes, recommit, root_process, run_table, same_frames, same_tables, stats, summary,
                      wait_for_steps)
 
-LONG = DAM.replace("end = 0.2", "end = 50.0")   # more than any test waits for
+LONG = DAM.replace("end = 0.2", "end = 50.0")   # longer than any test waits
 
 
 def box_scene(cells, liquid, extra="", end=0.05):
@@ -43,7 +43,7 @@ EVERYWHERE = region('shape = "expression"\nphi = "-1"')
 # --- awkward domains -------------------------------------------------------------------------------------------------
 
 def no_liquid_at_all(bench):
-    """No liquid in the domain: the run is empty but whole."""
+    """No liquid in the domain: the run is empty but complete."""
     outside = region('shape = "sphere"\ncenter = [9.0, 9.0]\nradius = 0.1')
     bench.simulate(text=box_scene([16, 16], outside)).needs(0)
     expect(float(stats(bench.path("out"))[-1]["liquid_volume"]) == 0, "there is liquid")
@@ -54,7 +54,7 @@ def liquid_drains_away(bench):
     drop = region('shape = "box"\nlower = [0.3, 0.05]\nupper = [0.6, 0.3]')
     open_floor = '[domain.boundary]\ny_lower = { type = "outflow", pressure = 0.0 }\n'
     bench.simulate(text=box_scene([16, 16], drop, open_floor, end=1.0)).needs(0)
-    # What may stay is a film on the floor, below the centres of its cells: a tenth of a cell's layer.
+    # A film on the floor may stay, below the cell centres: a tenth of a layer of cells.
     expect(float(stats(bench.path("out"))[-1]["liquid_volume"]) < 0.1 * 0.0625, "liquid is left")
 
 
@@ -65,12 +65,12 @@ def no_solids_no_container(bench):
 
 
 def full_closed_container(bench):
-    """Filled to the lid, at rest, on odd and even sizes: stays at rest with no divergence."""
+    """Filled to the lid, at rest, with odd and even sizes: stays at rest without divergence."""
     for cells in ([16, 16], [24, 20], [33, 17], [17, 13], [17, 13, 11], [1, 16, 9]):
         out = "out" + "x".join(map(str, cells))
         bench.simulate("--set", "solver.tolerance=1e-12", text=box_scene(cells, EVERYWHERE), out=out).needs(0)
         last = stats(bench.path(out))[-1]
-        # The solve's tolerance times g dt = 0.5 m/s, with room for the number of cells; and that over h.
+        # The solver's tolerance times g dt = 0.5 m/s, with a margin for the number of cells; below, the same over h.
         expect(float(last["max_speed"]) < 1e-10, f"{cells}: speed {last['max_speed']}")
         expect(float(last["max_divergence"]) < 1e-8, f"{cells}: divergence {last['max_divergence']}")
 
@@ -83,7 +83,7 @@ def full_container_with_moving_solid(bench):
 
 
 def inflow_without_outlet(bench):
-    """A full closed container with an inflow cannot be."""
+    """A full closed container with an inflow is impossible."""
     inflow = '[domain.boundary]\nx_lower = { type = "inflow", velocity = ["1", "0"] }\n'
     result = bench.simulate(text=box_scene([16, 16], EVERYWHERE, inflow))
     expect(result.code in (2, 3), f"exit code {result.code}")
@@ -91,14 +91,14 @@ def inflow_without_outlet(bench):
 
 
 def inflow_balanced_to_round_off(bench):
-    """What flows in on one side flows out on the other but for the last bit."""
+    """Inflow on one side equals outflow on the other up to the last bit."""
     sides = ('[domain.boundary]\nx_lower = { type = "inflow", velocity = ["0.1+0.2", "0"] }\n'
              'x_upper = { type = "inflow", velocity = ["0.3", "0"] }\n')
     bench.simulate(text=box_scene([16, 17], EVERYWHERE, sides)).needs(0)
 
 
 def droplets_and_enclosed_cells(bench):
-    """Droplets of a cell or less, and cells that solids close off entirely."""
+    """Droplets of a cell or less, and cells enclosed by solids."""
     drops = "".join(region(f'shape = "sphere"\ncenter = [{x}, {y}]\nradius = {r}')
                     for x, y, r in [(0.2, 0.8, 0.04), (0.5, 0.81, 0.03), (0.7, 0.6, 0.07), (0.22, 0.4, 0.05)])
     blocks = "".join(f'[[solid]]\nname = "b{n}"\nkind = "static"\nshape = "box"\nlower = [{x}, {y}]\nupper = [{x + 0.2}, {y + 0.2}]\n'
@@ -108,7 +108,7 @@ def droplets_and_enclosed_cells(bench):
 
 
 def odd_and_thin_grids(bench):
-    """Odd, prime and long thin grids, one cell thick too."""
+    """Odd, prime and long thin grids, also one cell thick."""
     for cells in ([17, 13], [31, 7], [2, 2], [4, 4, 500], [3, 5, 7], [1, 16], [16, 1], [1, 9, 8], [9, 1, 8], [9, 8, 1], [1, 16, 1]):
         upper = ", ".join(str(n * 0.0625 / 2) if axis < 2 and n > 1 else "99.0" for axis, n in enumerate(cells))
         pool = region(f'shape = "box"\nlower = [{", ".join(["-1.0"] * len(cells))}]\nupper = [{upper}]')
@@ -122,7 +122,7 @@ def odd_and_thin_grids(bench):
 
 
 def scene_is_accounted_for(bench):
-    """check and the start of run tell liquid, masses, sizes and places, and what is lost of them."""
+    """`check` and the start of `run` report liquid, masses, sizes and positions, and the parts that are lost."""
     pool = region('shape = "box"\nlower = [0.0, 0.0]\nupper = [1.0, 0.5]')
     lost = region('shape = "box"\nlower = [0.7, 0.55]\nupper = [0.8, 0.65]') + region('shape = "sphere"\ncenter = [5.0, 5.0]\nradius = 0.1')
     block = '[[solid]]\nname = "block"\nkind = "static"\nshape = "box"\nlower = [0.6, 0.25]\nupper = [1.4, 0.75]\n'
@@ -139,7 +139,7 @@ def scene_is_accounted_for(bench):
             figures = re.search(r"liquid  (\S+) m\^2, (\S+) kg/m; (\S+) m\^2 of its regions lies inside solids",
                                 result.needs(0, *said).output)
             expect(figures, f"no line on the liquid in\n{result.output}")
-            for figure, right in zip(figures.groups(), (0.4, 400.0, 0.11)):   # corners are cut within their cells
+            for figure, right in zip(figures.groups(), (0.4, 400.0, 0.11)):   # corners are cut off within their cells
                 expect(abs(float(figure) - right) < 0.05 * right, f"{figure} where {right} is right")
     thin = '[[solid]]\nname = "sheet"\nkind = "static"\nshape = "box"\nlower = [0.5, 0.2]\nupper = [0.51, 0.9]\n'
     bench.run("check", bench.scene(box_scene([16, 16], pool, thin))).needs(0, "off: steps by halves (because of: solids thinner than a cell)")
@@ -170,7 +170,7 @@ BAD_AT_START = {
 
 
 def formula_not_finite_at_start(bench):
-    """A formula that is NaN or infinite as the run begins: 2, key, place and value, from any number of ranks."""
+    """A formula that is NaN or infinite at the start: 2, key, position and value, on any number of ranks."""
     for key, (path, value) in BAD_AT_START.items():
         for ranks in (0, 3):
             result = bench.simulate("--set", f"{path}={value}", ranks=ranks).needs(2, key, " at (")
@@ -180,14 +180,14 @@ def formula_not_finite_at_start(bench):
 
 
 def shape_not_finite(bench):
-    """A shape whose formula has no value on one rank's cells: 2, with the line of the shape."""
+    """A shape whose formula is not finite on one rank's cells: 2, with the line of the shape."""
     shape = region('shape = "expression"\nphi = "sqrt(0.9-x)-1"')
     for ranks in (0, 3):
         bench.simulate(text=box_scene([16, 16], shape), ranks=ranks).needs(2, "scene.toml:", "phi = ", "is nan at (")
 
 
 def formula_not_finite_later(bench):
-    """A side's formula that turns NaN: 3 in that step, naming the side; nothing of it on disk; resume says the same."""
+    """A side's formula becomes NaN: 3 in that step, naming the side; no NaN on disk; resume reports the same."""
     later = 'domain.boundary.y_upper={ type = "outflow", pressure = "0*sqrt(0.1-t)" }'
     for ranks in (0, 3):
         out = f"later{ranks}"
@@ -200,7 +200,7 @@ def formula_not_finite_later(bench):
 
 
 def pinned_step_too_long(bench):
-    """fixed_step beyond what the flow allows: 2 where the start shows it, else 3 with figures and a checkpoint."""
+    """fixed_step above the limit of the flow: 2 if the start shows it, else 3 with figures and a checkpoint."""
     bench.simulate("--set", "time.fixed_step=0.02", "--set", "liquid.velocity=[3.0, 0.0]", out="start").needs(
         2, "time.fixed_step", "cells", "lower fixed_step")
     bench.simulate("--set", "time.fixed_step=0.05", out="later").needs(3, "time.fixed_step", "cells", "lower fixed_step")
@@ -216,24 +216,24 @@ def more_ranks_than_cells(bench):
 
 
 def more_ranks_than_liquid(bench):
-    """All liquid in one corner: ranks without any of it."""
+    """All liquid in one corner: ranks without liquid."""
     drop = region('shape = "sphere"\ncenter = [0.1, 0.1]\nradius = 0.09')
     bench.simulate(text=box_scene([24, 24], drop), ranks=7).needs(0)
 
 
 def many_oversubscribed_ranks(bench):
-    """16 ranks on whatever cores there are."""
+    """16 ranks on any number of cores."""
     bench.simulate("--frames", "1", ranks=16, limit=120).needs(0)
 
 
 def liquid_moves_between_ranks(bench):
-    """Ranks become empty and are filled again."""
+    """Ranks lose all liquid and receive some again."""
     drop = region('shape = "box"\nlower = [0.0, 0.8]\nupper = [1.0, 0.95]')
     bench.simulate(text=box_scene([8, 32], drop, end=0.5), ranks=3).needs(0)
 
 
 def openmp_environment(bench):
-    """OMP_NUM_THREADS absurd: a warning, the same result, and a record of it."""
+    """Absurd OMP_NUM_THREADS: a warning, the same result, and a record of it."""
     bench.simulate(out="plain").needs(0)
     bench.simulate(out="many", env={"OMP_NUM_THREADS": "640"}).needs(0, "OMP_NUM_THREADS")
     bench.simulate("--threads", "3", out="three").needs(0)
@@ -244,7 +244,7 @@ def openmp_environment(bench):
 
 
 def ranks_share_a_processor(bench):
-    """More ranks, or threads, than processors that they may run on: a warning; else none."""
+    """More ranks or threads than allowed processors: a warning; else none."""
     allowed = os.sched_getaffinity(0)
     words = ("2 ranks with 1 thread each on 1 processor", "1 rank with 2 threads each on 1 processor")
     try:
@@ -276,7 +276,7 @@ def output_folder_created(bench):
 
 
 def output_is_a_file(bench):
-    """The output folder is a file, or below one."""
+    """The output folder is a file, or lies below a file."""
     bench.path("file").write_text("x")
     bench.simulate(out="file").needs(4, "file")
     bench.simulate(out="file/sub").needs(4, "file")
@@ -284,7 +284,7 @@ def output_is_a_file(bench):
 
 
 def output_not_writable(bench):
-    """A folder without permission, or on a file system without writing."""
+    """A folder without permission, or on a read-only file system."""
     bench.simulate(out="/proc/none").needs(4, "/proc/none")
     locked = bench.path("locked")
     locked.mkdir()
@@ -295,7 +295,7 @@ def output_not_writable(bench):
 
 
 def existing_output_refused(bench):
-    """A folder with a run or other files needs --overwrite, which leaves other people's files alone."""
+    """A folder with a run or other files needs --overwrite, which keeps foreign files."""
     bench.simulate("--frames", "1").needs(0)
     before = lines_of(bench.path("out/stats.csv"))
     bench.simulate("--frames", "1").needs(2, "--overwrite")
@@ -317,8 +317,8 @@ def two_jobs_in_one_folder(bench):
 
 
 def file_size_limit(bench):
-    """A limit of file sizes reached by a frame, then by a table: a message with path and free bytes, no shortened file
-    under a final name, the last checkpoint valid. (The limit is set on the running process: MPI's own files need more.)"""
+    """A frame, then a table, reaches the limit of file sizes: a message with path and free bytes, no truncated file
+    under a final name, a valid last checkpoint. (The limit is set on the running process: MPI's own files need more.)"""
     for out, cell_size, limit in (("frame", "0.0078125", 20000), ("table", "0.03125", 3000)):
         text = LONG.replace("0.03125", cell_size).replace("checkpoint_every = 1", "checkpoint_every = 1000")
         process = bench.start("run", bench.scene(text), "--out", out)
@@ -330,7 +330,7 @@ def file_size_limit(bench):
 
 
 def full_device(bench):
-    """/dev/full in place of each growing file, and of the folders that frames and checkpoints go to."""
+    """/dev/full in place of each growing file, and of the folders of frames and checkpoints."""
     bench.simulate("--frames", "1").needs(0)
     for name in ("stats.csv", "solids.csv", "probes.csv", "log.txt"):
         shutil.copytree(bench.path("out"), bench.path("copy"))
@@ -369,7 +369,7 @@ def full_disk(bench):
 
 
 def few_file_handles(bench):
-    """ulimit -n 16: a failure in words or none at all."""
+    """ulimit -n 16: a failure with a message, or none."""
     limit = lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (16, 16))
     result = bench.simulate("--frames", "1", limits=limit)
     expect(result.code != 0 or not frames_are_good(bench.path("out"), 2), "frames are missing")
@@ -392,7 +392,7 @@ def address_space_limit(bench):
     text = DAM.replace("cell_size = 0.03125", "cell_size = 0.00048828125")   # 2 M cells, 2 GB or so
     limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
     bench.simulate("--frames", "1", text=text, limits=limit).needs(5, "out of memory")
-    little = lambda: resource.setrlimit(resource.RLIMIT_AS, (150 << 20, 150 << 20))   # libraries would abort (134)
+    little = lambda: resource.setrlimit(resource.RLIMIT_AS, (150 << 20, 150 << 20))   # with less, libraries abort (134)
     bench.simulate("--frames", "1", text=text, limits=little).needs(5, "limit of address space")
 
 
@@ -429,14 +429,14 @@ def stop_by_signal(bench):
 
 
 def stop_in_the_first_moments(bench):
-    """SIGTERM 0 to 0.3 s after the start: 75 and a message, never a death by the signal once main has begun."""
+    """SIGTERM 0 to 0.3 s after the start: 75 and a message; once main has begun, never killed by the signal."""
     scene, heard = bench.scene(LONG), 0
     for n in range(15):
         process = bench.start("run", scene, "--out", f"out{n}")
         time.sleep(0.02 * n)
         process.send_signal(signal.SIGTERM)
         result = bench.finish(process)
-        if result.code == -signal.SIGTERM:   # while the system still loaded libraries
+        if result.code == -signal.SIGTERM:   # while the system still loads libraries
             expect(not bench.path(f"out{n}").exists() and not heard, f"after {0.02 * n} s the run died of the signal")
             continue
         heard += 1
@@ -444,7 +444,7 @@ def stop_in_the_first_moments(bench):
         if bench.path(f"out{n}").exists():
             expect(summary(bench.path(f"out{n}"))["exit_code"] == 75, "the summary does not say it")
     expect(heard > 0, "no signal was heard")
-    for verb in ("check", "info"):   # verbs that do not look for signals keep none back
+    for verb in ("check", "info"):   # verbs that do not handle signals do not block them
         expect(bench.run(verb, scene if verb == "check" else ".").code in (0, 2), verb)
 
 
@@ -498,7 +498,7 @@ def hung_rank(bench):
 
 
 def killed_and_resumed(bench):
-    """SIGKILL of the process in the middle of the run, a few times over, then on to the same bits."""
+    """SIGKILL in the middle of the run, a few times, then the end: the same bits."""
     whole = unbroken(bench)
     bench.simulate("--inject", "solve:0:kill:5")
     bench.run("resume", "out", "--inject", "checkpoint:0:kill:1")
@@ -507,7 +507,7 @@ def killed_and_resumed(bench):
 
 
 def resume_of_finished_run(bench):
-    """Nothing to do, unless a later end is asked for; that then equals the run that had it from the start."""
+    """Nothing to do, unless a later end is given; the result then equals a run with that end from the start."""
     bench.simulate("--set", "time.end=0.1").needs(0)
     bench.run("resume", "out").needs(0, "finished")
     bench.simulate(out="whole").needs(0)
@@ -523,7 +523,7 @@ PHASES = ("transport", "geometry", "solve", "restore", "frame", "checkpoint", "s
 
 
 def exception_in_every_phase(bench):
-    """One rank of three throws: the same code, its message, and the job ends within ten seconds."""
+    """One of three ranks throws: the same code, its message, and the job ends within ten seconds."""
     for phase in PHASES:
         result = bench.simulate("--inject", f"{phase}:1:throw:2", out=phase, ranks=3)
         result.needs(1, f"injected fault in phase {phase}", "rank 1")
@@ -532,14 +532,14 @@ def exception_in_every_phase(bench):
 
 
 def rank_killed(bench):
-    """One rank of three is killed: the job ends, and resuming goes on."""
+    """One of three ranks is killed: the job ends, and can be resumed."""
     result = bench.simulate("--inject", "solve:2:kill:6", ranks=3)
     expect(result.code != 0 and result.seconds < 10, f"exit code {result.code} after {result.seconds:.0f} s")
     bench.run("resume", "out", ranks=3).needs(0)
 
 
 def nan_once_in_numerics(bench):
-    """A NaN that appears once is caught in the same step, and half the step is tried instead."""
+    """A NaN that appears once is detected in the same step, and half the step is tried instead."""
     for phase in ("transport", "geometry", "solve", "restore"):
         result = bench.simulate("--inject", f"{phase}:0:nan:3", out=phase)
         expect(result.code in (0, 3), f"{phase}: exit code {result.code}\n{result.errors}")
@@ -604,7 +604,7 @@ def damaged_checkpoints(bench):
 
 
 def damaged_tables(bench):
-    """stats.csv, solids.csv or probes.csv missing, cut, changed: 6 with the name; --force goes on with what is left."""
+    """stats.csv, solids.csv or probes.csv missing, truncated or changed: 6 with the name; --force uses the remains."""
     out = stopped_run(bench)
     for name in ("stats.csv", "solids.csv", "probes.csv"):
         table = out / name
@@ -626,7 +626,7 @@ def damaged_tables(bench):
 
 
 def no_checkpoint_left(bench):
-    """All checkpoints damaged or gone: 6."""
+    """All checkpoints damaged or missing: 6."""
     out = stopped_run(bench)
     for folder in (out / "checkpoints").iterdir():
         file = folder / "rank.00000"
@@ -637,14 +637,14 @@ def no_checkpoint_left(bench):
 
 
 def extra_file_is_ignored(bench):
-    """A stranger's file in a checkpoint changes nothing."""
+    """A foreign file in a checkpoint changes nothing."""
     out = stopped_run(bench)
     (newest_checkpoint(out) / "rank.00007").write_text("stranger")
     bench.run("resume", "out", "--end", "0.2").needs(0)
 
 
 def swapped_rank_files(bench):
-    """The files of two ranks exchanged: never loaded as they are."""
+    """The files of two ranks exchanged: never loaded unchanged."""
     out = stopped_run(bench, ranks=2)
     folder = newest_checkpoint(out)
     a, b = folder / "rank.00000", folder / "rank.00001"
@@ -655,7 +655,7 @@ def swapped_rank_files(bench):
 
 
 def foreign_checkpoints(bench):
-    """Another version, byte order or precision, all else intact: 6, both named."""
+    """Another version, byte order or precision, otherwise intact: 6, both named."""
     out = stopped_run(bench)
     for offset, value, words in ((12, 2, ("format 2", "format 1")), (12, 0, ("format 0", "format 1")),
                                  (8, 0x04030201, ("big-endian", "little-endian")), (16, 4, ("4 bytes", "8"))):
@@ -673,7 +673,7 @@ def foreign_checkpoints(bench):
 
 
 def other_rank_counts(bench):
-    """1 -> 2, 2 -> 1, 2 -> 3 ranks at resume: the same result to the solve's tolerance."""
+    """1 -> 2, 2 -> 1, 2 -> 3 ranks at resume: the same result within the solver's tolerance."""
     bench.simulate(out="whole").needs(0)
     reference = stats(bench.path("whole"))[-1]
     for before, after in ((1, 2), (2, 1), (2, 3)):
@@ -683,12 +683,12 @@ def other_rank_counts(bench):
         last = stats(bench.path(out))[-1]
         for column in ("liquid_volume", "kinetic_energy", "potential_energy"):
             a, b = float(last[column]), float(reference[column])
-            # Solves agree to 1e-8 each; some twenty steps of a splashing flow add up.
+            # Solves agree to 1e-8 each; differences add up over some twenty steps of a splashing flow.
             expect(abs(a - b) <= 1e-5 * abs(b), f"{before}->{after}: {column} {a} instead of {b}")
 
 
 def edited_scene(bench):
-    """A scene edited between stop and resume: refused with the keys; numerical settings pass, --force lets output pass."""
+    """A scene edited between stop and resume: rejected with the keys; numerical settings pass, output with --force."""
     out = stopped_run(bench)
     scene = out / "scene.toml"
     original = scene.read_text()
@@ -733,7 +733,7 @@ def vtk_array(element):
 
 
 def frames_open_elsewhere(bench):
-    """Every frame, 2D and 3D, with every field: pyopenvdb and vdb_print read it; the VTK files hold what they announce."""
+    """Every frame, 2D and 3D, with every field: pyopenvdb and vdb_print read it; VTK files hold all announced data."""
     for out, text in (("flat", DAM), ("solid", BALL)):
         bench.simulate("--frames", "2", *ALL_FIELDS, text=text, out=out).needs(0)
         frames_are_good(bench.path(out), 3)
@@ -795,7 +795,7 @@ def rest_of(bench, name="a", out="out"):
 
 
 def bodies_overlap_at_start(bench):
-    """Row 21: two bodies that overlap by 1e-9, 1e-3 or wholly, or touch: 2, both named."""
+    """Row 21: two bodies that overlap by 1e-9, by 1e-3 or fully, or touch: 2, both named."""
     first = rigid("first", box((0.2, 0.2), (0.4, 0.4)))
     for other in (box((0.4 - 1e-9, 0.2), (0.6, 0.4)), box((0.4 - 1e-3, 0.25), (0.6, 0.35)), ball((0.3, 0.3), 0.05),
                   box((0.4, 0.2), (0.6, 0.4))):
@@ -804,7 +804,7 @@ def bodies_overlap_at_start(bench):
 
 
 def body_overlaps_wall(bench):
-    """Row 22: a body partly or wholly outside closed walls: 2; across or beyond an open side it may stand."""
+    """Row 22: a body partly or fully outside closed walls: 2; it may cross or lie beyond an open side."""
     bench.simulate(text=box_scene([16, 16], POOL, rigid("a", box((-0.1, 0.2), (0.4, 0.4))))).needs(2, "'a' and the side ", "overlap")
     for shape in (box((1.1, 0.2), (1.4, 0.4)), ball((0.5, 1.5), 0.2)):
         bench.simulate(text=box_scene([16, 16], POOL, rigid("a", shape))).needs(2, "'a' lies outside of the domain")
@@ -813,7 +813,7 @@ def body_overlaps_wall(bench):
 
 
 def body_far_outside(bench):
-    """A body wholly outside of the domain, or far larger than it, is told as such; a container is not thin."""
+    """A body fully outside the domain, or far larger than it, is reported as such; a container is not thin."""
     for corners, text in (("lower = [400.0, 0.2]\nupper = [400.1, 0.3]", "lies outside of the domain: it spans [400, 0.2]"),
                           ("lower = [0.1, 0.1]\nupper = [156.0, 120.0]", "is far larger than the domain")):
         body = f'[[solid]]\nname = "block"\nkind = "rigid"\nshape = "box"\n{corners}\ndensity = 500.0\n'
@@ -825,7 +825,7 @@ def body_far_outside(bench):
 
 
 def mesh_in_millimetres(bench):
-    """A static mesh far wider than the domain is told of by `check` as by `run`, with the scale that would fit."""
+    """`check` and `run` report a static mesh far wider than the domain, with the scale that would fit."""
     corners = [(9, 5, 5), (1, 5, 5), (5, 9, 5), (5, 1, 5), (5, 5, 9), (5, 5, 1)]
     lines = ["v {} {} {}".format(*(20 * x for x in c)) for c in corners]
     lines += [f"f {a} {b} {c}" for a, b, c in ((1, 3, 5), (3, 2, 5), (2, 4, 5), (4, 1, 5), (3, 1, 6), (2, 3, 6), (4, 2, 6), (1, 4, 6))]
@@ -839,24 +839,24 @@ def mesh_in_millimetres(bench):
 
 
 def body_leaves_the_domain(bench):
-    """Row 23: through an open side, slowly or at 500 m/s: flies on by itself, and no longer shortens the steps."""
+    """Row 23: through an open side, slowly or at 500 m/s: moves on freely, and no longer shortens the steps."""
     for speed in (5.0, 500.0):
         extra = f"velocity = [{speed}, 0.0]\nangular_velocity = 20.0"
         text = box_scene([16, 16], POOL, OPEN_SIDE + rigid("a", box((0.6, 0.7), (0.8, 0.9)), extra=extra), end=0.5)
         bench.simulate("--overwrite", text=text).needs(0)
         last = rest_of(bench)
-        # rounding of a mass times a velocity over the same mass, a step
+        # round-off of mass times velocity over the same mass, per step
         expect(abs(last["vx"] / speed - 1) < 1e-12, f"vx is {last['vx']}: nothing acted on it along x")
         expect(abs(last["x"] - 0.7 - 0.5 * speed) < 1e-9 * speed, f"x is {last['x']}")
         expect(len(stats(bench.path("out"))) < 200, f"{len(stats(bench.path('out')))} steps")
-        # The momentum of the body that left is still in the sum.
+        # The sum still contains the momentum of the body.
         mass = 500 * 0.04
         expect(float(stats(bench.path("out"))[-1]["momentum_x"]) > 0.99 * mass * speed - 500, "momentum is lost")
         frames_are_good(bench.path("out"), 11)
 
 
 def body_thinner_than_a_cell(bench):
-    """Row 24: from 0.01 to 0.9 cells: told once; liquid on one side of a wall stays there."""
+    """Row 24: 0.01 to 0.9 cells thick: reported once; liquid on one side of a wall stays there."""
     for share in (0.01, 0.5, 0.9):
         plate = rigid("plate", box((0.2, 0.22), (0.6, 0.22 + share * 0.0625)))
         bench.simulate("--overwrite", text=box_scene([16, 16], POOL, plate)).needs(0)
@@ -868,7 +868,7 @@ def body_thinner_than_a_cell(bench):
         wall = '[[solid]]\nname = "wall"\nkind = "static"\n' + box((0.41, -0.1), (0.41 + share * 0.0625, 1.1)) + "\n"
         water = region('shape = "box"\nlower = [0.0, 0.0]\nupper = [%r, 0.5]' % (0.41 + share * 0.03))
         bench.simulate("--overwrite", text=box_scene([16, 16], water, wall, end=0.5)).needs(0)
-        # What ran out of the tank would be faster than 1 m/s.
+        # Liquid that leaked out of the tank would be faster than 1 m/s.
         fastest = max(float(row["max_speed"]) for row in stats(bench.path("out")))
         expect(fastest < 0.2, f"{share} cells: {fastest} m/s")
 
@@ -882,7 +882,7 @@ def body_smaller_than_a_cell(bench):
 
 
 def too_many_bodies(bench):
-    """Row 25: more bodies than the limit: 2, the limit stated."""
+    """Row 25: more bodies than the limit: 2, with the limit."""
     many = "".join(rigid(f"b{n}", ball((0.005 * (n % 200), 0.005 * (n // 200)), 0.002)) for n in range(30000))
     bench.simulate(text=box_scene([16, 16], POOL, many)).needs(2, "at most 20000")
     many = "".join(rigid(f"b{n}", ball((0.01 * (n % 100), 0.01 * (n // 100)), 0.004)) for n in range(10000))
@@ -890,7 +890,7 @@ def too_many_bodies(bench):
 
 
 def fast_body_and_thin_wall(bench):
-    """Row 26: a body at 60 m/s, a body of its length a step and more, against a wall of a twelfth of a cell."""
+    """Row 26: a body that moves by its length per step or more, against a wall of a twelfth of a cell."""
     wall = '[[solid]]\nname = "wall"\nkind = "static"\n' + box((0.7, 0.0), (0.705, 1.0)) + "\n"
     for speed in (60.0, 2000.0):
         text = box_scene([16, 16], AIR, wall + rigid("a", box((0.2, 0.5), (0.25, 0.55)),
@@ -901,7 +901,7 @@ def fast_body_and_thin_wall(bench):
 
 
 def body_squeezed_between_solids(bench):
-    """Row 34: a press comes down on a body on the floor, first through water: contact takes over, and the end is 3."""
+    """Row 34: a press descends on a body on the floor, first through water: contact takes over; the run ends with 3."""
     press = kinematic("press", box((0.3, 0.8), (0.7, 1.0)), '["0", "-0.5*t"]')
     text = box_scene([16, 16], POOL, press + rigid("a", box((0.35, 0.01), (0.65, 0.2)), 1500.0), end=1.4)
     bench.simulate(text=text).needs(3)
@@ -911,14 +911,14 @@ def body_squeezed_between_solids(bench):
 
 
 def piston_in_a_full_tank(bench):
-    """Row 35: a piston into a rigid full container, a free body within: 3, the piston named."""
+    """Row 35: a piston moves into a rigid full container with a free body: 3, the piston named."""
     piston = kinematic("piston", box((-0.5, -0.5), (0.1, 1.5)), '["0.1*t", "0"]')
     text = box_scene([16, 16], EVERYWHERE, piston + rigid("a", ball((0.5, 0.5), 0.15), 1500.0))
     bench.simulate(text=text).needs(3, "incompressible container, prescribed volume change 0.1 m^2/s", "'piston'")
 
 
 def density_ratios(bench):
-    """Row 36: from 1e-4 to 1e4: starts as the added mass says, speeds bounded, iterations at most thrice those of 1."""
+    """Row 36: 1e-4 to 1e4: buoyancy right, speeds bounded, iterations at most three times those of ratio 1."""
     water = region('shape = "box"\nlower = [0.0, 0.0]\nupper = [2.0, 1.5]')
     most = {}
     for ratio in (1.0, 1e-4, 1e-3, 1e3, 1e4):
@@ -927,9 +927,9 @@ def density_ratios(bench):
         rows = stats(bench.path("out"))
         most[ratio] = max(int(row["solver_iterations"]) for row in rows if int(row["contacts"]) == 0)
         expect(most[ratio] <= 3 * most[1.0], f"{most[ratio]} iterations at {ratio}, {most[1.0]} at 1")
-        # Twice 9.81 m/s^2 for half a second is what nothing can be faster than.
+        # Upper bound: twice 9.81 m/s^2 for half a second.
         expect(max(float(row["max_speed"]) for row in rows) < 9.81, "too fast")
-        # Archimedes, for a body that stays where it is.
+        # Archimedes, for a neutrally buoyant body.
         first = motion_of(bench.path("out"), "a")[1]
         if ratio == 1.0:
             weight = 1000 * 9.81 * 3.14159265 * 0.0625
@@ -937,20 +937,20 @@ def density_ratios(bench):
 
 
 def no_gravity_and_too_much(bench):
-    """Row 41: without gravity nothing moves; 1e6 m/s^2 runs on short steps, and what floats well stays."""
+    """Row 41: without gravity nothing moves; 1e6 m/s^2 runs with short steps, and a floating body stays in place."""
     floating = rigid("a", ball((0.5, 0.5), 0.15), 500.0)
     for gravity, bound in (("[0.0, 0.0]", 0), ("[0.0, -1e6]", 1e-3)):
         text = box_scene([16, 16], POOL, floating)
         bench.simulate("--overwrite", "--set", f"gravity={gravity}", text=text).needs(0)
         last = rest_of(bench)
-        # Half of the disc is below the level, as its density asks for.
+        # Half of the disc is below the level, in equilibrium with its density.
         expect(abs(last["y"] - 0.5) <= bound and abs(last["x"] - 0.5) <= bound, f"moved to {last['x']}, {last['y']}")
 
 
 def gravity_flips(bench):
-    """Row 41: gravity that changes its sign each step: what is thrown up by one step is caught by the next."""
+    """Row 41: gravity that changes its sign each step: each step cancels the motion of the one before."""
     floating = rigid("a", box((0.4, 0.4), (0.6, 0.6)), 500.0)
-    # A step takes gravity at its middle, where the sine is one or minus one.
+    # A step takes gravity at its midpoint, where the sine is one or minus one.
     flips = '["0", "9.81*sign(sin(pi*t/0.005))"]'
     text = box_scene([16, 16], POOL, floating, end=0.2).replace("[time]", "[time]\nfixed_step = 0.005")
     bench.simulate("--overwrite", "--set", f"gravity={flips}", text=text).needs(0)
@@ -963,7 +963,7 @@ def gravity_flips(bench):
 
 
 def prescribed_motion_jumps(bench):
-    """Row 42: a jump of 0.4 m is told at load or when it comes; a fast motion is cut into steps."""
+    """Row 42: a jump of 0.4 m is reported at load or when it occurs; a fast motion is divided into steps."""
     jump = kinematic("p", box((0.1, 0.1), (0.3, 0.3)), '["t < 0.1 ? 0 : 0.4", "0"]')
     other = rigid("a", ball((0.7, 0.7), 0.1))
     for solids in (jump, jump + other):
@@ -982,7 +982,7 @@ def elastic(shape, material="youngs_modulus = 1e6, poisson_ratio = 0.3", extra="
 
 
 def elastic_out_of_range(bench):
-    """Rows 9 and 39: materials that do not exist and elements that cannot be: 2 from any number of ranks, and why."""
+    """Rows 9 and 39: unknown materials and impossible elements: 2 with the reason, on any number of ranks."""
     block = box((0.3, 0.1), (0.5, 0.4))
     pin = 'pinned = { shape = "sphere", center = [0.4, 0.8], radius = 0.1 }'
     for said, solid in {
@@ -997,7 +997,7 @@ def elastic_out_of_range(bench):
 
 
 def elastic_meshes_at_fault(bench):
-    """Row 20: inverted and flat elements, apart, without a node: 2 with the first ids."""
+    """Row 20: inverted, flat or disconnected elements, or a missing node: 2 with the first ids."""
     corners = ["0.3 0.1 0", "0.5 0.1 0", "0.5 0.4 0", "0.3 0.4 0", "0.8 0.8 0", "0.9 0.8 0", "0.9 0.9 0", "0.4 0.1 0"]
 
     def mesh(*triangles):
@@ -1016,7 +1016,7 @@ def elastic_meshes_at_fault(bench):
 
 
 def command_line(bench):
-    """Help and version succeed everywhere; mistakes are 2 in one message, on any number of ranks."""
+    """Help and version succeed everywhere; mistakes give 2 and one message, on any number of ranks."""
     for verb in ([], ["run"], ["resume"], ["check"]):
         bench.run(*verb, "--help").needs(0)
     bench.run("--version").needs(0, "seiche ")
@@ -1031,7 +1031,7 @@ def command_line(bench):
 
 
 def misspelt_words(bench):
-    """Misspelt verbs and options are told with the right ones; a scene in place of a run's folder too."""
+    """Misspelt verbs and options are reported with the right ones; so is a scene in place of a run's folder."""
     scene = bench.scene()
     bench.run("rn", scene).needs(2, "unknown verb 'rn'; did you mean 'run'?")
     bench.run("sail").needs(2, "unknown verb 'sail'; verbs: run, resume, check")
@@ -1044,7 +1044,7 @@ def misspelt_words(bench):
 
 
 def pictures_and_overwriting(bench):
-    """Overwriting takes the pictures, and says so before and after; a stop says how to go on."""
+    """Overwriting removes the pictures, and reports it before and after; a stop reports how to resume."""
     bench.simulate("--frames", "1").needs(0)
     pictures = bench.path("out") / "pictures"
     pictures.mkdir()

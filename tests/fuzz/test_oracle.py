@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The fuzzer's oracle raises the right fault for each kind of wrong result, and none for a right one."""
+"""The fuzzer's oracle raises the right fault for each kind of wrong result, and none for a correct one."""
 import copy
 import json
 import pathlib
@@ -49,7 +49,7 @@ class Ends(unittest.TestCase):
 class Results(unittest.TestCase):
     def test_energy(self):
         oracle.check_energy(SCENE, stats(9))
-        oracle.check_energy(SCENE, stats(260, -251))          # what falls
+        oracle.check_energy(SCENE, stats(260, -251))          # falling matter
         with self.assertRaisesRegex(tables.Fault, "energy"):
             oracle.check_energy(SCENE, stats(10000))
 

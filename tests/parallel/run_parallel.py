@@ -17,7 +17,7 @@ from harness import (DAM, expect, frame_files, frame_voxels, frames_are_good, ra
                      run_table, same_frames, same_tables, stats, table)
 
 TOLERANCE = 1e-10   # of each solve
-# Twenty steps, each of which may pass on and enlarge the difference that two solves leave: a factor of 1e3.
+# Twenty steps, each of which may amplify the difference between two solves: a factor of 1e3.
 AFTER_TWENTY_STEPS = 1e-7
 
 TWENTY_STEPS = DAM.replace("end = 0.2", "end = 0.1\nfixed_step = 0.005").replace("frame_rate = 20.0", "frame_rate = 10.0")
@@ -65,7 +65,7 @@ def rigid(name, shape, density):
     return f'[[solid]]\nname = "{name}"\nkind = "rigid"\ndensity = {density}\nfriction = 0.3\n{shape}\n'
 
 
-# Two boxes one on the other, which the water of the dam reaches, and a ball afloat; all within one solve.
+# Two stacked boxes, which the water of the dam reaches, and a floating ball; all within one solve.
 BOXES = TWENTY_STEPS + rigid("lower", 'shape = "box"\nlower = [0.44, 0.002]\nupper = [0.56, 0.09]', 1200.0)
 BOXES += rigid("upper", 'shape = "box"\nlower = [0.45, 0.092]\nupper = [0.55, 0.17]', 300.0)
 BOXES += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
@@ -85,7 +85,7 @@ SOFT = TWENTY_STEPS + elastic("gate", 'shape = "box"\nlower = [0.41, 0.0]\nupper
 SOFT += elastic("lump", 'shape = "box"\nlower = [0.76, 0.002]\nupper = [0.9, 0.1]', "element_size = 0.06")
 SOFT += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
 
-# The same with a gate a seventh of a cell thick.
+# The same with a gate of a seventh of a cell.
 SHEET = SOFT.replace("lower = [0.41, 0.0]\nupper = [0.48, 0.25]", "lower = [0.41, 0.0]\nupper = [0.4145, 0.25]")
 
 SOFT_3D = SPLASH.replace("end = 0.2", "end = 0.1").replace("frame_rate = 5.0", "frame_rate = 10.0")
@@ -113,20 +113,20 @@ def viscous(text, viscosity):
     return text.replace("viscosity = 0.0", f"viscosity = {viscosity}").replace("friction =", 'slip = "no_slip"\nfriction =')
 
 
-# The same beside gas that flows, with surface tension. What a solve leaves of the pressure moves the gas 800 times as
-# much as the liquid, and gas is fast where bodies meet.
+# The same with gas and surface tension. Pressure residuals move the gas 800 times as much as the liquid, and gas is
+# fast where bodies meet.
 def gassy(text):
     text = viscous(text, 0.1).replace("density = 1000.0", "density = 1000.0\nsurface_tension = 0.07", 1)
     text = text.replace(f"tolerance = {TOLERANCE}", "tolerance = 1e-12")
     return text + "[gas]\ndensity = 1.2\nviscosity = 1e-4\n"
 
 
-# With enclosed air under a lid.
+# The same with enclosed air under a lid.
 def airy(text):
     return text + '[gas]\nbubbles = "volume_conserving"\n'
 
 
-# A disc drawn out by a flow that is given.
+# A disc deformed by a prescribed flow.
 SWIRL = TWENTY_STEPS[:TWENTY_STEPS.index("[liquid]")].replace("fixed_step = 0.005", "") + """\
 [liquid]
 prescribed_velocity = ["sin(pi*x)^2*sin(2*pi*y)*cos(3*t)", "-sin(pi*y)^2*sin(2*pi*x)*cos(3*t)"]
@@ -138,7 +138,7 @@ radius = 0.15
 checkpoint_every = 1
 """
 
-# A slanted jet whose upper rim lies between one and two halos beyond the cells of the lowest of three ranks.
+# A slanted jet with its upper rim between one and two halo widths beyond the cells of the lowest of three ranks.
 JET = f"""\
 dimension = 2
 [domain]
@@ -162,7 +162,7 @@ tolerance = {TOLERANCE}
 frames = ["surface", "velocity"]
 """
 
-# Pressure and viscosity in one solve, bodies dragged along; mud that stands up to a stress.
+# Pressure and viscosity in one solve, with bodies dragged along; mud with a yield stress.
 THICK = viscous(SOFT, 20.0)
 MUD = TWENTY_STEPS.replace("viscosity = 0.0",
                            'rheology = { model = "bingham", viscosity = 5.0, yield_stress = 40.0, regularisation = 0.5 }')
@@ -177,7 +177,7 @@ def largest(rows, column):
 
 
 def scale_of(rows, column):
-    """What a difference of this column is measured by: momenta by the largest of the three."""
+    """Scale of differences in this column; momenta share the largest of the three."""
     if column.startswith("momentum"):
         return max(largest(rows, f"momentum_{axis}") for axis in "xyz")
     return largest(rows, column)
@@ -194,7 +194,7 @@ def same_to_tolerance(one, other, what):
         voxels, others = frame_voxels(file), frame_voxels(pathlib.Path(other) / "frames" / file.name)
         for name, array in voxels.items():
             worst, top = numpy.abs(array - others[name]).max(), numpy.abs(array).max()
-            # Frames are in single precision: its round-off comes on top.
+            # Frames add the round-off of single precision.
             expect(worst <= (AFTER_TWENTY_STEPS + 2e-7) * top, f"{what}, {file.name}: {name} differs by {worst} of {top}")
 
 
@@ -236,7 +236,7 @@ def rigid_ranks_agree_2d(bench):
 
 
 def rigid_ranks_agree_3d(bench):
-    """The same in 3D, a paddle among them."""
+    """The same in 3D, with a paddle."""
     ranks_agree(bench, TUMBLE, (3, 4))
     expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
 
@@ -260,7 +260,7 @@ def elastic_ranks_agree_3d(bench):
 
 
 def sprung_ranks_agree_2d(bench):
-    """A ball on a spring in the flood on 1 and 3 ranks; three ranks go on from a checkpoint with the same bits."""
+    """A ball on a spring in the flood on 1 and 3 ranks; three ranks resume from a checkpoint with the same bits."""
     ranks_agree(bench, SPRUNG, (3,))
     expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "the spring does nothing")
     text = SPRUNG.replace("frame_rate = 10.0", "frame_rate = 20.0")
@@ -278,7 +278,7 @@ def viscous_ranks_agree_2d(bench):
 
 
 def mud_ranks_agree_2d(bench):
-    """A dam of yield-stress liquid on 1 and 3 ranks, its outer iteration to the end."""
+    """A dam of yield-stress liquid on 1 and 3 ranks, with a converged outer iteration."""
     ranks_agree(bench, MUD + "rheology_tolerance = 1e-9\nrheology_iterations = 100\n", (3,))
     expect(largest(stats(bench.path("one")), "rheology_iterations") > 1, "one solve sufficed")
 
@@ -317,7 +317,7 @@ def prescribed_ranks_agree(bench):
 
 
 def jet_ranks_agree(bench):
-    """A slanted jet, its rim beyond the halo of a rank that it blows into, on 1, 2 and 3 ranks."""
+    """A slanted jet on 1, 2 and 3 ranks; its rim lies beyond the halo of a rank that it enters."""
     ranks_agree(bench, JET, (2, 3))
 
 
@@ -339,7 +339,7 @@ def elastic_same_ranks_same_bits(bench):
 
 
 def killed_at_random(bench, ranks, kills, solids="", kind=lambda text: text):
-    """SIGKILL of a random rank at random moments; what comes out in the end is what an unbroken run gives."""
+    """SIGKILL of a random rank at random moments; the final result equals that of an uninterrupted run."""
     seed = random.SystemRandom().randrange(10**6)
     rng = random.Random(seed)
     text = kind(DAM.replace("0.03125", "0.015625").replace("end = 0.2", "end = 0.4") + solids)
@@ -358,7 +358,7 @@ def killed_at_random(bench, ranks, kills, solids="", kind=lambda text: text):
         if process.poll() is None:
             victims = rank_processes(process)
             if victims:
-                with contextlib.suppress(ProcessLookupError):  # it may have ended on its own since it was listed
+                with contextlib.suppress(ProcessLookupError):  # it may have ended since it was listed
                     os.kill(rng.choice(victims), signal.SIGKILL)
         bench.finish(process, limit=10 + duration)
         if bench.path("out").exists():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/check_layers finds what it is for, in small trees that break one rule each."""
+"""tools/check_layers finds the offence in small trees that break one rule each."""
 import importlib.machinery
 import importlib.util
 import pathlib
@@ -22,7 +22,7 @@ LAYERS = load_check_layers()
 
 
 def offences(files):
-    """Offences of a tree of these files, rooms without a page aside."""
+    """Offences of a tree of these files, without those of missing README pages."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             path = pathlib.Path(folder) / name

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Validation notices wrong operators: broken_operators.py SEICHE CASES OUT.
 
-For each main operator a quick case is run with the operator multiplied by a factor and must not pass; the same case
-passes as it is. Factors are close to one where the case is sharp enough to tell.
+For each main operator a quick case runs with the operator multiplied by a factor and must not pass. The unperturbed
+case passes. Factors are close to one if the case is sensitive enough.
 """
 import pathlib
 import shutil
 import subprocess
 import sys
 
-# operator, factor, case that has to notice
+# operator, factor, case that must detect it
 BROKEN = [
     ("pressure_gradient", "0.95", "taylor_green_carried"),
     ("pressure_gradient", "0.95", "rest"),
@@ -40,7 +40,7 @@ def validate(seiche, cases, out, case, extra):
 
 
 def operators(seiche, cases, out):
-    """Names that --break takes, from what it says of a wrong one."""
+    """Names that --break accepts, from its message about a wrong one."""
     run = validate(seiche, cases, out / "names", "rest", ["--break", "none:1"])
     return run.stderr.strip().split("operator one of ")[-1].split(", ")
 
@@ -60,7 +60,7 @@ def main():
             print(f"{case} does not pass as it is ({run.returncode}):\n{run.stdout}{run.stderr}")
     for operator, factor, case in BROKEN:
         run = validate(seiche, cases, out / "broken", case, ["--break", f"{operator}:{factor}"])
-        noticed = run.returncode in (1, 3)  # a bar missed; a run that could not go on
+        noticed = run.returncode in (1, 3)  # a missed bar; a run that could not continue
         failures += not noticed
         print(f"{operator} x {factor}: {case} {'notices' if noticed else 'DOES NOT NOTICE'} ({run.returncode})")
         if not noticed:

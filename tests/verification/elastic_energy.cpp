@@ -16,7 +16,7 @@ using namespace seiche::test;
 
 namespace {
 
-// A bar in empty space that turns and is stretched by that.
+// A bar in empty space that rotates and is stretched by the rotation.
 Scene flying_bar(int dim, TimeScheme scheme) {
   Scene s = box_scene(dim, 16);
   const double z = dim == 3 ? 1 : 0;
@@ -29,7 +29,7 @@ Scene flying_bar(int dim, TimeScheme scheme) {
   return s;
 }
 
-// A turning bar that flies at a soft block, this at a ball, all of them then about between the walls, without friction.
+// A rotating bar flies at a soft block, and this at a ball; all then bounce between the walls, without friction.
 Scene collisions(int dim, TimeScheme scheme) {
   Scene s = flying_bar(dim, scheme);
   const double z = dim == 3 ? 1 : 0;
@@ -44,7 +44,7 @@ Scene collisions(int dim, TimeScheme scheme) {
   return s;
 }
 
-// A full channel in which liquid goes round at up to 1 m/s, and a flap of a hundredth of its density on the floor.
+// A full channel with vortices of up to 1 m/s, and a flap of a hundredth of the liquid's density on the floor.
 Scene vortices_about_flap(int dim, TimeScheme scheme, double stiffness) {
   Scene s = box_scene(dim, dim == 2 ? 48 : 20);
   for (int a = 1; a < dim; ++a) s.domain.cells[a] /= 2, s.domain.upper[a] = 0.5;
@@ -61,15 +61,15 @@ Scene vortices_about_flap(int dim, TimeScheme scheme, double stiffness) {
 
 struct Energies {
   double first = 0;
-  double growth = 0;           // largest of a step, over the first
-  double growth_touching = 0;  // of a step in contact
-  double most = 0;             // largest, over the first
+  double growth = 0;           // largest growth in a step, relative to the first energy
+  double growth_touching = 0;  // the same for steps in contact
+  double most = 0;             // largest energy, relative to the first
   double last = 0;
-  int touching = 0;  // steps
+  int touching = 0;  // steps in contact
 };
 
-// From the end of the first step on: that one moves the body with the velocities it is given, not with those of a
-// solve.
+// Energies from the end of the first step on. The first step moves the body with the given velocities, not with solved
+// ones.
 Energies energies(const Scene& scene, int steps) {
   const auto sim = make_simulation(scene, Communicator());
   Energies e;
@@ -88,9 +88,9 @@ Energies energies(const Scene& scene, int steps) {
   return e;
 }
 
-constexpr double round_off = 1e-10;  // of the energy, where it is not to grow
+constexpr double round_off = 1e-10;  // bound on relative growth, where energy must not grow
 
-// Of a scene in 2D and 3D under both schemes.
+// Calls look() in 2D and 3D for both time schemes.
 void for_each_scheme(const std::function<void(int dim, TimeScheme scheme, const std::string& name)>& look) {
   for (const int dim : {2, 3})
     for (const auto scheme : {TimeScheme::first_order, TimeScheme::second_order})
@@ -110,11 +110,11 @@ TEST_CASE("a free elastic body gains no energy in any step", "[elastic]") {
     const Energies e = energies(flying_bar(dim, scheme), dim == 2 ? 200 : 60);
     report(name, e);
     CHECK(e.growth <= round_off);
-    CHECK(e.last > 0.1);  // it still turns
+    CHECK(e.last > 0.1);  // it still rotates
   });
 }
 
-// What the barrier of contact holds is counted nowhere: a step may get back what one before it lost.
+// The energy stored by the contact barrier is not counted: a step may regain what an earlier one lost.
 TEST_CASE("an elastic body thrown at a wall never has more energy than it came with", "[elastic]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     Scene s = flying_bar(dim, scheme);
@@ -137,8 +137,7 @@ TEST_CASE("elastic and rigid bodies that collide without friction never have mor
   });
 }
 
-// What the liquid loses to the flap's edges and to numerical viscosity outweighs what its transport, which conserves no
-// energy, may gain.
+// Transport does not conserve energy. Losses at the flap's edges and numerical viscosity exceed what transport may add.
 TEST_CASE("liquid that goes round a light flap and this never gain energy in a step", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     for (const double stiffness : {1e4, 1e8}) {
@@ -150,7 +149,7 @@ TEST_CASE("liquid that goes round a light flap and this never gain energy in a s
   });
 }
 
-// Liquid at rest that must give way takes up a part of what the body has, the rest is lost at once.
+// Liquid at rest takes up a part of the body's energy; the rest is lost at once.
 TEST_CASE("an elastic body set going in liquid at rest has its energy booked at the liquid's time", "[elastic]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     Scene s = box_scene(dim, dim == 2 ? 32 : 16);
@@ -176,8 +175,8 @@ TEST_CASE("an elastic body set going in liquid at rest has its energy booked at 
   });
 }
 
-// Its stiffness against bending, some E (t/L)^2 = 8 kPa, is little above the pressure of 5 to 8 kPa around it. Without
-// the held pressure the 2D flap moves by more than a cell in a step of 0.02 s before 1.5 s are over.
+// The bending stiffness, about E (t/L)^2 = 8 kPa, is hardly above the surrounding pressure of 5 to 8 kPa. Without the
+// held pressure the 2D flap moves by more than a cell in a step of 0.02 s within 1.5 s.
 TEST_CASE("a soft flap deep under water comes to rest", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     Scene s = box_scene(dim, dim == 2 ? 24 : 12);
@@ -205,8 +204,8 @@ TEST_CASE("a soft flap deep under water comes to rest", "[elastic][long]") {
   });
 }
 
-// Waves and flap swing alike. With steps cut where frames end, or without the held pressure, the kinetic energy grew a
-// hundredfold in 20 s.
+// Waves and flap oscillate together. With steps shortened at frames, or without the held pressure, the kinetic energy
+// grew a hundredfold in 20 s.
 TEST_CASE("small waves about a flap in a closed tank die away", "[elastic]") {
   Scene s = box_scene(2, 24);
   s.gravity = {0, -9.81, 0};

@@ -1,4 +1,5 @@
-// What one projection passes between liquid, elastic and rigid bodies, static solids and walls, on random scenes.
+// Momentum exchange of one projection between liquid, elastic and rigid bodies, static solids and walls, on random
+// scenes.
 #include "base/scene.h"
 #include "exchange.h"
 
@@ -7,7 +8,8 @@ using namespace seiche::test;
 
 namespace {
 
-// One a quarter of the domain, so that nothing touches: a static ball, an elastic ball and box, a rigid box.
+// One solid in each quarter of the domain, so that nothing touches: a static ball, an elastic ball and box, a rigid
+// box.
 SolidSpec random_solid(Dice& dice, int dim, int number) {
   SolidSpec s;
   s.name = fmt::format("solid{}", number);
@@ -37,7 +39,7 @@ Scene random_scene(int dim, Filling filling, int seed) {
   return s;
 }
 
-constexpr double of_an_element = 5e-4;  // m, a hundredth
+constexpr double of_an_element = 5e-4;  // m: a hundredth of an element
 
 }  // namespace
 

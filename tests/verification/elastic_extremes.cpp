@@ -11,7 +11,7 @@ namespace {
 
 constexpr double g = 9.81;  // m/s^2
 
-// A channel with four walls, full, in which the liquid goes round in two vortices at up to 1 m/s.
+// A full channel with four walls and two vortices of up to 1 m/s.
 Scene full_channel() {
   Scene s = box_scene(2, 48);
   s.domain.cells[1] = 24;
@@ -37,13 +37,12 @@ SolidSpec sheet(const Stiffness& stiffness) {
 
 struct Outcome {
   double fastest = 0, fastest_body = 0, divergence = 0;
-  double energy = 0;  // kinetic, elastic and of the lift, the most there was, as a share of what there was at the start
+  double energy = 0;  // largest sum of kinetic, elastic and lift energy, relative to the initial energy
   int rejected = 0;
   std::int64_t steps = 0;
 };
 
-// g (m y_m - rho integral of y over the body): what gravity gives as the light body rises and liquid sinks in its
-// place.
+// Potential energy g (m y_m - rho integral of y over the body): the light body rises and liquid sinks in its place.
 double lift(const Scene& s, const Simulation& sim, double mass) {
   const SurfaceMesh surface = sim.solid_surface(0);
   double moment = 0;
@@ -54,7 +53,7 @@ double lift(const Scene& s, const Simulation& sim, double mass) {
   return g * (mass * sim.solids()[0].position[1] - s.liquid.density * moment);
 }
 
-// From frame to frame as runs go: steps are planned to end there, and what is cut short stretches what turns
+// Advances from frame to frame, as runs do: planned steps end at frames, and shortened steps stretch rotating bodies
 // (docs/elastic.md, Limits).
 Outcome run(Scene s, const SolidSpec& solid, double end) {
   s.solids.push_back(solid);
@@ -84,14 +83,14 @@ void check(const std::string& name, const Scene& scene, const SolidSpec& solid, 
             << scene.time.frame_rate << " frames a second, " << end << " s: " << o.steps << " steps, " << o.rejected
             << " rejected; liquid at most " << o.fastest << ", body " << o.fastest_body << " m/s, energy " << o.energy
             << " of the start's");
-  // The flow starts with 1 m/s, and round the tip of a stiff sheet it is some sqrt(length/cell) = 4.4 times as fast.
-  // Nothing but its weight gives it energy: what it gains otherwise, up to 0.09 where solids are soft, is the scheme's.
+  // The flow starts with 1 m/s; around the tip of a stiff sheet it is about sqrt(length/cell) = 4.4 times as fast. Only
+  // the body's weight adds energy. Any further gain, up to 0.09 for soft solids, is an error of the scheme.
   CHECK(o.fastest <= 5);
   CHECK(o.energy <= 1.1);
 }
 
-// Both ends and, nearly incompressible, a stiffness between, 0.3 s with 24 frames a second. The flap at E = 1e4, nu
-// 0.499, 1e6 and 1e10, nu 0.4: 1.01 at most (docs/elastic.md).
+// Both extremes of stiffness and, nearly incompressible, one in between, for 0.3 s at 24 frames a second. For the flap
+// at E = 1e4, nu 0.499, and at 1e6 and 1e10, nu 0.4, the energy is 1.01 at most (docs/elastic.md).
 void check(const std::string& name, SolidSpec (*make)(const Stiffness&)) {
   for (const Stiffness& stiffness : {Stiffness{1e2, 0.4}, {1e8, 0.499}, {1e12, 0.499}})
     check(name, full_channel(), make(stiffness), 0.3);
@@ -108,8 +107,8 @@ TEST_CASE("a sheet of density ratio 1e-3 in a full channel moves at bounded spee
   check("sheet", sheet);
 }
 
-// It is rolled up by then. `seiche run` of this scene to 1 s with 2, 10, 24 and 100 frames a second and E = 1e2, 1e4,
-// 1e8, 1e12 Pa: the energy never above the start's, the liquid at most at 3.7 m/s.
+// The sheet is rolled up by then. `seiche run` of this scene to 1 s with 2, 10, 24 and 100 frames a second and E = 1e2,
+// 1e4, 1e8, 1e12 Pa: the energy never exceeds the initial one, the liquid reaches 3.7 m/s at most.
 TEST_CASE("a sheet of density ratio 1e-3 as soft as to roll up moves at bounded speeds", "[elastic]") {
   Scene s = full_channel();
   s.time.frame_rate = 10;

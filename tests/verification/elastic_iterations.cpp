@@ -1,4 +1,4 @@
-// What a solve with elastic bodies costs: iterations at any stiffness, density and resolution.
+// Cost of solves with elastic bodies: iterations at any stiffness, density and resolution.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -10,7 +10,7 @@ using namespace seiche;
 
 namespace {
 
-// A block in the middle of a pool, wholly under water.
+// A fully submerged block in the middle of a pool.
 Scene immersed_block(int cells, double youngs_modulus, double ratio) {
   Scene s = test::box_scene(3, cells);
   s.gravity = {0, -9.81, 0};
@@ -37,7 +37,7 @@ struct FirstStep {
   Eigen::VectorXd velocity;
 };
 
-// The first Newton step.
+// Solves the first Newton step.
 FirstStep first_step(const Scene& scene, Route route = Route::factor) {
   test::FirstSolve f(scene);
   const NullSpace closed = find_closed_components(f.in, f.rows);
@@ -64,7 +64,7 @@ void check_block(int cells) {
       const int n = first_step(immersed_block(cells, E, ratio)).iterations;
       if (Communicator().is_root())
         WARN(cells << "^3, ratio " << ratio << ", E " << E << ": " << n << " iterations (bar " << bar << ")");
-      // docs/decisions/0027: 31 in 64^3 cells, 25 in 48^3 cells on several ranks.
+      // Known misses (docs/decisions/0027): 31 in 64^3 cells, 25 in 48^3 cells on several ranks.
       const bool known_miss = ratio == 0.01 && E == 1e3;
       CHECK(n <= (!known_miss ? bar : cells == 64 ? 31 : 25));
     }
@@ -94,7 +94,7 @@ TEST_CASE("without factors of the block iterations depend little on stiffness an
         CHECK(together.iterations <= bar);
         if (cells > 24) continue;
         const Eigen::VectorXd exact = first_step(immersed_block(cells, E, ratio)).velocity;
-        // Both to 1e-8 of the forces, which the stiffest block's velocities are the small remainder of.
+        // Both solve to 1e-8 of the forces; the velocities of the stiffest block are small differences of these.
         CHECK((together.velocity - exact).norm() <= 1e-5 * exact.norm());
       }
 }
@@ -108,7 +108,7 @@ TEST_CASE("a run without factors follows the run with them, in contact too", "[e
   scene.solids = {test::elastic_box("lower", {0.3, 0.001, 0.3 * z}, {0.7, 0.25, 0.7 * z}, 1200, {1e4, 0.3}, 0.1),
                   test::elastic_box("upper", {0.35, 0.255, 0.35 * z}, {0.65, 0.5, 0.65 * z}, 3000, {1e5, 0.3}, 0.1)};
   scene.time.fixed_step = 5e-3;
-  scene.solver.tolerance = 1e-12;  // contact amplifies what solves leave: 1e-8 and 1e-10 leave 1.8e-4 and 1.5e-4
+  scene.solver.tolerance = 1e-12;  // contact amplifies residuals: 1e-8 and 1e-10 give differences of 1.8e-4 and 1.5e-4
   const auto run = [&](const char* route) {
     scene.solver.elastic = route;
     const auto sim = make_simulation(scene, Communicator());
@@ -121,12 +121,12 @@ TEST_CASE("a run without factors follows the run with them, in contact too", "[e
   int touching = 0;
   for (std::size_t n = 0; n < with.size(); ++n) {
     CAPTURE(dim, n, with[n].solver_iterations, without[n].solver_iterations);
-    // Relative residuals of 1e-8 over eight steps, in energies of which less than a thousandth is that of one step.
+    // One step contributes less than a thousandth of these energies.
     CHECK(without[n].kinetic_energy == Approx(with[n].kinetic_energy).epsilon(1e-4));
     CHECK(without[n].elastic_energy == Approx(with[n].elastic_energy).epsilon(1e-4));
     differ = differ || with[n].solver_iterations != without[n].solver_iterations;
     touching += with[n].contacts > 0;
   }
-  CHECK(differ);  // the key does something
+  CHECK(differ);  // the key has an effect
   CHECK(touching > 0);
 }

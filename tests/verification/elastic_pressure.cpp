@@ -1,4 +1,4 @@
-// The load of a constant pressure and of liquid at rest on the nodes of elastic bodies, against integrals over their
+// Loads of a constant pressure and of hydrostatic pressure on the nodes of elastic bodies, against integrals over their
 // elements.
 #include "base/scene.h"
 #include "exchange.h"
@@ -13,9 +13,9 @@ struct LinearPressure {
   Vec3 slope;       // Pa/m
 };
 
-// The divergence theorem for each shape function: the load of p on the surface is
-//   -int p n N_i dA = -int (N_i grad p + p grad N_i) dV,
-// on the deformed body. It knows nothing of facets.
+// Divergence theorem for each shape function: the load of p on the surface is
+//   -int p n N_i dA = -int (N_i grad p + p grad N_i) dV
+// on the deformed body. This reference uses no facets.
 template <int Dim>
 Eigen::VectorXd load_by_elements(const ElasticMesh<Dim>& mesh, const Eigen::VectorXd& u, const LinearPressure& p) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(u.size());
@@ -39,7 +39,7 @@ Eigen::VectorXd load_by_elements(const ElasticMesh<Dim>& mesh, const Eigen::Vect
   return load;
 }
 
-// Balls and boxes of the sizes of one to three cells, one a quarter of the domain.
+// Balls and boxes of one to three cells, one in each quarter of the domain.
 Scene scene_of(int dim, int order, int seed) {
   Scene s = box_scene(dim, dim == 2 ? 17 : 12);
   Dice dice{std::mt19937(unsigned(seed))};
@@ -64,7 +64,7 @@ Scene scene_of(int dim, int order, int seed) {
   return s;
 }
 
-// Largest difference over the largest load.
+// Largest difference, relative to the largest load.
 template <int Dim>
 double error_of(const Projection<Dim>& p, const LinearPressure& linear) {
   Vector pressure;

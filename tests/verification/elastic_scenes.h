@@ -31,7 +31,7 @@ inline SolidSpec elastic_box(const std::string& name, const Vec3& lower, const V
   return s;
 }
 
-// Nodes within a box are held.
+// Pins the nodes within a box.
 inline void pin(SolidSpec& solid, const Vec3& lower, const Vec3& upper) {
   PinSpec p;
   p.shape.kind = "box";

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double g = 9.81, rho = 1000;
 
-// A pool up to `level` below a side at pressure 0, with enclosed air.
+// A domain whose top has pressure 0, with enclosed air.
 Scene pool_scene(int dim, int cells) {
   Scene s = test::box_scene(dim, cells);
   s.gravity = {0, -g, 0};
@@ -25,7 +25,7 @@ Scene pool_scene(int dim, int cells) {
   return s;
 }
 
-// Of a shape over x, y in 2D, turned about the y axis in 3D: r is the distance from x = z = 1/2.
+// Replaces R in a formula by the distance from the axis x = z = 1/2: a 2D shape over x, y is rotated about it in 3D.
 std::string about_axis(int dim, std::string text) {
   const std::string r = dim == 2 ? "abs(x-0.5)" : "sqrt((x-0.5)^2+(z-0.5)^2)";
   for (std::size_t at; (at = text.find("R")) != std::string::npos;) text.replace(at, 1, r);
@@ -41,8 +41,8 @@ SolidSpec glass(int dim, const std::string& shape) {
   return s;
 }
 
-// Water up to 0.92, but for the air in the glass down to 0.41. The walls are thick: where the two surfaces meet, in the
-// middle of the wall, phi has a corner, whose rounding must not reach the liquid.
+// Water up to 0.92, with air in the glass down to 0.41. The walls are thick: the two surfaces meet in the middle of the
+// wall, where phi has a corner whose rounding must not reach the liquid.
 Scene glass_scene(int dim, int cells) {
   Scene s = pool_scene(dim, cells);
   test::add_liquid(s, about_axis(dim, "max(y-0.92, -max(R-0.285, abs(y-0.54)-0.13))"));
@@ -67,7 +67,7 @@ double value_at(const Simulation& sim, const Scene& s, const std::string& field,
   return f.values.at(n);
 }
 
-// Height at which liquid ends that begins at the floor below x.
+// Height of the top of the liquid that begins at the floor below x.
 double top_of_liquid(const Simulation& sim, const Scene& s, Vec3 x, double until) {
   double top = 0, phi = -1;
   for (x[1] = 0.5 * s.domain.cell_size; x[1] < until && phi < 0; x[1] += s.domain.cell_size)
@@ -104,7 +104,7 @@ TEST_CASE("air in a glass under water rests at the pressure of its depth", "[lon
   }
 }
 
-// Net fluxes of the regions' rows over the sum of |flux| of their cells' faces.
+// Net flux of each air region's row over the sum of |flux| of its cells' faces.
 template <int Dim>
 std::vector<double> relative_fluxes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                     const FaceField<Dim>& u) {
@@ -122,7 +122,7 @@ std::vector<double> relative_fluxes(const ProjectionInput<Dim>& in, const Pressu
   return relative;
 }
 
-// u less what the pressure of a sloppy solve gives it, the air settled.
+// u after the projection by an inaccurate solve, with the air's balance closed by settle_air().
 template <int Dim>
 FaceField<Dim> projected(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u) {
   const NullSpace closed = find_closed_components(in, rows);
@@ -142,8 +142,8 @@ FaceField<Dim> projected(const ProjectionInput<Dim>& in, const PressureRows<Dim>
   return restored;
 }
 
-// The balance of each region is closed to rounding whatever the tolerance of the solve, here of two bubbles and of a
-// pocket below a lid, with random velocities before the projection.
+// The balance of each region is closed to round-off at any tolerance of the solve. Two bubbles below open air, with
+// random velocities before the projection.
 template <int Dim>
 void check_balance() {
   Geometry<Dim> geometry;
@@ -185,8 +185,8 @@ TEST_CASE("as much flows into a bubble as out of it, to rounding") {
   check_balance<3>();
 }
 
-// From 0.4 s on, when the rim is under water, to 2 s, when the glass has come to rest, water closing over the glass
-// catches small pockets that come and go; they are not the glass's.
+// The rim is under water from 0.4 s on, and the glass comes to rest at 2 s. In between, water that closes over the
+// glass catches small pockets that are not part of the glass's air.
 TEST_CASE("an upturned glass pushed under water keeps its air for five seconds", "[long]") {
   for (int dim : {2, 3}) {
     Scene s = pool_scene(dim, dim == 2 ? 40 : 24);
@@ -196,7 +196,7 @@ TEST_CASE("an upturned glass pushed under water keeps its air for five seconds",
     s.solids[0].motion.translate = {"0", "t < 2 ? -0.18*(1-cos(pi*t/2)) : -0.36", "0"};
     const auto sim = make_simulation(s, Communicator());
     const double z = dim == 3 ? 0.5 : 0;
-    test::SettledMean pressure{3, 5}, depth{3, 5};  // the pool sloshes
+    test::SettledMean pressure{3, 5}, depth{3, 5};  // mean over the sloshing
     double enclosed = 0, worst = 0;
     while (sim->time() < 5) {
       const StepStats stats = sim->step(5);
@@ -231,8 +231,8 @@ TEST_CASE("a ball in a bubble feels nothing of the liquid around it") {
   CHECK(sim->stats().max_speed <= 1e-10);
 }
 
-// A grid of bubbles a few cells wide, in liquid that is stirred: all are kept, and the solve takes no more than half as
-// many iterations again as without them.
+// A grid of bubbles a few cells wide in stirred liquid: all are kept, and the solve takes at most half as many
+// iterations again as without them.
 TEST_CASE("ten thousand bubbles", "[long]") {
   const int n = 100;
   Scene s = pool_scene(2, 6 * n);
@@ -250,8 +250,8 @@ TEST_CASE("ten thousand bubbles", "[long]") {
   CHECK(most <= 20);
 }
 
-// Two bubbles rise below a lid of still water, meet and break through it: what merges adds up, what opens is let go,
-// and no volume comes from nowhere on the way.
+// Two bubbles rise, merge and break through the still surface: merged volumes add up, opened volume counts as lost, and
+// no volume appears on the way.
 TEST_CASE("bubbles that merge keep what they have together") {
   Scene s = pool_scene(2, 64);
   std::string liquid = "y-0.9";
@@ -272,7 +272,7 @@ TEST_CASE("bubbles that merge keep what they have together") {
   CHECK(worst <= 0.005);
 }
 
-// The lid is clamped between two walls, with air below it that carries it and the water above.
+// The lid is clamped between two walls. The air below carries the lid and the water above.
 TEST_CASE("a bubble under an elastic lid keeps its volume") {
   Scene s = pool_scene(2, 32);
   test::add_liquid(s, "max(y-0.8, -max(y-0.55, 0.35-y))");

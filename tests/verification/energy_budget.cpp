@@ -1,4 +1,4 @@
-// Solves that blow up are rejected and told: operators made wrong on purpose, on any number of ranks.
+// Solves that blow up are rejected and reported: operators perturbed on purpose, on any number of ranks.
 #include "coupling/report/energy_budget.h"
 #include "base/scene.h"
 #include "coupling/state/attempt.h"
@@ -37,7 +37,7 @@ StepStats measured(const Setup<Dim>& setup, const State<Dim>& state, const NodeF
   return stats;
 }
 
-// A sound step, and the same one with velocities a thousand times as high.
+// A correct step passes; the same step with velocities scaled by 1000 fails.
 template <int Dim>
 void check_blown_up() {
   const Setup<Dim> setup(drifting_pool(Dim), Communicator());
@@ -58,7 +58,7 @@ void check_blown_up() {
   CHECK_THAT(fault(), Contains("kinetic energy grows from") && Contains("it could draw on"));
 }
 
-// A gradient c times too large throws the pool up by (c - 1) g dt.
+// A gradient scaled by c > 1 throws the pool up at (c - 1) g dt.
 std::unique_ptr<Simulation> tampered(int dim, double factor) {
   Tampering wrong;
   wrong.pressure_gradient = factor;

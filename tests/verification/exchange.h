@@ -1,5 +1,5 @@
 #pragma once
-// One projection of liquid with rigid and elastic bodies: what goes in, what comes out, and what passes between them.
+// One projection of liquid with rigid and elastic bodies: its input, its result, and the momentum exchanged.
 #include <catch2/catch.hpp>
 #include <functional>
 #include <random>
@@ -30,7 +30,7 @@ struct Dice {
 
 constexpr double dt = 0.01;
 
-// One projection: what went in, what came out.
+// Input and result of one projection.
 template <int Dim>
 struct Projection {
   Setup<Dim> setup;
@@ -41,7 +41,7 @@ struct Projection {
   PressureRows<Dim> rows;
   SolidCoupling<Dim> coupling;
 
-  // `deform` may change the state of the elastic bodies first. Without them there is no contact.
+  // `deform` may first change the state of the elastic bodies. Without elastic bodies there is no contact.
   Projection(const Scene& scene, Filling filling, int seed, const std::function<void(ElasticState&)>& deform = {})
       : setup(scene, Communicator()), u_star(setup.layout) {
     if (!setup.plans_steps()) setup.contact.reset();
@@ -89,7 +89,7 @@ struct Projection {
     return v;
   }
 
-  // Share of the link between the centres beside a face that is liquid.
+  // Liquid fraction of the link between the centres on both sides of a face.
   double theta(int axis, Site f) const {
     const Site low = f - setup.layout.stride(axis);
     if (geometry.faces.kind_at(axis, f) == FaceKind::outflow) return 0.5;
@@ -98,7 +98,7 @@ struct Projection {
                               : surface_distance(state.phi[f], state.phi[low]);
   }
 
-  // visit(axis, face, position, mass rho w theta h^Dim) of the faces whose velocity the projection changes.
+  // Calls visit(axis, face, position, mass rho w theta h^Dim) for the faces whose velocity the projection changes.
   template <class Visit>
   void for_each_unknown(const Visit& visit) const {
     const Layout<Dim>& l = setup.layout;
@@ -116,7 +116,7 @@ struct Projection {
   }
 };
 
-// Momentum and, about the origin, angular momentum.
+// Linear momentum, and angular momentum about the origin.
 struct Momentum {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
   void add(const Vec3& at, const Vec3& p) {
@@ -131,12 +131,11 @@ inline Vec3 along(int axis, double value) {
   return v;
 }
 
-// The discrete balance of the velocities before gravity and after the solve. Each unknown face has m (u - u*) = -dt A w
-// (p_high - p_low), each body and static solid takes dt A s (p_low - p_high) of each face at the face's centre, and w
-// and the shares s of a face sum to one. So all of it sums to -dt A sum_f (p_high - p_low), which telescopes along
-// every row of cells to what acts on the sides of the domain: dt A w p_cell on walls, dt A w p_side on outflow sides.
-// Torques too: the two faces of a cell across an axis differ by h along that axis, which is no arm for a force along
-// it.
+// Discrete balance between the velocities before gravity and after the solve. Each unknown face has m (u - u*) = -dt A
+// w (p_high - p_low). Each body and static solid takes dt A s (p_low - p_high) at the centre of each face. w and the
+// shares s of a face sum to one, so the total is -dt A sum_f (p_high - p_low). It telescopes along every row of cells
+// to the terms at the sides of the domain: dt A w p_cell on walls, dt A w p_side on outflow sides. Torques telescope
+// too: the two faces of a cell along an axis differ by h along that axis, which is no lever arm for a force along it.
 template <int Dim>
 struct Balance {
   Momentum change, gravity, correction, solids, sides;
@@ -172,7 +171,8 @@ struct Balance {
     add_sides(p);
   }
 
-  // Linear momentum alone: pressure acts at face centres, and the elastic forces balance where the solve leads to.
+  // Linear momentum only: pressure acts at face centres, and the elastic forces balance in the configuration of the
+  // solve.
   void add_elastic(const Projection<Dim>& p, int k, int first) {
     const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
     const Eigen::VectorXd w = p.state.solids[std::size_t(k)].velocity();
@@ -209,7 +209,8 @@ struct Balance {
   }
 };
 
-// The flux J v out of each cell as the geometry has it for the liquid, against J of the bodies' force.
+// Compares the flux J v out of each cell, as the liquid's geometry has it, with J' of the bodies' force. Returns the
+// relative difference.
 template <int Dim>
 double adjointness_error(Projection<Dim>& p) {
   Dice dice{std::mt19937(3)};
@@ -240,8 +241,8 @@ double adjointness_error(Projection<Dim>& p) {
   return std::abs(fluxes - forces) / size;
 }
 
-// Projections of scenes made for a dimension, a filling and a seed, elastic nodes displaced by up to `far` (m), in 2D
-// and 3D.
+// Calls check() for projections in 2D and 3D of scenes made for a dimension, a filling and a seed. Elastic nodes are
+// displaced by up to `far` (m).
 template <class Check>
 void for_random_projections(Scene (*make)(int, Filling, int), double far, const Check& check) {
   for (const Filling filling : {Filling::closed, Filling::surface, Filling::outflow})

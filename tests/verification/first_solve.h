@@ -1,5 +1,5 @@
 #pragma once
-// The solve of a first step of 1 ms, from zero pressure, taken apart: what it costs can be looked at.
+// The parts of the solve of a first step of 1 ms, from zero pressure, so that tests can count its work.
 #include "coupling/solve/liquid_problem.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"

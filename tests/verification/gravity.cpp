@@ -1,4 +1,4 @@
-// Gravity that changes in time.
+// Time-dependent gravity.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -23,7 +23,7 @@ SolidSpec elastic_box(const Vec3& lower, const Vec3& upper, double density) {
   return s;
 }
 
-// A floating box, one in the air and a soft one in a pool.
+// A pool with a floating box, a box in the air and a soft one.
 Scene pool() {
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -9.81, 0};
@@ -52,7 +52,7 @@ TEST_CASE("a formula without t in it gives the bits of the number") {
   CHECK(run(pool()) == run(formula));
 }
 
-// v = a t^2/2 with steps that take gravity at their middles is exact.
+// v = a t^2/2 is exact for steps that take gravity at their midpoints.
 TEST_CASE("bodies and liquid fall alike under gravity that grows") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, 16);
@@ -62,7 +62,7 @@ TEST_CASE("bodies and liquid fall alike under gravity that grows") {
     s.solids.push_back(elastic_box({0.6, 0.6, dim == 3 ? 0.4 : 0}, {0.8, 0.8, dim == 3 ? 0.6 : 0}, 1100));
     s.time.scheme = TimeScheme::first_order;
     s.time.fixed_step = 0.005;
-    s.time.frame_rate = 20;  // whole steps to a frame
+    s.time.frame_rate = 20;  // frames after whole steps
     LiquidRegionSpec drop;
     drop.shape.kind = "sphere";
     drop.shape.center = {0.45, 0.35, dim == 3 ? 0.5 : 0};
@@ -86,7 +86,7 @@ TEST_CASE("neutrally buoyant bodies stay at rest under gravity that turns and ju
   s.solids.push_back(test::rigid_box("box", {0.22, 0.3, 0}, {0.3, 0.35, 0}, 1000, 25));
   s.solids.push_back(test::rigid_ball("ball", 0.13, {0.69, 0.66, 0}, 1000));
   s.solver.tolerance = 1e-13;
-  s.time.fixed_step = 0.005;  // one step has the jump at its middle
+  s.time.fixed_step = 0.005;  // the jump lies in the middle of a step
   const auto sim = make_simulation(s, Communicator());
   double fastest = 0;
   for (int n = 0; n < 60; ++n) {
@@ -95,7 +95,7 @@ TEST_CASE("neutrally buoyant bodies stay at rest under gravity that turns and ju
       fastest = std::max({fastest, b.velocity.norm(), b.angular_velocity.norm()});
   }
   WARN(fastest << " m/s");
-  CHECK(fastest <= 1e-10);  // of rounding, as under steady gravity
+  CHECK(fastest <= 1e-10);  // round-off, as under steady gravity
 }
 
 TEST_CASE("gravity that flips each step leaves everything where it is") {
@@ -106,7 +106,7 @@ TEST_CASE("gravity that flips each step leaves everything where it is") {
   double fastest = 0;
   for (int n = 0; n < 200; ++n) fastest = std::max(fastest, sim->step(sim->time() + 1).max_speed);
   WARN("fastest liquid " << fastest << " m/s, a step's fall makes " << 9.81 * 0.005);
-  // The first kick is never taken back, so that what is free drifts at half of it.
+  // The first impulse is never cancelled, so free bodies drift at half its velocity.
   const double drift = 0.5 * 9.81 * 0.005 * sim->time();
   for (std::size_t k = 0; k < 3; ++k) {
     INFO(sim->solids()[k].name << " at " << sim->solids()[k].position.transpose());

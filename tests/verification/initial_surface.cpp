@@ -1,4 +1,4 @@
-// The liquid that a scene's formulas begin with.
+// Initial liquid from a scene's formulas.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -16,7 +16,7 @@ double volume_of(int dim, int cells, const Formula& phi) {
 
 }  // namespace
 
-// Liquid 0.4 deep, 0.7 where x < 1 + y tan 30 degrees: the formula jumps along a slanted line.
+// Liquid of depth 0.4, but 0.7 for x < 1 + y tan 30 degrees: the formula jumps along a slanted line.
 TEST_CASE("liquid whose formula jumps begins with its volume") {
   const double exact = 2 * 0.4 + 0.3 + 0.57735027 * (0.49 - 0.16) / 2;
   for (const auto& [dim, cells] : {std::pair(2, 32), std::pair(2, 128), std::pair(3, 32)}) {

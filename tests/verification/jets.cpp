@@ -1,4 +1,4 @@
-// Liquid that enters through a side with all components of its velocity and then falls freely.
+// Liquid that enters through a side with all velocity components and then falls freely.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double g = 9.81, lower = 0.5, upper = 0.6;  // m/s^2; rims of the jet at the side, m
 
-// Air of 1 m x 1 m in which a jet of 0.1 m, in 3D 0.1 m square, enters at x = 0.
+// A domain of 1 m x 1 m of air. A jet 0.1 m wide (3D: 0.1 m square) enters at x = 0.
 Scene jet_scene(int dim, int cells, const Vec3& v, double cfl) {
   Scene s = test::box_scene(dim, cells);
   s.gravity = {0, -g, 0};
@@ -25,12 +25,12 @@ Scene jet_scene(int dim, int cells, const Vec3& v, double cfl) {
 }
 
 struct JetErrors {
-  double rim = 0;                // cells, from the free parabola
-  std::array<double, 3> inside;  // of the velocity in the first cells, of the speed
+  double rim = 0;                // distance from the free parabola, cells
+  std::array<double, 3> inside;  // error of the velocity in the first cells, relative to the speed
   double fastest = 0;            // m/s
 };
 
-// The plane through the jet's middle, as columns of cells.
+// Columns of cells in the plane through the jet's middle.
 JetErrors measure_jet(const Scene& scene, const Vec3& v, double t) {
   const auto sim = make_simulation(scene, Communicator());
   while (sim->time() < t) (void)sim->step(t);
@@ -59,7 +59,7 @@ JetErrors measure_jet(const Scene& scene, const Vec3& v, double t) {
   return e;
 }
 
-// Error of v in a full box through which liquid that enters with (1, sin 2 pi t) passes: v(x, t) = sin 2 pi (t - x).
+// Error of v in a full box. Liquid enters with (1, sin 2 pi t) and passes through: v(x, t) = sin 2 pi (t - x).
 double passing_error(int cells, double cfl) {
   Scene s = test::box_scene(2, cells);
   s.domain.sides[1][0].type = s.domain.sides[1][1].type = SideType::periodic;
@@ -81,7 +81,7 @@ double passing_error(int cells, double cfl) {
 
 }  // namespace
 
-// The jet is eight cells wide. Its rims keep to a cell, velocities beside the side to 1 % of the speed.
+// The jet is eight cells wide. Its rims are accurate to a cell, velocities near the side to 1 % of the speed.
 TEST_CASE("a jet enters with the velocity of its side and follows the free parabola") {
   const auto check = [](int dim, const Vec3& v, double cfl, double t) {
     const Scene scene = jet_scene(dim, 80, v, cfl);

@@ -1,4 +1,4 @@
-// Liquid on one side of a thick wall does not come out at the other when the wall moves.
+// Liquid on one side of a thick wall does not appear on the other side when the wall moves.
 #include "coupling/transport/level_in_solids.h"
 #include "base/scene.h"
 #include "coupling/state/setup.h"
@@ -15,7 +15,8 @@ using namespace seiche::test;
 
 namespace {
 
-// A wall from x = 0.3 to 0.7, eight cells, with liquid on its left; the surface has stayed behind at x = 0.6.
+// A wall from x = 0.3 to 0.7 (eight cells) with liquid on its left. The level set within the wall lags behind: its zero
+// is at x = 0.6.
 template <int Dim>
 void check_sides() {
   Scene scene = box_scene(Dim, 20);
@@ -39,7 +40,7 @@ void check_sides() {
   CHECK(touched == 0);
 }
 
-// A leaning slab of some six cells; whatever phi is within, it becomes that of the plane outside.
+// A tilted slab about six cells thick. Whatever phi is inside, it becomes the continuation of the plane outside.
 template <int Dim>
 void check_continuation() {
   Scene scene = box_scene(Dim, 24);
@@ -90,11 +91,11 @@ TEST_CASE("a bag of liquid that falls leaves none behind", "[elastic]") {
   bag.shape.kind = "expression";
   bag.shape.phi = "abs(sqrt((x-0.5)^2+(y-0.65)^2)-0.25)-0.05";
   s.solids.push_back(bag);
-  s.time.end = 0.25;  // 0.31 m, three walls' thickness
+  s.time.end = 0.25;  // a fall of 0.31 m, three times the wall's thickness
   const auto sim = make_simulation(s, Communicator());
   const double start = sim->stats().liquid_volume;
   double worst = 0;
   while (sim->time() < s.time.end) worst = std::max(worst, std::abs(sim->step(s.time.end).liquid_volume / start - 1));
   WARN("volume off by " << worst << ", bar 1e-3; " << sim->step_count() << " steps");
-  CHECK(worst < 1e-3);  // a polygon's area on the grid; left behind, it was 2.8e-3 more
+  CHECK(worst < 1e-3);  // area of a polygon on the grid; without the correction the error was 2.8e-3
 }

@@ -1,4 +1,4 @@
-// Liquid that leaves through a side, and comes back.
+// Liquid that leaves through a side and returns.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -6,7 +6,7 @@
 
 using namespace seiche;
 
-// An eddy through the top of a full box: as much comes back as leaves, and all of it is booked.
+// An eddy through the top of a full box: as much liquid enters as leaves, and the expected volume counts both.
 TEST_CASE("what comes back through a full outflow side is booked") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, 12);

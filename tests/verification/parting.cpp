@@ -1,4 +1,4 @@
-// Liquid that may part from walls and solids.
+// Separating walls: liquid that may separate from walls and solids.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -8,7 +8,7 @@ using namespace seiche;
 
 namespace {
 
-// A block of liquid that hangs from the lid.
+// A block of liquid below the lid.
 Scene hanging_block(int dim, int cells) {
   Scene s = test::box_scene(dim, cells);
   s.gravity = {0, -9.81, 0};
@@ -40,16 +40,16 @@ double fall_after(const Scene& s, int steps) {
 TEST_CASE("a block of liquid under the lid falls freely where liquid may part, and hangs where it may not") {
   for (int dim : {2, 3}) {
     Scene s = hanging_block(dim, dim == 2 ? 32 : 16);
-    // The surface moves with the velocity at the start of each step: g dt^2 n (n - 1)/2.
+    // The surface moves with the velocity at the start of each step, so its fall is g dt^2 n (n - 1)/2.
     const int steps = 26;
     const double free_fall = 9.81 * 0.005 * 0.005 * steps * (steps - 1) / 2;
     const double hanging = fall_after(s, steps);
     s.liquid.separates = true;
     const double falling = fall_after(s, steps);
     WARN(dim << "D: fall " << falling << " m, free fall " << free_fall << ", where it hangs " << hanging);
-    // A gap becomes air at half a cell, one row of cells at a time.
+    // A gap becomes air when it is half a cell wide, one row of cells at a time.
     CHECK(std::abs(falling - free_fall) <= 0.15 * s.domain.cell_size);
-    CHECK(hanging < 0.85 * free_fall);  // it pours off at the sides
+    CHECK(hanging < 0.85 * free_fall);  // it flows down at the sides
   }
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("no pressure pulls at walls and solids, and liquid at rest stays at re
 
 TEST_CASE("pressures of a splash in a lidded box never pull where liquid may part") {
   Scene s = test::box_scene(2, 32);
-  s.gravity = {6, 9.81, 0};  // up: the liquid on the floor falls to the lid and splashes
+  s.gravity = {6, 9.81, 0};  // upwards: the liquid on the floor falls to the lid and splashes
   LiquidRegionSpec pool;
   pool.shape.kind = "box";
   pool.shape.upper = {0.5, 0.6, 0};
@@ -92,13 +92,13 @@ TEST_CASE("pressures of a splash in a lidded box never pull where liquid may par
     least = std::min(least, lowest / std::max(highest, 1.0));
   }
   WARN("lowest pressure over the highest: " << least);
-  CHECK(least >= -2e-7);  // ten solver tolerances, and what single precision of the frame adds
+  CHECK(least >= -2e-7);  // ten solver tolerances plus the frame's single precision
   CHECK(std::abs(sim->stats().liquid_volume / 0.3 - 1) < 0.02);
 }
 
 namespace {
 
-// A block beside a wall that moves along itself, periodic across: viscosity 1 +- 0.5 Pa s, or as much everywhere.
+// A block beside a tangentially moving wall, periodic across.
 Scene block_at_moving_wall(const Formula& viscosity) {
   Scene s = test::box_scene(2, 20);
   s.domain.cells[1] = 19, s.domain.upper[1] = 0.95;

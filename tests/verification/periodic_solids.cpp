@@ -1,4 +1,4 @@
-// Solids beside periodic sides close the same part of a face at either of its places.
+// Solids beside periodic sides close the same fraction of a face at both of its positions.
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
@@ -16,8 +16,8 @@ using namespace seiche;
 
 namespace {
 
-// A full periodic box with a plate half as thick as a cell, less than half a cell above the lower side, and a box that
-// stands across the upper one.
+// A full periodic box with a plate half a cell thick, less than half a cell above the lower side, and a box across the
+// upper side.
 Scene beside_sides(int dim, SolidKind kind) {
   Scene s = test::box_scene(dim, 12);
   test::make_periodic(s);

@@ -1,4 +1,4 @@
-// The force that pins exert on elastic solids, against balances of forces and of momentum.
+// Forces that pins exert on elastic solids, against balances of forces and of momentum.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-// Solids and liquid in x and y, as deep in 3D as they are given.
+// A point; z counts in 3D only.
 Vec3 corner(int dim, double x, double y, double z) {
   return {x, y, dim == 3 ? z : 0};
 }
@@ -25,7 +25,7 @@ Scene tank(int dim, double gravity) {
   return s;
 }
 
-// A block from `low` to `high` all of whose nodes are pinned.
+// A block from `low` to `high` with all nodes pinned.
 SolidSpec pinned_block(const Vec3& low, const Vec3& high, double density, double element) {
   SolidSpec s = elastic_box("block", low, high, density, {1e6, 0.3}, element);
   pin(s, low - Vec3::Constant(0.01), high + Vec3::Constant(0.01));
@@ -38,7 +38,7 @@ std::unique_ptr<Simulation> run(const Scene& scene, int steps) {
   return sim;
 }
 
-// A cantilever clamped on the left, in 3D 0.2 deep.
+// A cantilever clamped on the left; in 3D 0.2 m deep.
 Scene cantilever(int dim, double gravity) {
   Scene s = tank(dim, gravity);
   s.solids.push_back(
@@ -51,8 +51,8 @@ double mass_of_cantilever(int dim) {
   return 1200 * 0.6 * 0.15 * (dim == 3 ? 0.2 : 1);
 }
 
-// Largest difference of m dV/dt, V the velocity of the centre of mass, and all forces over the largest of these. In the
-// first-order scheme V of each row is that at the end of the step to come, and dt is fixed.
+// Largest difference between m dV/dt (V: velocity of the centre of mass) and the sum of forces, relative to the largest
+// of either. In the first-order scheme the V of each row belongs to the end of the next step; dt is fixed.
 double imbalance(Scene s, double mass, int steps) {
   const double dt = 0.002;
   s.time.fixed_step = dt;
@@ -63,7 +63,7 @@ double imbalance(Scene s, double mass, int steps) {
     const Vec3 before = sim->solids()[0].velocity;
     (void)sim->step(sim->time() + dt);
     const SolidState bar = sim->solids()[0];
-    if (n == 0) continue;  // what was there before the first solve is no velocity of a solve
+    if (n == 0) continue;  // before the first solve the velocity is not that of a solve
     const Vec3 rate = mass * (bar.velocity - before) / dt;
     worst = std::max(worst, (rate - bar.pin_force - bar.force - mass * Vec3(0, -g, 0)).norm());
     largest = std::max({largest, rate.norm(), bar.pin_force.norm()});
@@ -80,7 +80,7 @@ TEST_CASE("the pins of a body that hangs at rest carry its weight", "[elastic]")
         elastic_box("bar", corner(dim, 0.4, 0.3, 0.4), corner(dim, 0.6, 0.9, 0.6), 1200, {1e6, 0.3}, 0.2));
     pin(s.solids.back(), {0, 0.899, -1}, {1, 1, 1});
     s.time.scheme = TimeScheme::first_order;
-    s.time.fixed_step = 0.05;  // damps the oscillations by a factor of two to five a step
+    s.time.fixed_step = 0.05;  // damps oscillations by a factor of two to five per step
     const SolidState bar = run(s, 60)->solids()[0];
     const double weight = 1200 * g * 0.12 * (dim == 3 ? 0.2 : 1);
     WARN(dim << "D: " << bar.pin_force.transpose() << " N, weight " << weight << ", bar 1e-6");
@@ -101,11 +101,10 @@ TEST_CASE("pins balance force and moment of a load at the free end", "[elastic]"
     load.stress = {"0.0", "200.0", dim == 3 ? "100.0" : "0.0"};  // Pa, on 0.15 (by 0.2) of the side x = 0.7
     s.solids.back().elastic.tractions.push_back(load);
     s.time.frame_rate = 10;
-    s.time.fixed_step = 0.1;  // damps the slowest oscillation, of 12/s, to 0.6 a step
+    s.time.fixed_step = 0.1;  // damps the slowest oscillation, of 12/s, by a factor of 0.6 per step
     const SolidState bar = run(s, 60)->solids()[0];
     const Vec3 force = 0.15 * (dim == 3 ? 0.2 : 1) * Vec3(0, 200, dim == 3 ? 100 : 0);
-    // The bar bends by 8 mm: that changes the load's arm about the centre of mass, 0.3 m at rest, by less than a
-    // hundredth.
+    // The bar bends by 8 mm, which changes the load's arm about the centre of mass (0.3 m at rest) by less than 1 %.
     const Vec3 moment = Vec3(0.3, 0, 0).cross(force);
     WARN(dim << "D: " << bar.pin_force.transpose() << " N, load " << force.transpose() << "; "
              << bar.pin_torque.transpose() << " N m, load " << moment.transpose() << "; bars 1e-6 and 0.01");
@@ -114,7 +113,7 @@ TEST_CASE("pins balance force and moment of a load at the free end", "[elastic]"
   }
 }
 
-// Faces of the block lie on those of cells, where the grid has its volume to rounding.
+// Faces of the block coincide with cell faces, so the grid has its volume to round-off.
 TEST_CASE("the pins of a body in still liquid carry its weight less its buoyancy", "[elastic]") {
   for (int dim : {2, 3}) {
     Scene s = tank(dim, g);
@@ -129,7 +128,7 @@ TEST_CASE("the pins of a body in still liquid carry its weight less its buoyancy
   }
 }
 
-// The block stands in the floor: nothing presses it from below.
+// The block reaches through the floor, so nothing presses on it from below.
 TEST_CASE("the pins of a block in the floor under a uniform pressure p carry p times its top", "[elastic]") {
   for (int dim : {2, 3}) {
     Scene s = tank(dim, 0);

@@ -1,5 +1,4 @@
-// Manufactured pressures: the cut-cell projection recovers p from u* = u + (dt/rho) grad p, where u does not cross
-// solids.
+// Manufactured pressures: the cut-cell projection recovers p from u* = u + (dt/rho) grad p, u tangential to solids.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -15,7 +14,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// One grid with solids and a surface, and the projection on it, as a step sets them up (dt = rho = 1).
+// Grid, solids, surface and projection, set up as in a step (dt = rho = 1).
 template <int Dim>
 class Problem {
  public:
@@ -32,8 +31,8 @@ class Problem {
     fill_level_set_ghosts(layout_, halo_, phi_);
   }
 
-  // L-infinity error of the pressure in cells whose centre is liquid, its mean removed where `closed`. `velocity(axis,
-  // x)` is free of divergence and tangential to the solids.
+  // L-infinity error of the pressure in cells with liquid centres, without its mean if `closed`. `velocity(axis, x)` is
+  // free of divergence and tangential to the solids.
   double error(std::function<double(int, const Vec<Dim>&)> velocity, std::function<double(const Vec<Dim>&)> p,
                std::function<double(int, const Vec<Dim>&)> slope) {
     const ProjectionInput<Dim> in{layout_, halo_, ranks_, phi_, step_.faces, 1.0, 1.0};
@@ -49,7 +48,7 @@ class Problem {
     std::vector<double> x(rows.cells.size());
     const SolveReport report =
         solve_spd(assemble_pressure_matrix(in, rows), row_grid(in, rows), closed, pressure_right_side(in, rows, u), x,
-                  {.tolerance = 1e-11}, ranks_);  // below every discretisation error here
+                  {.tolerance = 1e-11}, ranks_);  // below all discretisation errors here
     REQUIRE(report.converged);
     return largest_difference(rows, x, p, closed.count > 0);
   }
@@ -86,7 +85,7 @@ class Problem {
     return largest;
   }
 
-  // Whether the centre of a cell lies outside the solids: mean psi of its nodes.
+  // True if the centre of a cell lies outside the solids: mean psi of its nodes.
   bool inside(Site c) const {
     double sum = 0;
     for (int k = 0; k < (1 << Dim); ++k) {
@@ -125,7 +124,7 @@ SolidSpec ball(bool container) {
   return s;
 }
 
-// A container with plane walls at odd offsets: boxes cut by grid planes nowhere aligned.
+// A container with plane walls at odd offsets: boxes cut by planes that are not aligned with the grid.
 template <int Dim>
 SolidSpec cut_box() {
   SolidSpec s = solid("box");
@@ -151,7 +150,7 @@ double wave_slope(int axis, const Vec<Dim>& x) {
   return p;
 }
 
-// Solid rotation about the middle: tangential to spheres there.
+// Rigid rotation about the middle: tangential to spheres there.
 template <int Dim>
 double rotation(int axis, const Vec<Dim>& x) {
   return axis == 0 ? -(x[1] - 0.5) : axis == 1 ? x[0] - 0.5 : 0;
@@ -172,7 +171,7 @@ void check_order(const std::string& name, const std::vector<SolidSpec>& solids,
   const std::vector<int> sizes = Dim == 2 ? std::vector<int>{32, 64, 128} : std::vector<int>{24, 48, 96};
   std::vector<double> e;
   for (int n : sizes) e.push_back(Problem<Dim>(n, solids, phi).error(u, p, slope));
-  const double fit = 0.5 * test::order(e[0], e[2]);  // least squares through three points a factor two apart
+  const double fit = 0.5 * test::order(e[0], e[2]);  // least-squares slope through three points a factor of two apart
   WARN(name << " " << Dim << "D: L-infinity " << e[0] << ", " << e[1] << ", " << e[2] << ", order " << fit);
   CHECK(fit >= 1.9);
 }

@@ -1,4 +1,4 @@
-// Surfaces carried by flows that the scene gives.
+// Surfaces transported by prescribed flows.
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
@@ -14,11 +14,11 @@ Scene carried(int dim, int cells, const std::string& phi, const VectorFormula& f
   Scene s = test::box_scene(dim, cells);
   test::add_liquid(s, phi);
   s.liquid.prescribed_velocity = flow;
-  s.gravity = {0, -9.81, 0};  // which a prescribed flow does not feel
+  s.gravity = {0, -9.81, 0};  // has no effect on a prescribed flow
   return s;
 }
 
-// A ball of radius 0.2 about the place x0 + dx(t) along x in the middle.
+// A ball of radius 0.2 in the middle of the domain but for x = x0 + dx(t).
 std::string ball(int dim, const std::string& x) {
   const std::string flat = "(x-" + x + ")^2+(y-0.5)^2";
   return "sqrt(" + flat + (dim == 3 ? "+(z-0.5)^2" : "") + ")-0.2";
@@ -49,7 +49,7 @@ std::unique_ptr<Simulation> run_to(const Scene& s, double end) {
 
 }  // namespace
 
-// It starts from rest, so that the first step must look ahead, and comes back: 0.1 (1 - cos 2 pi t) along x.
+// It moves by 0.1 (1 - cos 2 pi t) along x and returns. It starts from rest, so the first step must look ahead.
 TEST_CASE("a ball swings to and fro with a prescribed flow, as a ball and of one size") {
   for (int dim : {2, 3}) {
     const Scene s = carried(dim, 32, ball(dim, "0.4"), {"0.2*pi*sin(2*pi*t)", "0", "0"});
@@ -106,7 +106,7 @@ TEST_CASE("a prescribed flow that is no number is said by key, at the start and 
   }
 }
 
-// All of the state is in the checkpoint: what follows is the same to the last bit.
+// The checkpoint holds the whole state: a resumed run gives the same bits.
 TEST_CASE("a prescribed flow goes on from a checkpoint with the same bits") {
   const Scene s = carried(2, 24, ball(2, "0.4"), {"sin(3*y)*cos(t)", "sin(3*x)", "0"});
   const auto whole = run_to(s, 0.1), other = make_simulation(s, Communicator());

@@ -1,4 +1,4 @@
-// Liquid at rest stays at rest, whatever holds it.
+// Liquid at rest stays at rest, whatever contains it.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -20,7 +20,7 @@ SolidSpec container(const std::string& kind) {
 
 // Largest speed over 100 steps.
 double largest_speed(Scene s) {
-  s.solver.tolerance = 1e-13;  // the bar is a speed; gravity times a step times the default 1e-8 would be above it
+  s.solver.tolerance = 1e-13;  // the bar is a speed; gravity times dt times the default 1e-8 would exceed it
   s.time.max_step = 0.01;
   const auto sim = make_simulation(s, Communicator());
   double largest = 0;
@@ -28,7 +28,7 @@ double largest_speed(Scene s) {
   return largest;
 }
 
-// Gravity at an angle to every axis, and the half space below a plane across it as liquid.
+// Gravity oblique to every axis; the liquid is the half space below a plane normal to it.
 void fill_half(Scene& s, Vec3 down) {
   if (s.dimension == 2) down[2] = 0;
   s.gravity = 9.81 * down.normalized();
@@ -93,7 +93,7 @@ TEST_CASE("liquid rests among 20 random spheres", "[long]") {
   }
 }
 
-// A gate that leans by 30 degrees between two levels. phi jumps within the gate.
+// A gate inclined by 30 degrees between two levels. phi jumps within the gate.
 Scene leaning_gate(int dim, int cells) {
   Scene s = test::box_scene(dim, cells);
   s.domain.upper[0] = 2, s.domain.cells[0] *= 2;
@@ -143,6 +143,6 @@ TEST_CASE("a pool that fills the tank from wall to wall keeps its volume and pre
   for (int n = 0; n < 10; ++n) (void)sim->step(sim->time() + 1);
   CHECK(sim->stats().liquid_volume == Approx(volume).epsilon(1e-13));
   CHECK(sim->probe(0).value == Approx(1000 * 9.81 * 0.71).epsilon(1e-10));
-  // Archimedes, with the area the closed face shares add up to: second order, 13 cells across the disc.
+  // Archimedes' force, with the area from the closed face fractions: second order, 13 cells across the disc.
   CHECK(sim->solids()[0].force[1] == Approx(1000 * 9.81 * 3.14159265358979323846 * 0.04).epsilon(0.005));
 }

@@ -29,7 +29,7 @@ void fill(Scene& s) {
   s.gravity = {0, -9.81, 0};
 }
 
-// A ball of radius 1/4 in a concentric container of radius 0.45, all full; its acceleration over g in the first step.
+// Acceleration, over g, in the first step of a ball of radius 1/4 in a concentric, full container of radius 0.45.
 double first_acceleration(int dim, int cells, double ratio) {
   Scene s = test::box_scene(dim, cells);
   fill(s);
@@ -63,7 +63,7 @@ TEST_CASE("a ball in a closed container starts as its added mass says", "[long]"
       for (int cells : {32, 64}) errors.push_back(std::abs(first_acceleration(dim, cells, ratio) / exact - 1));
       WARN(dim << "D, ratio " << ratio << ": errors " << errors[0] << ", " << errors[1] << ", order "
                << test::order(errors[0], errors[1]));
-      CHECK(errors[1] <= 0.02);  // 16 cells a radius
+      CHECK(errors[1] <= 0.02);  // 16 cells per radius
       CHECK(test::order(errors[0], errors[1]) >= 1);
     }
 }

@@ -18,13 +18,13 @@ using namespace seiche;
 namespace {
 
 constexpr double g = 9.81;
-constexpr double gap = 0.0077;  // m: where the weight holds out against the barrier, so that nothing starts with a hop
+constexpr double gap = 0.0077;  // m: equilibrium of weight and barrier, so that bodies start without a bounce
 
-// A flat body (it must not topple) just above a floor that slopes by `degrees`: gravity is turned instead.
+// A flat body (so that it does not topple) just above a floor inclined by `degrees`; gravity is rotated instead.
 Scene incline(int dim, double degrees, double friction) {
   Scene s = test::box_scene(dim, 16, 4);
   s.gravity = g * Vec3(std::sin(degrees * test::pi / 180), -std::cos(degrees * test::pi / 180), 0);
-  s.time.max_step = 0.005;  // bodies move by v dt and feel friction after that: first order in dt over the times below
+  s.time.max_step = 0.005;  // bodies move by v dt and feel friction after that: first order in dt
   const double z = dim == 3 ? 1 : 0;
   s.solids.push_back(test::rigid_box("block", {1, 0.2, z}, {0.8, 0.1 + gap, 2 * z}, 500));
   s.solids.back().friction = friction;
@@ -37,7 +37,7 @@ double speed_after(const Scene& scene, double t) {
   return sim->solids()[0].velocity[0];
 }
 
-// Acceleration between two times, after the block has come to lie.
+// Mean acceleration between two times after the block has come to rest on the floor.
 double acceleration(Scene scene, double from, double until) {
   const auto sim = make_simulation(scene, Communicator());
   double first = 0;
@@ -67,7 +67,7 @@ TEST_CASE("a block sticks or slides on the right side of tan theta = mu", "[long
       const double stuck = speed_after(incline(dim, angle, 1.02 * mu), 1);
       const double sliding = speed_after(incline(dim, angle, 0.98 * mu), 1);
       WARN(dim << "D, mu = " << mu << ": " << stuck << " m/s where it sticks, " << sliding << " m/s where it slides");
-      CHECK(std::abs(stuck) <= 1e-3);  // creep: 1e-4 of the speed of a fall through a cell
+      CHECK(std::abs(stuck) <= 1e-3);  // creep: 1e-4 of the speed after a fall through one cell
       CHECK(sliding >= 0.5 * 0.02 * g * std::sin(angle * test::pi / 180));
     }
   CHECK(std::abs(speed_after(incline(2, 60, 1e6), 1)) <= 1e-3);
@@ -101,7 +101,7 @@ struct Stack {
   double until;
 };
 
-// Ten cubes of four cells in a shaft, each a hair above the one below.
+// Ten cubes of four cells in a shaft, each slightly above the one below.
 Scene stack_scene(const Stack& stack) {
   constexpr double side = 0.08;
   const bool solid = stack.dimension == 3;
@@ -118,8 +118,8 @@ Scene stack_scene(const Stack& stack) {
   return s;
 }
 
-// Farthest that a box goes after it has settled in the first second, over the side. Steps change from one to the next:
-// contact must not push differently for it.
+// Largest displacement of a box after the first second, over its side. The step size varies randomly; contact forces
+// must not depend on it.
 double creep(const Stack& stack, int& newton, int& steps) {
   const auto sim = make_simulation(stack_scene(stack), Communicator());
   std::vector<Vec3> settled;
@@ -156,8 +156,7 @@ TEST_CASE("stacks of ten stand still", "[long]") {
   }
 }
 
-// Edges 0.2, 0.3, 0.4: the middle axis is that of 0.3, about which free rotation is unstable: it turns over again and
-// again.
+// Edges 0.2, 0.3, 0.4: free rotation about the middle axis (that of 0.3) is unstable, so the body flips repeatedly.
 TEST_CASE("a body that spins about its middle axis keeps energy and angular momentum over 100 turns", "[long]") {
   Scene s = test::box_scene(3, 8);
   s.gravity = Vec3::Zero();
@@ -174,7 +173,7 @@ TEST_CASE("a body that spins about its middle axis keeps energy and angular mome
   double energy_error = 0, momentum_error = 0, flips = 1;
   Phases phases;
   for (int n = 0; state.time < 100; ++n) {
-    // Steps change by up to a fifth, and now and then by much.
+    // Step sizes vary by up to a fifth, and every seventh step is halved.
     const double share = n % 7 == 0 ? 0.5 : 0.9 + 0.1 * std::sin(n);
     Attempt<3> attempt = attempt_step(setup, state, share * choose_step(setup, state, state.time + 10), phases);
     REQUIRE(attempt.failure.empty());

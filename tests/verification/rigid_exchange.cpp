@@ -1,4 +1,4 @@
-// What one projection passes between liquid, rigid bodies, static solids and walls, on random scenes.
+// Momentum exchange of one projection between liquid, rigid bodies, static solids and walls, on random scenes.
 #include "base/scene.h"
 #include "exchange.h"
 
@@ -24,7 +24,7 @@ SolidSpec random_solid(Dice& dice, int dim, int number) {
   return s;
 }
 
-// Four rigid bodies and two static solids wherever they fall: across walls, the surface and each other.
+// Four rigid bodies and two static solids at random positions: across walls, the surface and each other.
 Scene random_scene(int dim, Filling filling, double tolerance, int seed) {
   Scene s = test::box_scene(dim, dim == 2 ? 19 : 11);
   Dice dice{std::mt19937(unsigned(seed))};
@@ -44,7 +44,7 @@ void for_random_projections(std::initializer_list<Filling> fillings, double tole
     }
 }
 
-// 1/2 sum m u^2 + 1/2 v'Mv.
+// Kinetic energy 1/2 sum m u^2 + 1/2 v'Mv.
 template <int Dim, class Velocity>
 double kinetic_energy(const Projection<Dim>& p, const Eigen::VectorXd& v, const Velocity& u) {
   double sum = 0.5 * v.dot(p.coupling.mass * v);
@@ -52,7 +52,7 @@ double kinetic_energy(const Projection<Dim>& p, const Eigen::VectorXd& v, const 
   return sum;
 }
 
-// The pressures of [A, c1 J; -c2 J', M] (p, v) = (b, M v*), by dense elimination.
+// Pressures of [A, c1 J; -c2 J', M] (p, v) = (b, M v*) by dense elimination.
 template <int Dim>
 Eigen::VectorXd saddle_pressures(const Projection<Dim>& p) {
   const ProjectionInput<Dim> in = p.input();
@@ -71,7 +71,7 @@ Eigen::VectorXd saddle_pressures(const Projection<Dim>& p) {
   K.bottomRightCorner(m, m) = Eigen::MatrixXd(p.coupling.mass);
   Eigen::VectorXd right(n + m);
   right << Eigen::Map<const Eigen::VectorXd>(b.data(), n), p.coupling.mass * p.coupling.target;
-  // Rows in units of their diagonal: densities differ by 1e10.
+  // Rows are scaled by their diagonals, since densities differ by 1e10.
   const Eigen::VectorXd scale = K.diagonal().cwiseInverse();
   return (scale.asDiagonal() * K).partialPivLu().solve(scale.cwiseProduct(right)).head(n);
 }
@@ -111,7 +111,7 @@ TEST_CASE("the projection takes kinetic energy of liquid and bodies, by that of 
     CHECK(after < before);
     worst = std::max(worst, std::abs(before - after - taken) / before);
   });
-  // The two parts are orthogonal as far as the solve goes: 1e-12 of the fluxes.
+  // Both parts are orthogonal up to the accuracy of the solve: 1e-12 of the fluxes.
   WARN("E(u*) - E(u) - E(u* - u) over E(u*): " << worst << ", bar 1e-11");
   CHECK(worst <= 1e-11);
 }

@@ -8,11 +8,12 @@ using namespace seiche;
 
 namespace {
 
-constexpr double side = 0.25;  // of the square section of a log, m
+constexpr double side = 0.25;  // of a log's square section, m
 constexpr int cells = 48;
 constexpr double h = 1.0 / cells;
 
-// A square log of density ratio s in a tank of width 1, its centre `lift` above where it floats, turned by `degrees`.
+// A square log of density ratio s in a tank of width 1, its centre `lift` above its floating position, turned by
+// `degrees`.
 Scene log_scene(double s, double lift, double degrees) {
   Scene scene = test::box_scene(2, cells);
   scene.gravity = {0, -9.81, 0};
@@ -24,12 +25,12 @@ Scene log_scene(double s, double lift, double degrees) {
 }
 
 struct Floating {
-  double depth = 0;                     // of the centre below the level, m, mean
+  double depth = 0;                     // mean depth of the centre below the level, m
   double degrees = 0;                   // mean
   double least = 1e300, most = -1e300;  // degrees
 };
 
-// The level is that of the water and the log's submerged part, which is s of it wherever it floats.
+// The level follows from the volume of the water plus the log's submerged volume, the fraction s of it.
 Floating float_on(const Scene& scene, double from, double until) {
   const auto sim = make_simulation(scene, Communicator());
   const double s = scene.solids[0].rigid.density / scene.liquid.density;
@@ -51,7 +52,8 @@ Floating float_on(const Scene& scene, double from, double until) {
 
 }  // namespace
 
-// Centre of the section, which is the centre of mass: (s - 1/2) H below the level for a flat log; on it for s = 1/2.
+// The centre of the section is the centre of mass: (s - 1/2) H below the level for a flat log, at the level for s =
+// 1/2.
 TEST_CASE("a log floats as deep as Archimedes says") {
   for (double s : {0.15, 0.5, 0.85}) {
     const Floating f = float_on(log_scene(s, h, s == 0.5 ? 45 : 0), 0, 8);
@@ -61,7 +63,7 @@ TEST_CASE("a log floats as deep as Archimedes says") {
   }
 }
 
-// Flat is stable where 6 s (1 - s) < 1; between 9/32 and 23/32 a square floats with a corner down.
+// Floating flat is stable for 6 s (1 - s) < 1. Between 9/32 and 23/32 a square floats with a corner down.
 TEST_CASE("a square log floats flat, or on a corner, as its density says") {
   for (double s : {0.15, 0.5, 0.85}) {
     const Floating f = float_on(log_scene(s, 0, 10), 0, 12);

@@ -1,4 +1,4 @@
-// What a solve with rigid bodies costs: iterations at any density ratio and rank count, set-up for many bodies.
+// Cost of solves with rigid bodies: iterations at any density ratio and number of ranks, set-up for many bodies.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -22,7 +22,7 @@ Scene one_sphere(int cells, double ratio) {
   return s;
 }
 
-// 27 balls of ratio 1e-6 to 1e-1.
+// 27 balls of density ratio 1e-6 to 1e-1.
 Scene many_spheres(int cells) {
   Scene s = tank(cells);
   s.liquid.regions[0].shape.upper[1] = 0.95;
@@ -46,9 +46,9 @@ Scene spheres_at_sides(SideType sides) {
 }
 
 struct Effort {
-  int coupled = 0;  // iterations of a solve with the bodies free
-  int fixed = 0;    // with the bodies held
-  int setup = 0;    // applications of the preconditioner before the first
+  int coupled = 0;  // iterations with free bodies
+  int fixed = 0;    // iterations with fixed bodies
+  int setup = 0;    // applications of the preconditioner before the first iteration
 };
 
 Effort measure(const Scene& scene) {

@@ -1,4 +1,4 @@
-// More rigid bodies in touch than the model of their added mass takes.
+// More touching rigid bodies than the model of their added mass covers.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -29,6 +29,6 @@ TEST_CASE("a hundred and twenty discs that touch under water take their steps wi
   const auto discs = sim->solids();
   for (std::size_t a = 0; a < discs.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      // Discs touch with polygons of at least 16 sides inside the circles.
+      // Contact surfaces of discs are polygons of at least 16 sides inside the circles.
       CHECK((discs[a].position - discs[b].position).norm() > 2 * r * std::cos(test::pi / 16));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Rigid bodies for the verification tests, and what their motion comes to.
+// Rigid bodies for the verification tests, and measures of their motion.
 #include "base/fluid_spec.h"
 #include "base/solid_spec.h"
 #include "scenes.h"
@@ -51,8 +51,8 @@ inline double degrees_about_z(const SolidState& s) {
   return 2 * std::atan2(s.orientation[3], s.orientation[0]) * 180 / pi;
 }
 
-// Mean of something that oscillates, weighted by sin^2 over the time of observation, which leaves next to nothing of
-// oscillations that go round more than twice.
+// Windowed mean of an oscillating quantity: the weight sin^2 over the time of observation removes almost all of
+// oscillations with more than two periods.
 struct SettledMean {
   double from, until;
   double sum = 0, weights = 0;

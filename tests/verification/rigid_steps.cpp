@@ -1,4 +1,4 @@
-// Massless bodies, and the same float at any step size.
+// Massless bodies, and floating bodies at different step sizes.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -8,7 +8,7 @@ using namespace seiche;
 
 namespace {
 
-// A ball in water, far from the walls for its size.
+// A ball in water, far from the walls compared to its size.
 Scene ball_in_water(int cells, double radius, double height, double level, double ratio) {
   Scene s = test::box_scene(3, cells);
   s.gravity = {0, -9.81, 0};
@@ -17,7 +17,7 @@ Scene ball_in_water(int cells, double radius, double height, double level, doubl
   return s;
 }
 
-// Acceleration of the first millisecond over that of gravity.
+// Acceleration in the first millisecond, over g.
 double first_acceleration(Scene s) {
   s.time.fixed_step = 1e-3;
   const auto sim = make_simulation(s, Communicator());
@@ -34,7 +34,7 @@ TEST_CASE("a massless sphere starts up with twice the acceleration of gravity") 
   CHECK(a == Approx(2).epsilon(0.03));
 }
 
-// What the pressure of 1e9 times the body's weight leaves of it would be rounding: such bodies count as heavier.
+// Pressures of 1e9 times the body's weight would leave only round-off of it, so such bodies count as heavier.
 TEST_CASE("a sphere of density ratio 1e-9 moves as one of the least ratio, and the log says so") {
   const auto sim = make_simulation(ball_in_water(24, 0.15, 0.25, 0.75, 1e-9), Communicator());
   const auto least = make_simulation(ball_in_water(24, 0.15, 0.25, 0.75, 1e-7), Communicator());
@@ -57,10 +57,10 @@ TEST_CASE("a massless sphere rises on without blowing up") {
   }
   WARN("ratio 1e-6: rises to " << height << " m, at most " << fastest << " m/s");
   CHECK(height > 0.5);
-  CHECK(fastest <= std::sqrt(2 * 2 * 9.81 * 0.75));  // 2 g over the depth
+  CHECK(fastest <= std::sqrt(2 * 2 * 9.81 * 0.75));  // speed after accelerating at 2 g over the depth
 }
 
-// x = v t - g t^2/2 to rounding, by steps of any lengths.
+// x = v t - g t^2/2 up to round-off, with steps of any length.
 TEST_CASE("a body that falls free follows its parabola") {
   Scene s = test::box_scene(2, 16);
   s.gravity = {0, -9.81, 0};
@@ -75,8 +75,8 @@ TEST_CASE("a body that falls free follows its parabola") {
   }
 }
 
-// In liquid that fills a box its acceleration is all but constant at first: x = a t^2/2 and v = a t, by few steps as by
-// many. Positions that went on with the velocity of the start of a step would be 1/n of the way late after n steps.
+// In a full box the acceleration is nearly constant at first: x = a t^2/2 and v = a t for few steps and for many.
+// Positions advanced with the velocity at the start of each step would lack 1/n of the distance after n steps.
 TEST_CASE("a body let go in liquid is not late after long steps") {
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -9.81, 0};
@@ -89,12 +89,12 @@ TEST_CASE("a body let go in liquid is not late after long steps") {
     const SolidState disc = sim->solids()[0];
     const double way = 0.5 - disc.position[1], expected = -0.5 * 0.05 * disc.velocity[1];
     WARN(steps << " steps: way " << way << " m, a t^2/2 = " << expected << " m");
-    CHECK(way == Approx(expected).epsilon(0.02));  // walls three radii away change the added mass a little
+    CHECK(way == Approx(expected).epsilon(0.02));  // walls three radii away change the added mass slightly
   }
 }
 
-// A disc that sinks to the floor: by halves x1 = x0 + dt/2 (v0 + v1) until it could touch within two steps, and as a
-// whole from there on. What a checkpoint holds is enough to go on from anywhere, to the last bit.
+// A disc sinks to the floor. Steps are leapfrog, x1 = x0 + dt/2 (v0 + v1), until it could touch within two steps, and
+// full steps from then on. A run resumed from a checkpoint at any step gives the same bits.
 TEST_CASE("steps by halves and whole ones go on from a checkpoint with the same bits") {
   Scene s = test::box_scene(2, 24);
   s.gravity = {0, -9.81, 0};
@@ -115,7 +115,7 @@ TEST_CASE("steps by halves and whole ones go on from a checkpoint with the same 
     CHECK(whole->frame_field("surface").values == other->frame_field("surface").values);
     CHECK(whole->frame_field("vel").values == other->frame_field("vel").values);
     const Vec3 off = disc.position - before.position - 0.5 * a.dt * (before.velocity + disc.velocity);
-    if (disc.velocity.norm() > 1e-3) ++(off.norm() < 1e-14 ? by_halves : as_whole);  // at rest they are one
+    if (disc.velocity.norm() > 1e-3) ++(off.norm() < 1e-14 ? by_halves : as_whole);  // at rest both agree
     touching += a.contacts > 0;
   }
   WARN(by_halves << " steps by halves, " << as_whole << " as a whole, " << touching << " in contact");
@@ -124,7 +124,7 @@ TEST_CASE("steps by halves and whole ones go on from a checkpoint with the same 
   CHECK(touching >= 3);
 }
 
-// Free-slip liquid does not know whether a disc turns about its own centre.
+// Free-slip liquid does not feel the rotation of a disc about its centre.
 TEST_CASE("liquid around a disc that moves as prescribed is the same if the disc spins") {
   std::vector<StepStats> ends;
   std::vector<Vec3> velocities;
@@ -147,12 +147,12 @@ TEST_CASE("liquid around a disc that moves as prescribed is the same if the disc
   for (std::size_t n = 0; n < 20; ++n)
     worst = std::max(worst, (ends[n + 20].momentum - ends[n].momentum).norm() / ends[n].momentum.norm());
   WARN("momentum off by " << worst);
-  CHECK(worst < 0.01);  // on the grid it is no disc: 0.004; turned about where it will stand 0.05
+  CHECK(worst < 0.01);  // 0.004, since the disc is not round on the grid; 0.05 if it rotated about its next position
   CHECK((velocities[0] - Vec3(0.8, 0.2, 0)).norm() < 1e-12);
   CHECK((velocities[1] - velocities[0]).norm() < 1e-12);
 }
 
-// A raft among sloshing water: 15 s of waves that its time-mean height must not depend on.
+// A raft in sloshing water for 15 s: its mean height must not depend on the step size.
 TEST_CASE("a raft floats equally high at Courant numbers 0.5, 1, 2 and 5", "[long]") {
   std::vector<double> heights;
   for (double cfl : {0.5, 1.0, 2.0, 5.0}) {
@@ -172,7 +172,7 @@ TEST_CASE("a raft floats equally high at Courant numbers 0.5, 1, 2 and 5", "[lon
     heights.push_back(height.value());
     WARN("cfl " << cfl << ": mean height " << height.value() << " m, " << sim->step_count() << " steps, at most "
                 << fastest << " m/s");
-    CHECK(fastest <= 2);  // waves of 0.04 m make a tenth of it
+    CHECK(fastest <= 2);  // waves of 0.04 m give a tenth of it
   }
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   CHECK(*high - *low <= 0.01 * *low);

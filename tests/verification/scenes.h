@@ -8,7 +8,7 @@
 
 namespace seiche::test {
 
-// A box [0, size] of `cells` cubes along each axis, without gravity, liquid or walls that matter.
+// A box [0, size] of `cells` cubes along each axis, without gravity, liquid or solids.
 inline Scene box_scene(int dimension, int cells, double size = 1) {
   Scene s;
   s.title = "test";
@@ -25,7 +25,7 @@ inline void make_periodic(Scene& s) {
     for (SideSpec& side : s.domain.sides[a]) side.type = SideType::periodic;
 }
 
-// phi(x) < 0: liquid.
+// Adds liquid where phi(x) < 0.
 inline void add_liquid(Scene& s, const Formula& phi) {
   LiquidRegionSpec region;
   region.shape.kind = "expression";
@@ -34,7 +34,7 @@ inline void add_liquid(Scene& s, const Formula& phi) {
   s.liquid.regions.push_back(region);
 }
 
-// log2 of the ratio of errors on grids whose cell sizes differ by two.
+// Observed order: log2 of the ratio of errors on grids whose cell sizes differ by a factor of two.
 inline double order(double coarse, double fine) {
   return std::log2(coarse / fine);
 }

@@ -1,4 +1,4 @@
-// Liquid sealed in cavities of elastic bodies: however they are squeezed, it keeps its volume.
+// Liquid sealed in cavities of elastic bodies keeps its volume when they are squeezed.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -21,13 +21,13 @@ constexpr double inner = 0.2, outer = 0.3;
 SolidSpec hollow_body(int dim, double element_size) {
   const std::string z = dim == 2 ? "" : "+(z-0.5)^2";
   SolidSpec bag = elastic_solid("bag", 1100, {1e5, 0.4}, element_size);
-  if (dim == 3) bag.elastic.element_order = 1;  // a tenth of the time
+  if (dim == 3) bag.elastic.element_order = 1;  // a tenth of the run time
   bag.shape.kind = "expression";
   bag.shape.phi = fmt::format("abs(sqrt((x-0.5)^2+(y-0.5)^2{})-{})-{}", z, (inner + outer) / 2, (outer - inner) / 2);
   return bag;
 }
 
-// A ring, or a hollow ball, full of liquid; two plates come from both sides at `speed`.
+// A ring (3D: hollow ball) full of liquid between two plates that approach at `speed`.
 Scene squeezed_bag(int dim, int cells, double speed, double end, double max_step) {
   Scene s = box_scene(dim, cells);
   s.gravity = {0, -9.81, 0};
@@ -51,7 +51,7 @@ Scene squeezed_bag(int dim, int cells, double speed, double end, double max_step
   return s;
 }
 
-// Signed volume between a facet and the middle of the domain: at rest negative where the facet is on the cavity's wall.
+// Signed volume between a facet and the middle of the domain; at rest it is negative for facets on the cavity's wall.
 template <std::size_t N>
 double cone(const SurfaceMesh& surface, const std::array<int, N>& f) {
   const auto p = [&](std::size_t i) { return Vec3(surface.points[std::size_t(f[i])] - Vec3(0.5, 0.5, 0.5)); };
@@ -61,7 +61,7 @@ double cone(const SurfaceMesh& surface, const std::array<int, N>& f) {
     return p(0).dot(p(1).cross(p(2))) / 6;
 }
 
-// Volume within the facets that are on the cavity's wall at rest.
+// Volume within the facets that form the cavity's wall at rest.
 double cavity_volume(const SurfaceMesh& at_rest, const SurfaceMesh& now) {
   double sum = 0;
   for (const auto& f : now.segments)
@@ -98,9 +98,9 @@ Outcome squeeze(const Scene& s) {
   return o;
 }
 
-// How far the columns of J of the wall of a hollow body's cavity are from adding up to -(dV/du), over the largest of
-// these, with liquid within and around; and how far the flux that this lacks is from what dV/du in the middle of the
-// way says, which is exact in 2D and to second order in 3D.
+// First: error of the identity that the columns of J of a cavity's wall sum to -(dV/du), relative to the largest entry,
+// with liquid inside and outside. Second: error of the flux that the linearisation lacks, against dV/du at the middle
+// of the path, which is exact in 2D and second order in 3D.
 template <int Dim>
 std::pair<double, double> sweeping_errors() {
   Scene scene = box_scene(Dim, Dim == 2 ? 24 : 16);
@@ -130,7 +130,7 @@ std::pair<double, double> sweeping_errors() {
   return {sums.cwiseAbs().maxCoeff() / size, flux_error};
 }
 
-// Water between two elastic walls that are held by the floor and by a plate that comes down.
+// Water between two elastic walls pinned to the floor and to a descending plate.
 Scene flooded_bellows() {
   Scene s = box_scene(2, 80);
   s.gravity = {0, -9.81, 0};
@@ -151,7 +151,7 @@ Scene flooded_bellows() {
   plate.kind = SolidKind::kinematic;
   plate.shape.where = "test";
   plate.shape.kind = "box";
-  plate.shape.lower = {0.2, 0.400001, 0};  // above the walls: nothing overlaps
+  plate.shape.lower = {0.2, 0.400001, 0};  // above the walls, without overlap
   plate.shape.upper = {0.8, 0.46, 0};
   plate.motion.translate = {"0", motion, "0"};
   s.solids.push_back(plate);
@@ -159,7 +159,7 @@ Scene flooded_bellows() {
 }
 
 // Area between the inner sides of both walls, floor and plate: trapezia between the sides' points, upwards along the
-// low wall and down along the high one.
+// wall at low x and downwards along the other.
 double bellows_volume(const Simulation& sim, const std::array<SurfaceMesh, 2>& at_rest) {
   std::vector<Vec3> loop;
   for (std::size_t k : {0, 1}) {
@@ -179,7 +179,7 @@ double bellows_volume(const Simulation& sim, const std::array<SurfaceMesh, 2>& a
   return area;
 }
 
-// A square tube 0.6 m across, its walls 0.1 m thick, 0.4 m high, as a file of elements.
+// Writes a square tube 0.6 m across, with walls 0.1 m thick, 0.4 m high, as a mesh file.
 void write_tube(const std::filesystem::path& file) {
   const ElasticMesh<3> block = box_mesh<3>({0.2, 0, 0.2}, {0.8, 0.4, 0.8}, {6, 4, 6}, 1);
   std::ofstream out(file);
@@ -199,7 +199,7 @@ void write_tube(const std::filesystem::path& file) {
   out << "Tetrahedra\n" << count << "\n" << elements << "End\n";
 }
 
-// Water in the tube, between floor and a plate that comes down on it.
+// Water in the tube, between the floor and a descending plate.
 Scene flooded_tube(const std::filesystem::path& file) {
   Scene s = box_scene(3, 20);
   s.gravity = {0, -9.81, 0};
@@ -225,7 +225,7 @@ Scene flooded_tube(const std::filesystem::path& file) {
   return s;
 }
 
-// Within the inner sides, floor and plate, seen from the middle of the floor.
+// Volume within the inner sides, floor and plate, as cones from the middle of the floor.
 double tube_volume(const SurfaceMesh& at_rest, const SurfaceMesh& now) {
   const Vec3 seen_from(0.5, 0, 0.5);
   double volume = 0, top = 0;
@@ -248,7 +248,7 @@ void check_kept(const Outcome& o) {
                << o.last_newton);
   CHECK(o.steps >= 100);
   CHECK(o.worst <= 1e-8);
-  CHECK(o.last_newton <= 5 * o.steps);  // ten a step
+  CHECK(o.last_newton <= 5 * o.steps);  // ten a step in the second half
 }
 
 }  // namespace
@@ -259,7 +259,7 @@ TEST_CASE("what a body in closed liquid pushes out adds up to what its surface s
                               << flat.second << ", " << solid.second << ", bar 1e-10, 1e-3");
   CHECK(std::max(flat.first, solid.first) <= 1e-12);
   CHECK(flat.second <= 1e-10);
-  CHECK(solid.second <= 1e-3);  // displacements of 1e-3 m: (1e-3/0.2)^2 is far below
+  CHECK(solid.second <= 1e-3);  // displacements of 1e-3 m: (1e-3/0.2)^2 is far below the bar
 }
 
 TEST_CASE("a ring full of liquid keeps what it holds while plates squeeze it", "[elastic][sealed][long]") {
@@ -308,7 +308,7 @@ TEST_CASE("liquid that a tube, floor and plate close off keeps its volume", "[el
   CHECK(sim->stats().elastic_energy > 0);
 }
 
-// Both phases are sealed in below the lid: what keeps sealed liquid full must not take the bubble for liquid.
+// Both phases are sealed below the lid. The volume constraint of sealed liquid must not take the bubble for liquid.
 TEST_CASE("a bubble that an elastic lid and walls seal in stays gas", "[elastic]") {
   Scene s = box_scene(2, 16);
   s.gravity = {0, -1, 0};
@@ -325,6 +325,6 @@ TEST_CASE("a bubble that an elastic lid and walls seal in stays gas", "[elastic]
   StepStats after;
   for (int n = 0; n < 5; ++n) after = sim->step(1);
   CHECK(before.gas_volume > 0.1);
-  CHECK(after.gas_volume == Approx(before.gas_volume).epsilon(0.01));  // the control keeps volume to what the lid moves
+  CHECK(after.gas_volume == Approx(before.gas_volume).epsilon(0.01));  // the volume control allows for the lid's motion
   CHECK(after.liquid_volume == Approx(before.liquid_volume).epsilon(0.01));
 }

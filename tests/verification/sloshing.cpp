@@ -7,7 +7,7 @@
 using namespace seiche;
 
 TEST_CASE("a sloshing tank swings with the period of linear theory") {
-  // L = 1, depth 0.5, first mode (wavelength 2 L): 64 cells a wavelength, amplitude 0.01 L.
+  // L = 1, depth 0.5, first mode (wavelength 2 L): 64 cells per wavelength, amplitude 0.01 L.
   constexpr double pi = 3.14159265358979323846, g = 9.81, amplitude = 0.01;
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -g, 0};
@@ -19,7 +19,7 @@ TEST_CASE("a sloshing tank swings with the period of linear theory") {
   s.probes.push_back(gauge);
   const auto sim = make_simulation(s, Communicator());
 
-  // Times at which the height at the wall passes the depth, by straight lines between steps.
+  // Times at which the height at the wall crosses the mean level, by linear interpolation between steps.
   std::vector<double> passes;
   double t0 = 0, e0 = amplitude;
   while (passes.size() < 9) {
@@ -31,8 +31,8 @@ TEST_CASE("a sloshing tank swings with the period of linear theory") {
   const double period = (passes[8] - passes[0]) / 4, exact = 2 * pi / std::sqrt(g * pi * std::tanh(pi * 0.5));
   WARN("sloshing period " << period << " s, theory " << exact << " s, error " << 100 * (period / exact - 1) << " %");
   CHECK(std::abs(period / exact - 1) <= 0.005);
-  // Let go from rest it is not late either: half a step would be a twelfth of the period's quarter. The probe is half a
-  // cell from the wall, and waves of finite height are a little faster.
+  // The first quarter period, from rest, has no delay either: half a step would be a twelfth of it. The probe is half a
+  // cell from the wall, and waves of finite height are slightly faster.
   WARN("first at the level after " << passes[0] << " s, a quarter is " << exact / 4 << " s");
   CHECK(4 * passes[0] == Approx(exact).epsilon(0.01));
 }

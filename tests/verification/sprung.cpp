@@ -1,4 +1,4 @@
-// Solids on a spring, alone and in liquid. They came to the program in one file and one row of the table of kinds.
+// Solids on a spring, in vacuum and in liquid. The kind `sprung` takes one file and one row in the table of kinds.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -18,7 +18,7 @@ SolidKind kind_named(const std::string& name) {
   return {};
 }
 
-// A disc (3D: a ball) that the spring draws to the middle of the box.
+// A disc (3D: ball) on a spring to the middle of the box.
 Scene scene_of(int dim, int cells, double radius, double density, double stiffness, const Vec3& velocity) {
   Scene s = test::box_scene(dim, cells);
   SolidSpec disc;
@@ -34,7 +34,7 @@ Scene scene_of(int dim, int cells, double radius, double density, double stiffne
   return s;
 }
 
-// The implicit midpoint rule turns (omega x, v) by theta a step, tan(theta/2) = omega dt/2.
+// Rotation of (omega x, v) in a step of the implicit midpoint rule: theta with tan(theta/2) = omega dt/2.
 double turn_of_step(double omega, double dt) {
   return 2 * std::atan(omega * dt / 2);
 }
@@ -54,10 +54,10 @@ void check_alone() {
       const StepStats stats = sim->step(1);
       const Vec3 way = sim->solids()[0].position - s.solids[0].shape.center;
       const double by_rule = speed / omega * std::sin(n * turn_of_step(omega, dt));
-      REQUIRE(way[0] == Approx(by_rule).margin(1e-12));  // rounding of positions of size 1, some steps long
+      REQUIRE(way[0] == Approx(by_rule).margin(1e-12));  // round-off of positions of size 1 over some steps
       REQUIRE(way[1] == Approx(-by_rule / 2).margin(1e-12));
       error = std::max(error, std::abs(way[0] - speed / omega * std::sin(omega * n * dt)));
-      REQUIRE(stats.kinetic_energy + stats.elastic_energy == Approx(energy).epsilon(1e-12));  // the rule keeps it
+      REQUIRE(stats.kinetic_energy + stats.elastic_energy == Approx(energy).epsilon(1e-12));  // conserved
     }
     WARN(Dim << "D, dt = " << dt << " s: off the exact oscillation by " << error << " m of " << speed / omega);
     if (dt == 0.01) CHECK(test::order(coarse, error) > 1.9);
@@ -65,9 +65,9 @@ void check_alone() {
   }
 }
 
-// Half a period: from the first way through the middle to the second, by linear interpolation between steps. The start
-// is none of these: liquid at rest takes its part of the momentum within the first step, which goes on with the
-// velocity before.
+// Half a period: from the first passage through the middle to the second, by linear interpolation between steps. The
+// start does not count: in the first step, which advances with the initial velocity, the liquid at rest takes up its
+// part of the momentum.
 double half_period(Scene s, double dt) {
   s.time.fixed_step = dt;
   s.time.end = 100;
@@ -92,8 +92,8 @@ TEST_CASE("a body on a spring swings as the midpoint rule does, which is of seco
   check_alone<3>();
 }
 
-// Between a disc of radius a and a cylinder of radius b around it liquid adds rho pi a^2 (b^2 + a^2)/(b^2 - a^2) to the
-// mass for small swings (Lamb, Hydrodynamics, 93): omega^2 = k/(m + m_a).
+// Liquid between a disc of radius a and a surrounding cylinder of radius b adds the mass rho pi a^2 (b^2 + a^2)/(b^2 -
+// a^2) for small oscillations (Lamb, Hydrodynamics, 93): omega^2 = k/(m + m_a).
 TEST_CASE("a disc on a spring swings slower in liquid by the added mass") {
   const double a = 0.2, b = 0.45, rho = 1000, density = 500, k = 4000, amplitude = 1e-3;
   const double mass = density * pi * a * a, added = rho * pi * a * a * (b * b + a * a) / (b * b - a * a);
@@ -113,13 +113,13 @@ TEST_CASE("a disc on a spring swings slower in liquid by the added mass") {
     const double error = std::abs(found / omega - 1);
     WARN(cells << " cells: omega " << found << " 1/s, exact " << omega << ", in vacuum " << std::sqrt(k / mass)
                << ", off by " << error);
-    if (cells == 64) CHECK(error < 0.003);  // found: 0.0006, of which the midpoint rule has 0.0003
+    if (cells == 64) CHECK(error < 0.003);  // measured: 0.0006, half of it by the midpoint rule
     if (cells == 64) CHECK(test::order(coarse, error) > 0.9);
     coarse = error;
   }
 }
 
-// What a checkpoint holds is enough to go on to the last bit.
+// A run resumed from a checkpoint gives the same bits.
 TEST_CASE("a body on a spring goes on from a checkpoint with the same bits") {
   Scene s = scene_of(2, 16, 0.2, 500, 4000, {0.1, 0, 0});
   test::add_liquid(s, "y-0.7");

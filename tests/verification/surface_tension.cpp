@@ -1,4 +1,4 @@
-// Surface tension against Laplace, Rayleigh and Young: drops at rest, swinging and sitting.
+// Surface tension against Laplace, Rayleigh and Young: drops at rest, oscillating and sessile.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A drop in nothing: rho = sigma = 1.
+// A drop in vacuum, rho = sigma = 1.
 Scene drop_scene(int dimension, int cells, double size, const Formula& phi, double viscosity) {
   Scene s = test::box_scene(dimension, cells, size);
   s.liquid.density = 1;
@@ -31,7 +31,7 @@ void add_probe(Scene& s, ProbeKind kind, Vec3 position) {
   s.probes.push_back(probe);
 }
 
-// Largest speed, times sqrt(rho D/sigma), that a step of 1 ms gives a drop whose jump is the same everywhere.
+// Largest speed, times sqrt(rho D/sigma), after a step of 1 ms of a drop with a uniform pressure jump.
 template <int Dim>
 double unbalanced(int n) {
   Geometry<Dim> g;
@@ -79,8 +79,8 @@ TEST_CASE("a drop at rest comes to rest at La = 12000, and its energy does not g
   const double mu = std::sqrt(0.8 / 12000);
   Scene s = drop_scene(2, 32, 1, "sqrt((x-0.503)^2+(y-0.494)^2)-0.4", mu);
   const auto sim = make_simulation(s, Communicator());
-  // What the first shape lacks to be an equilibrium of the grid swings and dies away; the energy of half a second each
-  // time is no larger than before.
+  // The initial shape is not quite a discrete equilibrium; the oscillation dies away. The kinetic energy of each half
+  // second must not exceed that of the one before.
   double before = 1, speed = 0;
   for (int n = 1; n <= 10; ++n) {
     double most = 0;
@@ -90,7 +90,7 @@ TEST_CASE("a drop at rest comes to rest at La = 12000, and its energy does not g
       most = std::max(most, row.kinetic_energy), speed = std::max(speed, row.max_speed);
     }
     WARN("until " << 0.5 * n << " s: capillary number " << mu * speed << ", kinetic energy " << most);
-    CHECK(most <= 1.05 * before);  // of a beat of the modes that are left
+    CHECK(most <= 1.05 * before);  // margin for a beat of the remaining modes
     before = most;
   }
   CHECK(mu * speed <= 1e-6);
@@ -125,7 +125,7 @@ TEST_CASE("a sessile drop settles to the circle of its contact angle", "[long]")
     const double theta = degrees * pi / 180, area = pi * 0.25 * 0.25 / 2;
     const double radius = std::sqrt(area / (theta - std::sin(theta) * std::cos(theta)));
     const double height = radius * (1 - std::cos(theta));
-    const double above = radius * std::cos(theta) + 0.0125;  // of the floor's cells over the circle's centre
+    const double above = radius * std::cos(theta) + 0.0125;  // of the floor's cell centres over the circle's centre
     const double reach = std::sqrt(radius * radius - above * above);
     const double high = sim->probe(0).value / height - 1, wide = (sim->probe(1).value - 0.6) / reach - 1;
     WARN(degrees << " degrees: height off by " << high << ", half width by " << wide << ", speed "
@@ -137,9 +137,9 @@ TEST_CASE("a sessile drop settles to the circle of its contact angle", "[long]")
 
 namespace {
 
-// A drop of viscosity 0.002 that swings in mode 2, for four periods in steps so many times the explicit ones.
+// A drop of viscosity 0.002 oscillates in mode 2 for four periods, in steps of `factor` times the explicit limit.
 struct Swing {
-  double period_error, amplitude;  // relative; of the later half, over the radius
+  double period_error, amplitude;  // relative; largest in the later half, over the radius
 };
 
 Swing swing(double factor) {
@@ -168,7 +168,7 @@ Swing swing(double factor) {
 }  // namespace
 
 TEST_CASE("semi-implicit tension bears steps ten times as long") {
-  // Measured 0.5 %, 2.2 % and 5.9 %; ten times as long is a 27th of a period.
+  // Measured: 0.5 %, 2.2 % and 5.9 %. Ten times the explicit step is 1/27 of a period.
   const std::array<std::pair<double, double>, 3> bars{{{3, 0.01}, {5, 0.03}, {10, 0.07}}};
   for (const auto& [factor, bar] : bars) {
     const Swing found = swing(factor);

@@ -1,4 +1,4 @@
-// A scene turned, mirrored or with its axes permuted gives the turned result: no direction is special.
+// Rotating, mirroring or permuting the axes of a scene transforms the result alike: no direction is special.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -8,7 +8,7 @@ using namespace seiche;
 
 namespace {
 
-// New axis a shows old axis `from[a]`, mirrored where sign[a] < 0.
+// New axis a is old axis `from[a]`, mirrored if sign[a] < 0.
 struct Turn {
   std::string name;
   std::array<int, 3> from;
@@ -26,7 +26,7 @@ Vec3 turned_vector(const Turn& t, const Vec3& v, int dim) {
   return r;
 }
 
-// A falling blob beside a ball over a pool, gravity aslant; after some steps it has hit the pool.
+// A blob falls beside a ball onto a pool, with tilted gravity; after some steps it has hit the pool.
 Scene scene(const Turn& t, int dim, int n) {
   Scene s = test::box_scene(dim, n);
   const double middle = dim == 3 ? 0.47 : 0;
@@ -51,7 +51,7 @@ Scene scene(const Turn& t, int dim, int n) {
   ball.shape.center = turned_point(t, {0.7, 0.35, middle}, dim);
   ball.shape.radius = 0.13;
   s.solids.push_back(ball);
-  // The solver's own arithmetic depends on the order of the cells: it is run to round-off here.
+  // The solver's arithmetic depends on the order of the cells, so it iterates to round-off here.
   s.solver.tolerance = 1e-14;
   s.solver.preconditioner = "none";
   s.time.fixed_step = 0.004;
@@ -68,7 +68,7 @@ std::array<FieldRecord, 2> run(const Scene& s, int steps) {
   return {data.fields[0], data.fields[1]};
 }
 
-// Largest difference of a field and the turned one, of the field's largest value.
+// Largest difference between a field and the transformed one, relative to the largest value.
 double largest_difference(const Turn& t, const FieldRecord& plain, const FieldRecord& turned, int dim, int n) {
   double largest = 0, scale = 0;
   const int depth = dim == 3 ? n : 1;
@@ -104,7 +104,7 @@ TEST_CASE("a turned, mirrored or permuted scene gives the turned result") {
       WARN(t.name << " " << dim << "D: relative difference of the surface " << surface << ", of the pressure "
                   << pressure);
       CHECK(surface <= 1e-12);
-      CHECK(pressure <= 1e-11);  // the solve's tolerance of 1e-14, times the amplification of a free surface
+      CHECK(pressure <= 1e-11);  // the solver's tolerance of 1e-14 times the amplification by a free surface
     }
   }
 }

@@ -14,7 +14,7 @@ Scene vortices(int n, double carry_x, double carry_y) {
   test::add_liquid(s, "-1");
   s.liquid.velocity = {fmt::format("{}-cos(2*pi*x)*sin(2*pi*y)", carry_x),
                        fmt::format("{}+sin(2*pi*x)*cos(2*pi*y)", carry_y), "0"};
-  s.solver.tolerance = 1e-10;  // far below the discretisation errors measured
+  s.solver.tolerance = 1e-10;  // far below the measured discretisation errors
   return s;
 }
 

@@ -1,4 +1,4 @@
-// Elastic solids thinner than a cell keep liquid on its side, bear its weight, and pass on what it pushes.
+// Elastic solids thinner than a cell keep liquid on its side, bear its weight and exchange momentum with it.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double thicknesses[] = {0.05, 0.3, 0.8};  // cells
 
-// How often the ray from x along the first axis meets a surface.
+// Number of crossings of the ray from x along the first axis with a surface.
 template <int Dim>
 int crossings(const SurfaceMesh& surface, const Vec<Dim>& x) {
   const Vec<Dim> far = x + 10 * Vec<Dim>::Unit(0);
@@ -32,7 +32,7 @@ int crossings(const SurfaceMesh& surface, const Vec<Dim>& x) {
   return count;
 }
 
-// Wet cells from which the sheet does not lie along the first axis.
+// Number of wet cells beyond the sheet: the ray along the first axis does not meet it.
 template <int Dim>
 int wet_beyond(const Simulation& sim, const Scene& s) {
   const FrameField phi = sim.frame_field("surface");
@@ -48,8 +48,8 @@ int wet_beyond(const Simulation& sim, const Scene& s) {
   return count;
 }
 
-// A sheet that divides the tank at 0.52, held at floor and ceiling, with liquid up to half the height on its low side
-// alone; soft enough to bulge by some 0.08 m. `motion`: of what holds it, along x.
+// A sheet that divides the tank at 0.52, pinned at floor and ceiling, with liquid up to about half the height on its
+// low side only. It is soft enough to bulge by about 0.08 m. `motion`: displacement of the pins along x.
 Scene dam(int dim, int cells, double thickness, const std::string& motion) {
   Scene s = box_scene(dim, cells);
   s.gravity = {0, -9.81, 0};
@@ -112,20 +112,20 @@ Scene random_sheets(int dim, Filling filling, int seed) {
   return s;
 }
 
-// A sheet across a shaft at y = 0.31, held at its edges, under half a metre of water: how far its middle sags in the
-// end, over what plate theory says.
+// A sheet across a shaft at y = 0.31, pinned at its edges, under half a metre of water. Returns the final deflection of
+// its middle relative to plate theory.
 double sag(int dim, int cells, double thickness) {
   Scene s = box_scene(dim, cells);
   s.gravity = {0, -9.81, 0};
   const double t = thickness * s.domain.cell_size, width = dim == 2 ? 0 : 1, poisson = 0.3, density = 2000;
   const double load = 9.81 * (1000 * 0.5 + density * t);
   // w = load L^4/(384 D), D = E t^3/(12 (1 - nu^2)); clamped on all four sides 0.001265 load L^4/D (Timoshenko,
-  // Woinowsky-Krieger 1959, table 35). As stiff as to sag by a tenth of the thickness, where stretching adds under 1 %.
+  // Woinowsky-Krieger 1959, table 35). E is such that w is a tenth of the thickness, where stretching adds under 1 %.
   const double wanted = 0.1 * t, D = load * (dim == 2 ? 1. / 384 : 0.001265) / wanted;
   const double young = 12 * (1 - poisson * poisson) * D / (t * t * t);
   s.solids.push_back(elastic_box("sheet", {0, 0.31 - t / 2, 0}, {1, 0.31 + t / 2, width}, density, {young, poisson},
                                  dim == 2 ? 1. / 48 : 1. / 10));
-  // Of the slowest swing, w^2 = load/(wanted m) about, critically damped.
+  // Critical damping of the slowest oscillation, w^2 ~ load/(wanted m).
   s.solids[0].elastic.damping = 2 / std::sqrt(load / (wanted * 500));
   for (int a = 0; a < dim; a += 2)
     for (const double side : {-0.1, 1.0}) {
@@ -140,14 +140,15 @@ double sag(int dim, int cells, double thickness) {
   const SurfaceMesh now = sim->solid_surface(0);
   double deepest = 1;
   for (const Vec3& x : now.points) deepest = std::min(deepest, x[1]);
-  // Where the level set ends in the sheet is brought into line with what is counted there.
+  // The volume control makes the end of the level set in the sheet consistent with the counted volume.
   CHECK(std::abs(sim->stats().volume_corrected) < 5e-3 * sim->stats().liquid_volume);
   return (0.31 - t / 2 - deepest) / wanted;
 }
 
 }  // namespace
 
-// All three in 2D, one each in 3D; the nearest point's velocity in place of the mean had passed all of them.
+// All three thicknesses in 2D, one in 3D. A scheme that used the velocity of the nearest point instead of the mean
+// passed all of these.
 TEST_CASE("an elastic sheet thinner than a cell holds back the liquid on one side of it", "[elastic][thin][long]") {
   for (int dim : {2, 3})
     for (double thickness : thicknesses) {
@@ -191,5 +192,5 @@ TEST_CASE("a thin elastic sheet under water sags as a plate does", "[elastic][th
   }
   const double square = sag(3, 12, 0.8);
   WARN("3D: " << square << " of plate theory");
-  CHECK(square == Approx(1).margin(0.05));  // elements of a tenth of the side
+  CHECK(square == Approx(1).margin(0.05));  // elements are a tenth of the side
 }

@@ -1,4 +1,5 @@
-// Bodies on the floor of a tank, on water films far thinner than a cell (docs/method.md, "Thin films").
+// Sub-grid gap flow: bodies near the floor of a tank on water films far thinner than a cell (docs/method.md, "Thin
+// films").
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -8,7 +9,7 @@ using namespace seiche;
 
 namespace {
 
-constexpr double g = 9.81, width = 0.5, thickness = 0.25;  // of the box, m
+constexpr double g = 9.81, width = 0.5, thickness = 0.25;  // width and thickness of the box, m
 
 int cells_of(int dim) {
   return dim == 2 ? 32 : 16;
@@ -38,15 +39,15 @@ double gap_after(const Scene& scene, double until) {
 
 }  // namespace
 
-// The film's inertia k/delta with k = rho L^3/12 is all that counts at first, and (k/delta) v^2/2 = F (delta - delta_0)
-// leads to delta = delta_0 cosh^2(t sqrt(F/(2 k))). At 0.1 cells contact does not reach the box yet.
+// At first only the film's inertia k/delta, k = rho L^3/12, counts. (k/delta) v^2/2 = F (delta - delta_0) leads to
+// delta = delta_0 cosh^2(t sqrt(F/(2 k))). At 0.1 cells the box is beyond the reach of contact.
 TEST_CASE("a light box lifts off a film as the film's inertia lets it") {
   Scene s = box_near_floor(2, 500, 0.1);
   s.time.max_step = 0.002;
   const double force = (1000 - 500) * g * width * thickness, k = 1000 * std::pow(width, 3) / 12;
   const double rise = gap_after(s, 0.1) - 0.1;
   const double exact = 0.1 * std::pow(std::cosh(0.1 * std::sqrt(force / (2 * k))), 2) - 0.1;
-  WARN("rises by " << rise << " cells, exact " << exact << ", bar 0.1");  // the box's own inertia is 4 % of the film's
+  WARN("rises by " << rise << " cells, exact " << exact << ", bar 0.1");  // the box's inertia is 4 % of the film's
   CHECK(rise == Approx(exact).epsilon(0.1));
 }
 
@@ -80,7 +81,7 @@ TEST_CASE("a light box that is thrown onto the floor comes up again") {
   }
 }
 
-// Pressure reaches all of its surface through the film: the water carries rho g V of it, contact the rest.
+// Pressure acts on all of the box's surface through the film: water carries rho g V of the weight, contact the rest.
 TEST_CASE("a heavy box sinks to the floor and comes to lie on it", "[long]") {
   for (int dim : {2, 3}) {
     const double volume = thickness * std::pow(width, dim - 1);

@@ -1,4 +1,4 @@
-// Solids thinner than a cell keep liquid on its side, at rest and moving, whatever their angle and place on the grid.
+// Solids thinner than a cell keep liquid on its side, at rest and in motion, at any angle and position on the grid.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double thicknesses[] = {0.01, 0.1, 0.3, 0.5, 0.9};  // cells
 
-// A plate that divides the tank, its first axis turned by `degrees` about z (3D: and as much out of the plane).
+// A plate that divides the tank. Its first axis is turned by `degrees` about z (3D: and by as much out of the plane).
 struct Plate {
   SolidSpec solid;
   Vec3 normal;
@@ -28,7 +28,7 @@ struct Plate {
     solid.shape.transform.translate = center;
     normal = Eigen::AngleAxisd(degrees * pi / 180, axis) * Vec3::UnitX();
   }
-  // Of a point, beyond the middle of the plate at the start, m.
+  // Formula for the signed distance (m) of a point beyond the middle of the plate at the start.
   std::string beyond() const {
     const Vec3& c = solid.shape.transform.translate;
     return fmt::format("(({:.17g})*(x-({:.17g}))+({:.17g})*(y-({:.17g}))+({:.17g})*(z-({:.17g})))", normal[0], c[0],
@@ -36,7 +36,7 @@ struct Plate {
   }
 };
 
-// Liquid up to half the height, on the low side of the plate only.
+// Liquid up to about half the height, on the low side of the plate only.
 Scene dam(int dim, int cells, const Plate& plate) {
   Scene s = box_scene(dim, cells);
   s.gravity = {0, -9.81, 0};
@@ -51,7 +51,7 @@ struct Seen {
   double volume = 0, lost = 0, speed = 0;
 };
 
-// Wet cells that are on the far side of the plate moved by `shift` along x.
+// Number of wet cells on the far side of the plate, moved by `shift` along x.
 int wet_beyond(const Simulation& sim, const Scene& s, const Plate& plate, double shift) {
   const FrameField phi = sim.frame_field("surface");
   const double h = s.domain.cell_size;
@@ -98,8 +98,8 @@ TEST_CASE("a plate thinner than a cell holds back the liquid on one side of it",
         const Seen seen = run(dam(dim, cells, plate), plate, 100, still);
         CAPTURE(dim, thickness, degrees, seen.lost, seen.speed);
         CHECK(seen.beyond == 0);
-        // Water that fell out of the tank would reach 3 m/s; what is left is sloshing from corners that the grid
-        // rounds.
+        // Water that fell out of the tank would reach 3 m/s. The bar leaves room for sloshing from corners that the
+        // grid rounds.
         CHECK(seen.speed < (degrees == 0 ? 0.1 : 0.4));
         CHECK(std::abs(seen.lost) < 0.005);
       }
@@ -121,7 +121,7 @@ TEST_CASE("a paddle thinner than a cell takes the liquid before it along, and le
       }
 }
 
-// Heavier than water by half, in water: never faster than it would fall through nothing, and the water keeps its
+// The sheet is half as heavy again as water: it must not fall faster than without any drag, and the water keeps its
 // volume.
 TEST_CASE("a rigid sheet thinner than a cell sinks in water and stays stable", "[long]") {
   for (int dim : {2, 3})

@@ -1,4 +1,4 @@
-// Threads and sheets of liquid a few cells thick that fly neither widen nor wane.
+// Moving threads and sheets of liquid a few cells thick neither widen nor shrink.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -9,7 +9,8 @@ using namespace seiche::test;
 
 namespace {
 
-// Liquid in a periodic box flies across the grid. What the volume control had to put back, over the liquid's volume.
+// Liquid moves across a periodic box. Returns the volume that the volume control had to restore, over the liquid's
+// volume.
 double put_back(int dim, int cells, const std::string& phi, const VectorFormula& velocity) {
   constexpr double end = 0.5;
   Scene s = box_scene(dim, cells);
@@ -26,7 +27,7 @@ double put_back(int dim, int cells, const std::string& phi, const VectorFormula&
   return stats.volume_corrected / volume;
 }
 
-// Along an axis, and at 45 degrees, through all corners of the box.
+// A sheet normal to an axis, and one at 45 degrees through all corners of the box.
 double flat(int dim, double width) {
   const int cells = dim == 2 ? 32 : 16;
   return put_back(dim, cells, fmt::format("abs(y-0.5)-{}", 0.5 * width / cells), {"0.6", "1", dim == 2 ? "0" : "0.3"});
@@ -39,11 +40,12 @@ double aslant(int dim, double width) {
 
 }  // namespace
 
-// The cubic across the middle of a thread, a kink of phi, widened them by 178, 61, 13 % on this way of 16 cells along
-// an axis in 2D, by 120, 17, 1.4 % aslant. One-sided by 0.5, 1.7, 1.2 % and 1.3, 2.4, 0.3 %, sheets in 3D, half as far,
-// by less: what making phi a distance again moves, and kinks that count in part. The bars are about twice that.
+// Cubic interpolation across the middle of a thread, where phi has a kink, widened threads by 178, 61, 13 % over this
+// distance of 16 cells along an axis in 2D, and by 120, 17, 1.4 % at 45 degrees. One-sided interpolation gives 0.5,
+// 1.7, 1.2 % and 1.3, 2.4, 0.3 %; sheets in 3D, at half the distance, less. The rest is due to redistancing and to
+// kinks that count in part. The bars are about twice these values.
 TEST_CASE("threads and sheets of liquid fly on about as thick as they are") {
-  const std::pair<double, double> bars[] = {{2, 0.03}, {3, 0.05}, {4, 0.025}};  // cells; of the volume
+  const std::pair<double, double> bars[] = {{2, 0.03}, {3, 0.05}, {4, 0.025}};  // width in cells; bar
   std::string text;
   for (const int dim : {2, 3})
     for (const auto& [width, bar] : bars) {

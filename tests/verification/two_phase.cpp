@@ -37,8 +37,7 @@ TEST_CASE("liquid and gas at rest stay at rest, whichever is heavier") {
       test::add_liquid(s, "(0.9*(0.5-x)+9.5*(y-0.48)+0.4*(0.5-z))/9.55");
       if (dim == 2) s.liquid.regions[0].shape.phi = "(0.9*(0.5-x)+9.5*(y-0.48))/9.55";
       s.time.max_step = 0.01;
-      s.solver.tolerance =
-          1e-11;  // the bar is a speed, as in rest.cpp; rounding of pressures 1000 : 1 apart is above 1e-13
+      s.solver.tolerance = 1e-11;  // the bar is a speed, as in rest.cpp; pressure round-off at 1000 : 1 exceeds 1e-13
       const auto sim = make_simulation(s, Communicator());
       double fastest = 0;
       for (int n = 0; n < 50; ++n) fastest = std::max(fastest, sim->step(sim->time() + 1).max_speed);
@@ -48,7 +47,7 @@ TEST_CASE("liquid and gas at rest stay at rest, whichever is heavier") {
     }
 }
 
-// Both fluids of one density, no tension: the surface is a mark in one liquid, and a neutral ball across it rests.
+// Both fluids have the same density and no tension: the interface is passive, and a neutral ball across it rests.
 TEST_CASE("a neutral ball rests across the surface of a liquid under a gas as dense") {
   for (int dim : {2, 3}) {
     Scene s = two_phase_scene(dim, dim == 2 ? 32 : 16, 1000);
@@ -65,7 +64,7 @@ TEST_CASE("a neutral ball rests across the surface of a liquid under a gas as de
   }
 }
 
-// A gas of next to no density is a free surface.
+// A gas of almost no density acts as a free surface.
 TEST_CASE("light gas leaves the liquid as a free surface does") {
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -9.81, 0};
@@ -83,9 +82,9 @@ TEST_CASE("light gas leaves the liquid as a free surface does") {
   CHECK(energy[1] == Approx(energy[0]).epsilon(1e-3));
 }
 
-// Prosperetti (1981), as in validation/capillary_wave, at 16 cells a wavelength. Where the surface's tension drives the
-// fluids along it, the second derivative of their velocity jumps; differences that take it for smooth are 0.024 off
-// over all of the time.
+// Prosperetti (1981), as in validation/capillary_wave, at 16 cells per wavelength. Tension drives the fluids along the
+// interface, so the second derivative of their velocity jumps. Differences that ignore this jump give an error of
+// 0.024.
 TEST_CASE("viscosity between two fluids slows a capillary wave as it should") {
   const double omega = 11.1366559937;
   const std::vector<std::pair<double, double>> exact{{2, -0.1620},  {4, -0.6275},  {6, 0.3430},  {8, 0.2684},
@@ -113,12 +112,12 @@ TEST_CASE("viscosity between two fluids slows a capillary wave as it should") {
   }
   const double rms = std::sqrt(squares / double(exact.size()));
   WARN("capillary wave: " << rms << " of its height off");
-  CHECK(rms < 0.022);  // second order in h, half of what is left is the half step that the surface lags behind
+  CHECK(rms < 0.022);  // second order in h; half of the error is the surface's lag of half a step
 }
 
-// Rayleigh-Taylor at 3 : 1 and Re = 1000 from a height of 0.1, t sqrt(At) = 0.5: Fourier coefficients of the surface's
-// height. Reference: a code with density spread over 0.005 on cells of 1/128, one velocity. Each fluid
-// carried by itself at 64 cells has 8e-4 and 9e-4 too much of the second and fourth.
+// Rayleigh-Taylor instability at 3 : 1, Re = 1000, initial height 0.1, t sqrt(At) = 0.5: Fourier coefficients of the
+// surface height. Reference: a one-velocity code with density smoothed over 0.005 on cells of 1/128. Transporting each
+// fluid by its own velocity at 64 cells makes the second and fourth coefficients too large by 8e-4 and 9e-4.
 TEST_CASE("light fluid rises into one three times as dense with a round top") {
   constexpr int columns = 32;
   constexpr double pi = 3.14159265358979323846, second = -0.0035, fourth = 0.0003;
@@ -148,6 +147,6 @@ TEST_CASE("light fluid rises into one three times as dense with a round top") {
     return sum;
   };
   WARN("second and fourth coefficient: " << coefficient(2) << ", " << coefficient(4));
-  CHECK(std::abs(coefficient(2) - second) < 3e-4);  // half of what either errs by otherwise
+  CHECK(std::abs(coefficient(2) - second) < 3e-4);  // less than half of these errors
   CHECK(std::abs(coefficient(4) - fourth) < 3e-4);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The viscous operator on one grid, and its whole saddle-point system solved by a direct method.
+// The viscous operator on one grid, and its saddle-point system, solved by a direct method.
 #include <Eigen/SparseLU>
 
 #include "base/scene.h"
@@ -45,12 +45,12 @@ class ViscousCase {
     fill_level_set_ghosts(layout_, halo_, phi);
   }
 
-  // A body that turns and moves as known beforehand.
+  // A body with a prescribed rigid motion.
   void move(int body, const RigidField& motion) {
     solids[body].frame = motion;
     set_twist(layout_, body, {motion.linear, motion.angular, motion.center}, step);
   }
-  // A body whose twist is unknown.
+  // A body with an unknown twist.
   void release(int body, const Vec3& center) {
     solids[body].frame = {Vec3::Zero(), Vec3::Zero(), center};
     solids[body].first_unknown = unknowns;
@@ -77,7 +77,7 @@ class ViscousCase {
             settings_.density, settings_.dt, 0.0,    u_star,   projection_, rows};
   }
 
-  // Solves [F D'; D 0] with one multiplier a closed component; leaves u.
+  // Solves [F D'; D 0] with one multiplier a closed component, and sets u.
   void solve() {
     const NullSpace closed = find_closed_components(projection_, rows);
     const int n = system.F.rows(), m = system.D.rows(), size = n + m + closed.count;
@@ -108,7 +108,7 @@ class ViscousCase {
     halo_.fill_ghosts(u);
   }
 
-  // Solves again and again, with the fluxes of cut faces from the solve before. Returns the last relative change of u.
+  // Repeats the solve with the fluxes of cut faces from the solve before. Returns the last relative change of u.
   double solve_with_flux(int turns) {
     assemble();
     solve();
@@ -141,7 +141,7 @@ class ViscousCase {
     for (int i = 0; i < m.rows(); ++i)
       for (int k = m.row_start[i]; k < m.row_start[i + 1]; ++k) f(i, int(m.column[k]), m.value[k]);
   }
-  // [F G; G' Hvv] as a dense matrix, the mass left out if asked.
+  // [F G; G' Hvv] as a dense matrix, without the mass if asked.
   Eigen::MatrixXd dense(bool with_mass) const {
     const int n = system.F.rows(), k = unknowns;
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n + k, n + k);

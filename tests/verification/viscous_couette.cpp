@@ -15,7 +15,7 @@ struct CouetteErrors {
   double velocity, torque;
 };
 
-// The inner cylinder turns with 1 rad/s, the outer one rests: u = A r + B/r.
+// The inner cylinder rotates at 1 rad/s, the outer one is at rest: u = A r + B/r.
 CouetteErrors couette(int n, int turns) {
   constexpr double inner = 0.25, outer = 0.5, A = -1.0 / 3, B = 1.0 / 12, size = 1.1;
   const Vec3 center(size / 2 + 0.0031, size / 2 - 0.0017, 0);
@@ -39,7 +39,7 @@ CouetteErrors couette(int n, int turns) {
 
 }  // namespace
 
-// Without the fluxes of cut faces the order is 1.2 to 1.4; one turn of them gives 2.
+// Without the fluxes of cut faces the order is 1.2 to 1.4; one iteration with them gives 2.
 TEST_CASE("couette cylinders", "[viscous]") {
   const CouetteErrors coarse = couette(32, 1), fine = couette(64, 1), plain = couette(64, 0);
   CAPTURE(coarse.velocity, fine.velocity, plain.velocity, coarse.torque, fine.torque);
@@ -52,7 +52,7 @@ TEST_CASE("couette cylinders", "[viscous]") {
 
 namespace {
 
-// Channels at an angle in a periodic box of p by q, k cells a unit: walls at |s| = half of the distance s across.
+// Inclined channels in a periodic box of p by q with k cells per unit. Walls lie at |s| = half, s the distance across.
 struct Incline {
   int k, p, q;
   double norm = std::hypot(p, q), period = p * q / norm, half = 0.31 * period;
@@ -77,7 +77,7 @@ struct Incline {
   }
 };
 
-// Relative L2 error of a stream under an acceleration of 2 m/s^2 (nu = 1).
+// Relative L2 error of the flow under an acceleration of 2 m/s^2 (nu = 1).
 double poiseuille(const Incline& c, int turns) {
   ViscousCase<2> p = c.problem([](const Vec<2>&) { return -1.0; });
   p.set(p.u_star, [&](int a, const Vec<2>&) { return 1e6 * 2 * c.along[a]; });
@@ -87,7 +87,7 @@ double poiseuille(const Incline& c, int turns) {
   return p.error(exact) / (c.half * c.half);
 }
 
-// The same of a film with a free surface: no shear there.
+// The same for a film with a free surface, where the shear is zero.
 double film(const Incline& c, int turns) {
   const double top = 0.31 * c.half, depth = top + c.half;
   ViscousCase<2> p = c.problem([&](const Vec<2>& x) { return c.across(x) - top; });
@@ -103,7 +103,7 @@ double film(const Incline& c, int turns) {
 
 }  // namespace
 
-// At 45 degrees errors depend on how the walls lie between the nodes, hence the order over two halvings.
+// At 45 degrees errors depend on the position of the walls between nodes, so the order is taken over two halvings.
 TEST_CASE("inclined channels and films", "[viscous][long]") {
   const Incline coarse{3, 11, 4}, middle{6, 11, 4}, fine{12, 11, 4};
   CHECK(order(poiseuille(coarse, 1), poiseuille(middle, 1)) >= 1.9);
@@ -114,7 +114,7 @@ TEST_CASE("inclined channels and films", "[viscous][long]") {
   CHECK(film({64, 1, 1}, 1) <= 2e-4);
 }
 
-// Fluxes taken from the solve before settle: each turn changes a hundredth of the last.
+// The iteration over fluxes of cut faces converges: two more solves reduce the change to 1 %.
 TEST_CASE("no-slip fluxes settle", "[viscous]") {
   const Incline c{6, 11, 4};
   ViscousCase<2> p = c.problem([](const Vec<2>&) { return -1.0; });
@@ -126,7 +126,7 @@ TEST_CASE("no-slip fluxes settle", "[viscous]") {
 
 namespace {
 
-// A ball that turns within a ball at rest: u = omega x r (a + b/r^3), torque 8 pi mu b.
+// A ball rotating within a ball at rest: u = omega x r (a + b/r^3), torque 8 pi mu b.
 CouetteErrors spherical_couette(int n, int turns) {
   constexpr double inner = 0.2, outer = 0.45, cube_in = inner * inner * inner, cube_out = outer * outer * outer;
   constexpr double b = 1 / (1 / cube_in - 1 / cube_out), a = -b / cube_out;
@@ -160,7 +160,7 @@ TEST_CASE("spherical couette", "[viscous]") {
 
 namespace {
 
-// Shear above a tilted plane, u = t psi: what a cut face lets through is known.
+// Shear above a tilted plane, u = t psi: the flux through a cut face is known.
 template <int Dim>
 void check_flux(int n) {
   typename ViscousCase<Dim>::Settings s;
@@ -195,8 +195,8 @@ void check_flux(int n) {
     worst = std::max(worst, std::abs(w * p.u.at(a, f) + flux.at(a, f) - sum));
   }
   CHECK(cut > 0);
-  CHECK(faces <= 1e-4 * shear.norm() / n);  // of the sums over 200 points an axis
-  CHECK(slits <= 2e-3 * shear.norm() / n);  // where all neighbours are too near the wall: what such slits let through
+  CHECK(faces <= 1e-4 * shear.norm() / n);  // error of the sums over 200 points an axis
+  CHECK(slits <= 2e-3 * shear.norm() / n);  // slits with all neighbours too near the wall: their whole flux
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ using namespace seiche::test;
 
 namespace {
 
-// Waves without order in a closed box, on cells that resolve none of them; nothing drives them.
+// Irregular unresolved waves in a closed box, without forcing.
 Scene unforced(double viscosity, double cfl) {
   Scene s = box_scene(2, 32);
   for (int a = 0; a < 2; ++a)
@@ -22,7 +22,7 @@ Scene unforced(double viscosity, double cfl) {
   return s;
 }
 
-// Largest rise of kinetic energy in a step, relative.
+// Largest relative rise of kinetic energy in a step.
 double largest_rise(const Scene& scene) {
   auto run = make_simulation(scene, Communicator());
   double largest = 0, before = run->stats().kinetic_energy;
@@ -36,7 +36,7 @@ double largest_rise(const Scene& scene) {
 
 }  // namespace
 
-// Gradients of pressure do no work on flow without divergence, walls that rest none, and viscosity takes energy away.
+// Pressure gradients do no work on divergence-free flow, walls at rest do none, and viscosity dissipates energy.
 TEST_CASE("kinetic energy of unforced viscous liquid falls in every step", "[viscous][long]") {
   for (const double viscosity : {1e-5, 1e-3, 1.0})
     for (const double cfl : {0.3, 1.0, 2.0, 4.0}) {
@@ -53,7 +53,7 @@ TEST_CASE("kinetic energy of unforced viscous liquid falls in every step", "[vis
     }
 }
 
-// A wave of liquid under light gas, so viscous that each step evens it out over cells, beside an open side.
+// A wave of liquid under light gas beside an open side. It is so viscous that each step smooths it over several cells.
 template <int Dim>
 Scene stiff_wave(double gas_viscosity) {
   Scene s = box_scene(Dim, 8, 8);
@@ -88,7 +88,8 @@ TEST_CASE("viscous liquid beside light gas at an open side moves at bounded spee
   check_stiff_wave<3>();
 }
 
-// Threads that evaluate one formula at once take each other's x: on an idle machine that spoilt every fourth run.
+// Threads that evaluated one formula at the same time overwrote each other's x: on an idle machine this changed every
+// fourth run.
 TEST_CASE("walls that move by formulas give the same bits in every run", "[viscous]") {
   Scene s = box_scene(3, 32);
   s.domain.upper[1] = 0.25, s.domain.cells[1] = 8;

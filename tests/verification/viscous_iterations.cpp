@@ -1,4 +1,4 @@
-// What a solve of viscous liquid costs where its domain is no plain box.
+// Iterations of viscous solves in domains other than a plain box.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -30,7 +30,7 @@ Scene channel_with_step() {
   return s;
 }
 
-// Liquid between a plate that moves and one that rests.
+// Liquid between a moving and a resting plate.
 Scene plates(int dimension) {
   Scene s = box_scene(dimension, 16, 1.0);
   for (int a = 0; a < dimension; ++a)
@@ -47,15 +47,15 @@ Scene plates(int dimension) {
 
 }  // namespace
 
-// PFMG for the pressures was not positive here, and 400 iterations did not do.
+// With PFMG for the pressure, which was not positive here, 400 iterations did not suffice.
 TEST_CASE("viscosity: a channel with a step takes as few iterations as a box", "[viscous][ranks]") {
   const Scene scene = channel_with_step();
   auto run = make_simulation(scene, Communicator());
   while (run->time() < scene.time.end) CHECK(run->step(scene.time.end).solver_iterations <= 25);  // 12 to 15
 }
 
-// No velocity has a divergence but by rounding, and relative to that no residual of continuity is small: 400 iterations
-// did not do.
+// All velocities are free of divergence up to round-off, so no continuity residual is small relative to it: 400
+// iterations did not suffice.
 TEST_CASE("viscosity: shear between plates leaves nothing to do for the pressure", "[viscous][ranks]") {
   const int dimension = GENERATE(2, 3);
   CAPTURE(dimension);

@@ -1,4 +1,4 @@
-// Algebra of the viscous operator: symmetry, positivity, what costs nothing.
+// Algebra of the viscous operator: symmetry, positivity, null vectors.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -40,7 +40,7 @@ void check_symmetry(ViscousCase<Dim>& p) {
   CHECK(e[0] >= -1e-12 * e[e.size() - 1]);  // round-off of the sums
 }
 
-// A ball whose twist is unknown in a liquid that moves with it: nothing acts.
+// A ball with an unknown twist in liquid that moves with it: there is no viscous force.
 template <int Dim>
 void check_invariance(ViscousCase<Dim>& p, const RigidField& motion) {
   p.assemble();
@@ -101,7 +101,7 @@ void check_blobs(int n) {
   }
 }
 
-// A ball-shaped container half full, of one viscosity or of random ones.
+// A half-full spherical container, with uniform or random viscosity.
 template <int Dim>
 void check_container(int n, bool uniform) {
   typename ViscousCase<Dim>::Settings s;
@@ -149,8 +149,8 @@ void check_cases(int n) {
   }
 }
 
-// Interior rows of uniform full liquid: the Laplacian of each component, D and D' adjoint, D M^-1 D' the pressure
-// matrix.
+// Interior rows in full liquid of uniform viscosity: V is the Laplacian of each component, D and D' are adjoint, D M^-1
+// D' is the pressure matrix.
 template <int Dim>
 void check_interior(int n) {
   typename ViscousCase<Dim>::Settings s;
@@ -215,7 +215,7 @@ void check_divergence(int n) {
   CHECK(worst <= 1e-12 * right.cwiseAbs().maxCoeff());
 }
 
-// The load on a free body is what its rows say, and the dissipation rate what the matrices say.
+// The load on a free body follows from its rows, the dissipation rate from the matrices.
 template <int Dim>
 void check_loads(int n) {
   typename ViscousCase<Dim>::Settings s;
@@ -242,8 +242,8 @@ void check_loads(int n) {
   CHECK(loads[1].force.norm() > 0);
 }
 
-// A channel between no-slip walls with an inflow and an outflow side: the stream leaves as it came. The profile
-// is that of the scheme: half a cell from a wall the velocity is (n - 1/4)/2 instead of n/2 - 1/4 (in h^2).
+// A channel between no-slip walls with an inflow and an outflow side: the profile must leave unchanged. It is the
+// discrete profile: half a cell from a wall the velocity is (n - 1/4)/2 instead of n/2 - 1/4 (in h^2).
 double outflow_disturbance(bool uniform) {
   constexpr int n = 12;
   const std::string profile = fmt::format("y*(1-y)+{:.17g}", 0.25 / (n * n));
@@ -266,8 +266,8 @@ double outflow_disturbance(bool uniform) {
 
 }  // namespace
 
-// A plane solid that deforms by way of its surface, in modes that are a twist: seen from the frame that turns with it
-// nothing acts while the liquid does the same; and the operator stays symmetric and positive.
+// A plane solid that deforms by modes of its surface which form a twist. If the liquid makes the same motion, there is
+// no viscous force in the rotating frame. The operator stays symmetric and positive.
 template <int Dim>
 void check_surface(int n) {
   typename ViscousCase<Dim>::Settings s;
@@ -297,7 +297,8 @@ TEST_CASE("viscous surface", "[viscous]") {
   check_surface<3>(9);
 }
 
-// V is positive wherever solids and surface cut the cells, with and without a free surface, of one viscosity or many.
+// V is positive for any cuts by solids and surface, with and without a free surface, for uniform and variable
+// viscosity.
 TEST_CASE("viscous positive", "[viscous]") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> some(-1, 1);
@@ -327,7 +328,7 @@ TEST_CASE("viscous positive", "[viscous]") {
   }
 }
 
-// Shear of layers a thousand times as viscous as each other: the stress is the same in all, to round-off.
+// Shear of layers with a viscosity ratio of 1000: the stress is uniform up to round-off.
 TEST_CASE("viscous layers", "[viscous]") {
   constexpr int n = 12;
   ViscousCase<2>::Settings s;
@@ -347,7 +348,7 @@ TEST_CASE("viscous layers", "[viscous]") {
   for (const auto& [a, f] : p.system.rows.faces) {
     const double y = p.position(a, f)[1];
     const double u = y < 1.0 / 3 ? stress * y / 1000 : 1 - stress * (1 - y);
-    CHECK(std::abs(p.u.at(a, f) - (a == 0 ? u : 0)) <= 1e-7);  // what the inertia of a step of 1e9 s leaves
+    CHECK(std::abs(p.u.at(a, f) - (a == 0 ? u : 0)) <= 1e-7);  // remaining inertia of a step of 1e9 s
   }
 }
 
@@ -367,7 +368,7 @@ TEST_CASE("viscous loads", "[viscous]") {
 }
 
 TEST_CASE("viscous outflow", "[viscous]") {
-  // Relative to velocities up to 0.25; dt leaves a part of the inertia.
+  // Relative to velocities of up to 0.25; the finite dt leaves a part of the inertia.
   CHECK(outflow_disturbance(true) <= 1e-7);
   CHECK(outflow_disturbance(false) <= 1e-7);
 }

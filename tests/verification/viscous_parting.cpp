@@ -1,4 +1,4 @@
-// Liquid that may part from solids: the viscous operator beside it, and the search for where it does.
+// Separating walls: the viscous operator beside solids, and the active-set search for the cells that separate.
 #include <catch2/catch.hpp>
 
 #include "fluid/pressure/parting_search.h"
@@ -15,7 +15,7 @@ double tilted_surface(const Vec<Dim>& x) {
   return 0.9 * (x[1] - 0.61) + 0.3 * (x[0] - 0.5);
 }
 
-// The operator with no cell parted and with many: no slip, cut cells, a surface.
+// Compares the operator with no separated cell and with many. No-slip ball, cut cells, a free surface.
 template <int Dim>
 void check_guess_of_parting() {
   Vec3 center = Vec3::Zero();
@@ -49,8 +49,8 @@ TEST_CASE("a search for the cells that part which no guess satisfies ends, and s
   Parting<2> parting(p.layout());
   p.let_part(parting);
   p.assemble();
-  p.pressure.fill(-1);  // pulls where it has not parted,
-  p.set(p.u_star, [](int a, const Vec<2>& x) { return -10 * (a == 0 ? x[0] : x[1]); });  // is squeezed where it has
+  p.pressure.fill(-1);  // suction where cells have not separated,
+  p.set(p.u_star, [](int a, const Vec<2>& x) { return -10 * (a == 0 ? x[0] : x[1]); });  // compression where they have
   PartingSearch<2> search(p.projection(), 1e-7, parting);
   int rounds = 0;
   while (!search.is_settled_by(p.rows, {}, p.pressure, p.u_star) && rounds < 1000) ++rounds;

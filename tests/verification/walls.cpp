@@ -1,4 +1,4 @@
-// Paths beside walls that move along themselves, and through outflow sides, against exact flows.
+// Semi-Lagrangian paths beside walls that move tangentially and through outflow sides, against exact flows.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -8,7 +8,7 @@ using namespace seiche;
 
 namespace {
 
-// A row of eddies between two walls, all of it carried along with `speed`, after 1 s: one period.
+// A row of eddies between two walls, all carried along with `speed`, after one period (1 s).
 FrameField eddies(int cells, double speed) {
   Scene s = test::box_scene(2, cells);
   s.domain.sides[0][0].type = s.domain.sides[0][1].type = SideType::periodic;
@@ -28,7 +28,7 @@ struct FrameErrors {
   double all = 0, beside_walls = 0;  // m/s, root mean squares
 };
 
-// Between eddies at rest and those that are carried once around.
+// Differences between eddies at rest and eddies carried once around.
 FrameErrors carried_eddies(int cells) {
   constexpr double speed = 1;
   const FrameField rest = eddies(cells, 0), carried = eddies(cells, speed);
@@ -46,7 +46,7 @@ FrameErrors carried_eddies(int cells) {
 
 }  // namespace
 
-// Paths cross up to half a cell a step beside walls that move along: to them the walls rest.
+// Paths cross up to half a cell a step beside walls that move with the eddies. In the eddies' frame the walls rest.
 TEST_CASE("eddies beside moving walls are those beside walls at rest") {
   const FrameErrors coarse = carried_eddies(16), fine = carried_eddies(32);
   WARN("16, 32 cells: " << coarse.all << ", " << fine.all << " m/s, beside the walls " << coarse.beside_walls << ", "
@@ -55,7 +55,7 @@ TEST_CASE("eddies beside moving walls are those beside walls at rest") {
   CHECK(test::order(coarse.beside_walls, fine.beside_walls) > 1.9);
 }
 
-// Layers of different speeds, which enter and leave: u = 1 + sin(2 pi y)/2, p = 0. Frames are in single precision.
+// Layers of different speeds enter and leave: u = 1 + sin(2 pi y)/2, p = 0. Frames are in single precision.
 TEST_CASE("a shear layer leaves through an outflow side as it came") {
   constexpr int cells = 16;
   const std::string profile = "1+0.5*sin(2*pi*y)";

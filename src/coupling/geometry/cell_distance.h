@@ -1,12 +1,12 @@
 #pragma once
-// Distances to solids, which are known at nodes, at the centres of cells.
+// Signed distance to the solids at cell centres, interpolated from the nodes.
 #include <utility>
 
 #include "grid/fields.h"
 
 namespace seiche {
 
-// psi (m) at a cell's centre and its gradient (m per cell), from the cell's nodes.
+// psi (m) at the centre of a cell and its gradient (m per cell), from the corner values.
 template <int Dim>
 std::pair<double, Vec<Dim>> distance_at_cell(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell) {
   constexpr int corners = 1 << Dim;

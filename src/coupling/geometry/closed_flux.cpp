@@ -1,9 +1,9 @@
-// What the motion of bodies pushes through the faces that they close.
+// Flux that moving bodies push through the parts of faces that they close.
 #include "coupling/geometry/step_geometry.h"
 
 namespace seiche {
 
-// closed flux += s_k (v_new - v_old)(face centre) . e
+// closed_flux += s_k (v_new - v_old)(face centre) . e_axis
 template <int Dim>
 void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeometry<Dim>& g) {
   Twist& present = g.placed[body].twist;

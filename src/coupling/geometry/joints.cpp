@@ -12,11 +12,12 @@ bool moves_alike(const Body<Dim>& other, const MotionSpec& pins) {
   return !other.kind().is_free() && same_motion(other.spec().motion, pins);
 }
 
-// Of each point of the surface, whether these pins hold it and it is as near the other solid at t = 0.
+// One flag per surface point: set if `pins` hold it and, at t = 0, it lies in the other solid or within `clearance` (m)
+// of it.
 template <int Dim>
 std::vector<char> joined_points(const ElasticSolid<Dim>& solid, const PinnedNodes& pins, const Body<Dim>& other,
                                 double clearance) {
-  std::vector<Eigen::Index> first(solid.body.mesh.nodes.size(), -1);  // of each node among the pinned displacements
+  std::vector<Eigen::Index> first(solid.body.mesh.nodes.size(), -1);  // first pinned displacement of each node
   const Pins at_start = pins_at(solid, 0);
   for (std::size_t n = 0; n < at_start.dofs.size(); n += Dim)
     first[std::size_t(at_start.dofs[n] / Dim)] = Eigen::Index(n);

@@ -1,10 +1,10 @@
 #pragma once
-// Nodes and faces on periodic sides, which have a place on either side: what solids do there must be the same.
+// Nodes and faces on periodic sides exist twice, once at each side. Solid geometry must be the same at all images.
 #include "grid/layout.h"
 
 namespace seiche {
 
-// From a face on a periodic side to its other place, along its axis, m; zero elsewhere.
+// Signed offset along `axis` (m) from a face on a periodic side to its image on the opposite side. Zero elsewhere.
 template <int Dim>
 double to_other_side(const Layout<Dim>& layout, int axis, const IVec<Dim>& i) {
   const Geometry<Dim>& g = layout.geometry();
@@ -12,8 +12,7 @@ double to_other_side(const Layout<Dim>& layout, int axis, const IVec<Dim>& i) {
   return (i[axis] == 0 ? 1 : -1) * g.h * g.cells[axis];
 }
 
-// Least distance(x) over the places of a node: on periodic sides it has more than one, and faces there are to be as
-// open at either.
+// Least distance(x) over the periodic images of a node, so that faces are equally open at all images.
 template <int Dim, class Distance>
 double least_distance(const Layout<Dim>& layout, const IVec<Dim>& i, const Distance& distance) {
   const Vec<Dim> x = layout.position(i, node_offset<Dim>());

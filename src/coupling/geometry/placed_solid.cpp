@@ -8,9 +8,9 @@
 namespace seiche {
 namespace {
 
-// Cells around a body of known radius within which its distance is known.
+// Layer (cells) around a body of known radius in which its distance is computed.
 constexpr int margin = 4;
-// Cells from a sealed face within which a thin body's surface has part in its velocity.
+// Radius (cells) around a sealed face over which the surface velocity of a thin body is averaged.
 constexpr double spread = 1.5;
 
 template <int Dim>
@@ -34,7 +34,7 @@ class PosedSolid : public PlacedSolid<Dim> {
   }
 
  private:
-  // Nodes that the body and a margin around it can reach.
+  // Nodes in the bounding box of the body plus `margin`. All stored nodes if the radius is unknown (0).
   Box<Dim> reach() const {
     Box<Dim> box = layout_.padded();
     if (body_.radius() == 0) return box;
@@ -44,7 +44,7 @@ class PosedSolid : public PlacedSolid<Dim> {
       const double r = body_.radius() / layout_.h() + margin, lowest = box.lower[a], highest = box.upper[a];
       box.lower[a] = int(std::clamp(std::floor(x - r), lowest, highest));
       box.upper[a] = int(std::clamp(std::ceil(x + r) + 1, lowest, highest));
-      // What stands at a periodic side is seen from the other one.
+      // A body near a periodic side also acts at the opposite side.
       const bool at_side = x - r <= 0 || x + r >= layout_.geometry().cells[a];
       if (layout_.geometry().periodic[a] && at_side) box.lower[a] = int(lowest), box.upper[a] = int(highest);
     }
@@ -80,7 +80,7 @@ class DeformedSolid : public PlacedSolid<Dim> {
   bool lies_between(const Vec<Dim>& x, const Vec<Dim>& y) const override {
     return surface_.first_crossing(x, y) <= 1 + crossing_slack;
   }
-  // Carried along with the nearest point.
+  // Moves x with the nearest surface point. Returns x itself if the surface is not near.
   Vec<Dim> carried_to(const PlacedSolid<Dim>& other, const Vec<Dim>& x) const override {
     SurfacePoint<Dim> near;
     if (!surface_.nearest(x, near)) return x;

@@ -12,14 +12,15 @@ namespace seiche {
 namespace {
 
 constexpr double far_away = 1e30;
-// Cells: nodes nearer than this to a solid count as on it, and gaps between two solids narrower than this as closed, so
-// that no sliver faces arise.
+// Tolerance in cells. Nodes nearer to a solid count as on it, and narrower gaps between two solids as closed. This
+// avoids sliver faces.
 constexpr double snap = 1e-3;
-// The same at joints: contact asks for 2.5e-3 cells between edges at the start.
+// Gap tolerance (cells) at joints. It is larger because contact requires 2.5e-3 cells between edges at the start.
 constexpr double joint_gap = 1e-2;
-constexpr int margin = 4;  // cells from the domain within which a body still counts as near it
+constexpr int margin = 4;  // cells around the domain within which a body counts as near it
 
-// Farthest node from the pivot, among those of the whole domain that lie in the body at rest.
+// Bound of the distance (m) from the pivot to points of the body at rest within the domain: sampled on at most 128
+// nodes per axis, plus one sample spacing.
 template <int Dim>
 double surface_radius(const Layout<Dim>& layout, const Body<Dim>& body) {
   if (body.radius() > 0) return body.radius();
@@ -41,7 +42,7 @@ double snapped(double distance, double h) {
   return std::abs(distance) < snap * h ? 0 : distance;
 }
 
-// Faces whose corners are all stored, in the owned block and two layers around it.
+// Faces of the owned block and two layers around it whose corners are all stored.
 template <int Dim>
 Box<Dim> measured_faces(const Layout<Dim>& layout) {
   Box<Dim> box = layout.grown(2);
@@ -49,7 +50,8 @@ Box<Dim> measured_faces(const Layout<Dim>& layout) {
   return box;
 }
 
-// The part of each static body: the closed part of a face split by how deep its corners lie in each body.
+// visit(body, share) for the static bodies at a face. The closed fraction is split in proportion to the depths of the
+// corners in each body.
 template <int Dim, class Visit>
 void for_each_static_share(const Layout<Dim>& layout, const StepGeometry<Dim>& g, int axis, Site face,
                            const Visit& visit) {
@@ -73,7 +75,7 @@ void for_each_static_share(const Layout<Dim>& layout, const StepGeometry<Dim>& g
   }
 }
 
-// Of the cells on both sides of a face.
+// Centres of the cells below and above a face, m.
 template <int Dim>
 std::array<Vec<Dim>, 2> centers_beside(const Layout<Dim>& layout, int axis, const IVec<Dim>& face) {
   IVec<Dim> below = face;
@@ -89,7 +91,7 @@ double fastest_node(const Eigen::VectorXd& velocity) {
   return fastest;
 }
 
-// One entry a face and body, in the order of the faces.
+// Appends a share, or adds it to the last one if that is of the same face. Shares come in the order of the faces.
 void add_share(FaceShares& shares, const FaceShare& s) {
   if (!shares.empty() && shares.back().face == s.face && shares.back().axis == s.axis)
     shares.back().closed += s.closed;
@@ -112,7 +114,8 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& s
   measure_static();
 }
 
-// `distance` is that of the face's low corner.
+// True if the thin solid separates the centres of the adjacent cells or contains one. `distance`: signed distance (m)
+// at the face's low corner.
 template <int Dim>
 bool SolidGeometry<Dim>::seals(const PlacedSolid<Dim>& solid, double distance, int axis, const IVec<Dim>& face) const {
   if (std::abs(distance) > 2 * layout_.h()) return false;
@@ -125,7 +128,7 @@ bool SolidGeometry<Dim>::seals(const PlacedSolid<Dim>& solid, double distance, i
   return shift[axis] != 0 && seals_between(low + shift, high + shift);
 }
 
-// The static body that seals each face, -1 where none does.
+// Index of the thin static body that seals each face, or -1.
 template <int Dim>
 FaceField<Dim, std::int16_t> SolidGeometry<Dim>::seal_static() const {
   FaceField<Dim, std::int16_t> seal(layout_, -1);
@@ -176,7 +179,7 @@ void SolidGeometry<Dim>::measure_static() {
   for (FaceShares& s : shares) still_.shares.push_back(std::make_shared<const FaceShares>(std::move(s)));
 }
 
-// Shares as if no other moving body were there.
+// Shares that body k closes without other moving bodies. Sets its attachments if it deforms.
 template <int Dim>
 FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, NodeField<Dim>& scratch,
                                               StepGeometry<Dim>& g) const {
@@ -191,8 +194,8 @@ FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, No
   return shares;
 }
 
-// Takes the distances of a body to the nodes of a box into psi, and the parts of faces it closes. Leaves the scratch as
-// it was.
+// Merges the distances of body k at the nodes of `box` into psi, appends its sealed faces, and returns its shares.
+// Resets `scratch` to far_away.
 template <int Dim>
 FaceShares SolidGeometry<Dim>::take_in(int k, const PlacedSolid<Dim>& solid, const Box<Dim>& box,
                                        NodeField<Dim>& scratch, StepGeometry<Dim>& g) const {
@@ -219,9 +222,10 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const PlacedSolid<Dim>& solid, con
   return shares;
 }
 
-// Static bodies keep their part of a face. Moving ones share the rest where they would close more than that, or leave a
-// gap that counts as closed, in proportion to what each would close alone. At joints the gap is that between the faces'
-// corners in any solid: at edges, where distances bend, shares of two solids that meet leave slits.
+// Static bodies keep their share of a face. Moving ones share the rest in proportion to the share that each would close
+// alone. They are scaled if together they would close more, or leave a gap below the tolerance. At joints the gap from
+// psi of all solids together counts, if smaller. At edges psi is not linear, so the shares of two touching solids leave
+// slits.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
   FaceField<Dim> moving(layout_);
@@ -243,7 +247,7 @@ void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeomet
     }
 }
 
-// Whether a ball about the body's pivot stands clear of the domain and goes away from it.
+// True if the ball of `radius` (m) about the body's pivot is clear of the domain and does not approach it.
 template <int Dim>
 bool SolidGeometry<Dim>::is_leaving(const Placement& placed, double radius) const {
   const Geometry<Dim>& g = layout_.geometry();
@@ -298,8 +302,8 @@ void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
     }
 }
 
-// |v| + |w| r, r the largest distance from the pivot at which the body's surface stands in the domain. Bodies
-// that have left the domain, and that nothing prescribes, may go as fast as they like.
+// Bound dt (|v| + |w| r) for each body, r from surface_radius(), and dt times the speed of the fastest node. Freely
+// moving bodies that have left the domain do not count.
 template <int Dim>
 double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& placed, double dt) const {
   double largest = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The solids as the grid sees them at one time: distances at nodes, what faces let through, which body closes a face.
+// The solids on the grid at one time: distances at nodes, open fractions of faces, and the share that each body closes.
 #include <memory>
 #include <vector>
 
@@ -19,11 +19,12 @@ struct FaceShare {
 };
 using FaceShares = std::vector<FaceShare>;
 
-// What each face share of an elastic body hangs on: nodes of its mesh with their weights. Of a thick body the nearest
-// point of the surface, of a thin one the mean of the surface within some cells; none where there is none near.
+// Per face share of an elastic body: mesh nodes and weights that interpolate the surface velocity there. Thick bodies
+// use the nearest surface point, thin ones a local mean over the surface. Empty where the surface is not near.
 using Attachments = std::vector<SurfaceWeights>;
 
-// What the velocity of a body's unknown takes out of a cell besides what the body's faces show, per face area.
+// Entry of J besides the body's face shares: flux out of `cell` at unit velocity of the unknown `column`, per face
+// area.
 struct CellFlux {
   Site cell;
   int column;
@@ -31,12 +32,12 @@ struct CellFlux {
 };
 using CellFluxes = std::vector<CellFlux>;
 
-// A face between cells that a thin body parts, or one of which lies within it.
+// A face that a thin body closes as a whole: the body separates the centres of the adjacent cells or contains one.
 struct SealedFace {
   Site face;
   int axis, body;
-  // Of an elastic body: how far it is from the centres of the cells below and above, along the axis, m; and n_a^2, n
-  // its normal there, which sums to one over the axes.
+  // Elastic bodies only. gaps: distances along the axis from the centres of the lower and upper cell to the body, m; 0
+  // for centres inside. weight: n_a^2 with the surface normal n; it sums to one over the axes.
   std::array<double, 2> gaps{};
   double weight = 0;
 };
@@ -46,23 +47,23 @@ class PlacedSolid;
 
 template <int Dim>
 struct StepGeometry {
-  NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
-  NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
+  NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside; without thin elastic solids
+  NodeField<Dim, std::int16_t> body;  // index of that solid, -1: none
   FaceGeometry<Dim> faces;
-  std::vector<std::shared_ptr<const FaceShares>> shares;       // of each body, on the owned faces and two layers around
-  std::vector<std::shared_ptr<const Attachments>> attached;    // of each body that deforms; else null
-  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // likewise, once they are coupled; else null
-  std::vector<SealedFace> sealed;                              // likewise
-  // Of each body as the solve finds it; after a step by halves poses and psi are those of its end, while shares, faces
-  // and the velocities of twists are those of its middle.
+  std::vector<std::shared_ptr<const FaceShares>> shares;       // per body; owned faces and two layers around
+  std::vector<std::shared_ptr<const Attachments>> attached;    // per deforming body, one entry per share; else null
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // per deforming body, once coupled; else null
+  std::vector<SealedFace> sealed;                              // of all thin bodies; owned faces and two layers around
+  // Placement of each body at the solve. After a leapfrog step, poses and psi are at the end of the step. Shares, faces
+  // and the velocities of twists are at its middle.
   std::vector<Placement> placed;
-  std::vector<Vec3> pivots;  // reference points as the solve finds them
+  std::vector<Vec3> pivots;  // reference point of each body at the solve, m
 
   bool deforms(int k) const { return attached[std::size_t(k)] != nullptr; }
 };
 
-// Lets a body move with a twist and, if it deforms, the velocities of its nodes: its share of each face pushes volume
-// through it.
+// Sets the velocity of a body: its twist and, if it deforms, its nodal velocities (m/s). Updates faces.closed_flux by
+// the change of s_k v.e at each share, and faces.cell_flux by that of the body's cell fluxes.
 template <int Dim>
 void set_motion(const Layout<Dim>& layout, int body, const Placement& motion, StepGeometry<Dim>& g);
 template <int Dim>
@@ -71,7 +72,7 @@ void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeom
 template <int Dim>
 void set_node_velocity(const Layout<Dim>& layout, int body, const Eigen::VectorXd& velocity, StepGeometry<Dim>& g);
 
-// The velocity along an axis of what a share hangs on.
+// Component along `axis` of the surface velocity with the weights `hung`, m/s. `node_velocity` is stacked node by node.
 template <int Dim>
 double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity);
 
@@ -80,10 +81,10 @@ class SolidGeometry {
  public:
   SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides, const std::vector<Body<Dim>>& bodies);
 
-  // The solids as placed, at time t.
+  // Geometry for the given placements of all bodies; values of the domain's sides are those at time t (s).
   StepGeometry<Dim> measure(const std::vector<Placement>& placed, double t) const;
 
-  // Farthest any point of a moving body within the domain goes with these twists in dt, m.
+  // Upper bound of the distance (m) that any point of a body within the domain moves in dt at the given velocities.
   double largest_displacement(const std::vector<Placement>& placed, double dt) const;
 
  private:

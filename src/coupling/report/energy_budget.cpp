@@ -16,7 +16,7 @@
 namespace seiche {
 namespace {
 
-// A step that moves liquid by this share of a cell at most is no blow-up: there is rounding and the solver's tolerance.
+// A step that moves liquid by at most this share of a cell is no blow-up: round-off and the solver's tolerance do that.
 constexpr double still = 1e-3;
 
 template <int Dim>
@@ -31,7 +31,8 @@ double total_mass(const Fluids& fluids, const Solids<Dim>& solids, const StepSta
   return fluids.density() * stats.liquid_volume + fluids.gas_density() * stats.gas_volume + body_mass(solids);
 }
 
-// Faces that the surface crosses times their area: at least the surface's own one, twice for what wets walls.
+// 2 sigma A_f for each face that the surface crosses, J. The area of these faces is at least that of the surface. The
+// factor 2 covers wetted walls. Collective.
 template <int Dim>
 double surface_energy(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi) {
   if (!fluids.has_surface_tension()) return 0;
@@ -43,7 +44,7 @@ double surface_energy(const Domain<Dim>& domain, const Fluids& fluids, const Cel
   return 2 * fluids.liquid.surface_tension * domain.ranks.global_sum(faces) * domain.layout.geometry().face_area();
 }
 
-// The fastest that prescribed bodies and pins move, m/s.
+// Largest speed of prescribed bodies and pins, m/s.
 template <int Dim>
 double fastest_led(const Solids<Dim>& solids, const Attempt<Dim>& attempt, double t, double span) {
   std::vector<Placement> placed = attempt.geometry.placed;
@@ -56,7 +57,7 @@ double fastest_led(const Solids<Dim>& solids, const Attempt<Dim>& attempt, doubl
   return std::max(fastest, solids.geometry.largest_displacement(placed, 1));
 }
 
-// p.b/A of the sides, of this rank: volume let in times the pressure it is let in against.
+// p.b/A of the sides on this rank: volume flux into the domain times the pressure that it enters against.
 template <int Dim>
 double pushed_by_sides(const Domain<Dim>& domain, const Attempt<Dim>& attempt) {
   const FaceGeometry<Dim>& faces = attempt.geometry.faces;
@@ -73,8 +74,8 @@ double pushed_by_sides(const Domain<Dim>& domain, const Attempt<Dim>& attempt) {
   return sum;
 }
 
-// p.b/A of a prescribed body, of this rank; of an elastic one that pins lead at most, all of its surface at their
-// speed.
+// p.b/A of prescribed body k on this rank. For an elastic body with moving pins it is an upper bound: all of its
+// surface moves at their speed.
 template <int Dim>
 double pushed_by_body(const Domain<Dim>& domain, const Attempt<Dim>& attempt, std::size_t k, double pinned) {
   double sum = 0;
@@ -94,7 +95,7 @@ double pushed_by_body(const Domain<Dim>& domain, const Attempt<Dim>& attempt, st
   return sum;
 }
 
-// dt p.b, J.
+// dt p.b, J, at least 0. Collective.
 template <int Dim>
 double pushed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Attempt<Dim>& attempt, double t, double dt) {
   double sum = pushed_by_sides(domain, attempt);
@@ -105,7 +106,7 @@ double pushed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Attemp
   return std::max(0.0, dt * domain.ranks.global_sum(sum) * domain.layout.geometry().face_area());
 }
 
-// sqrt(f.M^-1 f), M lumped, of tractions and body forces.
+// sqrt(f'M^-1 f) with lumped M, f the tractions and body forces.
 template <int Dim>
 double pull_of_forces(const Solids<Dim>& solids, double t) {
   double sum = 0;
@@ -121,7 +122,7 @@ double most_kinetic_energy(const EnergyBudget& b) {
   return 0.5 * std::pow(speed_margin * speed, 2);
 }
 
-// Velocities of solids are those at the end of the horizon, so forces act until then.
+// The velocities of solids are those at the end of the horizon, so forces act until then.
 template <int Dim>
 EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
@@ -144,7 +145,8 @@ template <int Dim>
 std::string fault_of_energy(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
                             const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
   const double found = attempt.stats.kinetic_energy;
-  if (found <= most_kinetic_energy({.kinetic = start.kinetic_energy})) return {};  // within its own energy's margin
+  if (found <= most_kinetic_energy({.kinetic = start.kinetic_energy}))
+    return {};  // within the margin of the initial kinetic energy
   const EnergyBudget budget = energy_budget(s, before, start, psi, attempt);
   const double most = most_kinetic_energy(budget);
   if (found <= most) return {};

@@ -33,7 +33,7 @@ double vorticity(const Domain<Dim>& domain, const Fluids& fluids, const State<Di
 
 }  // namespace
 
-// Pa s, that of the gas, or 0, outside the liquid.
+// Viscosity, Pa s; outside the liquid that of the gas, or 0.
 template <int Dim>
 CellField<Dim> viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
   CellField<Dim> mu(domain.layout);

@@ -14,8 +14,8 @@
 namespace seiche {
 namespace {
 
-// Velocities on the two faces of a cell along an axis; beside a face that the fluid does not touch it moves as on the
-// other one, where it touches neither as continued.
+// Velocities on the two faces of a cell along an axis. A face that the fluid does not touch has the velocity of the
+// other face. If it touches neither, both are extrapolated.
 struct FacePair {
   double low = 0, high = 0;
 };
@@ -27,7 +27,7 @@ FacePair solved_faces(const Domain<Dim>& domain, const Level<Dim>& l, int axis, 
   return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
 }
 
-// The larger speed of a cell's faces along an axis that the fluid touches.
+// Larger speed on the faces of a cell along an axis that the fluid touches.
 template <int Dim>
 double fastest_solved(const Domain<Dim>& domain, const Level<Dim>& l, int axis, Site cell) {
   double fastest = 0;
@@ -36,7 +36,7 @@ double fastest_solved(const Domain<Dim>& domain, const Level<Dim>& l, int axis, 
   return fastest;
 }
 
-// Of one fluid, over this rank's cells.
+// Sums for one fluid over this rank's cells.
 struct FluidSums {
   std::array<double, 7> sums{};  // volume, kinetic and potential energy, momentum, cells
   double fastest_squared = 0;
@@ -111,7 +111,7 @@ void measure_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Di
                  StepStats& stats) {
   if (!fluids.keeps_air()) return;
   const std::vector<double> volumes = air_volumes(domain, state.air, psi, state.phi);
-  // Cut cells of solids may hold air by their centres and none outside the solid.
+  // Regions whose air lies in cut cells, inside the solid, have no volume.
   stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
   stats.gas_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
   stats.air_lost = state.lost_air;
@@ -122,7 +122,8 @@ void measure_bodies(const Fluids& fluids, const TimeSpec& time, const State<Dim>
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].measure(fluids.gravity, time, state, stats);
 }
 
-// Adds force and torque of the pressure on each solid's shares to `loads`, six numbers a solid, of this rank's faces.
+// Adds force and torque of the pressure on the face shares of solid k, on this rank's faces, to `loads`: six numbers a
+// solid.
 template <int Dim>
 void add_pressure_loads(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g, std::size_t k,
                         const Vec3& about, std::vector<double>& loads) {
@@ -137,7 +138,8 @@ void add_pressure_loads(const Domain<Dim>& domain, const State<Dim>& state, cons
   }
 }
 
-// F_k = sum_f s_k A (p_low - p_high) e_f, torque about the reference point: the transpose of the flux the body pushes.
+// F_k = sum_f s_k A (p_low - p_high) e_f, with its torque about the reference point: the transpose of the flux that the
+// body displaces. Viscous and other loads are added.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                        const State<Dim>& state, const StepGeometry<Dim>& g) {

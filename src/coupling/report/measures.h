@@ -1,5 +1,5 @@
 #pragma once
-// What a run reports about a state: energies, momentum, forces on solids, probes, fields for frames.
+// Reported quantities of a state: energies, momentum, forces on solids, probes, fields for frames.
 #include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -14,13 +14,13 @@ template <int Dim>
 void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
                     StepStats& stats);
 
-// Kinetic energy of liquid and gas, where they are now, with the velocities of one step before, J; 0 at the start.
-// Collective.
+// Kinetic energy (J) of liquid and gas at their present places with the velocities of the time level before. 0 at the
+// start. Collective.
 template <int Dim>
 double kinetic_energy_of_fluids_before(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                                        const NodeField<Dim>& psi);
 
-// Counts enclosed air. Collective.
+// Number and volume of the regions of enclosed air, and lost air. Collective.
 template <int Dim>
 void measure_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
                  StepStats& stats);
@@ -38,7 +38,7 @@ std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<D
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const ProbeSpec& probe);
 
-// The points that displacement probes follow. Throws Error(bad_input) where one lies outside its solid.
+// Material points of displacement probes, by name of the probe. Throws Error(bad_input) if one lies outside its solid.
 template <int Dim>
 std::map<std::string, MaterialPoint> find_followed_points(const std::vector<ProbeSpec>& probes,
                                                           const Solids<Dim>& solids);

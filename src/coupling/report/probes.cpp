@@ -1,4 +1,4 @@
-// Probes: pressure and velocity at a point, surface height above it, front along x.
+// Probes: pressure and velocity at a point, surface height above it, front along x, displacement of an elastic solid.
 #include "coupling/report/measures.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -26,7 +26,7 @@ IVec<Dim> cell_of(const Layout<Dim>& layout, const Vec<Dim>& x) {
   return i;
 }
 
-// On the one rank whose owned cells hold x.
+// True on the one rank whose owned cells hold x.
 template <int Dim>
 bool holds(const Layout<Dim>& layout, const Vec<Dim>& x) {
   return layout.cells().contains(cell_of(layout, x));
@@ -38,13 +38,13 @@ double level_set_at(const Domain<Dim>& domain, const State<Dim>& state, const Ve
                                  index_coordinates<Dim>(domain.layout, x, cell_offset<Dim>()));
 }
 
-// True, on all ranks, where x lies in a fluid that flows.
+// True, on all ranks, if x lies in a fluid that flows.
 template <int Dim>
 bool is_wet(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
   return fluids.has_gas() || domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
 }
 
-// True, on all ranks, where x lies in air that keeps its volume.
+// True, on all ranks, if x lies in air that keeps its volume.
 template <int Dim>
 bool is_in_enclosed_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
   if (!fluids.keeps_air()) return false;
@@ -52,13 +52,13 @@ bool is_in_enclosed_air(const Domain<Dim>& domain, const Fluids& fluids, const S
                           state.air.label[domain.layout.site(cell_of(domain.layout, x))] >= 0);
 }
 
-// None before the first solve.
+// True, on all ranks, if there is a pressure at x: never before the first solve.
 template <int Dim>
 bool has_pressure(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
   return state.step > 0 && (is_wet(domain, fluids, state, x) || is_in_enclosed_air(domain, fluids, state, x));
 }
 
-// Pressure of the fluid at x, continued straight from its cells, so that a probe on a wall reads the wall.
+// Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall.
 template <int Dim>
 double pressure_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
   std::vector<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
@@ -72,7 +72,8 @@ double pressure_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec
   return domain.ranks.global_sum(holds(domain.layout, x) ? interpolate_linear<Dim>(domain.layout, p.data(), g) : 0.0);
 }
 
-// Farthest liquid along `axis` on the line through x: the last zero of phi on it, or the side where liquid reaches it.
+// Farthest liquid along `axis` on the line through x: the last zero of phi, or the side of the domain if liquid reaches
+// it. Empty: no liquid.
 template <int Dim>
 std::optional<double> farthest_liquid(const Domain<Dim>& domain, const State<Dim>& state, Vec<Dim> x, int axis,
                                       int direction) {
@@ -96,7 +97,7 @@ std::optional<double> farthest_liquid(const Domain<Dim>& domain, const State<Dim
   return direction * best;
 }
 
-// Axis and sense against gravity at the start; along +y without gravity then.
+// Axis and sense opposite to gravity at t = 0; +y without gravity.
 template <int Dim>
 std::pair<int, int> upwards(const Fluids& fluids) {
   int axis = 1;
@@ -105,7 +106,8 @@ std::pair<int, int> upwards(const Fluids& fluids) {
   return {axis, g[axis] > 0 ? -1 : 1};
 }
 
-// Largest x of liquid in the layer of cells on the floor (the whole domain where gravity acts along x).
+// Largest x of liquid in the layer of cells on the floor; in the whole domain if gravity acts along x. Empty: no
+// liquid.
 template <int Dim>
 std::optional<double> front(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
   const Geometry<Dim>& grid = domain.layout.geometry();
@@ -131,9 +133,10 @@ std::size_t index_of(const Solids<Dim>& solids, const std::string& solid) {
 }
 
 template <int Dim>
-Vec3 displacement_of(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
-  const std::size_t k = index_of(s.solids, probe.solid);
-  return extend<Dim>(interpolate<Dim>(s.solids.bodies[k].elastic().body.mesh, s.followed.at(probe.name),
+Vec3 displacement_of(const Solids<Dim>& solids, const MaterialPoint& point, const State<Dim>& state,
+                     const ProbeSpec& probe) {
+  const std::size_t k = index_of(solids, probe.solid);
+  return extend<Dim>(interpolate<Dim>(solids.bodies[k].elastic().body.mesh, point,
                                       state.solids[k].place(state.time, state.time, state.time).displacement));
 }
 
@@ -149,7 +152,7 @@ std::map<std::string, MaterialPoint> find_followed_points(const std::vector<Prob
   return points;
 }
 
-// Zero where nothing flows.
+// Velocity at x, equal on all ranks; zero if nothing flows there. Collective.
 template <int Dim>
 Vec3 velocity_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
   const FaceField<Dim> u = of_both(domain, state, &Level<Dim>::u);
@@ -186,7 +189,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
       break;
     case ProbeKind::displacement:
       out.is_vector = true;
-      out.vector = displacement_of(s, state, probe);
+      out.vector = displacement_of(s.solids, s.followed.at(probe.name), state, probe);
       break;
   }
   return out;

@@ -17,7 +17,7 @@ namespace seiche {
 namespace {
 
 constexpr std::size_t most_lines = 20;        // of solids
-constexpr double nothing = 1e-6, all = 1e-3;  // shares of a volume that count as none, as lost
+constexpr double nothing = 1e-6, all = 1e-3;  // tolerances as shares of a volume: for none, and for losses
 
 template <int Dim>
 std::string place_text(const Vec3& x) {
@@ -73,7 +73,7 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   if (whole - wet > all * whole)
     line += fmt::format("; {} of its regions lies inside solids", volume_text<Dim>(whole - wet));
   account.lines.push_back(line);
-  constexpr std::size_t most_regions = 20;  // each takes a look at the whole grid
+  constexpr std::size_t most_regions = 20;  // each costs a loop over the whole grid
   for (std::size_t k = 0; k < std::min(most_regions, fluids.liquid.regions.size()); ++k)
     account_region(domain, fluids, k, psi, account);
 }
@@ -117,17 +117,19 @@ void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount
 }  // namespace
 
 template <int Dim>
-SceneAccount account_scene(const Setup<Dim>& s, const State<Dim>& state, const NodeField<Dim>& psi) {
+SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                           const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi) {
   SceneAccount account;
-  account_liquid(s.domain, s.fluids, state, psi, account);
-  const std::size_t count = s.solids.bodies.size();
-  for (std::size_t k = 0; k < std::min(count, most_lines); ++k)
-    account_solid(s.scene.domain, s.solids.bodies[k], account);
+  account_liquid(domain, fluids, state, psi, account);
+  const std::size_t count = solids.bodies.size();
+  for (std::size_t k = 0; k < std::min(count, most_lines); ++k) account_solid(extent, solids.bodies[k], account);
   if (count > most_lines) account.lines.push_back(fmt::format("        and {} more solids", count - most_lines));
   return account;
 }
 
-template SceneAccount account_scene<2>(const Setup<2>&, const State<2>&, const NodeField<2>&);
-template SceneAccount account_scene<3>(const Setup<3>&, const State<3>&, const NodeField<3>&);
+template SceneAccount account_scene<2>(const Domain<2>&, const Fluids&, const Solids<2>&, const DomainSpec&,
+                                       const State<2>&, const NodeField<2>&);
+template SceneAccount account_scene<3>(const Domain<3>&, const Fluids&, const Solids<3>&, const DomainSpec&,
+                                       const State<3>&, const NodeField<3>&);
 
 }  // namespace seiche

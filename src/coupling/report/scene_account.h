@@ -1,5 +1,5 @@
 #pragma once
-// What a scene turned out to be at its start: liquid, solids, and what is lost of them.
+// Account of a scene at its start: liquid, solids, and losses of both.
 #include <string>
 #include <vector>
 
@@ -10,11 +10,12 @@ namespace seiche {
 
 struct SceneAccount {
   std::vector<std::string> lines;     // volume of liquid; mass, size and place of the solids
-  std::vector<std::string> warnings;  // regions and solids of which nothing is left
+  std::vector<std::string> warnings;  // regions without liquid, solids outside the domain
 };
 
-// Of the initial state, psi the solids' distance at its nodes. Collective; equal on all ranks.
+// Account of the initial state. psi: distance to the solids at nodes, m. Collective; equal on all ranks.
 template <int Dim>
-SceneAccount account_scene(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi);
+SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                           const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi);
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-// Liquid without a free surface within elastic walls, which keep its volume.
+// Constraint between elastic walls: sealed liquid without a free surface keeps its volume.
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/interaction.h"
@@ -29,7 +29,7 @@ class Cavities : public Interaction<Dim> {
       }
   }
 
-  // Walls of cavities that the trial found keep in the first step, too, what they hold at the start.
+  // Cavities found by the trial of the first step keep their volume at the start in the first step, too.
   void inform(const State<Dim>& trial, State<Dim>& state) const override {
     state.sealed = trial.sealed;
     const ElasticMotions tried = elastic_motions(trial.solids);

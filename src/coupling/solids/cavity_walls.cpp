@@ -15,7 +15,8 @@ namespace {
 template <int Dim>
 using Components = CellField<Dim, std::int64_t>;
 
-// Of the rows' cells and of those of air, -1: none or open; one cell around too. Collective.
+// Closed component of each cell with a row, enclosed air included; -1: no row, or an open component. Ghosts filled.
+// Collective.
 template <int Dim>
 Components<Dim> components_of_cells(const Domain<Dim>& domain, const PressureRows<Dim>& rows, const NullSpace& closed) {
   Components<Dim> component(domain.layout, -1);
@@ -33,15 +34,15 @@ Components<Dim> components_of_cells(const Domain<Dim>& domain, const PressureRow
   return component;
 }
 
-// What a patch touches.
+// Liquid that a patch touches.
 struct Touched {
-  bool open = false;         // liquid with a given pressure, or a free surface
-  std::set<int> components;  // closed ones
-  std::set<Link> links;      // of this rank
-  double link_count = 0;     // over all ranks, those counted twice that two have
+  bool open = false;         // liquid with a given pressure or a free surface
+  std::set<int> components;  // closed components
+  std::set<Link> links;      // found on this rank
+  double link_count = 0;     // of face shares, over all ranks; links found on two ranks count twice
 };
 
-// The patches of one body while they are looked at.
+// Finds the liquid that the patches of one elastic body touch.
 template <int Dim>
 struct TouchedBody {
   const Domain<Dim>& domain;
@@ -50,7 +51,7 @@ struct TouchedBody {
   const Components<Dim>& component;
   const ElasticSolid<Dim>& solid;
   std::vector<int> patch_of_node = {};
-  std::vector<char> held = {};  // of each node of the mesh
+  std::vector<char> held = {};  // pinned, one a node of the mesh
   std::vector<Touched> patches = {};
 
   void start() {
@@ -61,15 +62,16 @@ struct TouchedBody {
     patches.resize(solid.patches.size());
   }
 
-  // What is held sweeps as prescribed, but on closed patches all that is swept adds up.
+  // Open patches leave out pinned nodes, whose flux is prescribed. The constraint of a closed patch includes all its
+  // nodes.
   void link(int patch, std::int64_t row, int node) {
     if (held[std::size_t(node)] && !solid.patches[std::size_t(patch)].is_closed()) return;
     patches[std::size_t(patch)].links.insert({row, node});
   }
 
-  // Entries that were taken back do not count.
+  // Skips entries that cancel: some are taken back by a later entry.
   void add_entries(const std::vector<FluxEntry>& entries) {
-    std::map<std::pair<int, int>, std::pair<double, double>> sums;  // of values, and of their absolute values
+    std::map<std::pair<int, int>, std::pair<double, double>> sums;  // sum, and sum of absolute values
     for (const FluxEntry& e : entries) {
       auto& [sum, size] = sums[{e.row, e.column}];
       sum += e.value, size += std::abs(e.value);
@@ -87,12 +89,12 @@ struct TouchedBody {
     }
   }
 
-  // The row of the patch's liquid that is nearest to a point on it, of its cell and those around, not behind it; -1:
-  // none.
+  // Row of the patch's liquid nearest to the point x of the patch: of x's cell and its neighbours, not behind the
+  // patch. -1: none.
   std::int64_t row_before(const Touched& patch, const Vec<Dim>& x, const Vec<Dim>& outward,
                           const IVec<Dim>& cell) const {
     constexpr int neighbours = Dim == 2 ? 9 : 27;
-    constexpr double deepest = 0.75;  // cells behind the surface that the centre of a cut cell may lie, or less
+    constexpr double deepest = 0.75;  // cells: the centre of a cut cell may lie up to this far behind the surface
     std::int64_t best = -1;
     double least = 1e300;
     for (int n = 0; n < neighbours; ++n) {
@@ -107,7 +109,7 @@ struct TouchedBody {
     return best;
   }
 
-  // Facets that no face share hangs on push liquid as well.
+  // Links the nodes of a facet to the liquid in front of it. Facets without attached face shares displace liquid, too.
   void add_facet(int patch, const std::array<int, Dim>& corners, const std::vector<Vec<Dim>>& points) {
     const auto node = [&](int p) { return solid.surface.nodes[std::size_t(p)]; };
     const Touched& touched = patches[std::size_t(patch)];
@@ -134,7 +136,7 @@ struct TouchedBody {
     }
   }
 
-  // What the ranks know of a patch. Collective.
+  // Combines the findings of all ranks on a patch. Collective.
   void agree(Touched& patch) const {
     std::vector<double> facts(2 + std::size_t(closed.count));
     facts[0] = patch.open;
@@ -157,12 +159,12 @@ struct TouchedBody {
   }
 };
 
-// Whether the body k, which moves as prescribed, pushes liquid of these components on the whole. Collective.
+// True if the prescribed body k has a net flux into liquid of these components. Collective.
 template <int Dim>
 bool feeds(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const Components<Dim>& component,
            const std::set<int>& components, std::size_t k) {
   constexpr double rounding = 1e-9;
-  std::array<double, 2> sums{};  // net, and of absolute values
+  std::array<double, 2> sums{};  // net flux, and sum of absolute values
   const auto add = [&](Site cell, const IVec<Dim>& i, double flux) {
     if (!domain.layout.cells().contains(i) || !components.contains(int(component[cell]))) return;
     sums[0] += flux, sums[1] += std::abs(flux);
@@ -188,7 +190,7 @@ bool ends_at(const CavityWalls<Dim>& walls, const MotionSpec& motion) {
   return false;
 }
 
-// Whether anything but the walls changes the volume of the liquid, or there is air in it. Collective.
+// True if the cavity holds enclosed air, or if anything but its walls changes its volume of liquid. Collective.
 template <int Dim>
 bool is_fed(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
             const PressureRows<Dim>& rows, const Components<Dim>& component, const FoundCavity<Dim>& cavity) {
@@ -209,7 +211,7 @@ bool is_fed(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeom
   return fed;
 }
 
-// Joins `found` with those of the list that share liquid with it.
+// Adds `found` to the list, merged with the cavities that share liquid with it.
 template <int Dim>
 void join(FoundCavity<Dim> found, std::vector<FoundCavity<Dim>>& list) {
   for (std::size_t n = 0; n < list.size();) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which patches of elastic bodies are the walls of liquid without a given pressure.
+// Cavities of liquid without a given pressure, and the patches of elastic bodies that are their walls.
 #include "coupling/solids/link_graph.h"
 #include "coupling/solids/swept_volume.h"
 #include "coupling/state/solids.h"
@@ -7,17 +7,18 @@
 
 namespace seiche {
 
-// A cavity's walls, and which rows their nodes push liquid in and out of.
+// Walls of a cavity, and the rows that their nodes displace liquid in.
 template <int Dim>
 struct FoundCavity {
   CavityWalls<Dim> walls;
-  std::vector<std::set<Link>> links;  // of each wall, of this rank
+  std::vector<std::set<Link>> links;  // one set a wall, found on this rank
   std::set<int> components;           // of the liquid in it, as NullSpace numbers them
 };
 
-// Patches join where they touch the same liquid. What is not closed, or touches a given pressure, is left out; so is,
-// where there are pins, what a side with inflow or a solid feeds that moves as prescribed, but otherwise than these
-// pins, and what holds enclosed air. Collective.
+// Open patches that touch the same liquid are walls of one cavity; a closed patch is one if its solid lies around the
+// liquid. Walls that do not close, or that touch liquid with a given pressure, are left out. Cavities with open patches
+// are also left out if they hold enclosed air, or if their volume is prescribed in part. An inflow does that, or a
+// prescribed solid that does not move like the pins. Collective.
 template <int Dim>
 std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                             const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,

@@ -16,10 +16,10 @@
 namespace seiche {
 namespace {
 
-// Bodies push each other when nearer than this, in cells: far below what the grid resolves, far above rounding.
+// Contact forces act below this distance, in cells: far less than the grid resolves, far more than round-off.
 constexpr double reach = 0.05;
-// Bodies must start at least this share of the reach apart: films that narrow still are liquid to the grid, which
-// closes those below 1e-3 cells.
+// Smallest gap at the start, as a share of the reach. Gaps that narrow are still open on the grid, which closes those
+// below 1e-3 cells.
 constexpr double clearance = 0.05;
 
 template <int Dim>
@@ -61,18 +61,18 @@ std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horiz
   return motions;
 }
 
-// The stiffness is set by weights under the largest gravity of the run and speeds by that of a fall through a cell,
-// whatever the step: bodies at rest are thrown up where the stiffness grows under them. Without gravity what crosses
-// the domain in ten frames serves as one.
+// Stiffness scales with weight under the largest gravity of the run, speeds with a free fall through one cell. Neither
+// depends on the step: a growing stiffness would throw bodies at rest upwards. Without gravity, an acceleration that
+// crosses the domain in about ten frames replaces it.
 template <int Dim>
-ContactOptions contact_options(const Setup<Dim>& s) {
-  const Scene& scene = s.scene;
-  const double length = (scene.domain.upper - scene.domain.lower).norm(), rate = 0.1 * scene.time.frame_rate;
-  const double h = s.domain.layout.h(), weight = s.fluids.gravity.largest(0, scene.time.end),
+ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& extent, const TimeSpec& time,
+                               const Gravity& gravity, const Tampering& tampering) {
+  const double length = (extent.upper - extent.lower).norm(), rate = 0.1 * time.frame_rate;
+  const double h = domain.layout.h(), weight = gravity.largest(0, time.end),
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = s.tampering.contact * g;
+  o.acceleration = tampering.contact * g;
   o.usual_speed = std::sqrt(g * h);
   o.creep_speed = 1e-4 * o.usual_speed;
   o.speed_tolerance = 0.01 * o.creep_speed;
@@ -96,7 +96,7 @@ std::string remedy(const Solids<Dim>& solids, const Overlap& o) {
   return "move them apart, or let the part that is pinned end at the other's surface";
 }
 
-// Points of the surface of a body.
+// Surface points of body k as placed.
 template <int Dim>
 std::vector<Vec3> surface_of(const State<Dim>& state, std::size_t k) {
   const Participant<Dim>& solid = state.solids[k];
@@ -105,7 +105,7 @@ std::vector<Vec3> surface_of(const State<Dim>& state, std::size_t k) {
   return points;
 }
 
-// Names of the periodic sides that a body with unknowns reaches beyond, or is nearer to than `near` cells.
+// Names of the periodic sides that body k crosses or is within `near` cells of. Empty if the body has no unknowns.
 template <int Dim>
 std::vector<std::string> periodic_sides_at(const Domain<Dim>& domain, const State<Dim>& state, std::size_t k,
                                            double near) {
@@ -153,8 +153,8 @@ std::string corners_text(const Vec3& lower, const Vec3& upper) {
                      fmt::join(b.begin(), b.end(), ", "));
 }
 
-// Why a body that crosses a side cannot be meant so: it lies wholly outside of the domain, or is far larger. Else
-// empty.
+// Message if a body that crosses a side lies wholly outside the domain, or is far larger than it: surely a mistake.
+// Else empty.
 template <int Dim>
 std::string misplacement(const DomainSpec& extent, const Body<Dim>& body) {
   const Vec3 lower = extent.lower, upper = extent.upper;
@@ -186,7 +186,8 @@ std::string fault_of_overlap(const Solids<Dim>& solids, const DomainSpec& extent
                      remedy(solids, o));
 }
 
-// The liquid does not see the part of an elastic body beyond a periodic side. The body's surface may end at the side.
+// Messages for elastic bodies beyond a periodic side, since the liquid does not see that part. A surface may end at the
+// side.
 template <int Dim>
 std::vector<std::string> faults_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                                   const State<Dim>& state) {
@@ -227,13 +228,14 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
   return largest_safe_fraction(*solids.contact, contact_motions(state, dt), dt, velocities_over(solids, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);         \
-  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);          \
-  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&); \
-  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);       \
-  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                                    \
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);          \
+  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
+  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);  \
+  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);        \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                 \
+  template ContactOptions contact_options<D>(const Domain<D>&, const DomainSpec&, const TimeSpec&, const Gravity&, \
+                                             const Tampering&);                                                    \
   template double safe_share<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -9,35 +9,36 @@
 
 namespace seiche {
 
-// All solids of the scene, and every closed side of the domain as a wall.
+// All solids of the scene. Every side of the domain is a wall, except periodic and outflow sides.
 template <int Dim>
 ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering);
 
-// Refuses bodies with unknowns that touch or overlap something at the start, and elastic ones that reach beyond a
-// periodic side: Error(bad_input) naming the pairs and depths.
+// Throws Error(bad_input), naming the pairs and depths: a body with unknowns touches or overlaps something at the
+// start, or an elastic body crosses a periodic side.
 template <int Dim>
 void refuse_overlaps(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
                      const State<Dim>& state);
 
-// From where the solids stand to where the prescribed ones stand after the horizon.
+// Motion of each solid over the horizon: from its place at the state's time; prescribed solids to their end poses.
 template <int Dim>
 std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horizon);
 
 // Reach, stiffness and speeds of contact on this grid.
 template <int Dim>
-ContactOptions contact_options(const Setup<Dim>& setup);
+ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& extent, const TimeSpec& time,
+                               const Gravity& gravity, const Tampering& tampering);
 
 // Names of the solids with unknowns that reach a periodic side, for messages.
 template <int Dim>
 std::string solids_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state);
 
-// Names of the solids that all but touch each other or a side, for messages.
+// Names of the solids that almost touch each other or a side, for messages.
 template <int Dim>
 std::string nearest_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
                            const State<Dim>& state);
 
-// The largest share of dt that the solids can move without touching, those with unknowns as the last solve left
-// them.
+// Largest share of dt (0 to 1) that the solids can move without touching. Those with unknowns move as the last solve
+// found.
 template <int Dim>
 double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the solids and the liquid are coupled in: one solve of a step.
+// Inputs of the coupling of solids and liquid in one solve.
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 
@@ -12,8 +12,8 @@ struct CoupledStep {
   const PressureRows<Dim>& rows;
   const NullSpace& closed;
   const State<Dim>& state;
-  double dt;       // that led there, s
-  double horizon;  // over which velocities of solids are solved for, s
+  double dt;       // step that led to `state`, s
+  double horizon;  // interval over which velocities of solids are solved for, s
 };
 
 }  // namespace seiche

@@ -23,7 +23,7 @@ void add_entries(int row, double value, int axis, const SurfaceWeights& hung, st
   for (const auto& [node, weight] : hung) entries.push_back({row, Dim * node + axis, value * weight});
 }
 
-// Shares spread to the nodes that they hang on.
+// Entries of J: each face share, spread to the nodes that it is attached to.
 template <int Dim>
 std::vector<FluxEntry> spread_shares(const Domain<Dim>& domain, const FaceShares& shares, const Attachments& attached,
                                      const PressureRows<Dim>& rows) {
@@ -34,14 +34,14 @@ std::vector<FluxEntry> spread_shares(const Domain<Dim>& domain, const FaceShares
   return entries;
 }
 
-// The shares of one cell.
+// Face shares of one cell.
 struct CellShares {
-  std::vector<std::pair<std::size_t, double>> shares;  // and signs
+  std::vector<std::pair<std::size_t, double>> shares;  // index and sign
 };
 
-// In a wall of a cavity a cell or two thick the nearest point to a face may be on the other side. All shares of a cell
-// are to hang on the side that cuts its faces: the others move to where its nearest share hangs. What hangs on pinned
-// facets between the sides stays.
+// In a cavity wall one or two cells thick, the surface point nearest to a face may lie on the wrong side. All shares of
+// a cell are therefore attached to the patch that cuts its faces. Others move to the attachment of the nearest share on
+// that patch. Shares attached to pinned facets between the patches stay.
 template <int Dim>
 void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, const FaceShares& shares,
                       const Attachments& attached, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
@@ -61,7 +61,7 @@ void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
   };
   for (const auto& [cell, of] : cells) {
     std::vector<double> cut(solid.patches.size());
-    constexpr double whole = 1e-3;  // what a face that is closed altogether counts for
+    constexpr double whole = 1e-3;  // weight of a face that is fully closed
     for (const auto& [n, sign] : of.shares)
       if (hangs(n)) cut[std::size_t(patch(n))] += shares[n].closed * (1 - shares[n].closed + whole);
     const int own = int(std::max_element(cut.begin(), cut.end()) - cut.begin());
@@ -79,14 +79,14 @@ void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
   }
 }
 
-// Pins divide a surface of the body that walls in liquid together with what the pins stand on.
+// True if pins divide the surface. It may then enclose liquid together with the solids that the pins stand on.
 template <int Dim>
 bool is_divided(const ElasticSolid<Dim>& solid) {
   return std::any_of(solid.patches.begin(), solid.patches.end(), [](const auto& patch) { return !patch.is_closed(); });
 }
 
-// Pressure acts on the facets in each cell: what the shares show is taken back. Liquid at rest is to act as it does on
-// the mesh.
+// Replaces the entries of the face shares by those of the facets in each cell (FacetFluxes). Adds the missing buoyancy,
+// so that liquid at rest loads the mesh exactly.
 template <int Dim>
 void hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, const Vec<Dim>& gravity, BodyEntries& body,
                     CouplingParts<Dim>& parts) {
@@ -109,7 +109,8 @@ void hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, cons
   c.buoyancy_correction.segment(body.first, u.size()) = force;
 }
 
-// The highest pressure of the last step in cells whose faces body k cuts or closes, Pa. Collective.
+// Highest pressure (Pa, at least 0) of the last step in cells beside the faces that the body cuts or closes.
+// Collective.
 template <int Dim>
 double highest_pressure_beside(const Domain<Dim>& domain, const FaceShares& shares, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure) {
@@ -119,7 +120,7 @@ double highest_pressure_beside(const Domain<Dim>& domain, const FaceShares& shar
   return domain.ranks.global_max(most);
 }
 
-// Those behind the first `known`, by cells.
+// Entries after the first `known`, by cell instead of row.
 template <int Dim>
 std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& entries, std::size_t known,
                                                const PressureRows<Dim>& rows) {
@@ -161,7 +162,7 @@ void add_inertia(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, d
   parts.coupling.push.segment(first, push.size()) = dt * push;
 }
 
-// 1/2 w'm w - w'(momentum + dt m g)
+// Adds 1/2 w'm w - w'(momentum + dt m_heavy g), m_heavy the mass that has weight.
 template <int Dim>
 void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravity, double dt, int first,
                        CouplingParts<Dim>& parts) {
@@ -175,8 +176,8 @@ void add_liquid_beside(const LiquidBeside& beside, const Eigen::VectorXd& gravit
   c.buoyancy_correction.segment(first, m.size()) = weight;
 }
 
-// M times what is linear in the deformed positions, from -1 to 1 over the body: forces, moments, what bends and
-// stretches.
+// M times the fields linear in the deformed positions, scaled to [-1, 1] over the body: forces, moments, bending and
+// stretching. One a column, Dim (Dim + 1) in all.
 template <int Dim>
 Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
   Eigen::Matrix<double, Dim, Eigen::Dynamic> x(Dim, u.size() / Dim);
@@ -195,7 +196,7 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
 
 }  // namespace
 
-// Gravity on each node, and the scene's own forces.
+// Gravity and the scene's forces on each node.
 template <int Dim>
 StepLoad step_load(const Gravity& varying, const ElasticSolid<Dim>& solid, const State<Dim>& state, double dt,
                    double horizon) {
@@ -225,18 +226,19 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
                             step_load(s.fluids.gravity, solid, state, dt, horizon));
   add_inertia(p, e.u, dt, horizon, first, parts);
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
-  if (body.is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
-  BodyEntries mine{k, first, spread_shares(s, shares, attached, rows)};
-  bring_home_air(s, rows, 0, mine.entries);
+  if (body.is_thin())
+    add_liquid_beside(liquid_beside(s.domain, s.fluids, g, rows, state, dt, k), g_nodes, dt, first, parts);
+  BodyEntries mine{k, first, spread_shares(s.domain, shares, attached, rows)};
+  bring_home_air(s.domain, rows, 0, mine.entries);
   mine.shown = mine.entries.size();
   if (body.is_thin() || is_divided(solid))
-    keep_to_own_side(s, solid, shares, attached, rows, mine.entries);
+    keep_to_own_side(s.domain, solid, shares, attached, rows, mine.entries);
   else
     hang_on_facets(step, e.u, gravity, mine, parts);
-  bring_home_air(s, rows, mine.shown, mine.entries);
+  bring_home_air(s.domain, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));
   c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
-  const double most = highest_pressure_beside(s, shares, rows, state.pressure);
+  const double most = highest_pressure_beside(s.domain, shares, rows, state.pressure);
   const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)};
   parts.potentials.push_back(
       std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(), s.tampering.elastic_forces * dt, horizon));

@@ -26,7 +26,6 @@ void sort_by_rows(std::vector<FluxEntry>& entries) {
   });
 }
 
-// Entries of one row and column are added.
 ColumnBlock make_block(const std::vector<FluxEntry>& entries, const std::vector<Freedom>& freedom, Freedom kind,
                        int first, int width) {
   ColumnBlock block;

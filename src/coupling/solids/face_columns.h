@@ -5,7 +5,8 @@
 
 namespace seiche {
 
-// visit(cell, sign, n) of the cells with a row on both sides of each share n.
+// Calls visit(cell, sign, n) for each share n and each owned cell with a row beside its face. sign is 1 for the cell
+// below the face, -1 for the cell above.
 template <int Dim, class Visit>
 void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares, const PressureRows<Dim>& rows,
                              const Visit& visit) {
@@ -20,19 +21,19 @@ void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares
   }
 }
 
-// Entries from `known` on that belong to regions of air, which may be rows of other ranks, go where their rows are, one
-// a row and column. Collective.
+// Moves the entries of enclosed air, from index `known` on, to the ranks that have their rows. Entries of one row and
+// column are added; sums within round-off are dropped. Collective.
 template <int Dim>
 void bring_home_air(const Domain<Dim>& domain, const PressureRows<Dim>& rows, std::size_t known,
                     std::vector<FluxEntry>& entries);
 
 void sort_by_rows(std::vector<FluxEntry>& entries);
 
-// A block of sorted entries. Columns of unknowns of the other kind are left empty.
+// Column block of sorted entries; those of one row and column are added. Fills only columns of unknowns of this kind.
 ColumnBlock make_block(const std::vector<FluxEntry>& entries, const std::vector<Freedom>& freedom, Freedom kind,
                        int first, int width);
 
-// The block of body k if its unknowns, `first` and on, are the velocity of all of its surface. Collective.
+// Column block of body k if its Dim unknowns, from `first` on, are the velocity of its whole surface. Collective.
 template <int Dim>
 ColumnBlock translation_columns(const CoupledStep<Dim>& step, int k, const std::vector<Freedom>& freedom, int first);
 

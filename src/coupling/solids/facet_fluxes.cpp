@@ -13,7 +13,7 @@
 namespace seiche {
 namespace {
 
-// A number of each cell of the whole grid.
+// Number of a cell in the whole grid, the same on all ranks.
 template <int Dim>
 std::int64_t number_of(const Domain<Dim>& domain, const IVec<Dim>& cell) {
   std::int64_t number = 0;
@@ -21,9 +21,9 @@ std::int64_t number_of(const Domain<Dim>& domain, const IVec<Dim>& cell) {
   return number;
 }
 
-// Steps from a piece's cell to those along its normal: by one cell along the axes in the order of |n_a|, then by two
-// along the first. Axes that the normal hardly has do not count: a facet that stands on a floor faces nothing beside
-// it.
+// Offsets from a piece's cell to the cells that may act on it: none, one cell along each axis in the order of |n_a|,
+// then two cells along the first. Axes with |n_a| <= 0.2 are skipped: a facet that stands on a floor does not face the
+// cells beside it.
 template <int Dim>
 std::vector<IVec<Dim>> steps_outward(const Vec<Dim>& normal) {
   std::array<int, Dim> axes;
@@ -37,11 +37,11 @@ std::vector<IVec<Dim>> steps_outward(const Vec<Dim>& normal) {
   return steps;
 }
 
-// The pieces that act on this rank's cells. All ranks take the same choice for pieces between them.
+// Pieces on which this rank's cells act. All ranks choose the same cell for a piece.
 template <int Dim>
 std::vector<LoadedPiece<Dim>> load_pieces(const Domain<Dim>& domain, const CellField<Dim, char>& open,
                                           const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u) {
-  constexpr int reach = 2;  // cells that a piece may be away from the cell that acts on it
+  constexpr int reach = 2;  // cells from a piece to the cell that acts on it, at most
   std::vector<LoadedPiece<Dim>> loaded;
   for (const FacetPiece<Dim>& piece : cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach),
                                                    solid.surface.facets, surface_points(solid, u)))
@@ -55,10 +55,10 @@ std::vector<LoadedPiece<Dim>> load_pieces(const Domain<Dim>& domain, const CellF
   return loaded;
 }
 
-// What D has to do: for each cell what translations lack along each axis, and the nodes that may carry it.
+// Requirements of D: the flux per cell that unit translations along each axis lack, and the nodes that may carry it.
 template <int Dim>
 struct Lacking {
-  std::map<std::int64_t, Vec<Dim>> flux;  // by the numbers of this rank's cells
+  std::map<std::int64_t, Vec<Dim>> flux;  // by number, of this rank's cells
   std::map<std::int64_t, Site> cell;
   std::set<Link> links;
 
@@ -69,8 +69,8 @@ struct Lacking {
   }
 };
 
-// Cells without pieces carry what they lack on the points that their shares hang on. In a thin wall these may lie on
-// the other side, so that cells with pieces of their own keep to them.
+// Cells without pieces put their lacking flux on the nodes that their face shares are attached to. In a thin wall these
+// may lie on the other side, so cells with pieces use only the nodes of their pieces.
 template <int Dim>
 void add_links_of_shares(const Domain<Dim>& domain, const CellField<Dim, char>& open, const FaceShares& shares,
                          const Attachments& attached, Lacking<Dim>& lacking) {
@@ -123,7 +123,7 @@ std::vector<char> held_nodes(const ElasticSolid<Dim>& solid, const LinkGraph& gr
   return held;
 }
 
-// D; see FacetFluxes. Collective.
+// Computes D (see FacetFluxes). Collective.
 template <int Dim>
 CellFluxes balance_translations(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
                                 const Lacking<Dim>& lacking) {

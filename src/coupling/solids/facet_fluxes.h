@@ -1,5 +1,5 @@
 #pragma once
-// How the pressure of each cell acts on the facets of an elastic body that lie in it.
+// Pressure of each cell on the facets of an elastic body within it.
 #include "coupling/solids/swept_volume.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
@@ -8,8 +8,8 @@
 
 namespace seiche {
 
-// A piece of a body's surface and the cell whose pressure acts on it. That is the cell it lies in, or, where nothing
-// of that one is open, the next one along the normal.
+// A piece of a body's surface and the cell whose pressure acts on it: the cell that contains it. If that has no open
+// face, the next open cell along the normal acts on it.
 template <int Dim>
 struct LoadedPiece {
   Site cell;
@@ -18,36 +18,36 @@ struct LoadedPiece {
 
 // J of one elastic body, per face area, over this rank's cells:
 //   (J v)_c = F + D,   F = -1/A sum over the pieces of c of int v.n dA.
-// F alone gives the body the traction -p n of each cell's pressure on its own mesh, so that a constant pressure is in
-// equilibrium with itself to rounding. D makes a translation push what the body's face shares show,
+// F exerts each cell's pressure as the traction -p n on the body's own mesh. A constant pressure is then in equilibrium
+// to round-off. D makes the flux of a translation that of the body's face shares,
 //   sum_n (F + D)_cn = sum_f +- s_f,
-// which keeps momentum and rest. It is the least change in the sum of squares that leaves what a constant pressure does
-// to each node that is not pinned, sum_c D_cn = 0.
+// which conserves momentum and keeps rest. D has the least sum of squares with sum_c D_cn = 0 at nodes that are not
+// pinned. A constant pressure then exerts no load by D on these nodes.
 template <int Dim>
 struct FacetFluxes {
   std::vector<LoadedPiece<Dim>> pieces;
   CellFluxes balance;  // D
 };
 
-// The cells with a face whose velocity is an unknown, ghosts filled. Collective.
+// Flags of cells with a face whose velocity is an unknown, ghosts filled. Collective.
 template <int Dim>
 CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces);
 
-// Of body k with the displacement u. Collective.
+// Facet fluxes of body k at nodal displacements u. `open`: open_cells(). Collective.
 template <int Dim>
 FacetFluxes<Dim> facet_fluxes(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& geometry,
                               const CellField<Dim, char>& open, int k, const Eigen::VectorXd& u);
 
-// J as entries of the cells with a row, this rank's or regions of air.
+// Entries of J for cells with a row. Rows of enclosed air may belong to other ranks.
 template <int Dim>
 std::vector<FluxEntry> entries_of(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
                                   const FacetFluxes<Dim>& fluxes);
 
-// Forces on the nodes, N. Pressures are those at the centres of cells, while the surface lies beside them. For the
-// pressure rho g.x of liquid at rest the traction on the wet pieces is
-//   -int rho g.x n N_i dA,
-// and J'p gives that with x_c for x, and D. This is the difference, so that bodies at rest feel what their mesh
-// should, rho g V in all. Gas counts by its density. Collective.
+// Nodal forces (N) that make buoyancy exact. Pressures are values at cell centres, while the surface lies beside them.
+// The pressure rho g.x of liquid at rest exerts on the wet pieces the load
+//   -int rho g.x n N_i dA.
+// J'p gives this with x_c for x, plus a term of D. Returns the difference, so that bodies at rest feel the exact load
+// on their mesh, rho g V in total. Gas counts by its density. Collective.
 template <int Dim>
 Eigen::VectorXd missing_buoyancy(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                                  const PressureRows<Dim>& rows, const CellField<Dim>& phi, int k,

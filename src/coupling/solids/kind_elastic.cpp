@@ -15,7 +15,7 @@
 namespace seiche {
 namespace {
 
-// Whether each point of the surface is pinned.
+// Flags of the surface's points: pinned.
 template <int Dim>
 std::vector<char> pinned_points(const ElasticSolid<Dim>& solid) {
   std::vector<char> node(solid.body.mesh.nodes.size(), 0), point;
@@ -24,7 +24,7 @@ std::vector<char> pinned_points(const ElasticSolid<Dim>& solid) {
   return point;
 }
 
-// Weights of the unknowns in the velocity of the surface near a face.
+// Function for the weights of the unknowns in the surface's velocity near a face; none where the body has no share.
 template <int Dim>
 auto surface_weights(const StepGeometry<Dim>& g, int body) {
   auto place = std::make_shared<std::array<std::unordered_map<Site, std::size_t>, Dim>>();
@@ -57,7 +57,7 @@ Placement ElasticParticipant<Dim>::place(double, double, double) const {
   return p;
 }
 
-// The fastest node that pins lead from t to t + dt, m/s.
+// Bound (m/s) on the speed of pinned nodes from t to t + dt: sqrt(Dim) times the largest component.
 template <int Dim>
 double ElasticParticipant<Dim>::fastest_prescribed_part(double t, double dt) const {
   const Pins from = pins_at(elements(), t), to = pins_at(elements(), t + dt);
@@ -67,7 +67,7 @@ double ElasticParticipant<Dim>::fastest_prescribed_part(double t, double dt) con
   return std::sqrt(double(Dim)) * fastest;
 }
 
-// Straight, but for pins, which go to where they are prescribed to be at t + dt.
+// The velocities of the last solve, except that pinned nodes move to their prescribed places at t + dt.
 template <int Dim>
 Eigen::VectorXd ElasticParticipant<Dim>::velocity_over(double t, double dt, double horizon) const {
   Eigen::VectorXd w = motion_.velocity;
@@ -118,7 +118,7 @@ double ElasticParticipant<Dim>::possible_share(const Eigen::VectorXd& way) const
   return inversion_bound<Dim>(elements().body, motion_.state.u, way);
 }
 
-// Psi(dt v) <= 1e-3 v.M v/2.
+// Halves dt until Psi(dt v) <= 1e-3 v'Mv/2.
 template <int Dim>
 double ElasticParticipant<Dim>::limit_of_start(double dt) const {
   constexpr double share = 1e-3;
@@ -157,8 +157,8 @@ void ElasticParticipant<Dim>::describe_viscous(const StepGeometry<Dim>& g, Visco
   solid.surface = surface_weights(g, this->index());
 }
 
-// Displacements and velocities as the last solve found them together with the liquid's: u + H w and the velocity that
-// the scheme has there. Those at the state's time are a step older than the liquid's.
+// The state of the last solve, found together with the liquid's: u + H w and the scheme's velocity there. motion_.state
+// is one step older.
 template <int Dim>
 ElasticState ElasticParticipant<Dim>::as_solved(const Gravity& gravity, const TimeSpec& time,
                                                 const State<Dim>& state) const {
@@ -184,7 +184,7 @@ void ElasticParticipant<Dim>::measure(const Gravity& gravity, const TimeSpec& ti
   stats.momentum += mass * now.velocity;
 }
 
-// On the average.
+// Position, orientation and velocities of the mean motion.
 template <int Dim>
 void ElasticParticipant<Dim>::describe(const TimeSpec&, const State<Dim>&, SolidState& out) const {
   const BodyAverage now = average(elements().body, motion_.state.u, motion_.velocity);
@@ -201,7 +201,7 @@ void ElasticParticipant<Dim>::add_loads(SolidState& out) const {
   add_load(motion_.reaction, out.position, out.pin_force, out.pin_torque);
 }
 
-// M lumped, of tractions and body forces.
+// With the lumped mass; f: tractions and body forces.
 template <int Dim>
 double ElasticParticipant<Dim>::pull(double t) const {
   const Eigen::VectorXd f = applied_force_at(elements(), t);

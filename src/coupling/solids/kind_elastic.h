@@ -55,7 +55,7 @@ class ElasticParticipant : public Participant<Dim> {
   ElasticMotion motion_;
 };
 
-// Of each solid; null where it is not elastic.
+// One pointer a solid; null: not elastic.
 template <int Dim>
 ElasticMotions elastic_motions(const Participants<Dim>& solids);
 template <int Dim>

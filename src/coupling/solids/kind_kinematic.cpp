@@ -20,7 +20,8 @@ class KinematicParticipant : public Participant<Dim> {
   }
   Placement prescribed_part(Placement placed) const override { return placed; }
 
-  // Before the first step there is no mean over a step; the share of a frame bounds error and cancellation by 1e-8.
+  // Before the first step there is no mean over a step. The difference over 1e-4 frames bounds truncation and
+  // cancellation errors by 1e-8.
   void describe(const TimeSpec& time, const State<Dim>& state, SolidState& out) const override {
     if (state.step > 0) return;
     const Twist v = body().velocity(state.time, 1e-4 / time.frame_rate);

@@ -48,7 +48,7 @@ void RigidParticipant<Dim>::take_sums(const CoupledStep<Dim>& step, int block, c
   add_buoyancy(step, body(), c.bodies[std::size_t(block)], c.first[std::size_t(block)], sums, c);
 }
 
-// M v = M v* + dt (what makes up for the buoyancy)
+// M target = M free + dt buoyancy_correction,  push = M target.
 template <int Dim>
 void RigidParticipant<Dim>::set_target(double dt, int block, SolidCoupling<Dim>& c) const {
   const int first = c.first[std::size_t(block)], n = twist_size<Dim>;
@@ -57,7 +57,7 @@ void RigidParticipant<Dim>::set_target(double dt, int block, SolidCoupling<Dim>&
   c.push.segment(first, n) = M * c.target.segment(first, n);
 }
 
-// L += I (omega - omega*): what liquid and contact added to the free rotation.
+// L += I (omega - omega*), omega* of free rotation: the impulse of liquid and contact. With a fixed axis L = I omega.
 template <int Dim>
 void RigidParticipant<Dim>::take(const SolidCoupling<Dim>& c, int block, const Eigen::VectorXd& v, double horizon) {
   const int first = c.first[std::size_t(block)];

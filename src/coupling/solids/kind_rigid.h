@@ -43,7 +43,7 @@ class RigidParticipant : public Participant<Dim> {
   RigidState state_;
 };
 
-// Null where the participant is not rigid.
+// Null: the participant is not rigid.
 template <int Dim>
 const RigidState* rigid_state(const Participant<Dim>& participant) {
   const auto* rigid = dynamic_cast<const RigidParticipant<Dim>*>(&participant);

@@ -11,8 +11,8 @@
 namespace seiche {
 namespace {
 
-// Displacement d and velocity v, Dim unknowns. Implicit midpoint rule, which keeps the spring's energy and is stable
-// for any step: with d where the solve finds the body,
+// Displacement d and velocity v, Dim unknowns. The implicit midpoint rule keeps the spring's energy and is stable for
+// any step. With d where the solve finds the body:
 //   m (v' - v)/dt = m g - k (d + dt/4 (v' - v)) - c (v + v')/2 + loads.
 template <int Dim>
 class SprungParticipant : public Participant<Dim> {
@@ -49,7 +49,7 @@ class SprungParticipant : public Participant<Dim> {
     displacement_ += dt * Vec<Dim>(leading.velocity());
   }
 
-  // One node that carries all of the surface.
+  // One node carries the whole surface.
   void describe_contact(ContactBody& contact) const override {
     contact.control = BodyControl::deformable;
     contact.mass = mass();

@@ -54,7 +54,9 @@ void LinkGraph::join_pieces() {
     if (joined.insert(piece[std::size_t(rows() + number)]).second) links_.push_back({row_.begin()->first, n});
 }
 
-// y_c eliminated: (D_n - B' D_c^-1 B) z = wanted - B' (row sum/D_c), a Laplacian of the nodes, one of them tied.
+// With y eliminated: (D_n - B' D_c^-1 B) z = wanted - B' D_c^-1 s. B is the incidence matrix of rows and nodes, D_c and
+// D_n are their degrees, s is the row sums. The matrix is a graph Laplacian; 1 is added to entry (0, 0) to make it
+// regular.
 LeastFlux::LeastFlux(const LinkGraph& graph) : graph_(graph), of_row_(graph.rows(), graph.nodes()) {
   std::vector<Eigen::Triplet<double>> ones;
   for (const Link& l : graph.links()) ones.emplace_back(graph.row(l), graph.node(l), 1.0);
@@ -75,7 +77,8 @@ std::vector<double> LeastFlux::solve(const Eigen::VectorXd& wanted) const {
   return d;
 }
 
-// y_c eliminated as above, without the columns of held nodes; one node of each piece without held ones is tied.
+// With y eliminated as above. Columns of held nodes are left out of B. In each piece without held nodes, 1 is added to
+// one diagonal entry.
 BalancedFlux::BalancedFlux(const LinkGraph& graph, const std::vector<char>& held)
     : graph_(graph),
       held_(held),
@@ -102,7 +105,7 @@ BalancedFlux::BalancedFlux(const LinkGraph& graph, const std::vector<char>& held
   factor_.compute(L);
 }
 
-// What the rows of each piece add up to, shared out among its nodes.
+// Node sums: the sum of `wanted` over the piece in equal parts; 0 in pieces with held nodes.
 Eigen::VectorXd BalancedFlux::rests(const Eigen::VectorXd& wanted) const {
   std::vector<double> sum(piece_.size());
   for (int c = 0; c < graph_.rows(); ++c) sum[std::size_t(piece_[std::size_t(c)])] += wanted[c];

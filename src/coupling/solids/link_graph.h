@@ -1,6 +1,5 @@
 #pragma once
-// Which rows of the pressure the nodes of a surface push liquid in and out of, and the least change of their fluxes
-// that gives these wanted sums.
+// Bipartite graph of pressure rows and surface nodes, and minimum-norm corrections of the flux on its links.
 #include <cstdint>
 #include <map>
 #include <set>
@@ -18,17 +17,17 @@ struct Link {
   auto operator<=>(const Link&) const = default;
 };
 
-// Those of all ranks, ascending. Collective.
+// Links of all ranks, ascending, each once. Collective.
 std::vector<Link> gather_links(const std::set<Link>& mine, const Communicator& ranks);
 
-// Rows and nodes, numbered, joined by links.
+// Bipartite graph of rows and nodes. Numbers are valid after number() or complete().
 class LinkGraph {
  public:
   explicit LinkGraph(std::vector<Link> links);
 
-  // Numbers rows and nodes, ascending.
+  // Numbers rows and nodes from 0, ascending.
   void number();
-  // Adds nodes, and links that make one piece of the graph where it is in several.
+  // Adds nodes, numbers everything, and links disconnected pieces to the first row, so that the graph is connected.
   void complete(const std::vector<int>& nodes);
 
   const std::vector<Link>& links() const { return links_; }
@@ -38,7 +37,7 @@ class LinkGraph {
   int node(const Link& l) const { return node_.at(int(l.node)); }
   const std::map<int, int>& node_numbers() const { return node_; }
   const std::map<std::int64_t, int>& row_numbers() const { return row_; }
-  // Of each row and then each node: a member of its connected piece, the same for all of the piece.
+  // Labels of the connected pieces, first for each row, then for each node: the index of one member of the piece.
   std::vector<int> pieces() const;
 
  private:
@@ -49,11 +48,11 @@ class LinkGraph {
   std::map<int, int> node_;
 };
 
-// d_cn, one a link, least in the sum of squares, with sum_c d_cn = wanted_n, and sum_n d_cn the same for all c (zero
-// where sum_n wanted_n = 0): d_cn = y_c + z_n.
+// Minimum-norm flux d_cn on the links with sum_c d_cn = wanted_n for each node and sum_n d_cn equal for all rows. The
+// common row sum is sum_n wanted_n over the number of rows. The minimiser has the form d_cn = y_c + z_n.
 class LeastFlux {
  public:
-  explicit LeastFlux(const LinkGraph& graph);  // keeps a reference; the graph is complete
+  explicit LeastFlux(const LinkGraph& graph);  // keeps a reference; the graph must be complete()
   std::vector<double> solve(const Eigen::VectorXd& wanted) const;
 
  private:
@@ -63,12 +62,12 @@ class LeastFlux {
   Eigen::SimplicialLDLT<SparseMatrix> factor_;
 };
 
-// d_cn, one a link, least in the sum of squares, with sum_n d_cn = wanted_c for all rows and sum_c d_cn = 0 for all
-// nodes that are not held: d_cn = y_c + z_n, z_n = 0 for held nodes. In a connected piece without held nodes that is
-// possible only if sum_c wanted_c = 0; what is left of that sum goes to its nodes in equal parts.
+// Minimum-norm flux d_cn on the links with sum_n d_cn = wanted_c for each row and sum_c d_cn = 0 for each node that is
+// not held. It has the form d_cn = y_c + z_n with z_n = 0 at held nodes. A connected piece without held nodes has such
+// a flux only if sum_c wanted_c = 0. Otherwise its node sums are sum_c wanted_c over the number of its nodes.
 class BalancedFlux {
  public:
-  BalancedFlux(const LinkGraph& graph, const std::vector<char>& held);  // keeps both; the graph is numbered
+  BalancedFlux(const LinkGraph& graph, const std::vector<char>& held);  // keeps references; the graph must be numbered
   std::vector<double> solve(const Eigen::VectorXd& wanted) const;
 
  private:
@@ -78,8 +77,8 @@ class BalancedFlux {
   const LinkGraph& graph_;
   const std::vector<char>& held_;
   std::vector<int> piece_;
-  std::vector<double> nodes_of_piece_;  // 0 where a node is held
-  SparseMatrix of_row_;                 // ones, of nodes that are not held
+  std::vector<double> nodes_of_piece_;  // number of nodes of each piece; 0: a node of it is held
+  SparseMatrix of_row_;                 // incidence matrix, rows x nodes, without held nodes
   Eigen::VectorXd row_degree_;
   Eigen::SimplicialLDLT<SparseMatrix> factor_;
 };

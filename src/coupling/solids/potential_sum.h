@@ -1,5 +1,5 @@
 #pragma once
-// Energies of several participants and interactions as one.
+// Sum of the potentials of participants and interactions.
 #include <memory>
 
 #include "solid/energy/velocity_potential.h"
@@ -21,7 +21,7 @@ class PotentialSum : public VelocityPotential {
   Parts parts_;
 };
 
-// Null where there are none, a single one as it is.
+// Null for no parts; a single part is returned itself.
 std::shared_ptr<const VelocityPotential> sum_of(PotentialSum::Parts parts);
 
 }  // namespace seiche

@@ -14,17 +14,17 @@ namespace {
 template <int Dim>
 using Generalised = Eigen::Matrix<double, twist_size<Dim>, 1>;
 
-// What the faces of one body add up to.
+// Sums over the face shares of one body.
 template <int Dim>
 struct Sums {
   Vec<Dim> volume = Vec<Dim>::Zero();                    // sum_f s A h over the faces of each axis
-  std::array<Vec3, Dim> moment;                          // the same times (x_f - X)
-  double wet = 0, surface = 0;                           // |net area| of cells with a row, and of all
-  std::vector<std::pair<Site, Generalised<Dim>>> cells;  // net area and moment a cell, by site
+  std::array<Vec3, Dim> moment;                          // sum_f s A h (x_f - X), X the centre of mass
+  double wet = 0, surface = 0;                           // |net area| of wet cells, by density, and of all cells
+  std::vector<std::pair<Site, Generalised<Dim>>> cells;  // net area and moment of each cell, by site
   Sums() { moment.fill(Vec3::Zero()); }
 };
 
-// Generalised coordinates of the velocity along an axis at x: v_a + (omega x (x - X))_a.
+// Derivatives of v_a + (omega x (x - X))_a, the velocity along an axis at x, by the body's unknowns. arm: x - X.
 template <int Dim>
 Generalised<Dim> face_mode(int axis, const Vec3& arm) {
   Vec3 e = Vec3::Zero();
@@ -70,10 +70,10 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
   return stacked<Dim>(linear, angular);
 }
 
-// Cells inside a body see it on all sides alike: their net area is rounding, and they have no row.
+// Net areas below this are round-off. A body closes the cells inside it alike on all sides, and they have no row.
 constexpr double rounding = 1e-12;
 
-// Gas counts as wet by its density.
+// The body's block of J. Also sets sums.surface and sums.wet; gas counts as wet by its density over the liquid's.
 template <int Dim>
 ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
                        const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
@@ -97,7 +97,7 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
   return block;
 }
 
-// What is summed over the ranks, as numbers and back.
+// Packs the sums over the ranks into numbers; read_sums() unpacks them.
 template <int Dim>
 void append(const Sums<Dim>& s, std::vector<double>& all) {
   for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
@@ -124,7 +124,8 @@ bool lies_within(const DomainSpec& d, const Body<Dim>& body, const Pose& pose) {
 }
 
 // Pressure rho g.x + const on the face shares gives the force -rho g_a V_a along each axis and the torque
-// -rho sum_a g_a m_a x e_a; on the body itself -rho g V and none. The difference, for the wet part of the surface.
+// -rho sum_a g_a m_a x e_a. On the body itself it gives -rho g V and no torque. The difference, times the wet part of
+// the surface.
 template <int Dim>
 Generalised<Dim> buoyancy_difference(const Sums<Dim>& sums, double volume, const Vec3& weight_of_liquid) {
   const double wet = sums.surface > 0 ? sums.wet / sums.surface : 0;
@@ -149,7 +150,7 @@ Eigen::Matrix<double, twist_size<Dim>, twist_size<Dim>> mass_block(double mass, 
   return M;
 }
 
-// Fixed axes keep their own mass and no links to the others.
+// Fixed axes keep their diagonal entry and lose their coupling to the others.
 template <int Dim>
 void add_mass(const Eigen::Matrix<double, twist_size<Dim>, twist_size<Dim>>& M, const Generalised<Dim>& mask, int first,
               std::vector<Eigen::Triplet<double>>& entries) {

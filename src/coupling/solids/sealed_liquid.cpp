@@ -14,7 +14,7 @@
 namespace seiche {
 namespace {
 
-// Cells: how deep in the wall the surface of sealed liquid lies at least, so that no shift of phi brings it out.
+// The surface of sealed liquid lies at least this many cells inside the wall, so that no shift of phi exposes it.
 constexpr double depth = 2;
 
 template <int Dim>
@@ -27,7 +27,7 @@ bool has_corner_inside(const Layout<Dim>& layout, const NodeField<Dim>& distance
   return false;
 }
 
-// Whether enclosed air that keeps its volume has its centre well within. Collective.
+// True if a cell of enclosed air lies more than h inside the cavity. Collective.
 template <int Dim>
 bool holds_air(const Domain<Dim>& domain, const Fluids& fluids, const AirRegions<Dim>& air,
                const NodeField<Dim>& distance, const Box<Dim>& cells) {
@@ -55,8 +55,8 @@ void fill_cavity(const Domain<Dim>& domain, const Fluids& fluids, const ElasticS
   });
 }
 
-// Cells that were sealed, and those that open faces join to them now: walls move by less than a cell. These are cut,
-// their centres up to most of a cell within the wall: the surface lies deep enough if they are a cell from it.
+// Fills cells that were sealed, and their neighbours across open faces, since walls move by less than a cell. These
+// neighbours are cut, with centres up to most of a cell inside the wall. With phi = -h the surface lies deep enough.
 template <int Dim>
 void fill_marked(const Domain<Dim>& domain, const CellField<Dim, char>& sealed, const FaceGeometry<Dim>& faces,
                  CellField<Dim>& phi) {
@@ -75,7 +75,7 @@ void fill_marked(const Domain<Dim>& domain, const CellField<Dim, char>& sealed, 
 template <int Dim>
 void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State<Dim>& after,
                       const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (!s.features.has(Feature::sealed_cavities)) return;  // gas may be sealed in with it: phi alone tells them apart
+  if (!s.features.has(Feature::sealed_cavities)) return;  // gas may be sealed in; only phi tells it from liquid
   bool any = s.solids.may_seal();
   if (any) fill_marked(s.domain, before.sealed, g.faces, phi);
   const ElasticMotions old = elastic_motions(before.solids), now = elastic_motions(after.solids);

@@ -8,13 +8,13 @@
 
 namespace seiche {
 
-// Where a cavity was sealed before the step, phi counts its cells, and those that its wall cuts, as liquid: they have
-// nowhere to go. Does nothing where gas flows, which may be sealed in, too. Fills ghosts. Collective.
+// Makes phi negative in cells of cavities that were sealed before the step: sealed liquid cannot leave. The same in
+// cells that their walls cut. Does nothing if gas flows, since gas may be sealed in, too. Fills ghosts. Collective.
 template <int Dim>
 void keep_sealed_full(const Setup<Dim>& setup, const State<Dim>& before, const State<Dim>& after,
                       const StepGeometry<Dim>& geometry, CellField<Dim>& phi);
 
-// Takes note of the liquid in cavities that elastic bodies and others seal together (State::sealed). Collective.
+// Marks the liquid of cavities that elastic bodies seal together with other solids (State::sealed). Collective.
 template <int Dim>
 void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const PressureRows<Dim>& rows,
                  const std::vector<SweptCavity<Dim>>& cavities, State<Dim>& state);

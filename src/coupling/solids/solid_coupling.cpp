@@ -28,7 +28,7 @@ SolidCoupling<Dim> number_unknowns(const Participants<Dim>& solids) {
   return c;
 }
 
-// visit(participant, its block) of those with unknowns.
+// Calls visit(participant, block) for each participant with unknowns.
 template <class Solids, int Dim, class Visit>
 void for_each_block(Solids& solids, const SolidCoupling<Dim>& c, const Visit& visit) {
   for (std::size_t b = 0; b < c.bodies.size(); ++b) visit(solids[std::size_t(c.bodies[b])], int(b));
@@ -40,7 +40,7 @@ Eigen::VectorXd segment_of(const SolidCoupling<Dim>& c, const Eigen::VectorXd& a
   return all.segment(first, c.first[std::size_t(block) + 1] - first);
 }
 
-// Inertia, columns of J and what is held, of all participants and of what acts between them.
+// Gathers inertia, columns of J and fixed unknowns of all participants and interactions. Collective.
 template <int Dim>
 void gather(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) {
   SolidCoupling<Dim>& c = parts.coupling;

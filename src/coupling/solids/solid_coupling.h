@@ -1,5 +1,5 @@
 #pragma once
-// How solids with unknowns and liquid act on each other through the faces that the bodies close.
+// Coupling of the liquid and the solids with unknowns through the faces that the bodies close.
 #include <algorithm>
 #include <optional>
 
@@ -13,73 +13,72 @@
 
 namespace seiche {
 
-// The unknowns are the velocities of the participants over the horizon, in the order of the scene. e(v) = 1/2 v'Mv -
-// v'push is the energy of their inertia without liquid.
+// The unknowns v are the velocities of the participants over the horizon, stacked in the order of the scene. Without
+// liquid the energy of their inertia is e(v) = 1/2 v'Mv - v'push.
 template <int Dim>
 struct SolidCoupling {
-  std::vector<int> bodies;    // indices of those with unknowns, one a block
-  std::vector<int> first{0};  // first unknown of each, and the number of unknowns
-  // (J v)_c = sum_f +- s_f v(x_f).e_f: volume that the bodies' motion takes out of cell c, per face area. A_f J' p is
-  // what the pressure p does to each unknown. Columns of what is held are zero.
+  std::vector<int> bodies;    // index in the scene of each solid with unknowns, one a block
+  std::vector<int> first{0};  // first unknown of each block; last: the number of unknowns
+  // (J v)_c = sum_f +- s_f v(x_f).e_f: flux out of cell c by the bodies' motion, per face area. A_f J'p is the load of
+  // the pressure p on each unknown. Columns of fixed unknowns are zero.
   BlockColumns J;
-  BlockColumns J_held;   // the columns of J of nodes that are held, alone
-  SparseMatrix mass;     // M; of elastic bodies dt H (M/gamma^2 + C/gamma), see IncrementalPotential
+  BlockColumns J_held;   // columns of J of pinned nodes alone
+  SparseMatrix mass;     // M; elastic bodies: dt H (M/gamma^2 + C/gamma), see IncrementalPotential
   Eigen::VectorXd push;  // M v*, v* the velocities without liquid, contact and elastic forces
-  Eigen::VectorXd free;  // velocities that the bodies would have about, for scale
-  // v* where it is known without the solve: of rigid bodies.
+  Eigen::VectorXd free;  // without liquid and contact; elastic bodies: v + dt g, a scale and first guess
+  // v* of rigid bodies, with the buoyancy correction; else 0.
   Eigen::VectorXd target;
-  // What makes up for the difference between a body's volume and the one its face shares add up to, so that wet bodies
-  // feel exactly rho g times their volume: of rigid bodies force and torque (N, N m), of thin elastic ones forces on
-  // their nodes; zero for others.
+  // Loads for the difference between a body's volume and that of its face shares: wet bodies feel exactly rho g times
+  // their volume. Rigid bodies: force and torque (N, N m). Elastic bodies: nodal forces (N), which for thin ones are
+  // the weight of the liquid beside them. Else 0.
   Eigen::VectorXd buoyancy_correction;
-  // Of liquid that moves with thin elastic bodies, part of `mass` and `push` (thin_weight.h): kg, and kg m/s before the
-  // step.
+  // Mass (kg) and momentum before the step (kg m/s) of liquid that moves with thin elastic bodies (thin_weight.h). Both
+  // are part of `mass` and `push`.
   Eigen::VectorXd mass_beside, momentum_beside;
   std::vector<Freedom> freedom;
-  Eigen::VectorXd held;                                // velocities of what is held
+  Eigen::VectorXd held;                                // prescribed velocities of fixed unknowns; else 0
   std::shared_ptr<const VelocityPotential> potential;  // null: none
   std::vector<SweptCavity<Dim>> swept;
-  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // of each block: flux that its faces do not show
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // one a block: fluxes beyond those of the face shares
 
   int size() const { return first.back(); }
   bool is_held(Eigen::Index i) const { return freedom[std::size_t(i)] == Freedom::fixed; }
   bool any_held() const { return std::find(freedom.begin(), freedom.end(), Freedom::fixed) != freedom.end(); }
 };
 
-// What the parts of a coupling are gathered in.
+// Contributions to a coupling while they are gathered.
 template <int Dim>
 struct CouplingParts {
   SolidCoupling<Dim>& coupling;
   std::vector<Eigen::Triplet<double>> mass = {};
-  std::vector<double> sums = {};          // over the ranks, see Participant::couple
+  std::vector<double> sums = {};          // summed over the ranks, see Participant::couple
   std::vector<BodyEntries> entries = {};  // columns that interactions may correct
   std::vector<std::shared_ptr<const VelocityPotential>> potentials = {};
-  std::optional<CellField<Dim, char>> open = {};  // open_cells(), once they are asked for
+  std::optional<CellField<Dim, char>> open = {};  // open_cells(), once computed
 };
 
-// Collective.
+// Gathers the coupling for one solve. Collective.
 template <int Dim>
 SolidCoupling<Dim> couple_solids(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
                                  const PressureRows<Dim>& rows, const NullSpace& closed, const State<Dim>& state,
                                  double dt, double horizon);
 
-// The bodies after a solve gave them the velocities v over the horizon.
+// Gives the bodies the solved velocities v over the horizon, in state and geometry.
 template <int Dim>
 void set_velocities(const Domain<Dim>& domain, const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling,
                     const Eigen::VectorXd& v, double horizon, StepGeometry<Dim>& geometry, State<Dim>& state);
 
-// Tells the bodies what holds them. `reactions`: forces that hold the unknowns, N; zero where they
-// are free.
+// Gives the bodies the forces that hold their fixed unknowns. `reactions`: N, one an unknown; 0 for free ones.
 template <int Dim>
 void set_reactions(const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& reactions, State<Dim>& state);
 
-// What is held moves the liquid whatever the solve finds: into the geometry before the solve, together with the fluxes
-// that faces do not show.
+// Puts the velocities of pinned nodes and the fluxes beyond the face shares into the geometry before the solve: they
+// move the liquid whatever the solution is.
 template <int Dim>
 void set_held_velocities(const Domain<Dim>& domain, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
 
-// The unknowns' values over a coming step of dt: as the last solve left them, but for what interactions keep to. Of
-// each participant, and stacked.
+// Velocities of the unknowns over a coming step of dt: those of the last solve, corrected for the constraints of
+// interactions. One vector a participant; then all stacked.
 template <int Dim>
 std::vector<Eigen::VectorXd> each_velocity_over(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 template <int Dim>

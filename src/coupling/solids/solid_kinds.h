@@ -18,7 +18,7 @@ class Participants;
 
 struct SolidKindRow {
   SolidKind kind;
-  std::string doc;              // what moves it, for the scene reference
+  std::string doc;              // cause of its motion, for the scene reference
   std::vector<Option> numbers;  // keys of its own, SolidSpec::numbers
   std::unique_ptr<Participant<2>> (*make_2d)(const Body<2>&, int index);
   std::unique_ptr<Participant<3>> (*make_3d)(const Body<3>&, int index);
@@ -26,7 +26,7 @@ struct SolidKindRow {
 
 const std::vector<SolidKindRow>& solid_kinds();
 
-// The solids of a scene as it begins.
+// The solids of a scene at the start. They keep references to the bodies.
 template <int Dim>
 Participants<Dim> make_participants(const std::vector<Body<Dim>>& bodies);
 

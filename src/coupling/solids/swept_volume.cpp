@@ -11,7 +11,7 @@
 namespace seiche {
 namespace {
 
-// Those of a wall that the law is for: all of a closed patch, of another one those that are free.
+// Nodes of a wall that the constraint applies to: all of a closed patch, the free ones of an open patch.
 template <int Dim>
 std::vector<int> nodes_of_wall(const WallPatch<Dim>& wall) {
   const std::vector<int> patch = patches_of_nodes(*wall.solid);
@@ -24,7 +24,7 @@ std::vector<int> nodes_of_wall(const WallPatch<Dim>& wall) {
   return nodes;
 }
 
-// What the columns of J lack to add up to -(dV/du).
+// Difference between -(dV/du)/A_f and the sums of the columns of J. Collective.
 Eigen::VectorXd lacking(const Eigen::VectorXd& gradient, double face_area, const std::vector<FluxEntry>& entries,
                         const Communicator& ranks) {
   std::vector<double> sums(std::size_t(gradient.size()));
@@ -33,7 +33,7 @@ Eigen::VectorXd lacking(const Eigen::VectorXd& gradient, double face_area, const
   return -gradient / face_area - Eigen::Map<const Eigen::VectorXd>(sums.data(), gradient.size());
 }
 
-// Of wall n; returns the rows that it touches.
+// Corrects the entries of wall n. Returns the global rows that the wall touches. Collective.
 template <int Dim>
 std::set<std::int64_t> correct_wall(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
                                     const std::set<Link>& links, const SweptCavity<Dim>& cavity, std::size_t n,
@@ -57,7 +57,7 @@ std::set<std::int64_t> correct_wall(const Domain<Dim>& domain, const PressureRow
   return touched;
 }
 
-// The volume that the cavity's walls keep: what they kept before if they were the walls of one, else what they enclose.
+// Volume that the walls keep: that of the earlier cavity with the same walls, else the volume they enclose now.
 template <int Dim>
 double volume_to_keep(const CavityWalls<Dim>& walls, const ElasticMotions& motions,
                       const std::vector<CavityWalls<Dim>>& kept, const std::vector<Eigen::VectorXd>& u) {
@@ -95,7 +95,7 @@ bool is_closed(const WallPatch<Dim>& wall) {
 
 }  // namespace
 
-// -(dV/du) w + prescribed + flux = -(V(u + H w) - volume)/H
+// -(dV/du) w + A_f (prescribed + row_count flux) = -(V(u + H w) - volume)/H, solved for the flux.
 template <int Dim>
 double SweptCavity<Dim>::missing_flux(const Eigen::VectorXd& w) const {
   double linear = 0;

@@ -1,55 +1,54 @@
 #pragma once
-// The volume that elastic bodies sweep in liquid without a free surface: what their faces show is made to add up to
-// what their surfaces do (docs/method.md, "Sealed liquid").
+// Volume constraint of elastic bodies around liquid without a free surface (docs/method.md, "Sealed liquid"). The
+// fluxes of their face shares are corrected to add up to the volume that their surfaces sweep.
 #include "coupling/solids/coupled_step.h"
 #include "fluid/boundary/domain.h"
 #include "solid/body/enclosed_volume.h"
 
 namespace seiche {
 
-// An entry of J: what the velocity `column` of a body takes out of a cell, per face area.
+// An entry of J: flux out of a cell for unit velocity `column` of a body, per face area.
 struct FluxEntry {
-  int row, column;  // the row is this rank's
+  int row, column;  // the row counts from this rank's first
   double value;
 };
 
-// The entries of an elastic body, whose unknowns in the coupling begin with `first`. Those before `shown` are what its
-// faces show.
+// Entries of J of one elastic body. `first`: its first unknown in the coupling. `shown`: number of entries that are
+// those of its face shares; corrections follow.
 struct BodyEntries {
   int body, first;
   std::vector<FluxEntry> entries;
   std::size_t shown = 0;
 };
 
-// A cavity with liquid without a free surface in it. The flux of what moves into it adds up to what its walls sweep:
-//   sum_c (J w)_c + prescribed = -(V(u + H w) - volume)/H,  V what the walls enclose.
-// Columns of J of the patches' nodes add up to -dV/du at u + H w_0/2, w_0 the velocities before. What else is missing
-// is a flux of its own, the same out of each cell that the walls touch.
+// A cavity of liquid without a free surface. Its volume constraint, A_f the face area, V the volume within the walls:
+//   sum_c (J w)_c + row_count flux + prescribed = -(V(u + H w) - volume)/(H A_f).
+// The columns of J of the walls' nodes add up to -(dV/du)/A_f at u + H w_0/2, w_0 the velocities before the solve. The
+// remainder is `flux`, equal out of each cell that the walls touch (missing_flux).
 template <int Dim>
 struct SweptCavity {
   CavityWalls<Dim> walls;
-  std::vector<int> first;                    // of each wall: first unknown of its body in the coupling
-  std::vector<Eigen::VectorXd> u, gradient;  // likewise: at the start of the interval; dV/du as above
+  std::vector<int> first;                    // first unknown of the body in the coupling, one a wall
+  std::vector<Eigen::VectorXd> u, gradient;  // one a wall: at the start of the interval; dV/du as above
   double horizon;                            // H, s
-  double volume;                // V at the end of the interval, m^Dim: what it was, or what sealed liquid keeps it at
-  double face_area;             // m^(Dim - 1)
-  std::vector<int> rows = {};   // this rank's that the walls touch
-  double row_count = 0;         // over all ranks
-  std::vector<int> cells = {};  // this rank's rows of the liquid in it, where not all of its walls are elastic
-  double prescribed = 0;        // flux out of all of these of what is held and moves as prescribed, per face area, m/s
+  double volume;     // wanted V at the end of the interval, m^Dim: of an earlier step's cavity, else at the start
+  double face_area;  // m^(Dim - 1)
+  std::vector<int> rows = {};   // this rank's rows that the walls touch
+  double row_count = 0;         // number of these rows over all ranks
+  std::vector<int> cells = {};  // this rank's rows of its liquid; only filled for open patches
+  double prescribed = 0;        // net flux out of `cells` by pinned nodes and prescribed solids, per face area, m/s
 
-  // Flux out of each of the rows, per face area (m/s), with which V(u + H w) = volume to first order about w.
+  // Flux out of each of `rows`, per face area (m/s), with which V(u + H w) = volume to first order about w.
   double missing_flux(const Eigen::VectorXd& w) const;
 };
 
-// Finds the cavities, and adds to the entries of the elastic bodies what makes their walls sweep what they do, with the
-// least change in the sum of squares; where walls are closed forces of a uniform pressure gradient stay as they were.
-// Collective.
+// Finds the cavities, and adds corrections of minimum norm to the entries of the elastic bodies. Columns of J then add
+// up to -(dV/du)/A_f. On closed walls the force of a uniform pressure gradient is unchanged. Collective.
 template <int Dim>
 std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step, const ElasticMotions& motions,
                                                    std::vector<BodyEntries>& bodies);
 
-// Takes note of what the geometry has of prescribed fluxes. Collective.
+// Sets SweptCavity::prescribed to the prescribed fluxes in the geometry. Collective.
 template <int Dim>
 void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
                             std::vector<SweptCavity<Dim>>& cavities);

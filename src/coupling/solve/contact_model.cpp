@@ -42,11 +42,11 @@ Eigen::VectorXd AddedMassModel::error(const Eigen::VectorXd& v, const Eigen::Vec
   return T_.llt().solve(masked(g) - g0_ - T_ * (v - v0_));
 }
 
-// T <- T - T s s'T/(s'T s) + y y'/(y's) for the step s = v - v0 and the true change y of the gradient along it.
+// BFGS: T <- T - T s s'T/(s'T s) + y y'/(y's) for the step s = v - v0 and the true change y of the gradient along it.
 void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
   const Eigen::VectorXd s = v - v0_, y = masked(g) - g0_, Ts = T_ * s;
   const double sTs = s.dot(Ts), ys = y.dot(s);
-  constexpr double least = 1e-6;  // of the curvature expected; less is rounding of the two solves
+  constexpr double least = 1e-6;  // share of the expected curvature; less is round-off of the two solves
   if (ys > least * sTs && sTs > 0) T_ += y * y.transpose() / ys - Ts * Ts.transpose() / sTs;
   v0_ = v;
   g0_ = masked(g);
@@ -55,8 +55,8 @@ void AddedMassModel::learn(const Eigen::VectorXd& v, const Eigen::VectorXd& g) {
 namespace {
 
 constexpr int most_corrections = 30;
-// Contact and liquid agree when velocities are known to this many tolerances of the liquid's solves, and never better
-// than rounding lets the model's factors tell.
+// Tolerance for the agreement of contact and liquid: a multiple of the tolerance of the liquid's solves, and at least
+// the accuracy that round-off in the model's factors permits.
 constexpr double tolerances = 100, least_tolerance = 1e-9;
 
 }  // namespace
@@ -79,7 +79,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   while (r.corrections < most_corrections) {
     r.contact = solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity);
     newton_iterations += r.contact.newton_iterations;
-    r.agreed = r.corrections == 0 && r.contact.newton_iterations == 0;  // nothing is touched
+    r.agreed = r.corrections == 0 && r.contact.newton_iterations == 0;  // no contact
     if (!r.contact.failure.empty() || r.agreed) return r;
     const InertiaResponse liquid = problem.respond(r.contact.velocity);
     ++r.corrections;

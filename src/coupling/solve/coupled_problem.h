@@ -1,10 +1,11 @@
 #pragma once
-// What contacts push against: the bodies' inertia and the liquid, as one quadratic energy of the bodies' velocities.
+// Inertia of bodies and liquid as one quadratic energy of the bodies' velocities, for the contact solve.
 #include "coupling/solids/solid_coupling.h"
 
 namespace seiche {
 
-// H v = r with v known where it is held: H_ff v_f = r_f - H_fh v_h. Rows of what is held keep their diagonal.
+// Reduces H v = r to the free unknowns f, with prescribed v_h: H_ff v_f = r_f - H_fh v_h. Rows of fixed unknowns keep
+// their diagonal entry.
 template <int Dim>
 SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatrix& H, Eigen::VectorXd& r);
 
@@ -15,16 +16,16 @@ class CoupledProblem : public InertiaProblem {
   int size() const override { return coupling_.size(); }
   bool holds(const Eigen::VectorXd& v) const override;
   void linearise_at(const Eigen::VectorXd& v) override;
-  // Flux out of the rows of each of coupling.swept that the last solve was told of, per face area, m/s.
+  // Missing flux out of the rows of each of coupling.swept in the last solve, per face area, m/s.
   const std::vector<double>& missing_fluxes() const { return missing_; }
   const SolveReport& report() const { return report_; }  // of all solves so far
 
  protected:
-  // v where it is free, zero where it is held.
+  // v with fixed unknowns set to zero.
   Eigen::VectorXd free_part(Eigen::VectorXd v) const;
-  // Sets what is held.
+  // Sets fixed unknowns to their prescribed velocities.
   void hold(Eigen::VectorXd& v) const;
-  // b + by (flux that surfaces sweep beyond J v).
+  // b + by * (missing fluxes), in the rows of the cavities.
   Vector with_missing_fluxes(Vector b, double by) const;
 
   const SolidCoupling<Dim>& coupling_;

@@ -13,7 +13,7 @@
 namespace seiche {
 namespace {
 
-// Whether the stiffness of bodies is left to multigrid: where scenes say so, or factors would fill the memory.
+// True if bodies are solved for by iteration, without factors: the scene says so, or factors would need over 4 GB.
 template <int Dim>
 bool iterates_on_bodies(const Solids<Dim>& solids, const SolverSpec& solver, const SolidCoupling<Dim>& coupling) {
   constexpr double most_bytes = 4e9;
@@ -23,13 +23,14 @@ bool iterates_on_bodies(const Solids<Dim>& solids, const SolverSpec& solver, con
   return coupling.potential && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
-// PFMG takes 24 to 44 iterations where BoomerAMG takes 15, or is not positive definite, where coefficients jump.
+// "auto" does not take PFMG where coefficients jump. There it needs 24 to 44 iterations against 15 of BoomerAMG, or is
+// not positive definite.
 std::string preconditioner(const Features& features, const SolverSpec& solver) {
   const std::string& choice = solver.preconditioner;
   return choice == "auto" && !features.has(Feature::multigrid) ? "boomeramg" : choice;
 }
 
-// Pressure and bodies, with the velocities r.u_star and the bodies' push before pressure.
+// Solves for pressure and bodies. r.u_star and coupling.push are those without pressure.
 template <int Dim>
 void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
                     const SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r) {
@@ -53,7 +54,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   set_pressure(input, p, r);
 }
 
-// One solve, with the cells that part given.
+// One solve with a given set of cells separated from walls.
 template <int Dim>
 CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   const Setup<Dim>& s = input.setup;
@@ -67,7 +68,9 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.swept);
-  const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
+  const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, s.scene.solver.viscosity,
+                                                            *input.viscosity, input.liquid.dt)
+                                             : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
   } else {
@@ -82,7 +85,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   return r;
 }
 
-// Pressures this many solver tolerances below zero pull.
+// Pressures below zero by more than this many solver tolerances count as suction.
 constexpr double pull = 10;
 
 void add_up(SolveReport& all, const SolveReport& one) {
@@ -93,7 +96,8 @@ void add_up(SolveReport& all, const SolveReport& one) {
 
 }  // namespace
 
-// One solve a guess of the cells that part, each from where the step began and the pressure of the last.
+// Policy iteration over the cells separated from walls, one solve for each guess of them. Every solve starts from the
+// same state and from the pressure of the one before.
 template <int Dim>
 CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   const ProjectionInput<Dim>& in = input.liquid;

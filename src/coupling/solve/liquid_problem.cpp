@@ -22,7 +22,7 @@ LiquidProblem<Dim>::LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver&
   scale_ = norm(b, ranks) + norm(moved, ranks);
 }
 
-// A mismatch counts where the bodies are solved for: what they do not balance while they are held says nothing.
+// The mismatch is that of solves for the bodies: with given motion of the bodies it has no meaning.
 template <int Dim>
 std::string LiquidProblem<Dim>::solve(const BodyMatrix& H, const Vector& b) {
   SolveReport r = solver_.solve(H, b, pressure_, scale_);
@@ -43,7 +43,7 @@ void LiquidProblem<Dim>::add_up(const SolveReport& r) {
   report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
 }
 
-// A p + c1 J v = b,  H v - c2 J'p = M v* + r. Columns of J of what is held are zero.
+// A p + c1 J v = b,  H v - c2 J'p = M v* + r. Columns of J of fixed unknowns are zero.
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eigen::VectorXd push) {
   const SparseMatrix H =
@@ -69,7 +69,7 @@ InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eig
   return respond_with_pressure(v, force);
 }
 
-// c2 J'p, the same bits on all ranks: they all go through the same contact solve.
+// c2 J'p, the same bits on all ranks, since each rank does the same contact solve.
 template <int Dim>
 Eigen::VectorXd LiquidProblem<Dim>::impulse_of(const Vector& pressure) const {
   Eigen::VectorXd impulse = c2_ * multiply_transposed(coupling_.J, pressure, ranks_);
@@ -77,7 +77,7 @@ Eigen::VectorXd LiquidProblem<Dim>::impulse_of(const Vector& pressure) const {
   return impulse;
 }
 
-// That of the mean pressures of closed components: they are the multipliers of chi'(J v) = given.
+// Impulse of the mean pressures of closed components, the multipliers of chi'(J v) = given. Empty: bodies feel none.
 template <int Dim>
 Eigen::VectorXd LiquidProblem<Dim>::impulse_of_means() const {
   const std::vector<int>& sensed = solver_.sensed_components();
@@ -129,7 +129,7 @@ InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen:
   return respond_with_pressure(v, force);
 }
 
-// While what is held is under way, b counts it as arrived.
+// b includes the fluxes of fixed unknowns at their prescribed velocities, whatever v has there.
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::respond(const Eigen::VectorXd& v) {
   Vector b = this->with_missing_fluxes(b_, -c1_);

@@ -1,15 +1,15 @@
 #pragma once
-// Inviscid liquid behind the bodies: their inertia and the liquid's pressure.
+// Bodies in inviscid liquid: their velocities and the liquid's pressure.
 #include "coupling/solve/coupled_problem.h"
 #include "linalg/kkt/solver.h"
 
 namespace seiche {
 
-// e(v) = 1/2 (v - v*)'M(v - v*) + the kinetic energy the liquid must gain to make room, A p + c1 J v = b:
+// e(v) = 1/2 (v - v*)'M(v - v*) + the kinetic energy that the liquid must gain to make room, A p + c1 J v = b:
 //   grad e = M (v - v*) - c2 J'p,  c1 = rho h/dt, c2 = dt A_f.
 // With a Hessian K of contact and elastic forces, H = M + K:
 //   (A + c1 c2 J H^-1 J') p = b - c1 J H^-1 (M v* + r),  H v = M v* + r + c2 J'p.
-// What is held has its velocity, and b knows of it.
+// Fixed unknowns have their prescribed velocities, which b includes.
 template <int Dim>
 class LiquidProblem : public CoupledProblem<Dim> {
  public:
@@ -17,7 +17,7 @@ class LiquidProblem : public CoupledProblem<Dim> {
   LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed, const Vector& b,
                 Vector& pressure, double c1, double c2, const Communicator& ranks);
   // From now on minimise() solves for velocities and pressures together, without factors of H: for bodies too large to
-  // factor. That H has no minimum is then only found out where the iteration meets v'H v < 0. Kept by reference.
+  // factor. An indefinite H is then noticed only if the iteration meets v'H v < 0. Keeps a reference.
   void solve_together(KktSolver& kkt) { kkt_ = &kkt; }
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
@@ -42,11 +42,11 @@ class LiquidProblem : public CoupledProblem<Dim> {
   double c1_, c2_;
   Communicator ranks_;
   BodyMatrix H_, none_;
-  // What the tolerance is relative to: the flows that liquid and bodies would have alone. Not the right-hand side,
-  // which grows without bound for ever lighter bodies.
+  // Scale of the solver's tolerance: the flows that liquid and bodies would have alone. The right-hand side is none,
+  // since it grows without bound for ever lighter bodies.
   double scale_ = 0;
   KktSolver* kkt_ = nullptr;
-  Eigen::VectorXd last_;  // velocities found together
+  Eigen::VectorXd last_;  // of the last minimise_together()
 };
 
 }  // namespace seiche

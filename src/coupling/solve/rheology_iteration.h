@@ -1,5 +1,5 @@
 #pragma once
-// Viscosity that depends on the shear rate: solved for by turns with the flow (Picard), within a step.
+// Shear-dependent viscosity: Picard iteration between viscosity and flow within a step.
 #include "coupling/solve/viscous_coupling.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -9,15 +9,15 @@ namespace seiche {
 template <int Dim>
 class RheologyIteration {
  public:
-  // Begins with the viscosity of the velocities of `flow`. Keeps a reference to the setup.
+  // Starts with the viscosity for the velocities of `flow`. Keeps a reference to the setup.
   RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow, double t);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
-  int count() const { return count_; }  // of solves; 0 in Newtonian liquid
+  int count() const { return count_; }  // number of solves; 0: Newtonian liquid
   double change() const { return change_; }
 
-  // Takes the velocities that the last solve gave. Whether another solve is due: they differ from those before by more
-  // than solver.rheology_tolerance of the fastest, and solver.rheology_iterations are not used up. Never in Newtonian
-  // liquid. Collective.
+  // Takes the velocities of the last solve. True if another solve is due, with the new viscosity(): they changed by
+  // more than solver.rheology_tolerance of the fastest, and there were fewer than solver.rheology_iterations solves.
+  // False for Newtonian liquid. Collective.
   bool is_unsettled_by(const Level<Dim>& flow);
 
  private:

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-// Speed of the farthest point of its body where a degree of freedom is one.
+// Speed of the body's farthest point per unit of each degree of freedom.
 template <int Dim>
 Eigen::VectorXd unit_speeds(const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling) {
   Eigen::VectorXd speeds(coupling.size());
@@ -21,8 +21,9 @@ Eigen::VectorXd unit_speeds(const Solids<Dim>& solids, const SolidCoupling<Dim>&
   return speeds;
 }
 
-// The last pressure belongs to the last trial, not to what the line search made of it; and what liquid that bodies
-// close off has as its mean follows from their balance alone. So once more, with the impulses of contact as given.
+// Solves once more, with the impulses of contact given. The last pressure belongs to the last trial of Newton's method,
+// not to the point that the line search took. Mean pressures of liquid closed off by bodies follow from the balance of
+// the bodies alone.
 template <int Dim>
 std::string settle(const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
                    ContactReport& contact) {
@@ -37,7 +38,7 @@ std::string settle(const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling
   return r.failure;
 }
 
-// Contact that asks the liquid at every turn of Newton's method, from the velocities `found` by the model if any.
+// Contact with a liquid solve in each Newton iteration. Starts from the velocities `found` by the model, if any.
 template <int Dim>
 ContactReport solve_in_turns(const Solids<Dim>& solids, const std::vector<ContactMotion>& motions, double dt,
                              double horizon, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
@@ -50,8 +51,8 @@ ContactReport solve_in_turns(const Solids<Dim>& solids, const std::vector<Contac
   return contact;
 }
 
-// Contact against a model of the added mass. Bodies that close off liquid are beyond it; elastic ones have too many
-// unknowns for it, and so have many rigid ones.
+// Contact with a model of the added mass. It does not cover bodies that close off liquid. Elastic bodies, or many rigid
+// ones, have too many unknowns for it. Returns agreed = false in these cases.
 template <int Dim>
 ContactInLiquid solve_modelled(const Solids<Dim>& solids, const SolverSpec& solver,
                                const std::vector<ContactMotion>& motions, double dt, double horizon,
@@ -63,9 +64,9 @@ ContactInLiquid solve_modelled(const Solids<Dim>& solids, const SolverSpec& solv
                                  unit_speeds(solids, coupling), solver.tolerance, options);
 }
 
-// Held unknowns move as given. The impulse that makes them is the gradient of all energies,
-//   R dt = M v - push - (pressure, viscosity) + contact + dt Psi',
-// which the solve makes zero for the free unknowns alone.
+// Constraint impulse of the fixed unknowns, the gradient of all energies:
+//   R dt = M v - push - (pressure, viscosity) + contact + dt Psi'.
+// The solve makes it zero at free unknowns only.
 template <int Dim>
 Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd residual) {
   for (Eigen::Index i = 0; i < residual.size(); ++i)
@@ -88,7 +89,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
     return r;
   }
   const auto motions = contact_motions(state, horizon);
-  const ContactOptions options = contact_options(s);
+  const ContactOptions options = contact_options(s.domain, s.scene.domain, s.scene.time, s.fluids.gravity, s.tampering);
   ContactInLiquid modelled = solve_modelled(s.solids, s.scene.solver, motions, dt, horizon, coupling, liquid, options);
   ContactReport contact = std::move(modelled.contact);
   if (!modelled.agreed && contact.failure.empty())

@@ -1,6 +1,5 @@
 #pragma once
-// The velocities of rigid and elastic bodies that minimise their energy and the liquid's, contact and friction
-// included.
+// Velocities of rigid and elastic bodies that minimise their energy and the liquid's, with contact and friction.
 #include "coupling/solve/liquid_problem.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -9,19 +8,19 @@ namespace seiche {
 
 struct SolidsMinimum {
   Eigen::VectorXd velocity;
-  Eigen::VectorXd reaction;  // N s: the impulse that holds each unknown, zero where it is free
+  Eigen::VectorXd reaction;  // N s: constraint impulse of each unknown, 0 if it is free
   int newton_iterations = 0, contacts = 0;
   std::string failure;  // empty: found
 };
 
-// Where the liquid is inviscid: its solver, and the problem as what it is.
+// Inviscid liquid: its pressure solver and its problem. Null in viscous liquid.
 template <int Dim>
 struct InviscidLiquid {
   const SpdSolver* solver = nullptr;
   LiquidProblem<Dim>* problem = nullptr;
 };
 
-// What belongs to the velocities in the liquid is left in the problem.
+// Minimises over the velocities of the bodies. `problem` keeps the liquid's solution at the minimum. Collective.
 template <int Dim>
 SolidsMinimum minimise_solids(const Setup<Dim>& setup, const State<Dim>& state, double dt, double horizon,
                               const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,

@@ -8,7 +8,7 @@
 namespace seiche {
 namespace {
 
-constexpr double balanced = 1e-6;  // of the volume moved: rounding, and what formulas of inflow balance to
+constexpr double balanced = 1e-6;  // share of the volume moved: round-off, and the balance of inflow formulas
 
 template <int Dim>
 void refuse(const Solids<Dim>& solids, const StepGeometry<Dim>& g, const VolumeMismatch& m) {

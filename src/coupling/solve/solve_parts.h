@@ -1,11 +1,11 @@
 #pragma once
-// What the ways to solve a step have in common.
+// Common parts of the inviscid, split and coupled solves of a step.
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/solids_minimum.h"
 
 namespace seiche {
 
-// The pressure's part of the problem.
+// Pressure matrix, its null space and its grid.
 template <int Dim>
 struct PressureProblem {
   NullSpace closed;
@@ -16,9 +16,9 @@ struct PressureProblem {
       : closed(find_closed_components(in, rows)), A(assemble_pressure_matrix(in, rows)), grid(row_grid(in, rows)) {}
 };
 
-// Throw Error(cannot_continue) where a closed, full container cannot do what is asked of it: in components that bodies
-// cannot make up for, before the solve; in chambers that bodies close off, which are no null space one by one but
-// together may be, after it.
+// Throw Error(cannot_continue) if the prescribed volume changes of closed, full liquid do not balance. The first
+// checks, before the solve, components whose mean pressure no body feels (those not in `sensed`). The second checks,
+// after it, chambers closed off by bodies: single ones are no null vectors, but combinations may be.
 template <int Dim>
 void refuse_impossible_motion(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
                               const std::vector<int>& sensed, const CoupledSolution<Dim>& r);
@@ -26,17 +26,18 @@ template <int Dim>
 void refuse_unbalanced_chambers(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
                                 const std::vector<int>& sensed, const CoupledSolution<Dim>& r);
 
-// The first guess, in the order of the rows.
+// First guess of the pressure, in the order of the rows.
 template <int Dim>
 Vector guessed_pressure(const CoupledInput<Dim>& input, const PressureRows<Dim>& rows);
 
-// Finds the velocities of the bodies and takes them and the counts over. Returns the velocities.
+// Minimises over the velocities of the bodies and returns them. Stores reactions, counts and report in r, and the
+// missing fluxes of cavities in the geometry.
 template <int Dim>
 Eigen::VectorXd find_minimum(const CoupledInput<Dim>& input, const SolidCoupling<Dim>& coupling,
                              CoupledProblem<Dim>& problem, const InviscidLiquid<Dim>& inviscid,
                              CoupledSolution<Dim>& r);
 
-// Into the field, ghosts filled.
+// Copies p into r.pressure and fills its ghosts.
 template <int Dim>
 void set_pressure(const CoupledInput<Dim>& input, const Vector& p, CoupledSolution<Dim>& r);
 

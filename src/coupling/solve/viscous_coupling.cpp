@@ -55,7 +55,7 @@ EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu
   return edge;
 }
 
-// `largest` is meant for the liquid's density: gas counts by its kinematic viscosity.
+// Adds the gas. mu.largest refers to the liquid's density, so gas counts by its kinematic viscosity.
 template <int Dim>
 void take_in_gas(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
   const double gas = fluids.gas.viscosity;
@@ -66,8 +66,8 @@ void take_in_gas(const Domain<Dim>& domain, const Fluids& fluids, const CellFiel
   mix_gas_viscosity(domain, fluids, phi, mu.value, *mu.edge);
 }
 
-// Beside solids that liquid sticks to and moves the split is noisy: it fed jets of 10 m/s beside an elastic one where
-// the coupled solve has 0.02 (validation/fsi1), and a sphere's speed jumped by 3 % from step to step
+// The split route is noisy beside free no-slip solids. Beside an elastic one it caused jets of 10 m/s where the coupled
+// solve has 0.02 (validation/fsi1). A sphere's speed jumped by 3 % from step to step
 // (validation/falling_sphere_re11p6).
 template <int Dim>
 bool sticks_to_what_it_moves(const Solids<Dim>& solids) {
@@ -99,13 +99,13 @@ ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& f
 }
 
 template <int Dim>
-ViscousRoute choose_route(const Setup<Dim>& s, const ViscosityField<Dim>& mu, double dt) {
+ViscousRoute choose_route(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                          ViscousSolve asked, const ViscosityField<Dim>& mu, double dt) {
   constexpr double reaches_a_cell = 0.5;
-  const ViscousSolve asked = s.scene.solver.viscosity;
   if (asked != ViscousSolve::automatic)
     return asked == ViscousSolve::split ? ViscousRoute::split : ViscousRoute::coupled;
-  if (sticks_to_what_it_moves(s.solids)) return ViscousRoute::coupled;
-  const double reach = mu.largest * dt / (s.fluids.density() * s.domain.layout.h() * s.domain.layout.h());
+  if (sticks_to_what_it_moves(solids)) return ViscousRoute::coupled;
+  const double reach = mu.largest * dt / (fluids.density() * domain.layout.h() * domain.layout.h());
   return reach < reaches_a_cell ? ViscousRoute::split : ViscousRoute::coupled;
 }
 
@@ -159,7 +159,7 @@ void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>&
   for (std::size_t n = 0; n < net.size(); ++n) system_.q[n] -= net[n] * layout.geometry().face_area();
 }
 
-// Held velocities v_h are known: f <- f - G v_h. Their columns move from G to G_held.
+// Velocities v_h of fixed unknowns are known: f <- f - G v_h. Their columns move from G to G_held.
 template <int Dim>
 void ViscousStep<Dim>::separate_held() {
   int first = 0;
@@ -192,7 +192,7 @@ void ViscousStep<Dim>::scatter(const Vector& rows, FaceField<Dim>& u) const {
     u.at(system_.rows.faces[n].first, system_.rows.faces[n].second) = rows[n];
 }
 
-// About the points that solids.csv reports.
+// Torques are about the points that solids.csv reports.
 template <int Dim>
 std::vector<ViscousLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
   std::vector<Vec3> about;
@@ -206,10 +206,11 @@ double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::Vecto
   return viscous_dissipation(input_, system_, u, v);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                        \
-  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const Tampering&, \
-                                                  const CellField<D>&, const Level<D>&, double);     \
-  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);          \
+#define SEICHE_INSTANTIATE(D)                                                                            \
+  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const Tampering&,     \
+                                                  const CellField<D>&, const Level<D>&, double);         \
+  template ViscousRoute choose_route<D>(const Domain<D>&, const Fluids&, const Solids<D>&, ViscousSolve, \
+                                        const ViscosityField<D>&, double);                               \
   template class ViscousStep<D>;
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

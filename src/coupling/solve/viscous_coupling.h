@@ -1,5 +1,5 @@
 #pragma once
-// What viscosity adds to the one solve of a step.
+// Viscosity in the coupled solve of a step: its values, the choice of solver and the operator.
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -11,28 +11,29 @@
 
 namespace seiche {
 
-// The viscosity of a step at the cells' centres, and at edges where it depends on the shear rate.
+// Viscosity of a step at cell centres; also at edges if it depends on the shear rate or differs between liquid and gas.
 template <int Dim>
 struct ViscosityField {
   CellField<Dim> value;  // Pa s, two cells around the owned ones
-  double largest = 0;    // where there is liquid, over all ranks
+  double largest = 0;    // Pa s in liquid, over all ranks; gas counts by its kinematic viscosity
   bool uniform = true;
   std::optional<EdgeField<Dim>> edge{};  // Pa s, one cell around
 };
 
-// As the scene gives it at time t, of shear-dependent liquid for the velocities of `flow`. Collective. Throws
-// Error(cannot_continue) where a formula is not a number or negative.
+// Viscosity of the scene at time t; shear-dependent liquid has the shear rates of `flow`. Throws Error(cannot_continue)
+// if a formula is not a number or negative. Collective.
 template <int Dim>
 ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Tampering& tampering,
                                       const CellField<Dim>& phi, const Level<Dim>& flow, double t);
 
-// split: viscosity acts first, pressure then; coupled: both in one solve.
+// split: viscosity first, then pressure; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };
 
-// As the scene asks; "auto": coupled from mu dt/(rho h^2) = 0.5 on, and beside no-slip solids that it moves. Below, a
-// step of viscosity reaches less than a cell and pressure undoes little of it.
+// The scene's choice. "auto" is coupled for mu dt/(rho h^2) >= 0.5 and beside free no-slip solids. Below 0.5, shear
+// diffuses across less than a cell in a step, and pressure undoes little of it.
 template <int Dim>
-ViscousRoute choose_route(const Setup<Dim>& setup, const ViscosityField<Dim>& viscosity, double dt);
+ViscousRoute choose_route(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                          ViscousSolve asked, const ViscosityField<Dim>& viscosity, double dt);
 
 // The viscous operator of a step and the solids in it. Keeps references.
 template <int Dim>
@@ -43,16 +44,17 @@ class ViscousStep {
               const SolidCoupling<Dim>& coupling, const ViscosityField<Dim>& viscosity, const FaceField<Dim>& u_star);
 
   const ViscousSystem<Dim>& system() const { return system_; }
-  const BlockColumns& J() const { return J_; }  // volume a unit of time, not a unit of face area
-  // The columns of what is held alone, which are not part of system().G and J().
+  const BlockColumns& J() const { return J_; }  // coupling.J times the face area: m^Dim/s
+  // Columns of fixed unknowns alone. They are not part of system().G and J().
   const BlockColumns& G_held() const { return G_held_; }
   const BlockColumns& J_held() const { return J_held_; }
-  // Volume fluxes through cut faces to second order, from velocities of an earlier time, into q and `closed_flux`.
+  // Adds the volume flux through cut faces at no-slip walls, to second order, to q and `closed_flux`. `flow`:
+  // velocities at an earlier time.
   void add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux);
-  // Between a field on faces and the rows of the system.
+  // Copy between a face field and the rows of the system.
   Vector gather(const FaceField<Dim>& u) const;
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
-  // Of the viscous stress on each solid about its reference point, N and N m. Collective.
+  // Loads of the viscous stress on each solid, about its reference point, N and N m. Collective.
   std::vector<ViscousLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
   double dissipation(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;  // W
 
@@ -65,8 +67,8 @@ class ViscousStep {
   const SolidCoupling<Dim>& coupling_;
   const PressureRows<Dim>& rows_;
   std::vector<ViscousSolid<Dim>> solids_;
-  CellField<Dim> full_;             // the phi of a domain full of fluid
-  std::vector<RigidField> motion_;  // of each solid about when the step began
+  CellField<Dim> full_;             // phi of a domain full of fluid, for two fluids
+  std::vector<RigidField> motion_;  // of each solid, near the start of the step
   ViscousInput<Dim> input_;
   ViscousSystem<Dim> system_;
   BlockColumns J_, G_held_, J_held_;

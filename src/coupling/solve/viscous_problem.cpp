@@ -26,7 +26,7 @@ std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H
   report_.converged = r.converged;
   report_.iterations += r.iterations;
   report_.residual = std::max(report_.residual, r.residual);
-  if (H.size() > 0) report_.mismatch = r.mismatch;  // what held bodies do not balance says nothing
+  if (H.size() > 0) report_.mismatch = r.mismatch;  // no meaning for given motion of the bodies
   report_.used = r.used;
   report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
   if (r.converged) return {};
@@ -34,7 +34,7 @@ std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H
                      r.iterations);
 }
 
-// grad e = M v - push - (g - H_vv v - G'u - J'p^), the same bits on all ranks.
+// grad e = M v - push - g + H_vv v + G'u + J'p^, fixed unknowns included; the same bits on all ranks.
 template <int Dim>
 InertiaResponse ViscousProblem<Dim>::response_at(const Eigen::VectorXd& v) const {
   const ViscousSystem<Dim>& system = viscous_.system();
@@ -61,7 +61,7 @@ InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen
   return response_at(v);
 }
 
-// While what is held is under way, q counts it as arrived.
+// q includes the fluxes of fixed unknowns at their prescribed velocities, whatever v has there.
 template <int Dim>
 InertiaResponse ViscousProblem<Dim>::respond(const Eigen::VectorXd& v) {
   const ViscousSystem<Dim>& system = viscous_.system();

@@ -1,5 +1,5 @@
 #pragma once
-// Viscous liquid behind the bodies: their inertia, the liquid's velocity and its pressure in one saddle-point problem.
+// Bodies in viscous liquid: their velocities, the liquid's velocity and its pressure in one saddle-point problem.
 #include <functional>
 
 #include "coupling/solve/coupled_problem.h"
@@ -8,19 +8,20 @@
 
 namespace seiche {
 
-// The liquid with the bodies, and with the bodies' motion given: made where it is first asked for, which is collective.
+// Solvers for liquid and bodies together (coupled), and for the liquid with given motion of the bodies (alone). alone()
+// builds its solver on the first call. Collective.
 struct ViscousSolvers {
   SaddleSolver& coupled;
   std::function<SaddleSolver&()> alone;
 };
 
-// e(v) = 1/2 (v - v*)'M(v - v*) + the least that the liquid's kinetic energy and dissipation add where it makes room:
+// e(v) = 1/2 (v - v*)'M(v - v*) + the minimum, given v, of the liquid's kinetic energy and dissipation:
 //   F u + G v + D'p^ = f,   G'u + (M + H_vv + K) v + J'p^ = M v* + r + g,   D u + J v = q,   p^ = -dt p.
-// What is held has its velocity, and f, g and q know of it.
+// Fixed unknowns have their prescribed velocities, which the right-hand sides include.
 template <int Dim>
 class ViscousProblem : public CoupledProblem<Dim> {
  public:
-  // Keeps references; `area` is that of a face, `u` and `p` (rows of the system) are the first guess and hold the last
+  // Keeps references. `area`: of a face. `u` and `p` (rows of the system) are the first guess and hold the last
   // solution.
   ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, const ViscousSolvers& solvers,
                  double area, Vector& u, Vector& p, const Communicator& ranks);

@@ -11,12 +11,13 @@
 namespace seiche {
 namespace {
 
-// Of the liquid with bodies that G and J (empty: none) couple to it; D M^-1 D' = h^(Dim-2)/rho A.
+// Saddle-point solver of the liquid and the bodies that G and J couple to it (empty: none). D M^-1 D' = h^(Dim-2)/rho
+// A.
 template <int Dim>
 SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, const ViscousSystem<Dim>& v,
                          const BlockColumns& G, const BlockColumns& J) {
   const Layout<Dim>& layout = in.liquid.layout;
-  std::vector<int> axes;  // of the rows of F
+  std::vector<int> axes;  // of each row of F
   std::vector<std::array<double, 3>> positions;
   for (const auto& [axis, face] : v.rows.faces) {
     const Vec<Dim> x = layout.position(layout.index(face), face_offset<Dim>(axis)) / layout.h();
@@ -40,7 +41,7 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                       {.tolerance = in.setup.scene.solver.tolerance}, in.setup.domain.ranks);
 }
 
-// u + by (slope), on faces with an unknown velocity.
+// u + by * slope on faces with an unknown velocity. Ghosts filled.
 template <int Dim>
 FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, double by) {
   FaceField<Dim> r = u;
@@ -71,7 +72,7 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   const double dt = in.liquid.dt;
   const FaceField<Dim> pressed = shifted(in, in.u_star, -dt);
   FaceGeometry<Dim> faces = in.liquid.faces;
-  faces.side_pressure.fill(0);  // part of the slope
+  faces.side_pressure.fill(0);  // side pressures are part of the slope
   const ProjectionInput<Dim> unpressed = with_faces(in.liquid, faces);
   ViscousStep<Dim> viscous(in.setup.domain, in.setup.solids, unpressed, r.rows, in.geometry, in.state, coupling,
                            *in.viscosity, pressed);

@@ -1,5 +1,5 @@
 #pragma once
-// A step as it is tried.
+// Outcome of an attempted step, and the hooks around its phases.
 #include "base/timers.h"
 #include "coupling/state/simulation.h"
 #include "coupling/state/state.h"
@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// How a step went; `state` is only set where it succeeded.
+// Outcome of an attempted step. `state` is valid only if `failure` is empty.
 template <int Dim>
 struct Attempt {
   std::string failure;  // empty: accepted
@@ -15,14 +15,14 @@ struct Attempt {
   StepGeometry<Dim> geometry;
   StepStats stats;  // volumes, energies, momentum and speed at its end
   SolveReport solve;
-  double divergence = 0;
+  double divergence = 0;  // largest |net flux|/volume of a cell, 1/s
   int newton_iterations = 0, contacts = 0;
   double dissipation = 0;       // by viscosity, W
-  int rheology_iterations = 0;  // solves until viscosity and flow agreed
+  int rheology_iterations = 0;  // solves until viscosity and flow agree
   double parting_error = 0;     // PartingSearch::error
 };
 
-// The phases of a step, timed and open to fault injection.
+// Timers, fault injection and warnings of a step's phases.
 struct Phases {
   Timers timers;
   FaultHook hook;

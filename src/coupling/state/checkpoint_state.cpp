@@ -14,7 +14,8 @@
 namespace seiche {
 namespace {
 
-// All levels are stored always; those the run does not have yet as zeros, which the scalar "levels" tells apart.
+// Record names of the time levels. All levels are always stored. Levels that do not exist yet are zero; the scalar
+// "levels" is the number that exist.
 using LevelNames = std::array<const char*, 3>;
 constexpr LevelNames level_names{"now", "before", "earlier"};
 constexpr LevelNames gas_level_names{"gas.now", "gas.before", "gas.earlier"};
@@ -47,7 +48,7 @@ void restore(const Domain<Dim>& domain, const CheckpointData& data, const std::s
                           [&](Site c, const IVec<Dim>&) { f[c] = std::decay_t<decltype(f[c])>(found->values[n++]); });
 }
 
-// visit(name, axis) of the face fields of a level.
+// visit(name, initial of the field, axis) for each component of the face fields of a level.
 template <int Dim, class Visit>
 void for_each_level_field(const Fluids& fluids, const std::string& level, const Visit& visit) {
   std::vector<const char*> fields{"u", "valid", "q"};
@@ -56,7 +57,7 @@ void for_each_level_field(const Fluids& fluids, const std::string& level, const 
     for (const char* field : fields) visit(level + "." + field + "[" + "xyz"[a] + "]", field[0], a);
 }
 
-// visit(name, field, axis) of a film's components.
+// visit(name, component, axis) for each component of the film's fields.
 template <int Dim, class AnyFilm, class Visit>
 void for_each_film_field(AnyFilm& film, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {
@@ -93,7 +94,7 @@ std::shared_ptr<const Level<Dim>> load_level(const Domain<Dim>& domain, const Fl
   return level;
 }
 
-// Levels that there are not are saved as `none`.
+// Missing levels are saved as `none`.
 template <int Dim>
 void save_flow(const Domain<Dim>& domain, const Fluids& fluids, const LevelNames& names, const Flow<Dim>& flow,
                const Level<Dim>& none, CheckpointData& data) {
@@ -112,7 +113,7 @@ Flow<Dim> load_flow(const Domain<Dim>& domain, const Fluids& fluids, const Level
   return flow;
 }
 
-// visit(name, value) of every number of the viscous loads.
+// visit(name, value) for each number of the viscous loads.
 template <class Loads, class Visit>
 void for_each_load(Loads& loads, const Visit& visit) {
   for (std::size_t k = 0; k < loads.size(); ++k)
@@ -122,7 +123,7 @@ void for_each_load(Loads& loads, const Visit& visit) {
     }
 }
 
-// Vectors as texts: their bytes.
+// Saves vectors as texts that hold their bytes.
 class Saver : public StateVisitor {
  public:
   explicit Saver(CheckpointData& data) : data_(data) {}
@@ -161,14 +162,14 @@ void visit_all(Participants<Dim>& solids, StateVisitor&& visitor) {
   for (std::size_t k = 0; k < solids.size(); ++k) solids[k].visit(visitor);
 }
 
-// What is scalars alone: `scalar(name)` gives one. The step must be known.
+// Loads the viscous loads with `scalar(name)`. state.step must be set.
 template <int Dim, class Scalar>
 void load_viscous_loads(const Fluids& fluids, const Solids<Dim>& solids, const Scalar& scalar, State<Dim>& state) {
   if (fluids.is_viscous() && state.step > 0) state.viscous_loads.resize(solids.bodies.size());
   for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
 }
 
-// Of enclosed air: whose each cell is and the volumes, as bytes.
+// Saves enclosed air: the region of each cell, the volumes as bytes, and the volume lost.
 template <int Dim>
 void save_air(const Domain<Dim>& domain, const State<Dim>& state, CheckpointData& data) {
   data.fields.push_back(record<Dim>(domain, "air", domain.layout.cells(), state.air.label));
@@ -191,7 +192,7 @@ void load_air(const Domain<Dim>& domain, const Fluids& fluids, const CheckpointD
   domain.halo.fill_ghosts({state.air.label.data()});
 }
 
-// Of cells, where the scene has them.
+// Loads the cell fields that only some scenes have: gaps at separating walls, and sealed liquid.
 template <int Dim>
 void load_marks(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const CheckpointData& data,
                 State<Dim>& state) {

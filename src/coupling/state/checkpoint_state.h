@@ -1,5 +1,5 @@
 #pragma once
-// A State as named records and back, bit for bit.
+// Converts a State to named records and back, bit for bit.
 #include "base/checkpoint_data.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
@@ -12,11 +12,12 @@ template <int Dim>
 CheckpointData save_state(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                           const State<Dim>& state);
 
+// Throws Error(bad_checkpoint) if a record is missing or its size differs. Ghosts filled. Collective.
 template <int Dim>
 State<Dim> load_state(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                       const CheckpointData& data);
 
-// The boxes of this rank's records for the levels that `scalars` of a checkpoint speak of; values empty.
+// Names and boxes of the fields that load_state() reads on this rank; values empty.
 template <int Dim>
 std::vector<FieldRecord> state_boxes(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids);
 

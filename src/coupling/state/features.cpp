@@ -15,13 +15,13 @@ namespace {
 
 using F = Feature;
 
-// What is told of a feature.
+// Text on a feature for the log and docs/features.md.
 template <int Dim>
 struct FeatureText {
   Feature feature;
   const char* name;
-  const char* without;                 // consequence where it is off
-  bool (*matters)(const Setup<Dim>&);  // whether a scene would have it but for the exclusions
+  const char* without;                 // consequence of its absence
+  bool (*matters)(const Setup<Dim>&);  // true if the scene would have it without the exclusions
 };
 
 template <int Dim>

@@ -1,5 +1,5 @@
 #pragma once
-// Features that others switch off: one table behind the solver's own decisions, the log and docs/features.md.
+// Features that other settings switch off. One table serves the solver's decisions, the log and docs/features.md.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ class Features {
   std::uint32_t off_ = 0;  // a bit a feature
 };
 
-// Something that a feature does not go with.
+// A property of a scene that switches a feature off.
 template <int Dim>
 struct Exclusion {
   Feature feature;
@@ -38,7 +38,7 @@ const std::vector<Exclusion<Dim>>& exclusions();
 template <int Dim>
 std::vector<std::string> causes_against(const Setup<Dim>& setup, Feature feature);
 
-// A line for each feature that would matter in this scene and is off: what it is, why, and what that means.
+// One line for each feature that matters in this scene and is off: its name, the causes and the consequence.
 template <int Dim>
 std::vector<std::string> describe_features(const Setup<Dim>& setup);
 

@@ -10,7 +10,7 @@ struct Scene;
 struct Fluids {
   LiquidSpec liquid;
   GasSpec gas;
-  RheologySpec rheology;  // that of `liquid`, its regularisation set
+  RheologySpec rheology;  // of `liquid`, with its regularisation set
   Gravity gravity;
 
   explicit Fluids(const Scene& scene);

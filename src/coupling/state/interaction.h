@@ -1,5 +1,5 @@
 #pragma once
-// What acts between participants: constraints and potentials over the unknowns of several of them.
+// Interactions between participants: constraints and potentials over the unknowns of several of them.
 #include <memory>
 #include <vector>
 
@@ -12,20 +12,22 @@ template <int Dim>
 class Interaction {
  public:
   virtual ~Interaction() = default;
-  // After the participants: corrects their columns, adds constraints and potentials. Collective.
+  // Corrects the columns of the participants, adds constraints and potentials. Called between Participant::take_sums()
+  // and finish_columns(). Collective.
   virtual void couple(const CoupledStep<Dim>&, CouplingParts<Dim>&) const {}
-  // Keeps to the constraints over a step of dt that is not the one planned. `velocities`: of each participant.
+  // Corrects velocities for a step of dt (s) that is not the planned one, so that the constraints hold. `velocities`:
+  // one vector per participant.
   virtual void keep_over(const State<Dim>&, double /*dt*/, std::vector<Eigen::VectorXd>& /*velocities*/) const {}
-  // After a solve.
+  // Stores results of a solve in the state, after Participant::take().
   virtual void take(const SolidCoupling<Dim>&, State<Dim>&) const {}
-  // The start of the run, taken again after a trial of the first step.
+  // Completes the initial state from a trial of the first step, before that step is repeated.
   virtual void inform(const State<Dim>& /*trial*/, State<Dim>& /*start*/) const {}
 };
 
 template <int Dim>
 using Interactions = std::vector<std::unique_ptr<const Interaction<Dim>>>;
 
-// All that may act in this scene.
+// All interactions possible in a scene. They keep a reference to `bodies`.
 template <int Dim>
 Interactions<Dim> make_interactions(const std::vector<Body<Dim>>& bodies);
 

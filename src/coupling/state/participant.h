@@ -1,5 +1,5 @@
 #pragma once
-// Whatever moves liquid or has unknowns: one class a kind of solid. solid_kinds.h has the table of them.
+// Participants: all that moves liquid or has unknowns, one class per kind of solid. solid_kinds.h has the table.
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,16 +24,16 @@ struct CouplingParts;
 template <int Dim>
 struct CoupledStep;
 
-// Visits all that a participant keeps from step to step: one list serves saving and loading.
+// Visits all data that a participant keeps from step to step. One list serves saving and loading.
 class StateVisitor {
  public:
   virtual ~StateVisitor() = default;
   virtual void number(const std::string& name, double& value) = 0;
-  virtual void vector(const std::string& name, Eigen::VectorXd& value) = 0;  // its size stays
+  virtual void vector(const std::string& name, Eigen::VectorXd& value) = 0;  // keeps its size
 };
 
-// A step that participants go. `velocity`: of the unknowns over it. They go to where the solve finds them, `lead` from
-// its start: the whole step, or half of it where steps go by halves.
+// Advance over one step. Participants move to their position at the solve, `lead` (s) after the start of the step: dt,
+// or dt/2 in leapfrog steps. `velocity`: of the participant's unknowns over the step.
 template <int Dim>
 struct Stride {
   const Setup<Dim>& setup;
@@ -42,74 +42,79 @@ struct Stride {
   const Eigen::VectorXd& velocity;
 };
 
-// A solid of the scene with what it keeps from step to step. A value: State owns copies. The defaults are those of a
+// A solid of the scene with the data that it keeps from step to step. A value: State owns copies. The defaults suit a
 // solid that neither moves nor has unknowns. Velocities are those of its unknowns, stacked.
 template <int Dim>
 class Participant {
  public:
-  // `index` is that in the scene. The body must outlive it.
+  // `index`: its number in the scene. `body` must outlive the participant.
   Participant(const Body<Dim>& body, int index) : body_(&body), index_(index) {}
   virtual ~Participant() = default;
   virtual std::unique_ptr<Participant> copy() const = 0;
   const Body<Dim>& body() const { return *body_; }
   int index() const { return index_; }
 
-  // Where it stands: as prescribed at t with the mean velocity from t0 to t1, or as it is, at rest.
+  // Placement at time t. Prescribed solids: pose at t, mean velocity from t0 to t1. Others: present pose, zero
+  // velocity.
   virtual Placement place(double /*t0*/, double /*t1*/, double /*t*/) const { return {}; }
-  // Its velocity over the step to come, where it has unknowns.
+  // Sets the velocity of a placement to that of the unknowns over the coming step.
   virtual void set_velocity(Placement&) const {}
-  // What of a placement's velocities is prescribed, and the fastest that prescribed parts move from t to t + dt, m/s.
+  // The placement with only its prescribed velocities, and a bound of the speed of pins from t to t + dt, m/s.
   virtual Placement prescribed_part(Placement placed) const;
   virtual double fastest_prescribed_part(double /*t*/, double /*dt*/) const { return 0; }
 
-  // The unknowns: their number, their velocities as the last solve left them, and over a step of dt from t where
-  // `horizon` was planned.
+  // Number of unknowns, their velocities from the last solve, and their velocities over a step of dt from t. `horizon`:
+  // the interval that the last solve planned. All times in s.
   virtual int unknowns() const { return 0; }
   virtual Eigen::VectorXd velocity() const { return {}; }
   virtual Eigen::VectorXd velocity_over(double /*t*/, double /*dt*/, double /*horizon*/) const { return velocity(); }
-  // Speed of the farthest point where an unknown is one.
+  // Largest speed of a point of the body per unit of each unknown.
   virtual Eigen::VectorXd unit_speeds() const { return Eigen::VectorXd::Ones(unknowns()); }
-  // An impulse about the centre of mass as one on the unknowns.
+  // Converts an impulse about the centre of mass to one on the unknowns.
   virtual Eigen::VectorXd generalised(const BodyImpulse&) const { return Eigen::VectorXd::Zero(unknowns()); }
-  // Whether a solve must lead it to the end of the coming step, which is then planned ahead.
+  // True if each solve determines its path to the end of the coming step, which is then planned ahead.
   virtual bool plans_steps() const { return false; }
 
-  // Adds inertia, columns of J, what is held, potentials. Numbers put into parts.sums come back in take_sums(), summed
-  // over the ranks. set_target() comes last, when the mass matrix is there. Collective.
+  // Contributions to the coupled problem: inertia, columns of J, fixed unknowns, potentials. Numbers appended to
+  // parts.sums return in take_sums(), summed over the ranks. set_target() comes last, once the mass matrix exists.
+  // `block`: index in SolidCoupling::bodies. Collective.
   virtual void couple(const CoupledStep<Dim>&, int /*block*/, CouplingParts<Dim>&) const {}
   virtual void take_sums(const CoupledStep<Dim>&, int /*block*/, const double* /*sums*/, SolidCoupling<Dim>&) const {}
   virtual void finish_columns(const CoupledStep<Dim>&, int /*block*/, CouplingParts<Dim>&) const {}
   virtual void set_target(double /*dt*/, int /*block*/, SolidCoupling<Dim>&) const {}
 
-  // After a solve: its velocities `v` over `horizon`, and the forces that hold what is held (N; zero where it is free).
+  // Results of a solve: velocities `v` of the unknowns over `horizon` (s), and forces that hold fixed unknowns (N; zero
+  // for free unknowns).
   virtual void take(const SolidCoupling<Dim>&, int /*block*/, const Eigen::VectorXd& /*v*/, double /*horizon*/) {}
   virtual void take_reactions(const Eigen::VectorXd& /*forces*/) {}
   virtual void advance(const Stride<Dim>&) {}
-  // The other half of a step by halves, with the velocities of `leading`.
+  // Second half of a leapfrog step, dt (s), with the velocities of `leading`.
   virtual void go_on(const Participant& /*leading*/, double /*dt*/) {}
-  // The share of a way of its unknowns (m) that it can go without damage; the longest first step up to dt.
+  // Fraction of the displacement `way` (m) of its unknowns that it can move without damage, and the longest first step
+  // up to dt (s).
   virtual double possible_share(const Eigen::VectorXd& /*way*/) const { return 1; }
   virtual double limit_of_start(double dt) const { return dt; }
 
-  // As contact sees it.
+  // Data for contact: description and motion from t over the horizon. Default: prescribed body.
   virtual void describe_contact(ContactBody&) const;
   virtual ContactMotion contact_motion(double t, double horizon) const;
+  // True if parts of it are pinned.
   virtual bool is_pinned() const { return false; }
-  // Whether liquid may be sealed by it together with what its pins stand on.
+  // True if it may seal liquid together with the solids that its pins stand on.
   virtual bool may_seal() const { return false; }
-  // As viscous liquid sees it, and its motion.
+  // Data for the viscous operator: description, and rigid (or mean) motion of the solid.
   virtual void describe_viscous(const StepGeometry<Dim>&, ViscousSolid<Dim>&) const;
   virtual RigidField viscous_motion(const ViscousSolid<Dim>& solid) const { return solid.frame; }
 
-  // Adds energies and momentum; what solids.csv has of it: place and motion before the loads are known, then loads
-  // beyond the pressure on its faces.
+  // Adds energies and momentum to the statistics. describe() and add_loads() fill its row of solids.csv: first position
+  // and motion, later the loads other than pressure on its faces.
   virtual void measure(const Gravity&, const TimeSpec&, const State<Dim>&, StepStats&) const {}
   virtual void describe(const TimeSpec&, const State<Dim>&, SolidState&) const {}
   virtual void add_loads(SolidState&) const {}
-  // sum f^2/m of the forces that the scene applies at t beside gravity.
+  // sum f^2/m of the forces (N) that the scene applies at time t, gravity excluded.
   virtual double pull(double /*t*/) const { return 0; }
 
-  // For frames: the surface at rest within the domain, its points as placed, and elements.
+  // For frames: surface at rest within the domain, points moved to a placement, elements. For the log: the mesh.
   virtual SurfaceMesh surface_at_rest(const DomainSpec& domain) const;
   virtual void place_points(const Placement& placed, std::vector<Vec3>& points) const;
   virtual VolumeFrame volume() const { return {}; }
@@ -122,7 +127,7 @@ class Participant {
   int index_;
 };
 
-// For rows of the table of kinds: makes a participant of this class.
+// Makes a participant of `Class`, for rows of the table of kinds.
 template <class Class, int Dim>
 std::unique_ptr<Participant<Dim>> make_participant(const Body<Dim>& body, int index) {
   return std::make_unique<Class>(body, index);

@@ -1,5 +1,5 @@
 #pragma once
-// A scene as the simulation has it, fixed for the run.
+// The scene as the simulation uses it, fixed for the run.
 #include <map>
 #include <memory>
 
@@ -14,17 +14,17 @@
 
 namespace seiche {
 
-// Functions take the members that they read. Those for which a whole step or scene is meant take all of it.
+// Functions take the members that they read. Only functions that concern a whole step or scene take all of Setup.
 template <int Dim>
 struct Setup {
   Scene scene;
   Tampering tampering;
-  std::vector<std::string> notes;  // of reading the shapes, for the log
+  std::vector<std::string> notes;  // from reading the shapes, for the log
   Fluids fluids;
   Domain<Dim> domain;
   Solids<Dim> solids;
   std::vector<Source<Dim>> sources;
-  std::map<std::string, MaterialPoint> followed;  // by displacement probes, by their names
+  std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
 
   Setup(const Scene& scene, const Communicator& ranks, const Tampering& tampering = {});

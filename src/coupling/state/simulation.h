@@ -1,5 +1,5 @@
 #pragma once
-// A scene being advanced: what the program, the tests and programs of others drive.
+// Interface of a simulation that advances a scene, for the program, the tests and other programs.
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,7 +15,7 @@ namespace seiche {
 
 struct Scene;
 
-// One row of stats.csv; the contract names the columns. 2D: per metre of depth.
+// One row of stats.csv; docs/outputs.md names the columns. 2D: per metre of depth.
 struct StepStats {
   std::int64_t step = 0;
   double time = 0, dt = 0;
@@ -27,16 +27,16 @@ struct StepStats {
   int newton_iterations = 0, contacts = 0;
   std::int64_t cells_liquid = 0;
   double wall_seconds = 0;
-  // further columns of ours
-  double gas_volume = 0;           // of gas that flows, or of the enclosed air, m^3
+  // further columns
+  double gas_volume = 0;           // of flowing gas, or of enclosed air, m^3
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   int rejected = 0;                // attempts at this step that were rejected
-  double viscous_dissipation = 0;  // energy that viscosity turned into heat in this step, over dt, W
-  std::int64_t bubbles = 0;        // enclosed regions of air that keep their volume
-  double air_lost = 0;             // of those that became too small for the grid, since the start, m^3
-  int rheology_iterations = 0;     // solves with viscosities of the last one's shear rate; 0 for Newtonian liquid
-  // Pull or squeeze, over the largest pressure, of cells that part or not against the rule; 0: all parted as they
-  // should.
+  double viscous_dissipation = 0;  // mean rate of viscous dissipation over this step, W
+  std::int64_t bubbles = 0;        // enclosed air regions that keep their volume
+  double air_lost = 0;             // volume of regions that became too small for the grid, since the start, m^3
+  int rheology_iterations = 0;     // solves until viscosity and flow agree; 0 for Newtonian liquid
+  // Separating walls: largest violation by a cell on the wrong side of the unilateral condition, over the largest
+  // pressure. Suction in attached cells or squeeze in parted ones; 0: none.
   double parting_error = 0;
 };
 
@@ -66,19 +66,19 @@ struct FrameField {
   std::vector<float> values;
 };
 
-// Facts known before the first step.
+// Size of the run, known before the first step.
 struct Cost {
   std::int64_t cells = 0;
   double bytes = 0;  // over all ranks
 };
 
-// Called at the start of each named phase of a step (transport, geometry, solve, restore) on every rank: tells the
-// watchdog where the run is, and lets tests inject faults: it may throw, and answers poison when the simulation is to
-// write a NaN into one owned value of the phase's result (which must then be caught in the same step).
+// Called on every rank at the start of each phase of a step (transport, geometry, solve, restore). Tells the watchdog
+// where the run is and lets tests inject faults; may throw. On `poison` the simulation writes a NaN into one owned
+// value of the phase's result. The same step must detect it.
 enum class PhaseFault { none, poison };
 using FaultHook = std::function<PhaseFault(const std::string& phase)>;
 
-// Steps to the next frame beyond which a run is given up.
+// A run that needs more steps to its next frame is given up.
 constexpr int most_steps_a_frame = 1'000'000;
 
 class Simulation {
@@ -87,24 +87,24 @@ class Simulation {
   virtual void set_fault_hook(FaultHook hook) = 0;
   virtual double time() const = 0;
   virtual std::int64_t step_count() const = 0;
-  // Advances by one step that ends at or before `until`. Throws Error(cannot_continue) after the ladder is exhausted,
-  // with the state as before the step. All ranks call it together.
+  // Advances by one step that ends at or before `until` (s). Throws Error(cannot_continue) if all attempts with shorter
+  // steps fail; the state is then as before the step. Collective.
   virtual StepStats step(double until) = 0;
   virtual StepStats stats() const = 0;                             // of the present state
   virtual std::vector<SolidState> solids() const = 0;              // equal on all ranks
   virtual SurfaceMesh solid_surface(std::size_t index) const = 0;  // at the present time
-  // The elements of an elastic solid at the present time, with their fields; empty for other solids. Not collective:
-  // called on rank 0 alone. Its surface_nodes are the points of solid_surface(index).
+  // Elements of an elastic solid with their fields at the present time; empty for other solids. Not collective: called
+  // on rank 0 only. Its surface_nodes are the points of solid_surface(index).
   virtual VolumeFrame solid_volume(std::size_t /*index*/) const { return {}; }
-  // For the log: liquid and solids as the scene began, features that others switch off, meshes of elastic solids.
+  // Lines for the log: liquid and solids at the start, features switched off, meshes of elastic solids.
   virtual std::vector<std::string> describe_start() const { return {}; }
   virtual ProbeSample probe(std::size_t index) const = 0;  // collective; equal on all ranks
   virtual FrameField frame_field(const std::string& name) const = 0;
   virtual double expected_volume() const = 0;  // initial + sources + net inflow, m^3
   virtual CheckpointData save() const = 0;
-  // Takes the state back. `data.fields` hold this rank's boxes, as `save()` of this rank count would give them.
+  // Restores the state. `data.fields` hold this rank's boxes, as `save()` returns them on as many ranks.
   virtual void load(const CheckpointData& data) = 0;
-  // The boxes (name, lower, upper; values empty) that load() wants on this rank.
+  // Boxes that load() needs on this rank: name, lower, upper; values empty.
   virtual std::vector<FieldRecord> checkpoint_boxes() const = 0;
   virtual const Timers& timers() const = 0;
   virtual std::vector<std::string> take_warnings() = 0;  // since the last call, for the log; equal on all ranks

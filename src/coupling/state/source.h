@@ -1,5 +1,5 @@
 #pragma once
-// A region that fills with liquid for a while.
+// A region that a source keeps filled with liquid for a time.
 #include <memory>
 
 #include "base/expression.h"

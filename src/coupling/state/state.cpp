@@ -6,7 +6,7 @@
 namespace seiche {
 namespace {
 
-// Inflow moves the surface in the air before it, too.
+// Largest |u_a| on this rank's inflow faces, m/s, wet or dry: inflow also moves the surface in the air in front of it.
 template <int Dim>
 double fastest_inflow(const Domain<Dim>& domain, const Level<Dim>& level) {
   double fastest = 0;

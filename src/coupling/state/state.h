@@ -1,5 +1,5 @@
 #pragma once
-// Flow, surface and solids at a time: replaced by each accepted step.
+// Flow, surface and solids at one time. Each accepted step replaces it.
 #include <memory>
 
 #include "coupling/state/fluids.h"
@@ -13,26 +13,26 @@ namespace seiche {
 // One time level of the flow.
 template <int Dim>
 struct Level {
-  FaceField<Dim> u;            // m/s, continued beyond the liquid, ghosts filled
+  FaceField<Dim> u;            // m/s, extrapolated beyond the liquid, ghosts filled
   FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
-  FaceField<Dim> n;            // acceleration by viscosity at this time, m/s^2, where valid; viscous scenes alone
+  FaceField<Dim> n;            // viscous acceleration at this time, m/s^2, where valid; empty in inviscid scenes
 };
 
-// The time levels of one fluid's flow, continued beyond its own region; null where there is none.
+// Time levels of one fluid's flow, extrapolated beyond its own region. Null: no such level.
 template <int Dim>
 struct Flow {
   std::shared_ptr<const Level<Dim>> now, before, earlier;
 };
 
-// At rest, valid nowhere.
+// A level at rest, without valid faces.
 template <int Dim>
 Level<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {
   return {FaceField<Dim>(layout), FaceField<Dim, char>(layout), FaceField<Dim>(layout),
           viscous ? FaceField<Dim>(layout) : FaceField<Dim>()};
 }
 
-// The open part of the faces and their velocities, those of slits as they were solved for (films.h).
+// Open fractions of the faces and their velocities (m/s), in slits as solved (thin/films.h).
 template <int Dim>
 struct Film {
   FaceField<Dim> open, u;
@@ -43,21 +43,21 @@ struct State {
   double time = 0;
   std::int64_t step = 0;
   std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
-  double dt_now = 0, dt_before = 0;                        // steps that led to `now` and to `before`
-  Flow<Dim> gas;                                           // where gas flows; now, before, earlier are the liquid's
-  Film<Dim> film;                                          // now
+  double dt_now = 0, dt_before = 0;                        // steps that led to `now` and `before`, s
+  Flow<Dim> gas;                                           // only if gas flows; now, before, earlier are the liquid's
+  Film<Dim> film;                                          // at `now`
   CellField<Dim> phi;                                      // m, ghosts filled
   CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
   double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
-  double corrected_volume = 0;                             // restored by the volume control so far
+  double corrected_volume = 0;                             // restored by the volume control so far, m^Dim
   Participants<Dim> solids;
-  double horizon = 0;           // s ahead that the solids' velocities were solved for
-  Parting<Dim> parting;         // where the scene lets liquid part from solids
-  double viscous_rate = 0;      // mu/(rho h^2) of the last solve at its largest, 1/s
-  AirRegions<Dim> air;          // where enclosed air keeps its volume
-  double lost_air = 0;          // of regions too small for the grid that vanished, m^Dim
-  CellField<Dim, char> sealed;  // liquid that elastic walls, their pins and what these stand on seal; may be empty
-  std::vector<ViscousLoad> viscous_loads;  // on each solid; empty where the liquid is inviscid
+  double horizon = 0;           // interval ahead for which the solids' velocities were solved, s
+  Parting<Dim> parting;         // only with separating walls
+  double viscous_rate = 0;      // largest mu/(rho h^2) of the last solve, 1/s
+  AirRegions<Dim> air;          // only if enclosed air keeps its volume
+  double lost_air = 0;          // volume of vanished regions too small for the grid, m^Dim
+  CellField<Dim, char> sealed;  // cells sealed by elastic walls, their pins and the solids under these; may be empty
+  std::vector<ViscousLoad> viscous_loads;  // per solid; empty if the liquid is inviscid
 };
 
 template <int Dim>
@@ -65,12 +65,12 @@ Flow<Dim> liquid_flow(const State<Dim>& state) {
   return {state.now, state.before, state.earlier};
 }
 
-// All solids at the state's time, those that move as prescribed with their motion over the step that led there; others
-// at rest.
+// Placements of all solids at the state's time. Prescribed solids have their mean velocity over the last step, others
+// zero.
 template <int Dim>
 std::vector<Placement> place_bodies(const State<Dim>& state);
 
-// Largest |u_a| on the faces next to liquid, m/s, over all ranks.
+// Largest |u_a| on the valid faces of both fluids and on inflow faces, m/s, over all ranks. Collective.
 template <int Dim>
 double fastest_component(const Domain<Dim>& domain, const State<Dim>& state);
 

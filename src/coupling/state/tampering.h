@@ -1,5 +1,5 @@
 #pragma once
-// Operators made wrong on purpose, to test that validation notices: `--break operator:factor`.
+// Operator perturbation, to test that validation notices wrong operators: `--break operator:factor`.
 #include <memory>
 #include <string>
 
@@ -9,7 +9,7 @@ class Communicator;
 class Simulation;
 struct Scene;
 
-// What each operator is multiplied with; 1 leaves every bit as it is.
+// Factor on each operator; 1 leaves every bit as it is.
 struct Tampering {
   double pressure_gradient = 1;   // in u = u* - dt grad p/rho
   double divergence = 1;          // of u*, the right-hand side of the pressure
@@ -20,18 +20,18 @@ struct Tampering {
   double rigid_mass = 1;          // and inertia, against the forces of the solve
   double viscosity = 1;           // of the viscous operator
   double yield_stress = 1;        // of the rheology
-  double velocity_advection = 1;  // way along which velocities are carried
-  double surface_advection = 1;   // way along which the level set is carried
+  double velocity_advection = 1;  // path along which velocities are carried
+  double surface_advection = 1;   // path along which the level set is carried
   double contact = 1;             // stiffness of the barrier between solids
   double friction = 1;            // coefficients of the solids
   double elastic_forces = 1;      // and their Hessian
 };
 
-// "viscosity:0.9" or, for a sign flipped, "viscosity:-1"; "" tampers with nothing. Throws Error(bad_input) with the
-// operators' names.
+// Parses "viscosity:0.9" or, to flip a sign, "viscosity:-1"; "" perturbs nothing. Throws Error(bad_input) with the
+// names of the operators.
 Tampering parse_tampering(const std::string& text);
 
-// As make_simulation(scene, ranks), with wrong operators.
+// Like make_simulation(scene, ranks), with perturbed operators.
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering);
 
 }  // namespace seiche

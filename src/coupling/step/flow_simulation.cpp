@@ -1,4 +1,4 @@
-// The Simulation behind make_simulation: owns setup and state, and climbs the ladder of a step that fails.
+// The Simulation behind make_simulation: owns setup and state, and tries failed steps again with half the length.
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -26,8 +26,9 @@ namespace {
 
 constexpr int most_halvings = 7;
 
-// Where viscous liquid fills its domain, steps over more than two cells feed eddies that they do not resolve: a cavity
-// at Re = 5000 swung by 0.2 of the lid's speed at Courant number 4. Empty, or what is said of that. Collective.
+// Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells they feed eddies
+// that they do not resolve. The flow in a cavity at Re = 5000 oscillated by 0.2 of the lid's speed at Courant number 4.
+// Collective.
 template <int Dim>
 std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                const State<Dim>& state) {
@@ -50,7 +51,7 @@ class FlowSimulation : public Simulation {
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_.notes;
     warn_of_long_steps();
-    account_ = account_scene(setup_, state_, geometry_.psi);
+    account_ = account_scene(setup_.domain, setup_.fluids, setup_.solids, setup_.scene.domain, state_, geometry_.psi);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
     refresh(measure(state_, geometry_));
   }
@@ -95,7 +96,8 @@ class FlowSimulation : public Simulation {
                                                        close.empty() ? remedy() : "all but touching: " + close));
   }
 
-  // The run told of its start when it began. The note on long steps is repeated: `resume --set` may change cfl.
+  // Drops warnings on the start, which the first run gave. The note on long steps is repeated: `resume --set` may
+  // change cfl.
   void load(const CheckpointData& data) override {
     state_ = load_state(setup_.domain, setup_.fluids, setup_.solids, data);
     phases_.warnings.clear();
@@ -122,7 +124,7 @@ class FlowSimulation : public Simulation {
   }
 
  private:
-  // The first step is taken twice: once to learn the pressure slope and the trend of the velocity, then with both.
+  // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
   Attempt<Dim> attempt(double dt) {
     const bool solved = !setup_.fluids.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
     if (state_.step > 0 || !solved) return budgeted_step(state_, dt);
@@ -134,7 +136,7 @@ class FlowSimulation : public Simulation {
     return informed;
   }
 
-  // Fails where kinetic energy comes from nowhere. `start` is the present state or it as informed by a trial.
+  // Fails if the kinetic energy exceeds its budget. `start`: the present state, or this state informed by a trial.
   Attempt<Dim> budgeted_step(const State<Dim>& start, double dt) {
     Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
     if (!a.failure.empty()) return a;
@@ -153,8 +155,8 @@ class FlowSimulation : public Simulation {
     return g;
   }
 
-  // The initial state as if a step of dt had led to it: slope and viscous acceleration of the trial, u(-dt) = 2 u(0) -
-  // u(dt); and the cavities.
+  // The initial state as if a step of dt had led to it: pressure slope, viscous acceleration and cavities of the trial,
+  // u(-dt) = 2 u(0) - u(dt).
   State<Dim> inform(const State<Dim>& trial, double dt) const {
     State<Dim> state = state_;
     std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
@@ -190,7 +192,7 @@ class FlowSimulation : public Simulation {
     refresh(a.stats);
   }
 
-  // Of a step that failed: keys that a resumed run may change.
+  // Advice after a failed step: keys that a resumed run may change.
   std::string remedy() const {
     const TimeSpec& t = setup_.scene.time;
     const std::string step = t.fixed_step ? fmt::format("time.fixed_step={:.3g}", *t.fixed_step / 2)
@@ -204,7 +206,7 @@ class FlowSimulation : public Simulation {
     if (!note.empty()) phases_.warnings.push_back(note);
   }
 
-  // Once.
+  // Warns once.
   void warn_of_parting() {
     if (parting_error_ == 0 || std::exchange(told_of_parting_, true)) return;
     phases_.warnings.push_back(
@@ -226,7 +228,7 @@ class FlowSimulation : public Simulation {
     return stats;
   }
 
-  // What stats() and solids() answer, of the present state.
+  // Updates the answers of stats() and solids() to the present state.
   void refresh(const StepStats& measured) {
     stats_ = measured;
     stats_.max_divergence = divergence_;
@@ -273,8 +275,8 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicat
   return std::make_unique<FlowSimulation<3>>(scene, ranks, tampering);
 }
 
-// Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there
-// is liquid, the matrix and its hierarchy of grids (about 1 kB a row; half the cells are taken to be liquid).
+// Memory: some 12 cell or node fields and 20 face fields of doubles at the peak of a step. The matrix with its
+// hierarchy of grids takes about 1 kB a row; half the cells are assumed to have one.
 Cost estimate_cost(const Scene& scene, int ranks) {
   const double halo = std::ceil(scene.time.cfl) + 3;
   double cells = 1, padded = 1;

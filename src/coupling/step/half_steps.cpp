@@ -11,7 +11,7 @@
 namespace seiche {
 namespace {
 
-// What a source brings first has no velocity yet that the other half of the step could go on with.
+// True if the source opens or closes in the step. Its first liquid has no velocity for the second half step yet.
 template <int Dim>
 bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
   return open_in_step(source.spec, t0, t1) && (source.spec.from >= t0 || source.spec.until < t1);
@@ -34,13 +34,13 @@ bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& s
 template <int Dim>
 bool can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time, const State<Dim>& halfway,
                double dt) {
-  // Redistancing takes in ceil(cfl) + 1 layers, and there are as many halves with this velocity as with the next.
+  // Redistancing covers ceil(cfl) + 1 layers. Before it, this velocity moves the surface over two half steps.
   const double h = domain.layout.h(), most = std::ceil(time.cfl) + 1;
   if (fastest_component(domain, halfway) * dt > most * h) return false;
   if (!solids.has_unknowns()) return true;
   std::vector<Placement> placed = place_bodies(halfway);
   for (std::size_t k = 0; k < placed.size(); ++k) halfway.solids[k].set_velocity(placed[k]);
-  // One cell a step, and what speeds up within a step or two.
+  // One cell a step, with an allowance for solids that speed up.
   constexpr double speeding = 1.1;
   return solids.geometry.largest_displacement(placed, dt) <= speeding * h && safe_share(solids, halfway, dt / 2) >= 1;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Steps that move surface and rigid solids by halves, before and after the solve.
+// Leapfrog steps: surface and rigid solids move half a step before and half a step after the solve.
 #include <algorithm>
 
 #include "base/time_spec.h"
@@ -11,39 +11,40 @@
 
 namespace seiche {
 
-// x(t + dt/2) = x + dt/2 u,   u(t + dt) = u + dt a(x(t + dt/2)),   x(t + dt) = x(t + dt/2) + dt/2 u(t + dt)
+// The leapfrog
+//   x(t + dt/2) = x + dt/2 u,   u(t + dt) = u + dt a(x(t + dt/2)),   x(t + dt) = x(t + dt/2) + dt/2 u(t + dt)
+// is undamped, stable to omega dt = 2, and second order for steps of any lengths. Whole steps, x(t + dt) = x + dt u,
+// u(t + dt) = u + dt a(x(t + dt)), are undamped and as stable. Their x is late by the sum of a dt^2/2: half a step of
+// motion, or more if liquid is released from rest in long steps.
 //
-// is the leapfrog, free of damping and stable to omega dt = 2 as x(t + dt) = x + dt u, u(t + dt) = u + dt a(x(t + dt))
-// is, but of second order for steps of any lengths: there x lags by the sum of a dt^2/2, half a step of its motion, and
-// of liquid let go from rest in long steps more. Not for elastic and thin solids, two fluids, enclosed air that keeps
-// its volume, prescribed flows and first order; nor for rigid solids beside ones that move as prescribed: whether a
-// scene has steps by halves at all.
+// True if the scene may have leapfrog steps. It may not with elastic and thin solids, two fluids, enclosed air that
+// keeps its volume, prescribed flows and first order. The same holds for rigid solids beside prescribed ones.
 bool may_go_by_halves(const Features& features);
 
-// Whether this step goes so. Near contact, where solids may meet within two steps, a step moves all at once, to where
-// contact is then solved; so does one in which a source opens or closes. Collective.
+// True if this step is a leapfrog step. If solids may meet within two steps, they move the whole step before the solve
+// and contact is solved there. The same holds if a source opens or closes in the step. Collective.
 template <int Dim>
 bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
                     const State<Dim>& state, double dt);
 
-// Whether the velocities after the solve, half-way, can be gone on with for the other half: they cross no more cells
-// than the halo and the solids bear, and no solid meets another. Those before the step can. Collective.
+// True if the velocities after the solve can be used for the second half step. They must cross no more cells than
+// redistancing and the solids permit, and no solids may meet. Else those before the step are used. Collective.
 template <int Dim>
 bool can_go_on(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time, const State<Dim>& halfway,
                double dt);
 
-// The solids where they stand half-way through the step that ends at state.time, prescribed ones with their twists over
-// the whole of it.
+// Places of the solids at the middle of the step that ends at state.time. Prescribed ones have the twists of the whole
+// step.
 template <int Dim>
 std::vector<Placement> place_halfway(const State<Dim>& state, double dt);
 
-// Whether solids move.
+// True if any solid moves.
 template <int Dim>
 bool any_moves(const Solids<Dim>& solids) {
   return std::any_of(solids.bodies.begin(), solids.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); });
 }
 
-// Of the geometry that was solved with, distances and poses as at the end of the step.
+// The geometry of the solve with the distances psi and the poses of the end of the step.
 template <int Dim>
 StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved);
 

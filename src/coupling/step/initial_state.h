@@ -5,7 +5,8 @@
 
 namespace seiche {
 
-// The initial state of a scene.
+// The initial state of a scene. Throws Error(bad_input): solids overlap, a formula is not finite, or a fixed step is
+// too long. Collective.
 template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& setup);
 

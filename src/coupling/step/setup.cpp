@@ -32,8 +32,8 @@
 namespace seiche {
 namespace {
 
-// Inertia below this share of that of the liquid cannot be told from none: the pressure that carries a body is known to
-// 1e-16 of itself, and its velocity is that over its mass.
+// Smallest density of a free body over the liquid's. Less inertia is lost in round-off. The pressure on the body has a
+// relative error of 1e-16, and the error of its velocity is that over its mass.
 constexpr double least_density_ratio = 1e-7;
 
 SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std::string>& notes) {
@@ -64,7 +64,7 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
   return bodies;
 }
 
-// A box of liquid that ends at a side of the domain goes on beyond it: the wall is no free surface.
+// Extends a box of liquid that ends at a side of the domain beyond it, since the wall is no free surface.
 ShapeSpec open_to_sides(ShapeSpec shape, const DomainSpec& domain) {
   const TransformSpec& t = shape.transform;
   const bool plain = t.scale == 1 && t.rotate.degrees == 0 && t.translate.isZero(0) && !shape.invert;
@@ -87,7 +87,7 @@ std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::strin
   return sources;
 }
 
-// What is said of an initial velocity that is not finite; `region` is its index, -1 for the liquid's own.
+// Message for an initial velocity that is not finite. `region`: its index; -1: the liquid's own velocity.
 template <int Dim>
 std::string velocity_fault(const Fluids& fluids, int region, int axis, double value, const Vec<Dim>& x) {
   const LiquidSpec& liquid = fluids.liquid;
@@ -96,8 +96,8 @@ std::string velocity_fault(const Fluids& fluids, int region, int axis, double va
   return not_finite_text<Dim>(fmt::format("{}.velocity[{}]", key, axis), formula, value, x, 0);
 }
 
-// Velocity of the regions where they are, the liquid's elsewhere. Only next to liquid. `fault` says where a formula is
-// not finite.
+// Initial velocity on faces next to liquid: that of the regions in which they lie, else the liquid's. `fault`: message
+// if a formula is not finite.
 template <int Dim>
 FaceField<Dim> initial_velocity(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim, char>& near,
                                 const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes, std::string& fault) {
@@ -139,7 +139,7 @@ FaceField<Dim> initial_gas_velocity(const Domain<Dim>& domain, const Fluids& flu
   return u;
 }
 
-// A fluid's level at the start, with the velocity u on the faces near it.
+// A fluid's first time level: velocity u on the faces `near` it, continued beyond.
 template <int Dim>
 std::shared_ptr<const Level<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
                                                 const Solids<Dim>& solids, const StepGeometry<Dim>& g,
@@ -197,11 +197,11 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const Tampering&
   features = Features(*this);
 }
 
-// What a pinned step will meet is known at the start as far as the initial velocity and the solids' motions go; of
-// these a bounded number of steps is looked at, evenly spread over the run.
+// Throws Error(bad_input) if a fixed step is too long for the initial velocity or the solids' motions. Checks a bounded
+// number of steps, evenly spread over the run.
 template <int Dim>
 void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
-  constexpr double most_looks = 1e4, budget = 2e6;  // of one body, of all; a second or two
+  constexpr double most_looks = 1e4, budget = 2e6;  // steps checked; steps times bodies: a second or two
   const TimeSpec& time = s.scene.time;
   if (!time.fixed_step || time.end <= 0) return;
   const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
@@ -245,7 +245,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
     state.gas.now =
         initial_level(s.domain, s.fluids, s.solids, g, near, initial_gas_velocity(s.domain, s.fluids, near, fault));
   }
-  check_formulas_at_start(s, g, fault);
+  check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene.domain, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.film = measure_film(s.domain, g.faces, state.now->u, state.now->u);

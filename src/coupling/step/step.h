@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-// Advances by dt. Collective; the same verdict on all ranks.
+// Tries a step of dt from `state`. Attempt::failure is empty, or not, on all ranks alike. Collective.
 template <int Dim>
 [[nodiscard]] Attempt<Dim> attempt_step(const Setup<Dim>& setup, const State<Dim>& state, double dt, Phases& phases);
 

@@ -1,4 +1,4 @@
-// How long the next step may be.
+// Length of the next step.
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -20,8 +20,8 @@ namespace seiche {
 
 namespace {
 
-// The flow crosses at most cfl cells: (v + g dt) dt = cfl h. Gravity waves: omega dt <= 1.5 for the shortest,
-// omega^2 = pi g/h; the leapfrog of surface and velocity is stable below 2. Squares of rates of gravity and tension
+// The flow crosses at most cfl cells: (v + g dt) dt = cfl h. The shortest gravity waves, omega^2 = pi g/h, have omega
+// dt <= 1.5, since the leapfrog of surface and velocity is stable below 2. Squares of the rates of gravity and tension
 // add.
 template <int Dim>
 double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
@@ -37,24 +37,25 @@ double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, co
   return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
 }
 
-// So does what the scene gives, which the flow follows before it is seen in it.
+// Velocities that sides and sources give are limited likewise, as the flow takes them on within the step.
 template <int Dim>
-double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
-  const double limit = limit_of_present_flow(s.domain, s.fluids, s.scene.time, state, until);
-  if (s.fluids.has_prescribed_flow()) return limit;
+double limit_of_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                     const std::vector<Source<Dim>>& sources, const State<Dim>& state, double until) {
+  const double limit = limit_of_present_flow(domain, fluids, time, state, until);
+  if (fluids.has_prescribed_flow()) return limit;
   const double span = std::min(limit, until - state.time),
-               given = limit_of_given_flow(s.domain, s.scene.time, s.sources, state.time, span);
+               given = limit_of_given_flow(domain, time, sources, state.time, span);
   return given < span ? given : limit;
 }
 
-constexpr double rounding = 1e-9;  // relative, of a motion that takes just the whole reach
+constexpr double rounding = 1e-9;  // relative, for motions that use the whole reach
 
 std::string pinned_step(const TimeSpec& time, double t, double dt) {
   return fmt::format("time.fixed_step = {:g} s: the step of {:.6g} s from time {:.6g} s carries", *time.fixed_step, dt,
                      t);
 }
 
-// The solids as they will move in the coming dt.
+// Places and velocities of the solids over the coming dt.
 template <int Dim>
 std::vector<Placement> motion_ahead(const State<Dim>& state, double dt) {
   std::vector<Placement> placed;
@@ -65,7 +66,8 @@ std::vector<Placement> motion_ahead(const State<Dim>& state, double dt) {
   return placed;
 }
 
-// How far solids go in dt. Those that move as prescribed may be back where they began by then.
+// Largest displacement of solids in dt, m. Prescribed ones may be back at their start by then, so parts of dt count,
+// too.
 template <int Dim>
 double largest_way(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   double largest = 0;
@@ -82,25 +84,25 @@ double limit_of_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, con
   return dt;
 }
 
-// A step that would leave less than another one to go is evened out.
+// Halves the remaining time if a step of dt would leave less than another one.
 double land(double dt, double remaining) {
   if (dt >= remaining * (1 - 1e-9)) return remaining;
   return 2 * dt > remaining ? remaining / 2 : dt;
 }
 
-// The longest step of at most dt of which a whole number fills what remains.
+// Longest step of at most dt, a whole number of which fills the remaining time.
 double share_evenly(double dt, double remaining) {
   return remaining / std::max(1.0, std::ceil(remaining / dt - 1e-9));
 }
 
-// From t to the next frame, or to the end.
+// Time from t to the next frame, or to the end.
 double until_frame(const TimeSpec& spec, double t) {
   const double frame = std::floor(t * spec.frame_rate * (1 + 1e-12) + 1e-9) + 1;
   const double next = frame / spec.frame_rate;
   return t < spec.end * (1 - 1e-12) ? std::min(next, spec.end) - t : next - t;
 }
 
-// The share of the straight way of a step other than the one solved for on which no element turns inside out.
+// Share of the straight path over dt on which no element inverts, for a step other than the one solved for.
 template <int Dim>
 double share_without_damage(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   double share = 1;
@@ -118,13 +120,13 @@ std::string too_short(double dt, double remaining, double h, const std::string& 
 
 }  // namespace
 
-// Each look is along straight paths to where the solids are at the end of the step: a shorter step has other ends, so
-// it is looked at again.
+// Each check follows straight paths to the solids' places at the end of the step. A shorter step ends elsewhere, so it
+// is checked again.
 template <int Dim>
 double hold_back(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
-  if (solids.plans_steps() && dt == state.horizon) return dt;  // where this leads is free of collisions and inversions
+  if (solids.plans_steps() && dt == state.horizon) return dt;  // the solve excluded collisions and inversions
   constexpr int most_looks = 40;
-  constexpr double margin = 0.9;  // so that the next look finds the share of gaps it wants left
+  constexpr double margin = 0.9;  // the next check then finds the share of gaps that it wants left
   for (int n = 0; n < most_looks; ++n) {
     const double share = std::min(safe_share(solids, state, dt), share_without_damage(solids, state, dt));
     if (share >= 1) return dt;
@@ -147,7 +149,7 @@ std::string fault_of_pinned_flow(const Domain<Dim>& domain, const Fluids& fluids
                      pinned_step(time, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
 }
 
-// A solid that goes further than a cell leaps over faces.
+// A solid that moves further than a cell skips faces.
 template <int Dim>
 std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                    const std::vector<Placement>& placed, double t, double dt) {
@@ -158,9 +160,9 @@ std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>&
       pinned_step(time, t, dt), crossed, h);
 }
 
-// Where the flow may speed up, 0.9 of what it allows now: then the coming step can be taken as it was solved for. Steps
-// share what remains to the frame evenly: the solve takes the solids over the coming step, the liquid over this one,
-// and lengths that differ in step with the frames fed a flap that is as slow as waves (energy e-fold in 3 s).
+// Plans 0.9 of the step that the flow allows now: if the flow speeds up, the step can still be taken as planned. Steps
+// divide the time to the frame evenly. The solve moves solids over the coming step and liquid over this one. Lengths
+// that varied with the frames fed energy to a flap as slow as the waves (e-fold in 3 s).
 template <int Dim>
 double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const TimeSpec& spec = s.scene.time;
@@ -168,7 +170,8 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const double remaining = until_frame(spec, next.time);
   if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
   constexpr double margin = 0.9;
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next, next.time + remaining));
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, next,
+                                                                  next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   return share_evenly(limit_of_solids(s.domain, s.solids, next, plan), remaining);
 }
@@ -176,7 +179,7 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene.time, state.time);
-  const double dt = std::min(state.horizon, limit_of_flow(s, state, until));
+  const double dt = std::min(state.horizon, limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until));
   return limit_of_solids(s.domain, s.solids, state, dt) >= state.horizon * (1 - 1e-9);
 }
 
@@ -187,7 +190,8 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   const bool planned = s.solids.plans_steps() && state.step > 0 && !spec.fixed_step;
-  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
+  double dt =
+      spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(state, std::min(dt, remaining));
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))

@@ -9,10 +9,10 @@
 
 namespace seiche {
 
-// With bodies in contact a step is at most this much longer than the last one: contact is solved that far ahead.
+// If solids have unknowns, a step is at most this factor longer than the last: contact is solved that far ahead.
 constexpr double step_growth = 1.25;
-// Why a pinned step of dt cannot be taken, with figures; empty where it can: for the flow (collective), and for the
-// solids' motions as placed.
+// Message with figures if a fixed step of dt is too long, else empty: for the flow (collective), and for the solids'
+// motions as placed.
 template <int Dim>
 std::string fault_of_pinned_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                  const State<Dim>& state, double dt);
@@ -20,23 +20,21 @@ template <int Dim>
 std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                    const std::vector<Placement>& placed, double t, double dt);
 
-// How far ahead a step that led to `next` after dt solves for the solids' velocities. Where there are elastic solids
-// the coming step is meant to be just that long: their motion is second order in time then.
+// Interval over which a step of dt that leads to `next` solves for the solids' velocities. With elastic solids the
+// coming step is meant to have this length, which makes their motion second order in time.
 template <int Dim>
 double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt);
 
-// Whether the flow and the solids after a solve allow a step of the length that it was planned for (State::horizon).
-// Collective.
+// True if flow and solids after a solve allow a step of the planned length (State::horizon). Collective.
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& setup, const State<Dim>& state);
 
-// dt, or as much shorter as it takes that no rigid body meets another solid on the way; 0 where nothing is short
-// enough.
+// dt, or a shorter step in which no rigid body meets another solid and no element inverts. 0: none is short enough.
 template <int Dim>
 double hold_back(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 
-// The longest step the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) where that
-// is hopelessly short, or where a pinned step is too long.
+// Longest step that the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) if it is
+// hopelessly short, or a fixed step is too long.
 template <int Dim>
 double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
 

@@ -11,27 +11,27 @@
 namespace seiche {
 namespace {
 
-constexpr int depth = 3;  // cells behind a wall that the stencils of a curvature next to it read
+constexpr int depth = 3;  // layers (cells) behind a wall that curvature stencils next to it read
 
 double cotangent(double degrees) {
   return degrees == 90 ? 0 : 1 / std::tan(degrees * 3.14159265358979323846 / 180);
 }
 
-// From where a surface runs along the wall (0) to where it meets it (1), by the share of grad phi along the wall. The
-// flattest contact angle, 20 degrees, has 0.34.
+// Weight from 0, the surface runs along the wall, to 1, it meets the wall. It depends on the fraction of grad phi along
+// the wall. The flattest contact angle, 20 degrees, has the fraction 0.34.
 double meets(double along, double norm) {
   const double t = std::clamp((along / norm - 0.1) / 0.2, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-// The part of grad phi across `normal` at a point of index coordinates x as a unit vector, and `weight`, how far the
-// surface there meets a wall of this normal.
+// Unit vector e of the part of grad phi perpendicular to `normal`. `weight`: meets() there; 0 if that part vanishes.
 template <int Dim>
 struct Tangent {
   Vec<Dim> e = Vec<Dim>::Zero();
   double weight = 0;
 };
 
+// x: index coordinates of cell centres. f: phi.
 template <int Dim>
 Tangent<Dim> tangent_at(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x, const Vec<Dim>& normal) {
   Vec<Dim> g;
@@ -45,8 +45,8 @@ Tangent<Dim> tangent_at(const Layout<Dim>& layout, const double* f, const Vec<Di
   return {t / along, meets(along, norm)};
 }
 
-// One layer beyond a side: layer 1 from the layer inside, later ones from the one before, each shifted by cot(angle)
-// cells.
+// Fills one layer of cells beyond a side from the layer before it, shifted by cot(angle) cells. Layer 1 reads the
+// outermost layer inside.
 template <int Dim>
 class BeyondSide {
  public:
@@ -71,7 +71,7 @@ class BeyondSide {
   double value(const CellField<Dim>& old, Site s, const IVec<Dim>& i) const {
     const Vec<Dim> x = i.template cast<double>() - out_ * Vec<Dim>::Unit(axis_);
     const Vec<Dim> normal = Vec<Dim>::Unit(axis_);
-    const Vec<Dim> inside = x - out_ * normal;  // where differences along the normal are of the flow alone
+    const Vec<Dim> inside = x - out_ * normal;  // here differences along the normal use cells of the flow only
     const Tangent<Dim> t = tangent_at<Dim>(layout_, old.data(), inside, normal);
     const double met = interpolate_cubic<Dim>(layout_, old.data(), x - shift_ * t.e);
     return (1 - t.weight) * old[s] + t.weight * met;
@@ -98,7 +98,7 @@ void continue_beyond_walls(const Domain<Dim>& domain, const Fluids& fluids, Cell
     }
 }
 
-// A cell within a solid, and the point (index coordinates) whose phi it takes on.
+// A cell inside a solid, the point (index coordinates) whose phi it takes, and the weight of that value.
 template <int Dim>
 struct Buried {
   Site site;
@@ -112,8 +112,8 @@ double shift_at(const Fluids& fluids, const Solids<Dim>& solids, const StepGeome
   return cotangent(solid.contact_angle.value_or(fluids.liquid.contact_angle));
 }
 
-// From depth d below a solid's surface phi is looked up at 2 d towards the flow, at most a cell, as far as the surface
-// is mirrored, deeper than that carried on along straight lines.
+// Cells inside solids near the surface of the liquid. At depth d (cells) below the solid's surface, phi comes from
+// min(2 d, 1) cells towards the flow. Up to d = 1/2 that mirrors phi; deeper cells continue it along straight lines.
 template <int Dim>
 std::vector<Buried<Dim>> buried_cells(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                                       const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
@@ -131,7 +131,7 @@ std::vector<Buried<Dim>> buried_cells(const Domain<Dim>& domain, const Fluids& f
   return cells;
 }
 
-// Each pass carries phi about a cell deeper; those next to the surface lean on each other.
+// Each pass carries phi about one cell deeper. Cells next to the solid's surface read each other, hence the iteration.
 template <int Dim>
 void continue_into_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                           const StepGeometry<Dim>& g, CellField<Dim>& phi) {

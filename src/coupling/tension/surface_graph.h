@@ -1,5 +1,5 @@
 #pragma once
-// The cells at both ends of links that the surface crosses, and the links between any two of them.
+// Graph of the cells at both ends of links that the surface crosses, with edges between neighbouring ones.
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// `crossed` marks the faces whose link the surface crosses, halo filled.
+// `crossed`: nonzero on faces whose link the surface crosses, halo filled. Keeps a reference to `domain`. Collective.
 template <int Dim>
 class SurfaceGraph {
  public:
@@ -23,7 +23,7 @@ class SurfaceGraph {
 
   const std::vector<Site>& cells() const { return cells_; }
 
-  // y = K x, K x = sum over linked cells of x_i - x_j.
+  // y = K x, (K x)_i = sum over neighbours j of x_i - x_j. Collective.
   void laplacian(const Vector& x, Vector& y) const {
     spread(x);
     for (std::size_t n = 0; n < cells_.size(); ++n) {
@@ -36,14 +36,14 @@ class SurfaceGraph {
     for_each_neighbour(cells_[n], [&](Site) { ++count; });
     return count;
   }
-  // x on the grid, halo filled.
+  // x on the grid, halo filled; valid until the next call. Collective.
   const CellField<Dim>& spread(const Vector& x) const {
     for (std::size_t n = 0; n < cells_.size(); ++n) value_[cells_[n]] = x[n];
     domain_.halo.fill_ghosts(value_);
     return value_;
   }
 
-  // visit(cell across), owned or not.
+  // visit(cell) for the neighbours of c in the graph, owned or not.
   template <class Visit>
   void for_each_neighbour(Site c, const Visit& visit) const {
     for (int a = 0; a < Dim; ++a)

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-// Number of a cell in the whole grid, the same on all ranks.
+// Number of a cell in the whole grid, equal on all ranks.
 template <int Dim>
 std::int64_t global_number(const Layout<Dim>& layout, Site cell) {
   const IVec<Dim> i = layout.index(cell);
@@ -19,8 +19,8 @@ std::int64_t global_number(const Layout<Dim>& layout, Site cell) {
   return n;
 }
 
-// For each cell of the graph the least number of its connected piece: passed on along the list of cells, back, and
-// between ranks until nothing changes.
+// Per cell of the graph: the least global number in its connected piece. Labels spread along the list of cells,
+// backwards, and between ranks until nothing changes. Collective.
 template <int Dim>
 CellField<Dim, std::int64_t> label_pieces(const Domain<Dim>& domain, const SurfaceGraph<Dim>& graph) {
   CellField<Dim, std::int64_t> label(domain.layout, -1);
@@ -43,11 +43,11 @@ CellField<Dim, std::int64_t> label_pieces(const Domain<Dim>& domain, const Surfa
   return label;
 }
 
-// Sums over a piece: force_a = sum over links along a of +-kappa, response_ab = sum of +-n_b; + from liquid to air
-// along a.
+// Sums over a piece: force_a = sum of +-kappa over the links along a, response_ab = sum of +-n_b. The sign is + if the
+// link runs from liquid to air along a.
 template <int Dim>
 struct Piece {
-  double held = 0;  // cells next to what may hold the piece
+  double held = 0;  // number of cells next to a wall, solid or open side
   Vec<Dim> force = Vec<Dim>::Zero();
   Eigen::Matrix<double, Dim, Dim> response = Eigen::Matrix<double, Dim, Dim>::Zero();
 
@@ -56,7 +56,7 @@ struct Piece {
     force += other.force;
     response += other.response;
   }
-  // c with response c = force.
+  // c with response c = force; zero if the piece is held or the system has no finite solution.
   Vec<Dim> shift() const {
     if (held > 0) return Vec<Dim>::Zero();
     const Vec<Dim> c = response.fullPivLu().solve(force);
@@ -67,7 +67,7 @@ struct Piece {
 template <int Dim>
 using Pieces = std::map<std::int64_t, Piece<Dim>>;
 
-// Sums of all ranks, in their order.
+// Sums over all ranks, in the order of the ranks. Collective.
 template <int Dim>
 Pieces<Dim> sum_over_ranks(const Pieces<Dim>& mine, const Communicator& ranks) {
   std::string bytes;
@@ -95,7 +95,7 @@ Pieces<Dim> sum_over_ranks(const Pieces<Dim>& mine, const Communicator& ranks) {
   return all;
 }
 
-// Unit normal, out of the liquid, where the surface crosses a link.
+// Unit normal out of the liquid where the surface crosses the link of face f.
 template <int Dim>
 Vec<Dim> normal_at(const Layout<Dim>& layout, const CellField<Dim>& phi, int axis, Site f) {
   const Site low = f - layout.stride(axis);
@@ -127,7 +127,7 @@ void balance_closed_pieces(const Domain<Dim>& domain, const FaceGeometry<Dim>& f
   const CellField<Dim, std::int64_t> label = label_pieces(domain, graph);
   Pieces<Dim> mine;
   for (Site c : graph.cells()) mine[label[c]].held += is_held(domain.layout, faces, c);
-  // Each link once: with the cell above it, which this rank owns.
+  // Visits each link once: at the cell above it, if this rank owns that cell.
   const auto for_each_link = [&](const auto& visit) {
     for (Site c : graph.cells())
       for (int a = 0; a < Dim; ++a)

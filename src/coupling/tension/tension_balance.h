@@ -1,15 +1,16 @@
 #pragma once
-// A closed surface pulls itself nowhere.
+// Balance of surface tension on closed surfaces: it exerts no net force.
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
-// The sum of kappa n over a closed surface is 0; that of curvatures found one by one is not, by their error of order
-// h^2, and no change of shape would make it so: a drop at rest would set out on its own. kappa (1/m, on crossed faces)
-// is shifted by c.n, n the normal there, c one vector for each connected piece of the surface, so that the sum over the
-// piece's links along each axis of +-kappa is 0: its pressure jump keeps the momentum to rounding. Pieces next to
-// walls, solids or open sides, where others hold them, stay as they are. Collective.
+// Corrects kappa (1/m, on crossed faces) so that closed pieces of surface exert no net force. The integral of kappa n
+// over a closed surface is 0. Independently computed curvatures violate that by O(h^2), and no change of shape removes
+// the error, so a drop at rest would start to move. The correction is
+//   kappa -= c.n,   n the unit normal, c one vector per connected piece,
+// such that the sum of +-kappa over the piece's links along each axis is 0. Its pressure jump then conserves momentum
+// to rounding. Pieces next to walls, solids or open sides, which may hold them, are left alone. Collective.
 template <int Dim>
 void balance_closed_pieces(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& phi,
                            const FaceField<Dim, char>& crossed, FaceField<Dim>& kappa);

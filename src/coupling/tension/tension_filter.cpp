@@ -9,7 +9,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// 1 + l^4 K^2, and its diagonal's inverse.
+// The operator 1 + l^4 K^2, and Jacobi's preconditioner for it. K: Laplacian of the graph.
 template <int Dim>
 class Filter {
  public:
@@ -54,8 +54,8 @@ Vector mean_at_cells(const Layout<Dim>& layout, const std::vector<Site>& cells, 
 
 }  // namespace
 
-// s^2 = 1.4: on surfaces along the diagonals the graph's Laplacian is half that of the surface, and the largest of s^2
-// x^3/(1 + x^4/4) is 1.5^2.
+// s^2 = 1.4. On surfaces along grid diagonals the graph's Laplacian is half that of the surface. The largest (omega
+// dt)^2, that of s^2 x^3/(1 + x^4/4) with x = l k, is then 1.5^2.
 double filter_length(double sigma, double density, double h, double dt) {
   if (dt * dt * 4 * pi * sigma <= density * h * h * h) return 0;
   return std::cbrt(sigma * dt * dt / (1.4 * density)) / h;
@@ -68,10 +68,10 @@ void filter_curvature(const Domain<Dim>& domain, const CellField<Dim>& phi, cons
   const Vector before = mean_at_cells(domain.layout, graph.cells(), crossed, kappa);
   Vector after = before;
   Filter<Dim> filter(graph, length);
-  constexpr double tolerance = 1e-10;  // far below the error of curvature
-  constexpr int most = 2000;           // what is left then is still a curvature, only less smooth
+  constexpr double tolerance = 1e-10;  // relative; far below the error of curvature
+  constexpr int most = 2000;           // iterations; an unconverged result is still a curvature, only less smooth
   conjugate_gradients(filter, filter, before, after, {tolerance * norm(before, domain.ranks), most}, domain.ranks);
-  // What links of one cell differ by is as short as can be: it goes as well.
+  // Differences between the links of one cell are the shortest waves of all, so interpolation drops them too.
   const CellField<Dim>& smooth = graph.spread(after);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {

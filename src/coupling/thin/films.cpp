@@ -6,7 +6,8 @@
 namespace seiche {
 namespace {
 
-// Less open than least_open, and so are its neighbours on both sides across some axis: solids or walls are near there.
+// True for an open face in a slit: it and both neighbours along some other axis are less open than least_open. Walls of
+// the domain count as such neighbours.
 template <int Dim>
 bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis, Site f, const IVec<Dim>& i) {
   if (faces.kind_at(axis, f) != FaceKind::open || faces.open.at(axis, f) >= least_open) return false;
@@ -34,8 +35,8 @@ Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
   return film;
 }
 
-// With w u^2 kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as it
-// does in inviscid liquid that comes in from rest.
+// A plate of width L lifts off a floor with (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, if w u^2 is conserved.
+// This is the exact law for inviscid liquid that enters from rest.
 template <int Dim>
 void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film, const Vec3& g,
                        double dt, FaceField<Dim>& u) {

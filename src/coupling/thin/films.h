@@ -1,22 +1,24 @@
 #pragma once
-// Liquid in slits narrower than a cell: between a body and the floor, or two bodies that come apart.
+// Sub-grid gap flow: liquid in slits narrower than a cell, between a body and the floor or between separating bodies.
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
-// Faces less open than this carry next to no mass, and jets through such slits say nothing of the flow beside them: the
-// projection uses them, transport takes the continued velocity there.
+// Open fraction below which transport does not use the solved velocity of a face. Such faces carry almost no mass, and
+// jets through them say nothing about the flow beside them. The projection uses these faces; transport reads the
+// extrapolated velocity there.
 constexpr double least_open = 0.2;
 
-// The velocity as solved for on faces less open than least_open, else as continued.
+// Open fractions with the velocity `solved` on faces less open than least_open and `continued` on all others.
 template <int Dim>
 Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
                        const FaceField<Dim>& continued);
 
-// On the faces of slits that have grown wider, w the open part, u = film.u sqrt(film.w/w) + dt g: what the velocity
-// continued from beside a slit does not know is that the liquid in it is under way, and its inertia is most of what a
-// body has that lifts off. Liquid pressed out of a narrowing slit leaves as a jet that the grid cannot carry.
+// On faces of slits that have widened,
+//   u = film.u sqrt(film.open/open) + dt g.
+// The velocity extrapolated from beside a slit misses the motion of the liquid within it, which has most of the inertia
+// of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
 template <int Dim>
 void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film,
                        const Vec3& gravity, double dt, FaceField<Dim>& u);

@@ -9,14 +9,14 @@
 namespace seiche {
 namespace {
 
-// Cells: how far from the surface a cell counts at least that is made wet or dry.
+// Least |phi| (cells) of a cell that is made wet or dry.
 constexpr double least_distance = 0.1;
 
 struct Near {
   bool wet = false, dry = false;
 };
 
-// What stood next to x on its side of a thin body.
+// Phases in the cells around x that the thin body does not separate from x.
 template <int Dim>
 Near find_near(const Domain<Dim>& domain, const CellField<Dim>& phi, const PlacedSolid<Dim>& solid, const Vec<Dim>& x) {
   const Geometry<Dim>& g = domain.layout.geometry();
@@ -60,7 +60,7 @@ struct ThinSolids {
     return place_solid(domain.layout, solids.bodies[k], placed);
   }
 
-  // phi of a cell beside body k as its own side allows.
+  // phi of a cell beside body k, its sign corrected to a phase that its own side held before.
   double allowed(int k, Site cell, double phi) const {
     const PlacedSolid<Dim>&solid = *now[std::size_t(k)], &then = *earlier[std::size_t(k)];
     const Vec<Dim> x = domain.layout.position(domain.layout.index(cell), cell_offset<Dim>());
@@ -72,7 +72,8 @@ struct ThinSolids {
     return phi;
   }
 
-  // Of a wet cell before face f, dry across it: as deep as the cell behind it.
+  // phi of wet cell `wet` beside sealed face f, dry across it, or of the cell behind if that is deeper. `away`:
+  // direction away from the face, +-1.
   double as_behind(const CellField<Dim>& phi, const SealedFace& f, Site wet, int away) const {
     const Site d = away * domain.layout.stride(f.axis), between = away > 0 ? wet + d : wet;
     return sealed.at(f.axis, between) ? phi[wet] : std::min(phi[wet], phi[wet + d]);

@@ -1,15 +1,15 @@
 #pragma once
-// Liquid beside solids that are thinner than a cell: the level set knows one surface, not on which side of them it is.
+// Level set beside solids thinner than a cell: one surface does not say on which side of the solid it lies.
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
-// Cells beside a thin solid change between wet and dry only where something can have come from their own side since
-// `before`: looked at are the place where the centre was as the solid moves it, and the cells around that which the
-// solid does not part from it. And where there is liquid on one side alone, the level set there does not tell how near
-// the solid is: liquid goes on towards it as behind. Collective.
+// Keeps the liquid on its own side of thin solids. A cell beside a sealed face becomes wet or dry only if its own side
+// held liquid or air in `before`. The lookup uses the cells around the place that its centre had in the frame of the
+// solid. Cells that the solid separates from that place do not count. phi does not measure the distance to a thin solid
+// at which liquid ends. There the liquid counts as deep as in the cell behind. Ghosts filled. Collective.
 template <int Dim>
 void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& before,
                       const StepGeometry<Dim>& geometry, CellField<Dim>& phi);

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-// A wet cell without a row, among sealed faces alone.
+// True if a wet cell has no face of unknown velocity.
 template <int Dim>
 bool is_shut_in(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi, Site cell) {
   bool shut = phi[cell] < 0;
@@ -18,14 +18,14 @@ bool is_shut_in(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const Cel
   return shut;
 }
 
-// Depths of what lies between a sealed face's body and the centres of the cells beside it, m: of all that is held to
-// move with it, and of what weighs on it. What is shut in has all on the face's side of its centre; it weighs nothing
-// where the body fills it.
+// Depths of the liquid between a sealed face's body and the centres of the adjacent cells, m. inert: all liquid that
+// moves with the body. heavy: the part with weight. A shut-in cell counts with h/2. It has no weight if its centre lies
+// in the body.
 struct Depths {
   double inert = 0, heavy = 0;
 };
 
-// Of the cells that are this rank's.
+// Sums over the cells that this rank owns.
 template <int Dim>
 Depths wet_depths(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                   const CellField<Dim>& phi, const SealedFace& f) {
@@ -43,7 +43,7 @@ Depths wet_depths(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const P
   return sum;
 }
 
-// da/dt = -|a| a/h by Euler's step, down to nothing: what would cross a cell in the step is gone.
+// Explicit Euler step of da/dt = -|a| a/h, clipped at zero: a deviation that would cross a cell in the step vanishes.
 double slowed(double a, double dt, double h) {
   return a * std::max(0., 1 - dt * std::abs(a) / h);
 }
@@ -56,7 +56,7 @@ LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, cons
   const FaceShares& shares = *g.shares[std::size_t(k)];
   const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
   const auto size = std::size_t(w.size());
-  std::vector<double> sums(3 * size);  // mass, what of it weighs, momentum
+  std::vector<double> sums(3 * size);  // mass, heavy, momentum
   std::size_t n = 0;                   // shares and sealed faces are in the same order
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;

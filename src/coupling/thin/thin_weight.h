@@ -1,5 +1,5 @@
 #pragma once
-// The mass and the volume of the liquid beside elastic solids that are thinner than a cell.
+// Mass and volume of the liquid beside elastic solids thinner than a cell.
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -7,34 +7,37 @@
 
 namespace seiche {
 
-// Pressure acts on the faces that body k seals as it is at the centres of the cells beside them, and these faces have
-// no liquid of their own. What is between the centres and the body moves with it and weighs on it: of each unknown, kg,
-//   sum_f s A rho (d_low + d_high),   d the gaps of the cells with a row, h/2 of those that sealed faces shut in,
-// spread to the nodes as the face's velocity is their mean. So a wet body feels rho g times its volume along each axis,
-// a column of liquid rests on it with all its weight, and light sheets do not move without inertia. Its momentum
-// (kg m/s) is that of the velocity u_f which the face has had, of the liquid if it was open: a node that lagged or
-// raced, seen by no face, brings none with it. What nodes of one face differ by from their mean wears off as motion
-// through liquid over a cell does, |a| a/h. Collective.
+// Liquid that moves with the thin elastic body k. On the faces that the body seals, pressure acts with its values at
+// the centres of the adjacent cells. These faces have no liquid mass of their own. The liquid between the centres and
+// the body moves with it and weighs on it. Its mass per unknown, kg, is
+//   sum_f s A rho (d_low + d_high),
+// with d the gaps of cells with a row, and h/2 for cells that sealed faces shut in. Nodes share it with the weights of
+// the face velocity. A wet body then feels rho g times its volume along each axis. Columns of liquid rest on it with
+// full weight, and light sheets have inertia. The momentum (kg m/s) is that of the last face velocity u_f, the liquid's
+// if the face was open. Nodes that lag or race without effect on any face contribute none. The deviation a of a node
+// from the face mean decays by |a| a/h, as motion through liquid over one cell does. Collective.
 struct LiquidBeside {
-  Eigen::VectorXd mass, heavy, momentum;  // heavy: what of the mass weighs, not that of cells which the body fills
+  Eigen::VectorXd mass, heavy, momentum;  // heavy: the part of mass with weight; excludes cells filled by the body
 };
 template <int Dim>
 LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, const StepGeometry<Dim>& geometry,
                            const PressureRows<Dim>& rows, const State<Dim>& state, double dt, int k);
 
-// Liquid beside thin elastic solids ends in whole cells, the solids between: what that counts too much, m^Dim,
-//   sum_f n_a^2 A (h/2 - d) over the sides of a sealed face with liquid,
-// the mean over the axes of what is between face and solid; what a cell in the solid has of liquid counts too much,
-// too. Of the sum of all ranks. Collective.
+// Liquid volume counted in excess beside thin elastic solids, m^Dim. The level set counts liquid up to the sealed
+// faces, but the solid lies in between. The excess is
+//   sum_f n_a^2 A (h/2 - d)   over the sides of sealed faces with liquid,
+// the mean over the axes of the volume between face and solid. In cells with their centre inside the solid, the counted
+// share of the half cell is in excess. Summed over all ranks; 0 without thin elastic solids. Collective.
 template <int Dim>
 double volume_beyond(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& geometry,
                      const CellField<Dim>& phi);
 
-// Whether there are thin elastic solids.
+// True if any elastic solid is thin.
 template <int Dim>
 bool has_thin_elastic(const Solids<Dim>& solids);
 
-// Force and torque about the origin that forces on the nodes add up to (ElasticMotion::extra_load, reaction).
+// Force (N) and torque (N m) about the origin, stacked, of nodal forces (N) at the displacements u. See
+// ElasticMotion::extra_load, reaction.
 template <int Dim>
 Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, const Eigen::VectorXd& forces);
 

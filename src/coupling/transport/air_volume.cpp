@@ -12,7 +12,9 @@
 namespace seiche {
 namespace {
 
-// Region of each cell and of the cells around it, layer by layer, first through open faces alone; open air is the last.
+// Per cell: its own region, or that of the nearest air cells, spread layer by layer over the band. The first two layers
+// pass only faces of unknown velocity (all if `faces` is null). Open air has the number air.count(); -1: none near.
+// Collective.
 template <int Dim>
 CellField<Dim, std::int64_t> nearest_regions(const Domain<Dim>& domain, const AirRegions<Dim>& air,
                                              const CellField<Dim>& phi, const FaceGeometry<Dim>* faces) {
@@ -39,7 +41,8 @@ CellField<Dim, std::int64_t> nearest_regions(const Domain<Dim>& domain, const Ai
   return near;
 }
 
-// Air in the owned cells of each region, summed over the ranks.
+// Air volume near each region, last that near open air, m^Dim, with phi raised by `shift` (m). Summed over the ranks.
+// Collective.
 template <int Dim>
 std::vector<double> volumes_of(const Domain<Dim>& domain, const CellField<Dim, std::int64_t>& near, std::int64_t count,
                                const NodeField<Dim>& psi, const CellField<Dim>& phi, double shift) {
@@ -55,7 +58,7 @@ std::vector<double> volumes_of(const Domain<Dim>& domain, const CellField<Dim, s
   return volume;
 }
 
-// Cells that a region now has of one before; either may be open_air.
+// Number of cells that went from a region before to a region now. Either may be open_air.
 using Overlaps = std::map<std::pair<std::int64_t, std::int64_t>, double>;
 
 struct Overlap {
@@ -63,7 +66,7 @@ struct Overlap {
   double cells;
 };
 
-// Where the air of a cell was, in cells.
+// Cell in which the air of cell c was dt (s) ago, within the halo.
 template <int Dim>
 Site origin(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, Site c) {
   Site from = c;
@@ -74,7 +77,7 @@ Site origin(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, Site 
   return from;
 }
 
-// How many cells each region now has of each before, over all ranks.
+// Overlaps over all ranks. Collective.
 template <int Dim>
 Overlaps overlaps(const Domain<Dim>& domain, const AirRegions<Dim>& before, const AirRegions<Dim>& now,
                   const FaceField<Dim>& u, double dt) {
@@ -99,9 +102,9 @@ Overlaps overlaps(const Domain<Dim>& domain, const AirRegions<Dim>& before, cons
   return all;
 }
 
-// Where the surface is cut off by a rim, cells beside it change sides to and fro: each would take a cell's air along.
-// Up to 2^Dim cells between a region that stays and the open air are therefore nobody's, and splinters below a cell's
-// volume leave theirs with the larger part, so that they vanish and it is whole.
+// Drops overlaps that are noise. At a rim that cuts off the surface, cells alternate between both sides, and each would
+// carry a cell of air along. So up to 2^Dim cells between a persisting region and the open air do not count. Splinters
+// smaller than one cell (`cell`, m^Dim) leave their volume to the larger part and vanish.
 template <int Dim>
 Overlaps without_blur(Overlaps cells, const std::vector<double>& measured, std::size_t before, double cell) {
   constexpr double blur = 1 << Dim;
@@ -122,7 +125,8 @@ Overlaps without_blur(Overlaps cells, const std::vector<double>& measured, std::
   return cells;
 }
 
-// V_n = sum_b V_b m_bn / sum_n m_bn, m_bn the part of n's measured volume that came from b; from what was open m_n.
+// V_n = sum_b V_b m_bn / sum_n m_bn, with m_bn the part of the measured volume of n that came from b. Parts that were
+// open count as measured. Adds the volumes of vanished regions to `lost`.
 template <int Dim>
 void hand_on_volumes(const Domain<Dim>& domain, const AirRegions<Dim>& before, const Overlaps& found,
                      const std::vector<double>& measured, AirRegions<Dim>& now, double& lost) {
@@ -134,7 +138,7 @@ void hand_on_volumes(const Domain<Dim>& domain, const AirRegions<Dim>& before, c
     if (pair.second >= 0) known[std::size_t(pair.second)] = 1;
   for (const auto& [pair, n] : cells)
     if (pair.second >= 0) in_all[std::size_t(pair.second)] += n;
-  // Regions in cut cells may have no volume to share by.
+  // Regions in cut cells may measure no volume: use a lower bound.
   const auto part = [&](const auto& pair, double n) {
     if (pair.second < 0 || n == 0) return n * cell;
     return std::max(measured[std::size_t(pair.second)], 1e-3 * cell) * n / in_all[std::size_t(pair.second)];
@@ -188,9 +192,9 @@ double control_volumes(const Domain<Dim>& domain, const StepGeometry<Dim>& g, do
   const std::vector<double> volume = volumes_of(domain, near, air.count(), g.psi, phi, 0);
   const std::vector<double> grown = volumes_of(domain, near, air.count(), g.psi, phi, probe);
   const std::size_t open = air.volume.size();
-  double enclosed = 0, lacking = 0;  // of the regions' volumes
+  double enclosed = 0, lacking = 0;  // volume of the regions, and the part of it that they lack
   for (std::size_t k = 0; k < open; ++k) enclosed += air.volume[k], lacking += air.volume[k] - volume[k];
-  const double excess = liquid - expected;  // what the liquid has too much
+  const double excess = liquid - expected;  // of liquid volume
   if (!air.any_open && enclosed > 0)
     for (double& v : air.volume) v *= 1 + (excess - lacking) / enclosed;
   std::vector<double> shift(open + 1);

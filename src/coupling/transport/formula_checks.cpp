@@ -17,7 +17,8 @@
 namespace seiche {
 namespace {
 
-// Empty, or what is not finite at a face of a side at time t: all components, also those that the flow does not feel.
+// Names a value that is not finite at a face of a side at time t; else empty. Checks all components, also those that do
+// not act on the flow.
 template <int Dim>
 std::string fault_at_side(const Domain<Dim>& domain, const DomainSpec& extent, int axis, int side, const Vec<Dim>& x,
                           double t) {
@@ -35,7 +36,7 @@ std::string fault_at_side(const Domain<Dim>& domain, const DomainSpec& extent, i
   return {};
 }
 
-// The first of this rank's faults on faces that solids leave open.
+// First fault of this rank on faces of the sides that solids leave open.
 template <int Dim>
 std::string fault_of_sides(const Domain<Dim>& domain, const DomainSpec& extent, const StepGeometry<Dim>& g, double t) {
   std::string fault;
@@ -90,13 +91,14 @@ std::string first_text(const Communicator& ranks, const std::string& mine) {
 }
 
 template <int Dim>
-void check_formulas_at_start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const std::string& fault) {
-  std::string mine = fault.empty() ? s.fluids.gravity.fault(0) : fault;
-  if (mine.empty()) mine = fault_of_sides(s.domain, s.scene.domain, g, 0);
-  if (mine.empty()) mine = fault_of_viscosity(s.domain, s.fluids, 0);
-  for (std::size_t k = 0; mine.empty() && k < s.sources.size(); ++k)
-    mine = fault_of_source(s.domain, s.sources, k, std::max(0.0, s.sources[k].spec.from));
-  if (const std::string text = first_text(s.domain.ranks, mine); !text.empty()) throw Error(ExitCode::bad_input, text);
+void check_formulas_at_start(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Source<Dim>>& sources,
+                             const DomainSpec& extent, const StepGeometry<Dim>& g, const std::string& fault) {
+  std::string mine = fault.empty() ? fluids.gravity.fault(0) : fault;
+  if (mine.empty()) mine = fault_of_sides(domain, extent, g, 0);
+  if (mine.empty()) mine = fault_of_viscosity(domain, fluids, 0);
+  for (std::size_t k = 0; mine.empty() && k < sources.size(); ++k)
+    mine = fault_of_source(domain, sources, k, std::max(0.0, sources[k].spec.from));
+  if (const std::string text = first_text(domain.ranks, mine); !text.empty()) throw Error(ExitCode::bad_input, text);
 }
 
 template <int Dim>
@@ -121,7 +123,8 @@ void check_geometry_of_step(const Domain<Dim>& domain, const Solids<Dim>& solids
 #define SEICHE_INSTANTIATE(D)                                                                                   \
   template std::string place_text<D>(const Vec<D>&);                                                            \
   template std::string not_finite_text<D>(const std::string&, const Formula&, double, const Vec<D>&, double);   \
-  template void check_formulas_at_start<D>(const Setup<D>&, const StepGeometry<D>&, const std::string&);        \
+  template void check_formulas_at_start<D>(const Domain<D>&, const Fluids&, const std::vector<Source<D>>&,      \
+                                           const DomainSpec&, const StepGeometry<D>&, const std::string&);      \
   template void check_forces_of_step<D>(const Domain<D>&, const Fluids&, const std::vector<Source<D>>&, double, \
                                         double);                                                                \
   template void check_geometry_of_step<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&,                \

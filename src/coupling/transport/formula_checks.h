@@ -1,5 +1,6 @@
 #pragma once
-// Formulas of a scene that give no finite number: found before they reach the flow, and said by key, place and time.
+// Checks that a scene's formulas give finite numbers. Faults are found before they reach the flow and name key, place
+// and time.
 #include "base/domain_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -18,17 +19,17 @@ std::string place_text(const Vec<Dim>& x);
 template <int Dim>
 std::string not_finite_text(const std::string& key, const Formula& formula, double value, const Vec<Dim>& x, double t);
 
-// The first text that is not empty, by rank, on all ranks. Collective.
+// The first nonempty text in the order of the ranks, on all ranks. Collective.
 std::string first_text(const Communicator& ranks, const std::string& mine);
 
-// Throws Error(bad_input) with `fault` or where gravity, the viscosity or a side's or a source's formula is not finite
-// as the run begins (a source: as it begins), or the viscosity is negative. Collective.
+// Throws Error(bad_input) with `fault`, if any, or on a formula that is not finite. Checked are gravity, sides and
+// viscosity (also for negative values) at t = 0, and each source when it first opens. Collective.
 template <int Dim>
-void check_formulas_at_start(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const std::string& fault);
+void check_formulas_at_start(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Source<Dim>>& sources,
+                             const DomainSpec& extent, const StepGeometry<Dim>& geometry, const std::string& fault);
 
-// Throw Error(cannot_continue) where a formula is not finite in a step from t0 to t1: gravity, the viscosity
-// (or negative) or of a source, before the transport, and of a side or a solid's motion, as measured in `geometry`.
-// Collective.
+// Throw Error(cannot_continue) if a formula is not finite in a step from t0 to t1 (s). Before transport: gravity,
+// viscosity (also if negative) and sources. After `geometry` is measured: sides and the motions of solids. Collective.
 template <int Dim>
 void check_forces_of_step(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Source<Dim>>& sources,
                           double t0, double t1);

@@ -10,7 +10,8 @@
 namespace seiche {
 namespace {
 
-// Along a side only what it drags or brings counts.
+// Largest velocity component given by a side, m/s. Tangential components count only if liquid sticks to the side or
+// enters through it.
 template <int Dim>
 double fastest_of_side(const Domain<Dim>& domain, int axis, int side, double t) {
   const SideType type = domain.sides.type(axis, side);
@@ -25,7 +26,7 @@ double fastest_of_side(const Domain<Dim>& domain, int axis, int side, double t) 
   return fastest;
 }
 
-// At the cells that the source fills.
+// Largest velocity component in the cells of this rank that the source fills, m/s.
 template <int Dim>
 double fastest_of_source(const Domain<Dim>& domain, const Source<Dim>& source, double t) {
   if (source.velocity.is_constant()) return truncate<Dim>(source.velocity(Vec3::Zero(), t)).cwiseAbs().maxCoeff();
@@ -53,7 +54,7 @@ double fastest_given(const Domain<Dim>& domain, const std::vector<Source<Dim>>& 
 
 }  // namespace
 
-// Looked at where no motion of whole or half periods is zero by chance.
+// The sample times are such that motions over whole or half periods are not zero at all of them.
 template <int Dim>
 double fastest_given_flow(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t, double dt) {
   double fastest = 0;

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-// Shapes whose values are no exact distances near their zero.
+// True for shapes whose values are not distances near their zero.
 bool needs_redistancing(const ShapeSpec& s) {
   return s.kind == "expression";
 }
@@ -26,7 +26,8 @@ class Regions {
     return std::max(d, -band_);
   }
 
-  // Whether straight lines between cell centres put a surface where the shapes have it, to a tenth of a cell.
+  // True if linear interpolation between two cell centres places the surface within a tenth of a cell of the shapes'
+  // own. `low`, `high`: phi at x and x + step.
   bool is_straight(const Vec<Dim>& x, const Vec<Dim>& step, double low, double high) const {
     constexpr double margin = 0.1;
     const double share = low / (low - high);
@@ -35,7 +36,7 @@ class Regions {
     return before && behind;
   }
 
-  // Share of the way from x to x + step at which liquid begins or ends, by bisection.
+  // Fraction of the way from x to x + step at which liquid begins or ends, by bisection. `inside`: x is in liquid.
   double crossing(const Vec<Dim>& x, const Vec<Dim>& step, bool inside) const {
     double low = 0, high = 1;
     for (int n = 0; n < 20; ++n) {
@@ -52,8 +53,8 @@ class Regions {
   const std::vector<std::unique_ptr<ShapeField<Dim>>>& shapes_;
 };
 
-// body(axis, site of the neighbour, step to it) for the neighbours of a cell within the domain on the surface's other
-// side. Neither is closed: where a formula jumps within a solid does not tell where the surface is outside.
+// body(axis, neighbour, step to it) for the neighbours of a cell within the domain on the surface's other side. Neither
+// cell is closed: a formula that jumps inside a solid does not locate the surface outside.
 template <int Dim, class Body>
 void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, const CellField<Dim, char>& closed, Site c,
                      const IVec<Dim>& i, const Body& body) {
@@ -70,8 +71,8 @@ void for_each_across(const Layout<Dim>& layout, const CellField<Dim>& phi, const
     }
 }
 
-// Whether a formula jumps and its values at cell centres misplace its zero. Distances change by a cell from one to the
-// next; what changes by more than two has jumped. Collective.
+// True if a formula jumps and its values at cell centres misplace its zero. Distances change by at most a cell between
+// neighbours; a change of more than two is a jump. Collective.
 template <int Dim>
 bool misplaces_zero(const Domain<Dim>& domain, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
                     const CellField<Dim>& phi) {
@@ -87,8 +88,9 @@ bool misplaces_zero(const Domain<Dim>& domain, const Regions<Dim>& regions, cons
   return domain.ranks.any(misplaced);
 }
 
-// Distance of the cells beside the zero from the plane through the zeros theta_a h away along the axes,
-// d = h / sqrt(sum 1/theta_a^2); the band elsewhere. What a jump leaves farther off would draw the zero along.
+// Sets cells beside the zero to their distance from the plane through the zeros theta_a h away along the axes,
+//   d = h / sqrt(sum 1/theta_a^2).
+// All other cells get +-band: values that a jump leaves farther off would displace the zero. Collective.
 template <int Dim>
 void place_zero(const Domain<Dim>& domain, const Regions<Dim>& regions, const CellField<Dim, char>& closed,
                 CellField<Dim>& phi) {

@@ -1,5 +1,5 @@
 #pragma once
-// The level set that a run begins with.
+// Initial level set.
 #include "coupling/geometry/step_geometry.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
@@ -8,7 +8,7 @@
 
 namespace seiche {
 
-// Distance to the union of the regions' shapes, within the band; ghosts filled. Collective.
+// Signed distance (m) to the union of the regions' shapes, limited to the band. Ghosts filled. Collective.
 template <int Dim>
 CellField<Dim> initial_surface(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                                const StepGeometry<Dim>& geometry,

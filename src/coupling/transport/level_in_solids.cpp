@@ -11,15 +11,15 @@
 namespace seiche {
 namespace {
 
-constexpr double depth = 1.5;  // cells; psi of deformed bodies is true to two
-constexpr int layers = 4;      // a wall moves by less than that in a step
+constexpr double depth = 1.5;  // cells; psi of deforming bodies is exact to two
+constexpr int layers = 4;      // a wall moves less in a step
 
 template <int Dim>
 bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
   return g.body[cell] >= 0 && g.deforms(g.body[cell]);
 }
 
-// 1 in the cells of the domain but for those deeper than that in deformed bodies.
+// 1 in the cells of the domain, except those deeper than `depth` in deforming bodies.
 template <int Dim>
 std::vector<char> cells_near_outside(const Domain<Dim>& domain, const StepGeometry<Dim>& g) {
   std::vector<char> near(std::size_t(domain.layout.size()), 0);
@@ -31,7 +31,7 @@ std::vector<char> cells_near_outside(const Domain<Dim>& domain, const StepGeomet
   return near;
 }
 
-// 1 for the bodies that have not moved since the start; none of those that forces move.
+// 1 for the bodies that have not moved since the start; 0 for all that forces move.
 template <int Dim>
 std::vector<char> unmoved_bodies(const Solids<Dim>& solids, const StepGeometry<Dim>& g) {
   std::vector<char> unmoved;
@@ -44,7 +44,7 @@ std::vector<char> unmoved_bodies(const Solids<Dim>& solids, const StepGeometry<D
   return unmoved;
 }
 
-// Whether unmoved solids fill a cell wholly.
+// True if unmoved solids fill a cell entirely.
 template <int Dim>
 bool is_closed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const std::vector<char>& unmoved, Site cell) {
   bool closed = true;

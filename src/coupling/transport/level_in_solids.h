@@ -1,5 +1,5 @@
 #pragma once
-// phi within solids: whose liquid or air it stands for.
+// phi within solids: the liquid or air that it stands for.
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
@@ -7,39 +7,39 @@
 
 namespace seiche {
 
-// 1 in the cells that unmoved solids fill wholly: no face is open, no corner outside. Ghosts filled. Unmoved are static
-// solids, and prescribed ones until they first move. In others phi goes along with the body: continued from air that
-// stays behind it would bring out liquid that the body hides.
+// 1 in the cells that unmoved solids fill entirely: no face is open, no corner outside. Ghosts filled. Unmoved solids
+// are static ones, and prescribed ones until they first move. In other solids phi moves with the body. There,
+// extrapolation from air behind a moving body would release liquid that the body hides. Collective.
 template <int Dim>
 CellField<Dim, char> closed_cells(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                   const StepGeometry<Dim>& geometry);
 
-// Continues phi straight into the closed cells, four layers deep. Fills ghosts. Collective.
+// Extrapolates phi along straight lines into the closed cells, four layers deep. Fills ghosts. Collective.
 template <int Dim>
 void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                         CellField<Dim>& phi);
 
-// The closed cells of solids through which phi bends: where phi and its straight continuation differ by a tenth of a
-// cell near the zero in some cell of the solid. Elsewhere both are as good, and phi itself is no extrapolation, which
-// narrow places between small solids amplify. Ghosts filled. Collective.
+// Closed cells of the solids in which phi is bent: in some cell near the zero it differs from its straight
+// extrapolation by more than a tenth of a cell. In other solids both are equally good and phi is kept, since narrow
+// gaps between small solids amplify extrapolation. Ghosts filled. Collective.
 template <int Dim>
 CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                        const StepGeometry<Dim>& geometry, const CellField<Dim>& phi);
 
-// Makes phi a distance outside the closed cells, as continued straight into them, and then within them beside what is
-// outside. A surface redistanced through a wall bends towards the level on its other side, and sets liquid at rest
-// beside it in motion. Transport reads the distance within, which a front takes along into the wall
-// (docs/decisions/0029-level-set-in-static-solids.md). The iterations outside are shared among `passes`, each of which
-// continues phi anew. Collective.
+// Makes phi a distance outside the closed cells, with its straight extrapolation inside them. Then makes it a distance
+// inside them, with the outside fixed. A surface redistanced through a wall bends towards the level on its other side,
+// which sets liquid at rest beside it in motion. Transport also reads the distance inside, which a front carries along
+// into the wall (docs/decisions/0029-level-set-in-static-solids.md). The iterations outside are divided among `passes`,
+// each of which extrapolates phi anew. Collective.
 template <int Dim>
 void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi);
 
-// In elastic bodies phi is carried with the body's velocity next to its surface alone; farther in it stays behind when
-// they move, and liquid of one side of a thick wall would come out at the other. From the depth of 1.5 cells on, for
-// four layers, phi whose sign is not that of the nearest cells less deep (the mean of the neighbours a layer nearer to
-// them) is set to what it is there. Cells less deep count as they are, also along sides and solids that the body
-// touches. Elsewhere phi is left alone. Fills ghosts. Collective.
+// Keeps phi on the two sides of thick elastic walls apart. In elastic bodies phi moves with the body only near its
+// surface. Deeper inside it stays behind, and liquid from one side would emerge at the other. Four layers from a depth
+// of 1.5 cells on are checked against the nearest cells less deep: phi with another sign takes their value, the mean of
+// the neighbours one layer nearer to them. Cells less deep count as they are, also along sides and solids that the body
+// touches. Other cells keep phi. Fills ghosts. Collective.
 template <int Dim>
 void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, CellField<Dim>& phi);
 

@@ -18,7 +18,8 @@ std::string bad_value_text(const Formula& formula, double value, const Vec<Dim>&
                      place_text<Dim>(x), t);
 }
 
-// visit(site, value) of the formula in this rank's cells; the first value that is none, as a text.
+// visit(site, value) with the formula's value in each of this rank's cells. Returns a text on the first value that is
+// not finite or is negative.
 template <int Dim, class Visit>
 std::string evaluate(const Domain<Dim>& domain, const Formula& formula, double t, const Visit& visit) {
   const Expression value_of(formula);

@@ -14,7 +14,7 @@ namespace {
 
 using Range = std::pair<double, double>;
 
-// Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
+// Range of velocity of the valid faces among a face and its neighbours, m/s; first > second if none is valid.
 template <int Dim>
 Range valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
   Range range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
@@ -28,7 +28,7 @@ Range valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, 
   return range;
 }
 
-// The face nearest to x with all neighbours stored.
+// The face nearest to x of those whose neighbours are all stored.
 template <int Dim>
 Site nearest_face(const Layout<Dim>& layout, int axis, const Vec<Dim>& x) {
   const Vec<Dim> g = index_coordinates<Dim>(layout, x, face_offset<Dim>(axis));
@@ -38,7 +38,7 @@ Site nearest_face(const Layout<Dim>& layout, int axis, const Vec<Dim>& x) {
   return layout.site(i);
 }
 
-// The faces of a component within `reach` cells of a side, without those on it.
+// Faces of a component within `reach` cells of a side, except those on the side.
 template <int Dim>
 Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int component, int reach) {
   Box<Dim> box = layout.faces(component);
@@ -50,8 +50,9 @@ Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int compone
   return box;
 }
 
-// Acceleration by gravity, pressure and viscosity as the last step left it. Impacts change velocity at once whatever dt
-// is, so that it is at most that of gravity or h/4 in a step. Free fall where nothing was solved for.
+// Acceleration by gravity, pressure and viscosity in the last step, m/s^2. Free fall on faces that were not solved. An
+// impact changes velocity by an amount independent of dt. So the magnitude is at most |g|, or h/4 in a step if that is
+// more.
 template <int Dim>
 double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const Level<Dim>& level, int axis, Site f,
                        double g, double dt) {
@@ -76,37 +77,37 @@ void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const
     });
 }
 
-// With tau the time since the entry, A the acceleration, u_in + tau A is wanted. The solve adds dt (A - g) and the
-// viscous share that memory leaves: u* = u_in + dt g - (dt - tau) A + memory.
+// Wanted after the solve is u_in + tau A, with tau the time since the entry and A the acceleration. The solve adds dt
+// (A - g) and the viscous part that is not in `memory`. Hence u* = u_in + dt g - (dt - tau) A + memory.
 template <int Dim>
-void let_liquid_in(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
-                   const FaceField<Dim>& memory, FaceField<Dim>& u) {
+void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time, const Tampering& tampering,
+                   const Level<Dim>& level, const FacePaths<Dim>& paths, double t, const FaceField<Dim>& memory,
+                   FaceField<Dim>& u) {
   const double dt = paths.dt;
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(t + dt, dt);
-  const int reach = int(std::ceil(s.scene.time.cfl)) + 1;
+  const Vec3 g = tampering.gravity * fluids.gravity.of_step(t + dt, dt);
+  const int reach = int(std::ceil(time.cfl)) + 1;
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
-      if (s.domain.sides.type(axis, side) != SideType::inflow) continue;
+      if (domain.sides.type(axis, side) != SideType::inflow) continue;
       for (int a = 0; a < Dim; ++a)
         for_each_index_in_order(
-            s.domain.layout, faces_behind(s.domain.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
+            domain.layout, faces_behind(domain.layout, axis, side, a, reach), [&](Site f, const IVec<Dim>& i) {
               if (!paths.near.at(a, f)) return;
-              const Vec<Dim> from = departure_of_face(s.domain.layout, paths.velocity, a, f, i, dt);
-              const auto entry = find_entry(s.domain.layout, s.domain.sides, from,
-                                            s.domain.layout.position(i, face_offset<Dim>(a)), t, dt);
+              const Vec<Dim> from = departure_of_face(domain.layout, paths.velocity, a, f, i, dt);
+              const auto entry =
+                  find_entry(domain.layout, domain.sides, from, domain.layout.position(i, face_offset<Dim>(a)), t, dt);
               if (!entry) return;
-              const double before = dt - entry->inside,
-                           acc = acceleration_at(s.domain, s.fluids, level, a, f, g[a], dt);
-              u.at(a, f) = velocity_of(s.domain.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
+              const double before = dt - entry->inside, acc = acceleration_at(domain, fluids, level, a, f, g[a], dt);
+              u.at(a, f) = velocity_of(domain.sides, *entry)[a] + dt * g[a] - before * acc + memory.at(a, f);
             });
     }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                         \
-                                     const FaceField<D, char>&, FaceField<D>&);                                      \
-  template void let_liquid_in<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, double, const FaceField<D>&, \
-                                 FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                          \
+                                     const FaceField<D, char>&, FaceField<D>&);                                       \
+  template void let_liquid_in<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const Tampering&, const Level<D>&, \
+                                 const FacePaths<D>&, double, const FaceField<D>&, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

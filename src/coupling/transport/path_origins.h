@@ -1,12 +1,12 @@
 #pragma once
-// Paths of transport that begin where the flow tells nothing: in air and beyond inflow sides.
+// Transport paths that begin outside the known flow: in air and beyond inflow sides.
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
-// The paths of one step that end at the faces near one fluid.
+// Paths of one step (dt, s) that end at the faces `near` one fluid.
 template <int Dim>
 struct FacePaths {
   const FaceField<Dim>& velocity;  // m/s, ghosts filled
@@ -14,17 +14,18 @@ struct FacePaths {
   double dt;
 };
 
-// A value brought through air is a guess: continued straight on and carried back into the liquid step after step, it
-// grows along a thin film without bound. Off the interior it keeps to the range of the valid faces where the path
-// begins, or, where none is there, where it ends.
+// Limits u (m/s) on faces off the interior to the range of the valid faces where their path begins. If none is valid
+// there, the range is that where it ends. Values that come through air are extrapolated. Extrapolated and transported
+// back into the liquid step after step, they would grow without bound along thin films.
 template <int Dim>
 void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u);
 
-// u before the projection where liquid came in through a side during the step from t on: its velocity there, plus what
-// the time since then has added. `memory` is the viscous one of transport.
+// Sets u before the projection on faces whose path entered through an inflow side during the step from t (s). It is the
+// inflow velocity plus the change since the entry. `memory`: viscous_memory() of transport.cpp, m/s.
 template <int Dim>
-void let_liquid_in(const Setup<Dim>& setup, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
-                   const FaceField<Dim>& memory, FaceField<Dim>& u);
+void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time, const Tampering& tampering,
+                   const Level<Dim>& level, const FacePaths<Dim>& paths, double t, const FaceField<Dim>& memory,
+                   FaceField<Dim>& u);
 
 }  // namespace seiche

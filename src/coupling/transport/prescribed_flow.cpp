@@ -17,7 +17,7 @@ namespace {
 template <int Dim>
 using Mask = CellField<Dim, char>;
 
-// Sets the cells up to `layers` away from set ones, within what this rank stores.
+// Sets all stored cells within `layers` of a set one along each axis.
 template <int Dim>
 void grow(const Layout<Dim>& layout, int layers, Mask<Dim>& mask) {
   const Box<Dim> all = layout.padded();
@@ -30,7 +30,7 @@ void grow(const Layout<Dim>& layout, int layers, Mask<Dim>& mask) {
   }
 }
 
-// The cells that the flow carries values to, |phi| < band, and `layers` around them.
+// Cells that transport updates, |phi| < band, and `layers` cells around them.
 template <int Dim>
 Mask<Dim> around_surface(const Domain<Dim>& domain, const CellField<Dim>& phi, int layers) {
   Mask<Dim> mask(domain.layout);
@@ -39,7 +39,7 @@ Mask<Dim> around_surface(const Domain<Dim>& domain, const CellField<Dim>& phi, i
   return mask;
 }
 
-// Index within the domain along periodic axes, so that formulas are asked there alone.
+// Index shifted into the domain along periodic axes, so that formulas are evaluated only there.
 template <int Dim>
 IVec<Dim> within_period(const Geometry<Dim>& g, IVec<Dim> i) {
   for (int a = 0; a < Dim; ++a)
@@ -47,7 +47,8 @@ IVec<Dim> within_period(const Geometry<Dim>& g, IVec<Dim> i) {
   return i;
 }
 
-// The formulas at time t on the low faces of the cells of a mask.
+// Values of the formulas at time t (s) on the low faces of the masked cells, 0 on others. Throws as prescribed_flow()
+// does. Collective.
 template <int Dim>
 FaceField<Dim> evaluate(const Domain<Dim>& domain, const Fluids& fluids, const Mask<Dim>& where, double t) {
   const VectorFormula& text = *fluids.liquid.prescribed_velocity;
@@ -101,7 +102,7 @@ double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const
   return domain.ranks.global_max(fastest);
 }
 
-// Looked at where no flow of whole or half periods is zero by chance; a step is at most twice as long as the last one.
+// The sample times are such that flows over whole or half periods are not zero at all of them.
 template <int Dim>
 double limit_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                            const State<Dim>& state, double remaining) {
@@ -120,7 +121,7 @@ double limit_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, cons
   return dt;
 }
 
-// What carries the surface is the flow at the middle of the step.
+// The flow at the middle of the step transports the surface.
 template <int Dim>
 std::string fault_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                 const State<Dim>& state, double dt) {

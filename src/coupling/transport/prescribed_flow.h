@@ -1,5 +1,6 @@
 #pragma once
-// Flows that a scene gives for all times (`liquid.prescribed_velocity`): nothing is solved, the surface alone moves.
+// Flows that a scene prescribes for all times (`liquid.prescribed_velocity`): nothing is solved, only the surface
+// moves.
 #include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
@@ -7,12 +8,12 @@
 
 namespace seiche {
 
-// The velocity at time t on the faces that carrying the surface `phi` over a step can read, ghosts too; 0 on the
-// others. Throws Error (bad_input at t = 0, else cannot_continue) where a formula is not finite. Collective.
+// Velocity (m/s) at time t on the faces, ghosts included, that transport of the surface `phi` over a step can read; 0
+// on others. Throws Error (bad_input at t = 0, else cannot_continue) if a formula is not finite. Collective.
 template <int Dim>
 FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t);
 
-// The same where liquid is and within the band around it, as a time level; no pressure.
+// The same in the liquid and in the band around it, as a time level without pressure. Collective.
 template <int Dim>
 std::shared_ptr<const Level<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
                                                    const CellField<Dim>& phi, double t);
@@ -21,13 +22,13 @@ std::shared_ptr<const Level<Dim>> prescribed_level(const Domain<Dim>& domain, co
 template <int Dim>
 double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t);
 
-// The longest step from the state's time that crosses at most cfl cells with the flow at its begin and end and at times
-// between, s; at most `remaining`. Collective.
+// Longest step (s) from the state's time in which the flow crosses at most cfl cells, sampled at its start, end and
+// between. At most `remaining` and twice the last step. Collective.
 template <int Dim>
 double limit_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                            const State<Dim>& state, double remaining);
 
-// Empty, or that a step of dt crosses more cells than the halo holds. Collective.
+// Empty, or a text if a step of dt (s) crosses more cells than the halo holds. Collective.
 template <int Dim>
 std::string fault_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                 const State<Dim>& state, double dt);

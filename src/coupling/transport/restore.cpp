@@ -16,9 +16,9 @@
 namespace seiche {
 namespace {
 
-constexpr int straight_layers = 2;  // in which velocity is continued straight, before it is constant
+constexpr int straight_layers = 2;  // layers of linear extrapolation; constant beyond
 
-// Mean of the psi of a face's corners, and its gradient there (per cell).
+// Mean of psi over a face's corners, m, and its gradient there, m per cell.
 template <int Dim>
 struct FaceDistance {
   double psi = 0;
@@ -40,7 +40,7 @@ FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Di
   return r;
 }
 
-// All components at a face of one axis: its own, and the mean of the four (2D: four) around it of the others.
+// All velocity components at a face: its own, and the mean of the four nearest faces of each other component.
 template <int Dim>
 Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site f) {
   Vec<Dim> v;
@@ -52,7 +52,7 @@ Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, in
   return v;
 }
 
-// Velocities of the solids at faces: of what deforms on the faces that it closes, as far in as its surface is near.
+// Velocities of the solids at faces, m/s. Deforming solids have one only on faces that they close, near their surface.
 template <int Dim>
 class SolidVelocities {
  public:
@@ -85,15 +85,15 @@ class SolidVelocities {
   std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
 };
 
-// Whether viscous liquid has the velocity of this body (-1: none) at its surface.
+// True if viscous liquid sticks to this body (-1: none).
 template <int Dim>
 bool liquid_sticks_to(const Fluids& fluids, const Solids<Dim>& solids, int body) {
   return fluids.is_viscous() && body >= 0 && solids.bodies[std::size_t(body)].spec().slip == Slip::no_slip;
 }
 
-// In solids the continued velocity takes the solid's normal velocity: u += ((v - u).n) n. Solved faces keep theirs.
-// Where liquid sticks to the solid, what is continued straight passes through the solid's velocity at its surface;
-// farther in than that goes all of it is the solid's.
+// In solids the extrapolated velocity takes the solid's normal velocity, u += ((v - u).n) n. Solved faces keep theirs.
+// If liquid sticks to the solid, linear extrapolation already passes through the solid's velocity at its surface.
+// Deeper than straight_layers, u is then the solid's velocity.
 template <int Dim>
 void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                    const StepGeometry<Dim>& g, const SolidVelocities<Dim>& moving, const FaceField<Dim, char>& valid,
@@ -115,7 +115,7 @@ void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids
     });
 }
 
-// The given velocity on walls and inflow, wet or dry. Fills ghosts.
+// Sets the given velocity on walls and inflow sides, wet or dry. Fills ghosts. Collective.
 template <int Dim>
 void keep_prescribed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
@@ -133,7 +133,7 @@ void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const So
   FaceField<Dim, char> reached = valid;
   const SolidVelocities<Dim> moving(domain, solids, g);
   for (int a = 0; a < Dim; ++a) {
-    // Inflow feeds the air before it, too.
+    // Inflow also sets the velocity of the air in front of it.
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (valid.at(a, f)) reached.at(a, f) = 1;
       if (g.faces.kind_at(a, f) != FaceKind::prescribed) return;
@@ -163,13 +163,14 @@ void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solid
 }
 
 template <int Dim>
-Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                               const StepGeometry<Dim>& g) {
-  Level<Dim> next = empty_level(s.domain.layout, s.fluids.is_viscous());
+Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                               const Tampering& tampering, const ProjectionInput<Dim>& in,
+                               const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
+                               const FaceField<Dim>& u_star, const StepGeometry<Dim>& g) {
+  Level<Dim> next = empty_level(domain.layout, fluids.is_viscous());
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
-      const Site low = f - s.domain.layout.stride(a);
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      const Site low = f - domain.layout.stride(a);
       const bool wet = rows.touch_pressure(low, f);
       if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
@@ -177,32 +178,33 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
         next.u.at(a, f) = in.faces.prescribed.at(a, f);
         return;
       }
-      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s.fluids, s.solids, g.body[f]))
+      if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(fluids, solids, g.body[f]))
         next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
-      next.u.at(a, f) = u_star.at(a, f) - s.tampering.pressure_gradient * in.dt * next.q.at(a, f);
+      next.u.at(a, f) = u_star.at(a, f) - tampering.pressure_gradient * in.dt * next.q.at(a, f);
     });
-  s.domain.halo.fill_ghosts(next.u);
+  domain.halo.fill_ghosts(next.u);
   Restored<Dim> restored;
   restored.divergence = max_divergence(in, rows, next.u);
   const FaceField<Dim> solved = next.u;
   if (in.has_gas()) {
     restored.gas = next;
-    continue_level(s.domain, s.fluids, s.solids, g, faces_near_gas(s.domain, in.phi), restored.gas);
+    continue_level(domain, fluids, solids, g, faces_near_gas(domain, in.phi), restored.gas);
   }
-  continue_level(s.domain, s.fluids, s.solids, g, faces_near_liquid(s.domain, in.phi), next);
-  restored.film = measure_film(s.domain, in.faces, solved, next.u);
+  continue_level(domain, fluids, solids, g, faces_near_liquid(domain, in.phi), next);
+  restored.film = measure_film(domain, in.faces, solved, next.u);
   restored.level = std::move(next);
   return restored;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
-                                  const FaceField<D, char>&, Level<D>&);                                        \
-  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&, \
-                                     const FaceField<D, char>&, FaceField<D>&);                                 \
-  template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,  \
-                                           const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,       \
+                                  const FaceField<D, char>&, Level<D>&);                                           \
+  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
+                                     const FaceField<D, char>&, FaceField<D>&);                                    \
+  template Restored<D> restore_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const Tampering&,    \
+                                           const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, \
+                                           const FaceField<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

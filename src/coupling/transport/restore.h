@@ -1,5 +1,5 @@
 #pragma once
-// After the solve: velocity and pressure slope on the faces next to liquid, continued beyond it.
+// After the solve: velocity and pressure slope on the faces next to liquid, extrapolated beyond it.
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -8,30 +8,34 @@
 
 namespace seiche {
 
-// valid codes of Level::valid.
+// Values of Level::valid.
 enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 
 // The flow after a solve.
 template <int Dim>
 struct Restored {
   Level<Dim> level;  // the liquid's
-  Level<Dim> gas;    // where gas flows
+  Level<Dim> gas;    // the gas's, if it flows
   Film<Dim> film;
-  double divergence = 0;  // the largest |net flux|/volume of a cell with a row, 1/s
+  double divergence = 0;  // largest |net flux|/volume of a cell with a row, 1/s
 };
 
-// u = u* - dt grad p/rho on unknown faces, the given velocity on prescribed ones, q = grad p/rho; then u continued.
+// Velocity after the projection,
+//   u = u* - dt q,   q = grad p/rho,
+// on unknown faces that touch a pressure, and the given velocity on prescribed ones. Then extrapolates u. Collective.
 template <int Dim>
-Restored<Dim> restore_velocity(const Setup<Dim>& setup, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
-                               const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                               const StepGeometry<Dim>& geometry);
+Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                               const Tampering& tampering, const ProjectionInput<Dim>& in,
+                               const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
+                               const FaceField<Dim>& u_star, const StepGeometry<Dim>& geometry);
 
-// Continues u from its valid faces: straight for two layers, constant beyond; in solids without flow through them.
+// Extrapolates u from its valid faces: linearly for two layers, constant beyond. In solids u follows the solid, so that
+// no flow passes through its surface. Faces of walls and inflow keep the given velocity. Ghosts filled. Collective.
 template <int Dim>
 void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                        const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid, FaceField<Dim>& u);
 
-// Continues a fluid's level from the faces near it, its only valid ones where there is another fluid.
+// Extrapolates the level of one fluid. If gas flows, only the faces `near` the fluid stay valid. Collective.
 template <int Dim>
 void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                     const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, Level<Dim>& level);

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-// Of one fluid.
+// One fluid: density (kg/m^3), viscosity (Pa s) and viscous acceleration n of the last step.
 template <int Dim>
 struct OneFluid {
   double density = 0, viscosity = 0;
@@ -36,12 +36,12 @@ struct BothFluids {
 
   double at_face(int axis, Site f) const { return 0.5 * (phi[f] + phi[f - layout.stride(axis)]); }
   const OneFluid<Dim>& of_face(int axis, Site f) const { return at_face(axis, f) < 0 ? liquid : gas; }
-  // Of the link across a face.
+  // Density of the link across a face, kg/m^3.
   double density(int axis, Site f) const {
     const double theta = liquid_part(phi[f - layout.stride(axis)], phi[f]);
     return theta * liquid.density + (1 - theta) * gas.density;
   }
-  // n_d^2 in the middle of the link between a face and the one above it along d.
+  // n_d^2 at the middle of the link between a face and the one above it along d.
   double along_normal(int axis, Site low, int d) const {
     Vec<Dim> g;
     for (int b = 0; b < Dim; ++b) {
@@ -53,8 +53,8 @@ struct BothFluids {
     return g.squaredNorm() > 0 ? g[d] * g[d] / g.squaredNorm() : 0;
   }
 
-  // rho n/mu of the fluid of a face, carried on straight to the surface `way` links beyond it from the face behind, and
-  // how much of epsilon/h a face of it lacks.
+  // value: rho n/mu of the fluid at face f, extrapolated linearly from the face `behind` it to the surface, `way` links
+  // beyond f. share: change of the value per epsilon/h.
   struct Bend {
     double value = 0, share = 0;
   };
@@ -65,7 +65,7 @@ struct BothFluids {
     return {scale * ((1 + r) * fluid.n.at(axis, f) - r * fluid.n.at(axis, behind)), (1 + r) / fluid.viscosity};
   }
 
-  // epsilon/h, N/m^3, of the link between a face and the one above it along d; 0 where the surface does not cross it.
+  // epsilon/h, N/m^3, on the link between a face and the one above it along d; 0 if the surface does not cross it.
   double excess(int axis, Site low, int d) const {
     const Site step = layout.stride(d), high = low + step;
     const double at_low = at_face(axis, low), at_high = at_face(axis, high);

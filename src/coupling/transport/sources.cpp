@@ -13,9 +13,9 @@
 namespace seiche {
 namespace {
 
-// Distance to what a source brings: its shape carried along its own velocity, min over the ages a of shape(x - a v(x)),
-// ages being at most a cell's crossing apart; the domain's cells along all axes bound how many can matter. Nothing is
-// carried to where the velocity's formula has no value.
+// Distance (m) to the liquid that a source brings: its shape moved with its own velocity, min over the ages a of
+// shape(x - a v(x)). Ages are at most one cell's crossing apart. The sum of the domain's cells over all axes bounds
+// their number. The shape is not moved to points at which the velocity's formula is not finite.
 template <int Dim>
 double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open,
                            const Vec<Dim>& x) {

@@ -25,7 +25,7 @@
 namespace seiche {
 namespace {
 
-// Lagrange weights that carry values at t, t - dt1, t - dt1 - dt2 to t + dt/2.
+// Lagrange weights that extrapolate values at t, t - dt1, t - dt1 - dt2 to t + dt/2. dt2 = 0: first two levels only.
 std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
   const double tau = dt / 2;
   if (dt2 == 0) return {1 + tau / dt1, -tau / dt1, 0};
@@ -33,7 +33,7 @@ std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
           tau * (tau + dt1) / ((dt1 + dt2) * dt2)};
 }
 
-// 1 where every face that transport may read from is known: higher order needs whole stencils.
+// 1 on faces around which all faces that transport may read are known; higher order needs whole stencils.
 template <int Dim>
 FaceField<Dim, char> interior_faces(const Domain<Dim>& domain, const FaceField<Dim, char>& known) {
   const int reach = domain.layout.halo() - 1;  // a step's path and half a stencil
@@ -50,7 +50,7 @@ FaceField<Dim, char> interior_faces(const Domain<Dim>& domain, const FaceField<D
   return interior;
 }
 
-// w = u(t + dt/2), extrapolated from up to three levels within the liquid; elsewhere the present u.
+// w = u(t + dt/2), m/s: in the interior extrapolated from up to three time levels, elsewhere the present u.
 template <int Dim>
 FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, const State<Dim>& state,
                              const Flow<Dim>& flow, const FaceField<Dim, char>& interior, const ViscousPlan& plan,
@@ -60,7 +60,7 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   continue_beyond_inflows(domain.layout, domain.sides, state.time, w);
   let_air_follow(domain.layout, domain.sides, state.time, flow.now->valid, w);
   if (!flow.before || time.scheme == TimeScheme::first_order) return w;
-  if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
+  if (dt > 2 * state.dt_now) return w;  // the weights grow with dt/dt_now and amplify noise
   const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
   const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
   const Level<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
@@ -89,10 +89,10 @@ void smooth(const Domain<Dim>& domain, FaceField<Dim>& f) {
   }
 }
 
-// Trend of the pressure slope from t - dt_now/2 to t + dt/2. Carrying it on as it stands grows waves that the flow
-// takes more than about an eighth of their length a step: errors follow r^2 = c ((1 + F) r - F), c = (1 - exp(-i
-// theta))/2, F the filter's response. 2 c^2 passes keep |r| <= 1 up to Courant number c = 2; beyond it the trend is
-// left out.
+// Change of the pressure slope from t - dt_now/2 to t + dt/2, m/s^2. Without a filter, extrapolation amplifies waves
+// that the flow carries more than about an eighth of their length a step. Errors obey r^2 = c ((1 + F) r - F), c = (1 -
+// exp(-i theta))/2, with F the filter's response. 2 C^2 passes of the filter keep |r| <= 1 up to the Courant number C =
+// 2; beyond it the trend is zero.
 template <int Dim>
 FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
   FaceField<Dim> trend(domain.layout);
@@ -111,29 +111,30 @@ FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, c
   return trend;
 }
 
-// A = f - G: the acceleration of the liquid at t + dt/2, G the pressure slope with its trend carried on. All zero at
-// the start and in first order. Impacts change velocity at once whatever dt is, so that their A says nothing of the
-// next step: |A| dt^2 <= h/4 keeps them out and leaves resolved flow alone (A dt^2/h is of order h there).
+// A = f - G: acceleration of the liquid at t + dt/2, m/s^2, with G the pressure slope plus its trend. Zero without an
+// earlier step and in first order. An impact changes velocity by an amount independent of dt, so its A does not predict
+// the next step. |A| dt^2 <= h/4 excludes impacts and leaves resolved flow alone, where A dt^2/h is O(h).
 template <int Dim>
-FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
-  FaceField<Dim> acc(s.domain.layout);
-  if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
-  const FaceField<Dim> trend = slope_trend(s.domain, state, flow, dt);
+FaceField<Dim> acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                            const Tampering& tampering, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
+  FaceField<Dim> acc(domain.layout);
+  if (state.dt_now == 0 || time.scheme == TimeScheme::first_order) return acc;
+  const FaceField<Dim> trend = slope_trend(domain, state, flow, dt);
   const Level<Dim>& level = *flow.now;
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
-  const double limit = 0.25 * s.domain.layout.h() / (dt * dt);
+  const Vec3 g = tampering.gravity * fluids.gravity.of_step(state.time + dt, dt);
+  const double limit = 0.25 * domain.layout.h() / (dt * dt);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (level.valid.at(a, f) == face_solved)
         acc.at(a, f) = std::clamp(g[a] - level.q.at(a, f) - trend.at(a, f), -limit, limit);
     });
-  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, acc);
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, acc);
   return acc;
 }
 
-// How much of the trend of N can be used. Where viscosity is stiff, N is large and all but balanced by pressure; a
-// trend known in part of the liquid alone unbalances them and feeds itself: whole up to mu dt/(rho h^2) = 1/2, none
-// from 1 on, unless all of the liquid is interior. Collective.
+// Fraction of the trend of N, the viscous acceleration, that viscous_memory() uses. If viscosity is stiff, N is large
+// and almost balanced by pressure. A trend known in only part of the liquid disturbs this balance and amplifies itself.
+// The fraction is 1 up to mu dt/(rho h^2) = 1/2 and 0 from 1 on, or 1 if all of the liquid is interior. Collective.
 template <int Dim>
 double trust_in_viscous_trend(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                               const FaceField<Dim, char>& interior, double dt) {
@@ -146,10 +147,11 @@ double trust_in_viscous_trend(const Domain<Dim>& domain, const Fluids& fluids, c
   return domain.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
 }
 
-// What viscosity did before that the step takes up again, N the acceleration by it, as one of u: c1 N(t + dt) + c2 N(t)
-// + c3 N(t - dt_now) along the path with the implicit share c1 is N(t + dt/2) to second order. With c1 = 1 all that
-// comes from before is a trend, -dt/(2 dt_now) (N(t) - N(t - dt_now)) as far as it can be trusted. Zero where either is
-// not known, and in first order.
+// Explicit part of the viscous term as a velocity increment, m/s:
+//   dt (c2 N(t) + c3 N(t - dt_now)),   N the viscous acceleration, N(t - dt_now) transported along the path.
+// Together with the implicit share c1 (ViscousPlan::implicit), c1 N(t + dt) + c2 N(t) + c3 N(t - dt_now) is N(t + dt/2)
+// to second order. For c1 = 1 the explicit part is a trend, -dt^2/(2 dt_now) (N(t) - N(t - dt_now)) times
+// trust_in_viscous_trend(). Zero where either level is unknown, for dt > 2 dt_now, and in first order.
 template <int Dim>
 FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                               const State<Dim>& state, const Flow<Dim>& flow, const FaceField<Dim, char>& interior,
@@ -165,7 +167,7 @@ FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, c
   FaceField<Dim> last = flow.before->n, carried(domain.layout);
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, last);
   advect_faces(domain.layout, now.u, state.dt_now, interior, interior, last, last, carried);
-  const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as of A
+  const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as for A
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (interior.at(a, f) && now.valid.at(a, f) == face_solved && flow.before->valid.at(a, f) == face_solved)
@@ -175,14 +177,14 @@ FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, c
   return memory;
 }
 
-// What is carried along the path: `inner` where all it needs is known, `outer` elsewhere.
+// Field to transport: `inner` where all data it needs are known, `outer` elsewhere.
 template <int Dim>
 struct Carried {
   FaceField<Dim> inner, outer;
 };
 
-// u(x) <- u(x) + d + the excess of the mean of d over the face, d = I[v](x_d) - v(x), v the velocities at points: what
-// flows are means, what paths begin and end at are points.
+// u(x) <- u(x) + d + excess_of_mean(d), d = I[v](x_d) - v(x), with v the point values of the velocity. The discrete
+// flow consists of face means, while paths begin and end at points.
 template <int Dim>
 void advect_means(const Domain<Dim>& domain, const Tampering& tampering, const State<Dim>& state,
                   const Carried<Dim>& carried, FaceField<Dim> path, const FaceField<Dim, char>& near,
@@ -205,11 +207,11 @@ void advect_means(const Domain<Dim>& domain, const Tampering& tampering, const S
     });
 }
 
-// Which faces of a flow transport may read, and what it knows there; geometry is as the solve finds it.
+// Faces of a flow that transport may read, and the order that holds there. `g`: geometry of the solve.
 template <int Dim>
 struct Surroundings {
-  bool enters_solids;                            // velocity is continued into solids that liquid sticks to
-  FaceField<Dim, char> interior, liquid, whole;  // liquid: interior without such solids
+  bool enters_solids;                            // true if velocity is extrapolated into solids that liquid sticks to
+  FaceField<Dim, char> interior, liquid, whole;  // liquid: interior, such solids excluded; whole: of fourth order
 
   Surroundings(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
                const FaceField<Dim, char>& valid, const ViscousPlan& plan)
@@ -220,7 +222,7 @@ struct Surroundings {
   }
 };
 
-// What one fluid's flow brings to the faces near where it is now.
+// Velocity of one fluid before the projection on the faces `near` it, m/s. Collective.
 template <int Dim>
 FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
                               const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
@@ -228,7 +230,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   const Surroundings<Dim> known(s.domain, s.fluids, s.solids, geometry, flow.now->valid, plan);
   const FaceField<Dim, char>& interior = known.interior;
   const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, interior, plan, dt);
-  FaceField<Dim> acc = acceleration(s, state, flow, dt),
+  FaceField<Dim> acc = acceleration(s.domain, s.fluids, s.scene.time, s.tampering, state, flow, dt),
                  memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, known.liquid, dt, plan);
   if (known.enters_solids) continue_into_solids(s.domain, flow.now->valid, acc);
   Carried<Dim> carried{flow.now->u, flow.now->u};
@@ -238,7 +240,7 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
     for_each_site(s.domain.layout, s.domain.layout.padded(), [&](Site f) {
       carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
     });
-  // Faces beside those near liquid follow the viscous stress.
+  // The viscous operator also couples faces beside those near liquid.
   FaceField<Dim> u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
   if (plan.full)
     advect_means(s.domain, s.tampering, state, carried, path, near, interior, known.whole, dt, u);
@@ -254,12 +256,12 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
       if (near.at(a, f) || s.fluids.is_viscous())
         u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
     });
-  let_liquid_in(s, *flow.now, paths, state.time, memory, u);
+  let_liquid_in(s.domain, s.fluids, s.scene.time, s.tampering, *flow.now, paths, state.time, memory, u);
   return u;
 }
 
-// Liquid faces keep u, gas faces take that of the gas; where the surface crosses both momenta add up:
-// rho_f u = theta rho u_liquid + (1 - theta) rho_gas u_gas.
+// Merges the gas's velocity into u: liquid faces keep u, gas faces take the gas's. On links that the surface crosses,
+// momenta add up, rho_f u = theta rho u_liquid + (1 - theta) rho_gas u_gas.
 template <int Dim>
 void join(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, const FaceField<Dim>& gas,
           FaceField<Dim>& u) {
@@ -290,7 +292,7 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   if (s.domain.sides.any_inflow())
     join_inflow(s.domain.layout, s.domain.halo, s.domain.ranks, s.domain.sides, t, joined);
   LevelSetTransport how;
-  if (s.fluids.has_prescribed_flow()) how.trace = Trace::third_order;  // nothing else errs there
+  if (s.fluids.has_prescribed_flow()) how.trace = Trace::third_order;  // transport is the only error there
   how.one_sided_at_kinks = s.features.has(Feature::kinks);             // docs/decisions/0023-kinks.md
   FaceField<Dim> path = u;
   if (!s.fluids.has_prescribed_flow()) {
@@ -303,11 +305,12 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
 }
 
 template <int Dim>
-void make_distance(const Setup<Dim>& s, const CellField<Dim, char>& closed, CellField<Dim>& phi) {
-  const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
-  redistance_beside_solids(s.domain, s.solids, closed,
-                           {s.domain.band() / s.domain.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s.fluids)},
-                           1, phi);
+void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const TimeSpec& time,
+                   const CellField<Dim, char>& closed, CellField<Dim>& phi) {
+  const int moved = int(std::ceil(time.cfl)) + 1;
+  redistance_beside_solids(domain, solids, closed,
+                           {domain.band() / domain.layout.h(), 6 + 2 * moved, moved, settled_of_surface(fluids)}, 1,
+                           phi);
 }
 
 template <int Dim>
@@ -369,7 +372,8 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
   template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);               \
   template double transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double, \
                                        CellField<D>&);                                                        \
-  template void make_distance<D>(const Setup<D>&, const CellField<D, char>&, CellField<D>&);                  \
+  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,          \
+                                 const CellField<D, char>&, CellField<D>&);                                   \
   template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                    \
   template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                       \
   template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,  \

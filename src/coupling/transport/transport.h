@@ -1,5 +1,5 @@
 #pragma once
-// Transport: the surface along the flow, the velocity along its path with the acceleration it felt.
+// Semi-Lagrangian transport: the surface along the flow, the velocity along its path with the acceleration it felt.
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -8,24 +8,29 @@
 
 namespace seiche {
 
-// phi, the surface at time t, at t + dt: transported by u, joined by inflow and sources. The state tells where solids
-// are. Returns the volume that sources brought, m^Dim.
+// Transports phi from time t to t + dt (s) with u (m/s), and joins it with inflow and sources. `state` gives the
+// positions of the solids. Returns the volume that sources brought, m^Dim. Throws as check_forces_of_step() does. Fills
+// ghosts. Collective.
 template <int Dim>
 double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double t, double dt,
                          CellField<Dim>& phi);
 
-// Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells (coupling/level_in_solids.h).
+// Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells. `closed`: see
+// redistance_beside_solids(). Collective.
 template <int Dim>
-void make_distance(const Setup<Dim>& setup, const CellField<Dim, char>& closed, CellField<Dim>& phi);
+void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const TimeSpec& time,
+                   const CellField<Dim, char>& closed, CellField<Dim>& phi);
 
-// Cells from the surface that are taken to their distance from it by its nearest points (levelset/redistance.h).
-// Curvature reads them, and where two fluids flow nothing tells their volumes apart but the surface.
+// Distance from the surface (cells) within which redistancing takes the nearest point of the surface
+// (RedistanceOptions::settled). Not 0 with surface tension, whose curvature reads these cells, and with gas, where only
+// the surface separates the volumes. Also in prescribed flows.
 double settled_of_surface(const Fluids& fluids);
 
-// u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
-// - q. Where gas flows, each fluid is brought by its own flow, continued beyond the surface, so that neither takes up
-// the other's velocity by interpolation; where the surface crosses, their momenta add up. `geometry` is that of the
-// end of the step.
+// u before the projection on all faces next to liquid: the transported velocity plus
+//   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.
+// If gas flows, each fluid is transported with its own flow, extrapolated beyond the surface. Neither then takes up the
+// other's velocity by interpolation. On links that the surface crosses their momenta add up. See flow_as_one() for the
+// exception. `phi` and `geometry` are those of the solve. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
                                   double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
@@ -34,16 +39,17 @@ FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& sta
 template <int Dim>
 FaceField<Dim, char> faces_near_liquid(const Domain<Dim>& domain, const CellField<Dim>& phi);
 
-// 1 on the owned faces with none on at least one side.
+// 1 on the owned faces with a cell without liquid (phi >= 0) on at least one side.
 template <int Dim>
 FaceField<Dim, char> faces_near_gas(const Domain<Dim>& domain, const CellField<Dim>& phi);
 
-// Shifts phi so that the liquid has the expected volume, by at most `limit` (m). Returns the volume restored.
+// Shifts phi so that the liquid has the expected volume (m^Dim), by at most `limit` (m). Returns the volume restored,
+// m^Dim. Fills ghosts. Collective.
 template <int Dim>
 double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, double expected, double limit,
                       CellField<Dim>& phi);
 
-// Liquid volume over all ranks, m^Dim.
+// Liquid volume over all ranks, m^Dim. Collective.
 template <int Dim>
 double liquid_volume(const Domain<Dim>& domain, const CellField<Dim>& phi, const NodeField<Dim>& psi);
 

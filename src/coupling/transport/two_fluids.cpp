@@ -8,7 +8,7 @@
 namespace seiche {
 namespace {
 
-// Whether a face belongs to the gas: by where it was solved for, else by the surface.
+// True if a face belongs to the gas: by the fluid that it was solved for, else by phi.
 template <int Dim>
 bool is_gas_face(const Level<Dim>& liquid, const Level<Dim>& gas, const CellField<Dim>& phi, Site stride, int axis,
                  Site f) {
@@ -16,7 +16,7 @@ bool is_gas_face(const Level<Dim>& liquid, const Level<Dim>& gas, const CellFiel
   return gas.valid.at(axis, f) || phi[f] + phi[f - stride] >= 0;
 }
 
-// On each face `field` of the fluid that is there.
+// On each face the `field` of the fluid there. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> of_levels(const Domain<Dim>& domain, const CellField<Dim>& phi, const Level<Dim>& liquid,
                          const Level<Dim>& gas, FaceField<Dim> Level<Dim>::*field) {
@@ -29,7 +29,7 @@ FaceField<Dim> of_levels(const Domain<Dim>& domain, const CellField<Dim>& phi, c
   return r;
 }
 
-// Valid where either is; null without both.
+// Composite level, valid where either fluid's is; null unless both exist. Collective.
 template <int Dim>
 std::shared_ptr<const Level<Dim>> level_of_both(const Domain<Dim>& domain, const Fluids& fluids,
                                                 const CellField<Dim>& phi,
@@ -47,9 +47,9 @@ std::shared_ptr<const Level<Dim>> level_of_both(const Domain<Dim>& domain, const
   return r;
 }
 
-// (U + sqrt(sigma/(rho h))) h/nu: how far the flow, and the shortest capillary wave, go in the time in which viscosity
-// evens out a cell; nu the smaller one. Infinite where viscosity is no constant, and without tension, which shapes a
-// surface that viscosity alone would leave to roll up. Collective.
+// Reynolds number of a cell, (U + sqrt(sigma/(rho h))) h/nu: cells that the flow and the shortest capillary wave cross
+// while viscosity smooths one cell. nu is the smaller of both, rho the sum. Infinite if the liquid's viscosity is not
+// constant or nu is 0. Also infinite without tension, since viscosity alone would let the surface roll up. Collective.
 template <int Dim>
 double reynolds_number_of_cell(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
   const LiquidSpec& liquid = fluids.liquid;

@@ -1,44 +1,45 @@
 #pragma once
-// Liquid and gas that share one velocity, each with its own flow continued beyond the surface.
+// Liquid and gas that share one velocity field, each with its own flow extrapolated beyond the surface.
 #include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
-// On each face the field of the fluid that is there, of the liquid where there is no other. `field` is one of Level's.
+// Composite of both fluids: on each face the value of the fluid there, the liquid's if there is no gas. `field`: a
+// member of Level. Collective.
 template <int Dim>
 FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
 
-// Whether both fluids, and the surface with them, are carried by one velocity that is read across the surface. Where
-// their densities are alike (within 4) and no tension holds the surface: what light fluid and heavy exchange by
-// interpolation is small then, while each by itself, continued beyond the surface, moves shear at it wrongly, which
-// makes a dent at the top of a Rayleigh-Taylor bubble.
+// True if one velocity, interpolated across the surface, transports both fluids and the surface: densities within a
+// factor of 4 and no surface tension. Interpolation then exchanges little momentum between the fluids. Separate flows
+// extrapolated beyond the surface would transport shear at the surface wrongly, with a dent at the top of a
+// Rayleigh-Taylor bubble.
 bool flow_as_one(const Fluids& fluids);
 
-// The time levels of that velocity.
+// Time levels of the composite flow. Collective.
 template <int Dim>
 Flow<Dim> flow_of_both(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state);
 
-// What the surface goes with: the velocity of both where they flow as one. Else, where a cell is thin for viscosity,
-// the mean of both flows, each continued beyond the surface: they agree there but for what either continues wrongly.
-// Where the fluids slip along each other, as far as the grid can tell, or no tension shapes the surface, the liquid's
-// alone: the gas's may have another velocity across the surface a cell away. In between, from a cell's Reynolds number
-// of 10 to 20, from one to the other. Collective.
+// Velocity that transports the surface, m/s: the composite one if flow_as_one(). Otherwise it depends on the Reynolds
+// number of a cell. Up to 10 it is the mean of both extrapolated flows, which agree there but for errors of
+// extrapolation. From 20 on it is the liquid's velocity, since the fluids may slip along each other on the scale of the
+// grid. Between 10 and 20 it is blended linearly. Without surface tension or with variable viscosity it is the
+// liquid's. Collective.
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state);
 
-// Forgets all but the marked faces of a level.
+// Invalidates all faces of a level but the marked ones, and sets their u and q to 0.
 template <int Dim>
 void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, Level<Dim>& level);
 
-// Liquid's share of the box of a cell's size around a point of distance phi, by a plane across it.
+// Liquid share of a box of width h around a point at signed distance phi (m) from a plane surface.
 inline double liquid_share_at(double phi, double h) {
   return std::clamp(0.5 - phi / h, 0.0, 1.0);
 }
 
-// Takes the gas's viscosity into that of the liquid: the mean by shares in cells and at edges, so that stress across
-// the surface is single-valued.
+// Mixes the gas's viscosity into the liquid's in `cell` and `edge` (Pa s): means by liquid share at cell centres and
+// edges. Stress across the surface is then single-valued.
 template <int Dim>
 void mix_gas_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, CellField<Dim>& cell,
                        EdgeField<Dim>& edge);

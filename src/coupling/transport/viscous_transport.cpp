@@ -33,13 +33,14 @@ bool has_surface(const Domain<Dim>& domain, const CellField<Dim>& phi) {
 }
 
 template <int Dim>
-ViscousPlan plan_viscosity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
+ViscousPlan plan_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                           const Features& features, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
   constexpr double stiff = 0.5;
   ViscousPlan plan;
-  if (!s.fluids.is_viscous() || s.fluids.has_gas() || s.scene.time.scheme == TimeScheme::first_order) return plan;
-  plan.full = !has_surface(s.domain, phi);
+  if (!fluids.is_viscous() || fluids.has_gas() || time.scheme == TimeScheme::first_order) return plan;
+  plan.full = !has_surface(domain, phi);
   const bool known = state.before && dt <= 2 * state.dt_now && dt * state.viscous_rate <= stiff;
-  if (plan.full && known && s.features.has(Feature::shared_viscosity)) plan.implicit = 9.0 / 16;
+  if (plan.full && known && features.has(Feature::shared_viscosity)) plan.implicit = 9.0 / 16;
   return plan;
 }
 
@@ -110,13 +111,13 @@ void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, cons
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template bool has_surface<D>(const Domain<D>&, const CellField<D>&);                                                \
-  template ViscousPlan plan_viscosity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double);              \
+  template ViscousPlan plan_viscosity<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const Features&,           \
+                                         const State<D>&, const CellField<D>&, double);                               \
   template bool sticks_to_known_solids<D>(const Fluids&, const Solids<D>&);                                           \
   template FaceField<D, char> faces_known_to_transport<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
                                                           const FaceField<D, char>&);                                 \
   template FaceField<D, char> uncut_faces<D>(const Domain<D>&, const StepGeometry<D>&, const FaceField<D, char>&);    \
-  template void continue_into_solids<D>(const Domain<D>&, const FaceField<D, char>&, \
-                                        FaceField<D>&);                                                               \
+  template void continue_into_solids<D>(const Domain<D>&, const FaceField<D, char>&, FaceField<D>&);                  \
   template FaceField<D> points_of_means<D>(const Domain<D>&, const FaceField<D, char>&, const FaceField<D>&, double); \
   template void add_missing_viscosity<D>(const Domain<D>&, const Fluids&, const State<D>&, const FaceField<D, char>&, \
                                          const FaceField<D>&, double, FaceField<D>&);

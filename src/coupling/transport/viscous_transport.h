@@ -1,6 +1,6 @@
 #pragma once
-// What transport knows of viscous liquid that fills the domain: fourth order between walls, and flow that goes on into
-// solids that it sticks to.
+// Transport in viscous liquid that fills the domain: fourth order between walls, and flow extrapolated into no-slip
+// solids.
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -10,52 +10,56 @@
 
 namespace seiche {
 
-// How the coming step takes viscous liquid along.
+// Treatment of viscous liquid in the coming step.
 struct ViscousPlan {
-  // Whether it fills the domain: only then to fourth order. Beside surfaces the order is two anyway, and in coarse flow
-  // with one (32 cells, Reynolds number of a cell 3000) kinetic energy rose in single steps by up to 0.3 %.
+  // True if liquid fills the domain; only then transport is of fourth order. Beside surfaces the order is two anyway.
+  // With fourth order, coarse flow with a surface (32 cells, cell Reynolds number 3000) gained up to 0.3 % kinetic
+  // energy in single steps.
   bool full = false;
-  // How much of the viscous stress of the step is that of its end. With 9/16, 3/8 at its start and 1/16 a step before
-  // the error in time is a quarter of that of 1 and a trend. Bodies would not feel the shares before, and with the
-  // explicit terms of fourth order it is stable only up to mu dt/(rho h^2) of about 1: full domains without bodies, up
-  // to 1/2.
+  // Share of the viscous stress that is taken at the end of the step. With 9/16, 3/8 at the start and 1/16 a step
+  // earlier, the error in time is a quarter of that of 1 with a trend. Bodies would not feel the explicit shares. With
+  // the explicit terms of fourth order, stability ends at mu dt/(rho h^2) of about 1. So 9/16 is used only in full
+  // domains without bodies, up to 1/2.
   double implicit = 1;
 };
 
-// phi that of the end of the step. Collective.
+// `phi` (m): of the solve. Collective.
 template <int Dim>
-ViscousPlan plan_viscosity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi, double dt);
+ViscousPlan plan_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                           const Features& features, const State<Dim>& state, const CellField<Dim>& phi, double dt);
 
-// Whether any cell holds no liquid. Collective.
+// True if any cell holds no liquid. Collective.
 template <int Dim>
 bool has_surface(const Domain<Dim>& domain, const CellField<Dim>& phi);
 
-// Whether liquid sticks to solids that are static or move as prescribed.
+// True if viscous liquid sticks to any solid that is static or prescribed.
 template <int Dim>
 bool sticks_to_known_solids(const Fluids& fluids, const Solids<Dim>& solids);
 
-// The valid faces and those that such solids close: velocity passes through the solid's at its surface there, so that
-// transport needs no other order beside it. Halo filled.
+// The valid faces and those that such solids close. Velocity extrapolated there passes through the solid's velocity at
+// its surface, so transport keeps its order beside the solid. Halo filled. Collective.
 template <int Dim>
 FaceField<Dim, char> faces_known_to_transport(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                               const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid);
 
-// The valid faces that no solid cuts. Halo filled.
+// The valid faces that no solid cuts. Halo filled. Collective.
 template <int Dim>
 FaceField<Dim, char> uncut_faces(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry,
                                  const FaceField<Dim, char>& valid);
 
-// Continues f from the valid faces into the others, straight for two layers. Ghosts are filled.
+// Extrapolates f from the valid faces into the others, linearly for two layers, constant beyond. Ghosts filled.
+// Collective.
 template <int Dim>
 void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f);
 
-// Velocities at face centres from means over the faces, on whole faces; all with ghosts filled.
+// Velocities (m/s) at face centres from face means u, on the `whole` faces; others keep u. `t` (s): time of the
+// velocities of walls and inflow. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> points_of_means(const Domain<Dim>& domain, const FaceField<Dim, char>& whole, const FaceField<Dim>& u,
                                double t);
 
-// u += dt nu times what the viscous operator lacks to fourth order, of the velocities `now` at the start of the step
-// continued beyond walls, where nu is the same everywhere.
+// u += dt nu times the part of the Laplacian that the viscous operator lacks to fourth order, on the `whole` faces.
+// `now`: velocities at the start of the step, extrapolated beyond walls. Does nothing if viscosity varies.
 template <int Dim>
 void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                            const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt, FaceField<Dim>& u);

@@ -3,7 +3,7 @@
 namespace seiche {
 namespace {
 
-constexpr int reach_of_stencils = 3;  // cells, of interpolation between four points and of one-sided slopes
+constexpr int reach_of_stencils = 3;  // cells; four-point interpolation and one-sided slopes
 
 template <int Dim>
 Geometry<Dim> grid_geometry(const DomainSpec& spec) {

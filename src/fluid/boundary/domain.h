@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-// Keeps references to itself: neither copied nor moved.
+// Keeps references to itself, so it can be neither copied nor moved.
 template <int Dim>
 struct Domain {
   Communicator ranks;
@@ -14,13 +14,13 @@ struct Domain {
   Halo<Dim> halo;
   Sides<Dim> sides;
 
-  // A step carries values across at most `reach` cells.
+  // `reach`: largest number of cells that a step carries values across.
   Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& ranks);
   Domain(const Domain&) = delete;
 
-  // Half width of the level-set band, m: the cells that a step can cross, and the reach of the stencils.
+  // Half width of the level-set band, m: the cells that a step can cross plus the reach of the stencils.
   double band() const { return (layout.halo() + 1) * layout.h(); }
-  // Layers by which the velocity is continued beyond the liquid.
+  // Layers of velocity extrapolation beyond the liquid.
   int extrapolated_layers() const { return layout.halo(); }
 };
 

@@ -1,21 +1,21 @@
 #pragma once
-// What each face of the grid lets through during one step.
+// Open fraction, kind and prescribed flux of each face of the grid during one step.
 #include "grid/fields.h"
 
 namespace seiche {
 
-// closed: all solid. open: its velocity is an unknown. prescribed: on a wall or inflow side, velocity given.
-// outflow: on a side held at a pressure, velocity unknown.
+// closed: entirely solid. open: unknown velocity. prescribed: on a wall or inflow side, given velocity. outflow: on a
+// side with a given pressure, unknown velocity.
 enum class FaceKind : char { closed, open, prescribed, outflow };
 
 template <int Dim>
 struct FaceGeometry {
   FaceField<Dim> open;           // w, open fraction, 0..1
   FaceField<Dim, char> kind;     // FaceKind
-  FaceField<Dim> closed_flux;    // (1 - w) v_solid: volume that solids push through, per face area, m/s
+  FaceField<Dim> closed_flux;    // (1 - w) v_solid: flux through the solid part, per face area, m/s
   FaceField<Dim> prescribed;     // velocity of prescribed faces, m/s
   FaceField<Dim> side_pressure;  // Pa, on outflow faces
-  CellField<Dim> cell_flux;      // what leaves a cell with solids besides, per face area, m/s
+  CellField<Dim> cell_flux;      // flux out of a cell due to solids, not included in its faces, per face area, m/s
 
   FaceGeometry() = default;
   explicit FaceGeometry(const Layout<Dim>& layout)
@@ -32,8 +32,8 @@ struct FaceGeometry {
   }
 };
 
-// Calls visit(axis, face, sign, neighbour) for the faces of a cell: sign +1 on the high face; neighbour is the cell
-// across.
+// Calls visit(axis, face, sign, neighbour) for the faces of a cell. sign: -1 on the low face, +1 on the high one;
+// neighbour: the cell across.
 template <int Dim, class Visit>
 void for_each_face_of(const Layout<Dim>& layout, Site cell, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {

@@ -6,8 +6,9 @@
 namespace seiche {
 namespace {
 
-// Where liquid that seems to enter at x came in: at x, at the centre of its face where the formula ends within that,
-// else at that of the nearest face next to it. Empty where none of these lets liquid in.
+// Entry point of liquid whose path crosses a side at x: x itself if liquid enters there. Else the centre of its face if
+// liquid enters there, since the formula's inflow may end within a face. Else the centre of the nearest adjacent face
+// that lets liquid in; empty if none does.
 template <int Dim>
 std::optional<Vec<Dim>> nearest_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side,
                                        const Vec<Dim>& x, double t) {
@@ -25,8 +26,9 @@ std::optional<Vec<Dim>> nearest_inflow(const Layout<Dim>& layout, const Sides<Di
   return nearest;
 }
 
-// Velocity of a component at a face (index i) brought to the side, from the faces of the side that it touches and that
-// let liquid in: one across the side, two along it. Empty where none does.
+// Prescribed velocity component at a face (index i) projected onto the side: the mean over the side's faces that it
+// touches and that let liquid in. It touches one for the component across the side, two for those along it. Empty if
+// none lets liquid in.
 template <int Dim>
 std::optional<double> inflow_beside(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side,
                                     int component, const IVec<Dim>& i, double t) {
@@ -50,7 +52,7 @@ std::optional<double> inflow_beside(const Layout<Dim>& layout, const Sides<Dim>&
   return count > 0 ? std::optional<double>(sum / count) : std::nullopt;
 }
 
-// The layers beyond a side of one component. The k-th is 2 u_side - that of the k-th inside.
+// Fills the layers of one component beyond a side: u(k-th outside) = 2 u_side - u(k-th inside), k <= odd_layers.
 template <int Dim>
 void continue_component(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, int component,
                         FaceField<Dim>& u) {
@@ -73,7 +75,7 @@ void continue_component(const Layout<Dim>& layout, const Sides<Dim>& sides, int 
 
 }  // namespace
 
-// The path is at x = to + r (from - to) the time r dt before its end.
+// The path is at to + r (from - to) at time r dt before its end.
 template <int Dim>
 std::optional<Entry<Dim>> find_entry(const Layout<Dim>& layout, const Sides<Dim>& sides, const Vec<Dim>& from,
                                      const Vec<Dim>& to, double t, double dt) {
@@ -101,7 +103,7 @@ Vec<Dim> velocity_of(const Sides<Dim>& sides, const Entry<Dim>& e) {
   return v;
 }
 
-// Faces across the side alone: those along it lie within the stream or the air.
+// Only the component across the side is set: faces of the others lie within the stream or the air.
 template <int Dim>
 void let_air_follow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, const FaceField<Dim, char>& valid,
                     FaceField<Dim>& u) {

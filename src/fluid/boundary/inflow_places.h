@@ -1,5 +1,5 @@
 #pragma once
-// Places on a side of the domain.
+// Positions on a side of the domain.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ double side_position(const Layout<Dim>& layout, int axis, int side) {
   return layout.geometry().lower[axis] + (side == 0 ? 0 : layout.geometry().cells[axis] * layout.h());
 }
 
-// Into the domain along the axes within a side: around periodic ones, to the nearest point along others.
+// Moves x into the domain along the axes within a side: wraps around periodic ones, clamps along others.
 template <int Dim>
 Vec<Dim> bring_inside(const Layout<Dim>& layout, int axis, Vec<Dim> x) {
   const Geometry<Dim>& g = layout.geometry();
@@ -24,7 +24,7 @@ Vec<Dim> bring_inside(const Layout<Dim>& layout, int axis, Vec<Dim> x) {
   return x;
 }
 
-// Centre of the face of a side that x on it lies in.
+// Centre of the side's face that contains x.
 template <int Dim>
 Vec<Dim> center_of_face(const Layout<Dim>& layout, int axis, Vec<Dim> x) {
   const Geometry<Dim>& g = layout.geometry();

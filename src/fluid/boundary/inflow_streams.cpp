@@ -1,4 +1,4 @@
-// The level set behind inflow sides.
+// The level set beyond inflow sides.
 #include <cstring>
 #include <set>
 
@@ -11,7 +11,7 @@ namespace {
 
 using FaceNumbers = std::set<std::int64_t>;
 
-// Number of the face of a side at a cell: brought around periodic sides, the outermost one beyond others.
+// Number of the side's face at a cell. Indices wrap around periodic sides and are clamped at others.
 template <int Dim>
 std::int64_t number_of_face(const Geometry<Dim>& g, int axis, const IVec<Dim>& cell) {
   std::int64_t n = 0;
@@ -35,9 +35,10 @@ FaceNumbers gather(const Communicator& ranks, const std::vector<std::int64_t>& m
   return all;
 }
 
-// The streams that enter through a side at one time: faces that let liquid in, and the drift of the liquid beyond along
-// the side as it comes nearer by one. A stream's rim is where dry faces begin; liquid beside it goes on into it. Walls
-// around the side continue its outermost faces. Lengths are cells.
+// The streams that enter through a side at one time: the faces that let liquid in, with their drift. Drift is the
+// displacement along the side while liquid beyond it approaches by one cell. A stream's rim is its boundary to dry
+// faces; liquid inside the domain that touches a stream is continuous with it. The outermost faces are extended beyond
+// the ends of the side. Lengths in cells.
 template <int Dim>
 class Streams {
  public:
@@ -56,7 +57,8 @@ class Streams {
     }
   }
 
-  // The owned faces where a rim may be: dry ones next to others; `cells` are those before the side.
+  // Numbers of the owned dry faces with a neighbour that is not dry. A face is dry if it lets no liquid in and its cell
+  // has none; `cells` are the owned cells next to the side.
   std::vector<std::int64_t> rims(const Layout<Dim>& layout, const Box<Dim>& cells, const CellField<Dim>& phi) const {
     std::vector<std::int64_t> mine;
     const auto is_dry = [&](Site s, const IVec<Dim>& i) { return phi[s] >= 0 && !feeds(i); };
@@ -73,8 +75,8 @@ class Streams {
 
   bool any() const { return any_; }
 
-  // Of a point `depth` behind the side, at cell i along it: distance to the stream where it lies outside, less than 0
-  // where it lies within, by the distance to its rim. Empty where no stream is near.
+  // Signed distance from a stream at a point `depth` beyond the side, at cell i along it: negative inside the stream,
+  // by the distance to its rim. Empty if no stream is near.
   std::optional<double> distance(const IVec<Dim>& i, double depth) const {
     const auto near = nearest_drift(i, int(std::ceil(depth)));
     if (!near) return {};
@@ -85,7 +87,7 @@ class Streams {
     return (feeds(nearest(there)) ? -distance_to_rim(there) : distance_along(there)) / slant;
   }
 
-  // From a point on the side to the nearest face that lets liquid in; as far as the halo reaches.
+  // Distance of a point on the side from the nearest face that lets liquid in, at most the halo's width.
   double distance_along(const Vec<Dim>& x) const {
     return least_gap(x, [&](const IVec<Dim>& j) { return feeds(j); });
   }
@@ -101,7 +103,7 @@ class Streams {
     return r;
   }
 
-  // Drift cut to two halos: the box holds three around owned cells, the third is the way to a rim.
+  // Limits a displacement to two halos. The box has three around owned cells; the third is for the distance to a rim.
   Vec<Dim> within_reach(const Vec<Dim>& drifted) const {
     const double most = 2 * reach_;
     return drifted.norm() > most ? Vec<Dim>(drifted * (most / drifted.norm())) : drifted;
@@ -116,7 +118,7 @@ class Streams {
     }
     return i;
   }
-  // Beyond the box that of the outermost faces.
+  // Position of a face in the arrays. Faces beyond the box have that of the outermost ones.
   std::size_t number(const IVec<Dim>& i) const {
     std::size_t n = 0;
     for (int b = Dim - 1; b >= 0; --b) {
@@ -127,7 +129,7 @@ class Streams {
   }
   bool feeds(const IVec<Dim>& i) const { return drift_[number(i)].has_value(); }
 
-  // body(face) for the faces within `reach` along the side.
+  // Calls body(face) for the faces within `reach` of face i along the axes of the side.
   template <class Body>
   void around(const IVec<Dim>& i, int reach, const Body& body) const {
     const int width = 2 * reach + 1, count = Dim == 2 ? width : width * width;
@@ -169,15 +171,15 @@ class Streams {
   bool any_ = false;
 };
 
-// Level set at a point `depth` behind a side, at the distance d from the stream there, both m; `straight` is phi
-// continued straight, `first` that of the first cell inside. Beside the rim of a stream into air that is the stream's
-// own; elsewhere liquid that stands before the side goes on beyond.
+// Level set at a point `depth` beyond a side with signed distance d from the stream there, both m. `straight` is phi
+// extended linearly, `first` is phi in the first cell inside. Next to the rim of a stream that enters air, the result
+// is d. Elsewhere liquid next to the side extends beyond it.
 double join_behind(double straight, double first, double d, double depth, double h) {
   if (d >= 0) return first > 0 && d < 2 * h ? d : std::min(straight, d);
   return std::max(std::min(straight, std::max(d, -depth)), d);
 }
 
-// Cells up to `reach` layers on both sides of a domain side, in `within`.
+// The cells of `within` that are in the `reach` layers on either side of a domain side.
 template <int Dim>
 Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach, Box<Dim> within) {
   const int edge = side == 0 ? 0 : layout.geometry().cells[axis];
@@ -186,7 +188,8 @@ Box<Dim> side_layers(const Layout<Dim>& layout, int axis, int side, int reach, B
   return within;
 }
 
-// Joins the streams of one side. Before it phi is at most the distance to the faces that let liquid in.
+// Adds the streams of one side to phi. Inside the domain, phi is at most the distance from the faces that let liquid
+// in.
 template <int Dim>
 void join_streams(const Layout<Dim>& layout, const Streams<Dim>& streams, int axis, int side, CellField<Dim>& phi) {
   const int reach = layout.halo(), edge = side == 0 ? 0 : layout.geometry().cells[axis] - 1;
@@ -194,7 +197,7 @@ void join_streams(const Layout<Dim>& layout, const Streams<Dim>& streams, int ax
   const CellField<Dim> before = phi;
   const Site inward = (side == 0 ? 1 : -1) * layout.stride(axis);
   for_each_index(layout, side_layers(layout, axis, side, reach, layout.padded()), [&](Site s, const IVec<Dim>& i) {
-    const int k = (side == 0 ? 1 : -1) * (i[axis] - edge);  // cells from the first inside
+    const int k = (side == 0 ? 1 : -1) * (i[axis] - edge);  // layer: 0 is the first inside, -1 the first beyond
     IVec<Dim> along = i;
     along[axis] = 0;
     if (k >= 0) {
@@ -208,7 +211,7 @@ void join_streams(const Layout<Dim>& layout, const Streams<Dim>& streams, int ax
 
 }  // namespace
 
-// Ghosts take what the ranks found that own the cells: only these know all that a stream's distance hangs on.
+// Ghosts take the values of the cells' owners: only these have all data that the distance from a stream depends on.
 template <int Dim>
 void join_inflow(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks, const Sides<Dim>& sides,
                  double t, CellField<Dim>& phi) {

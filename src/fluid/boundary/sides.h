@@ -1,5 +1,5 @@
 #pragma once
-// The sides of the domain: what they let through, and the values beyond them.
+// The sides of the domain: boundary conditions, and the values beyond the sides.
 #include <vector>
 
 #include "base/domain_spec.h"
@@ -9,7 +9,7 @@
 
 namespace seiche {
 
-// What no-slip and moving walls do to the liquid along them: without viscosity nothing.
+// Tangential condition at no-slip and moving walls. slips: none, for inviscid liquid. sticks: the wall's velocity.
 enum class WallFlow { slips, sticks };
 
 template <int Dim>
@@ -19,18 +19,18 @@ class Sides {
 
   SideType type(int axis, int side) const { return types_[axis][side]; }
   bool is_outflow(int axis, int side) const { return type(axis, side) == SideType::outflow; }
-  // Velocity of the wall or the inflow at x (component along `axis`); 0 for resting walls.
+  // Velocity of the wall or the inflow at x, m/s (one component); 0 on sides of other types.
   double velocity(int axis, int side, int component, const Vec<Dim>& x, double t) const;
   // Pressure beyond an outflow side, Pa.
   double pressure(int axis, int side, const Vec<Dim>& x, double t) const;
-  // Speed into the domain through an inflow side, or 0.
+  // Speed into the domain through an inflow side, m/s; 0 if the flow points outward or the side is of another type.
   double inward_speed(int axis, int side, const Vec<Dim>& x, double t) const;
   bool any_inflow() const;
 
-  // Whether liquid has the velocity of a wall there.
+  // True if liquid has the tangential velocity of this side.
   bool sticks(int axis, int side) const;
-  // How a component of the velocity continues beyond the sides: mirrored at walls, constant through inflow and outflow,
-  // straight on along walls that liquid sticks to.
+  // Extension of a velocity component beyond the sides: constant at inflow and outflow, linear for tangential
+  // components at walls that liquid sticks to, mirror at other walls.
   Extensions<Dim> velocity_extensions(int component) const;
 
  private:
@@ -40,7 +40,7 @@ class Sides {
   std::vector<Expression> pressure_;
 };
 
-// Halo exchange and continuation beyond the sides. Collective.
+// Halo exchange and extension beyond the sides. Collective.
 template <int Dim>
 void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides, FaceField<Dim>& u);
 

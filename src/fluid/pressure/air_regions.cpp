@@ -16,7 +16,7 @@ bool touches_kind(const ProjectionInput<Dim>& in, Site cell, bool outflow) {
   return any;
 }
 
-// Rows as the liquid has them, of the air instead.
+// Numbers the air cells as number_rows() numbers the liquid ones.
 template <int Dim>
 PressureRows<Dim> number_air_cells(const ProjectionInput<Dim>& in) {
   PressureRows<Dim> rows;

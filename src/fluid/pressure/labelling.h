@@ -1,5 +1,5 @@
 #pragma once
-// Labels of connected rows across ranks: each piece has the smallest row it is known to reach.
+// Connected components of rows across ranks. The label of a component is its smallest row.
 #include <cstring>
 #include <map>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// Rows of cells are joined by open faces. A region of air is one more node, the same on all ranks, behind this rank's
-// rows: what touches it anywhere is joined.
+// Rows of cells are joined by open faces. Each region of air is a further node after this rank's rows. All ranks share
+// these nodes, so that all rows that touch a region are joined.
 template <int Dim>
 class Labelling {
  public:
@@ -75,7 +75,7 @@ class Labelling {
     return in_.ranks.any(changed);
   }
 
-  // What other ranks know of the regions of air.
+  // Takes the smallest label of each region of air over all ranks.
   bool adopt_of_regions() {
     const std::size_t count = rows_.air_row.size();
     if (count == 0) return false;
@@ -97,7 +97,7 @@ class Labelling {
   CellField<Dim, std::int64_t> field_;
 };
 
-// label -> whether any rank said yes of it, on all ranks. Collective.
+// Logical or over all ranks, by label. Collective.
 std::map<std::int64_t, bool> any_of_labels(const std::map<std::int64_t, bool>& mine, const Communicator& ranks);
 
 }  // namespace seiche

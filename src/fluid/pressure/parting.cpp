@@ -6,7 +6,7 @@
 namespace seiche {
 namespace {
 
-// Net volume flux out of a cell, a unit of face area, with the velocity that the pressure leaves.
+// Net volume flux out of a cell per face area (m/s), with the velocity after the pressure step.
 template <int Dim>
 double flux_after(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
                   const FaceField<Dim>& u_star, Site cell) {

@@ -1,6 +1,6 @@
 #pragma once
-// Liquid that parts from walls and solids instead of hanging on to them: p >= 0 there, and a cell may gain volume where
-// p = 0 (Batty, Bertails, Bridson 2007; solved by policy iteration, fluid/pressure/parting_search.h).
+// Separating walls (unilateral pressure): in cells at walls and solids p >= 0, and a cell may gain volume if p = 0
+// (Batty, Bertails, Bridson 2007). Solved by policy iteration (fluid/pressure/parting_search.h).
 #include "grid/fields.h"
 #include "grid/halo.h"
 
@@ -13,38 +13,38 @@ struct ProjectionInput;
 
 template <int Dim>
 struct Parting {
-  CellField<Dim, char> parted;  // 1: this cell's pressure is zero and its net flux free; one cell around filled
-  CellField<Dim> gap;           // share of a cell's volume that has opened so far and is to be closed before p > 0
+  CellField<Dim, char> parted;  // 1: the cell has p = 0 and a free net flux; filled one cell around
+  CellField<Dim> gap;           // fraction of a cell's volume that has opened so far and must close before p > 0
 
   Parting() = default;
   explicit Parting(const Layout<Dim>& layout) : parted(layout), gap(layout) {}
 };
 
-// First guess: the cells that were parted already. Collective.
+// First guess of the parted cells: the liquid cells with an open gap. Collective.
 template <int Dim>
 void start_parting(const ProjectionInput<Dim>& in, Parting<Dim>& parting);
 
-// Cells whose guess a solution contradicts: those that did not part but whose pressure pulls, and those that parted but
-// would be squeezed beyond their gap.
+// Cells whose guess contradicts the solution: cells with a row and p < 0 (suction), and parted cells whose inflow
+// exceeds their gap (overfill).
 struct WrongGuesses {
   std::vector<Site> cells;  // of this rank
   std::int64_t count = 0;   // over all ranks
-  // Largest pull, or squeeze times rho h/dt, over the largest pressure; over all ranks.
+  // Largest suction, or overfill times rho h/dt, relative to the largest |p|; over all ranks.
   double worst = 0;
 };
 
-// `eligible` says which owned cells may part; what is within `tolerance` of the largest pressure is right. Collective.
+// `eligible`: owned cells that may part. Errors up to `tolerance` times the largest |p| are accepted. Collective.
 template <int Dim>
 WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                 const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
                                 const CellField<Dim, char>& eligible, double tolerance, const Parting<Dim>& parting);
 
-// Cells that touch a wall or a solid, those of closed components left out, and those that are parted already.
+// The cells that may part: parted ones, and those that touch a wall or a solid and are not in a closed component.
 template <int Dim>
 CellField<Dim, char> cells_that_may_part(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                          const std::vector<int>& closed_component);
 
-// Gaps after the step: parted cells open by their net flux, the others are shut.
+// Gaps after the step: those of parted cells grow by the net flux (at least to 0), the others are zero.
 template <int Dim>
 void advance_gaps(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
                   const FaceField<Dim>& u_star, Parting<Dim>& parting);

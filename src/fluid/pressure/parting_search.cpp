@@ -6,7 +6,7 @@ namespace seiche {
 namespace {
 
 constexpr int most_rounds = 50;
-constexpr int most_fruitless = 5;  // rounds that turn over all wrong guesses though they do not become fewer
+constexpr int most_fruitless = 5;  // rounds that flip all wrong guesses although their number does not decrease
 
 }  // namespace
 
@@ -51,7 +51,7 @@ void PartingSearch<Dim>::turn_over_last(const WrongGuesses& wrong) {
     if (number(c) == last) parting_.parted[c] = !parting_.parted[c];
 }
 
-// The same on any number of ranks.
+// Global number of a cell, which does not depend on the number of ranks.
 template <int Dim>
 double PartingSearch<Dim>::number(Site cell) const {
   const IVec<Dim> i = in_.layout.index(cell);

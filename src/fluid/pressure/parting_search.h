@@ -1,24 +1,25 @@
 #pragma once
-// Search for the set of parted cells: 0 <= p, 0 <= net flux + missing flux, one of them zero.
+// Search for the set of parted cells: 0 <= p complementary to 0 <= net flux + missing flux.
 #include "fluid/pressure/parting.h"
 
 namespace seiche {
 
-// Block principal pivoting (Judice, Pires 1994). Each round turns over all wrong guesses, which is policy iteration. A
-// few rounds that do not lower their number are taken in; then one guess a round is turned over, the last in the order
-// of the cells, until there are fewer than ever (Murty's rule, which ends for each positive definite matrix).
+// Block principal pivoting (Judice, Pires 1994). Each round flips all wrong guesses, which is policy iteration. After
+// five rounds without progress it flips only the last wrong guess in the order of the cells (Murty's rule, which
+// terminates for positive definite matrices). It flips all again once there are fewer wrong ones than ever before. At
+// most 50 rounds.
 template <int Dim>
 class PartingSearch {
  public:
-  // Starts from the cells that were parted already. Keeps references. Collective.
+  // Starts from the cells with an open gap. Keeps references. Collective.
   PartingSearch(const ProjectionInput<Dim>& in, double tolerance, Parting<Dim>& parting);
 
-  // What a solution for the present guess says of it; true: it is right, or the search was over. Else the next guess
-  // stands in `parting`, after the last round the one that was least wrong. Collective.
+  // Compares the current guess with its solution. Returns true if the guess is right or was the last one. Otherwise
+  // writes the next guess to `parting`; after the last round, this is the guess with the smallest error. Collective.
   bool is_settled_by(const PressureRows<Dim>& rows, const std::vector<int>& closed_component,
                      const CellField<Dim>& pressure, const FaceField<Dim>& u_star);
 
-  // How wrong the guess is that the search went on with: pull or squeeze over the largest pressure; 0: it is right.
+  // Error of the last checked guess (WrongGuesses::worst); 0 if it is right.
   double error() const { return error_; }
 
  private:
@@ -31,7 +32,7 @@ class PartingSearch {
   Parting<Dim>& parting_;
   CellField<Dim, char> eligible_, best_;
   double least_ = 1e300;             // error of the best guess
-  std::int64_t fewest_ = INT64_MAX;  // wrong guesses of any round
+  std::int64_t fewest_ = INT64_MAX;  // smallest number of wrong guesses so far
   int rounds_ = 0, fruitless_ = 0;
   double error_ = 0;
 };

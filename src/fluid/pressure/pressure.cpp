@@ -40,11 +40,10 @@ bool touches_unknown(const ProjectionInput<Dim>& in, Site cell) {
   return any;
 }
 
-// w rho/rho_f of a face with an unknown velocity, seen from the row's cell, and what the cell's pressure is above that
-// across where both balance; `fixed_pressure` is set where no row is across.
+// Link of a row's cell across a face with unknown velocity.
 struct Link {
-  double weight = 0, jump = 0;
-  bool fixed_pressure = false;
+  double weight = 0, jump = 0;  // w rho/rho_f; pressure of the cell minus that across in equilibrium, Pa
+  bool fixed_pressure = false;  // true if there is no row across
 };
 
 template <int Dim>
@@ -56,7 +55,7 @@ Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, 
           rows.row[across] < 0};
 }
 
-// Net volume flux out of each row's cells a unit of face area.
+// Net volume flux out of each row's cells, per face area (m/s).
 template <int Dim>
 std::vector<double> net_fluxes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u) {
   return net_over_rows(
@@ -68,7 +67,7 @@ std::vector<double> net_fluxes(const ProjectionInput<Dim>& in, const PressureRow
       });
 }
 
-// Rows of the regions of air, behind those of the cells.
+// Numbers the rows of the regions of air after those of the cells.
 template <int Dim>
 void number_air(const ProjectionInput<Dim>& in, PressureRows<Dim>& rows) {
   rows.air = in.air;
@@ -113,12 +112,12 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
 
 namespace {
 
-// Where a column stands behind `from`, or the end: a cell may meet the same air across several faces.
+// Position of a column at or after `from`, or the end. A cell may touch the same region of air across several faces.
 std::size_t find_column(const DistributedMatrix& m, std::size_t from, Row column) {
   return std::size_t(std::find(m.column.begin() + std::ptrdiff_t(from), m.column.end(), column) - m.column.begin());
 }
 
-// Each row's entries are those of its links; the diagonal is minus their sum.
+// Appends the rows of the regions of air. Off-diagonal entries come from links; the diagonal is minus their sum.
 template <int Dim>
 void append_air_rows(const PressureRows<Dim>& rows, const std::vector<MatrixEntry>& links, DistributedMatrix& m) {
   auto next = links.begin();
@@ -208,7 +207,8 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
   return scale * link_lightness(in, low, high) * (p_high - p_low + jump_over(in, axis, face));
 }
 
-// One Jacobi step on the rows of the air: sum of weights p_air = sum of weights (p + jump) + its right-hand side.
+// One Jacobi step on the rows of the air: (sum of weights) p_air = sum of weight p + right side. Jumps are part of the
+// right side.
 template <int Dim>
 void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
                 CellField<Dim>& pressure) {
@@ -260,7 +260,7 @@ double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& r
 
 namespace {
 
-// sum_f |given flux| of each row's cells.
+// Sum of |prescribed flux| over the faces of each row's cells, per face area (m/s).
 template <int Dim>
 std::vector<double> given_sizes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) {
   const auto of_cell = [&](Site cell) {

@@ -11,7 +11,7 @@
 
 namespace seiche {
 
-// Everything the projection reads. phi and geometry must be valid one cell around the owned ones.
+// Input of the projection. phi and geometry must be valid one cell around the owned ones.
 template <int Dim>
 struct ProjectionInput {
   const Layout<Dim>& layout;
@@ -21,45 +21,46 @@ struct ProjectionInput {
   const FaceGeometry<Dim>& faces;
   double density;                         // kg/m^3
   double dt;                              // s
-  const Parting<Dim>* parting = nullptr;  // where liquid may part from solids
-  double gas_density = 0;                 // kg/m^3; 0: beyond the surface there is no more than a pressure of 0
-  // p_liquid - p_gas where the surface crosses the link of a face's two cells, Pa; null: 0 everywhere.
+  const Parting<Dim>* parting = nullptr;  // separating walls; null: walls exert suction
+  double gas_density = 0;                 // kg/m^3; 0: no gas flow, p = 0 beyond the surface except in enclosed air
+  // p_liquid - p_gas at faces whose link the surface crosses, Pa; null: 0 everywhere.
   const FaceField<Dim>* surface_jump = nullptr;
-  const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none does
+  const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none
 
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
   bool is_parted(Site cell) const { return parting && parting->parted[cell]; }
-  // Flux that a cell must take in before it is full, per face area, m/s.
+  // Inflow that fills a cell's gap within the step, per face area, m/s.
   double missing_flux(Site cell) const { return parting ? parting->gap[cell] * layout.h() / dt : 0; }
 };
 
-// The unknowns: one row a cell of liquid, or gas that flows, that an open face touches and that has not parted.
+// The unknowns: one row per cell of liquid or flowing gas, then one per region of enclosed air. A cell must have a face
+// of unknown velocity and must not be parted.
 template <int Dim>
 struct PressureRows {
   static constexpr std::int64_t no_row = -1, parted_row = -2;
-  // Global row, no_row or parted_row (p = 0), filled one cell around; of enclosed air that of its region.
+  // Global row (of the region for enclosed air), no_row, or parted_row (p = 0). Ghosts filled.
   CellField<Dim, std::int64_t> row;
-  std::vector<Site> cells;  // owned cells with a row, in row order, and then one cell a region of air
-  std::size_t liquid = 0;   // so many of them are no region's
-  Row first = 0, global = 0;
-  std::int64_t isolated = 0;  // liquid cells without an open face, over all ranks
+  std::vector<Site> cells;    // owned cells with a row of their own, in row order, then one cell per region of air
+  std::size_t liquid = 0;     // number of `cells` before those of the regions
+  Row first = 0, global = 0;  // first row of this rank; number of rows of all ranks
+  std::int64_t isolated = 0;  // liquid cells without a face of unknown velocity, over all ranks
   const AirRegions<Dim>* air = nullptr;
-  std::vector<Row> air_row;  // of each region, the same on all ranks
+  std::vector<Row> air_row;  // row of each region, equal on all ranks
 
-  // Region of enclosed air a cell belongs to, or -1.
+  // Region of enclosed air that contains the cell, or -1.
   std::int64_t region(Site cell) const { return air ? std::max<std::int64_t>(air->label[cell], -1) : -1; }
   bool has_own(Site cell) const { return row[cell] >= 0 && region(cell) < 0; }
   bool is_parted(Site cell) const { return row[cell] == parted_row; }
-  // Whether a cell has a pressure of its own, be it solved for or, where the cell has parted, zero. It does not depend
-  // on the guess of which cells part: masses of faces hang on it, and the policy iteration needs one matrix.
+  // True if a cell has its own pressure, either an unknown or the zero of a parted cell. Face masses depend on this,
+  // and the policy iteration needs one matrix, so it must not depend on the guess of parted cells.
   bool has_pressure(Site cell) const { return has_own(cell) || is_parted(cell); }
   bool touch_pressure(Site low, Site high) const { return has_pressure(low) || has_pressure(high); }
   bool owns(Row r) const { return r >= first && r < first + Row(cells.size()); }
 };
 
-// sum_f +- of_face(axis, f) + of_cell(cell) of each row: of a region of air summed over its cells, the faces between
-// them left out. Collective.
+// sum_f +- of_face(axis, f) + of_cell(cell) for each row. A region of air sums over its cells, without the faces
+// between them. Collective.
 template <int Dim, class OfCell, class OfFace>
 std::vector<double> net_over_rows(const Layout<Dim>& layout, const Communicator& ranks, const PressureRows<Dim>& rows,
                                   const OfCell& of_cell, const OfFace& of_face);
@@ -67,46 +68,48 @@ std::vector<double> net_over_rows(const Layout<Dim>& layout, const Communicator&
 template <int Dim>
 PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in);
 
-// Connected liquid without a face at a given pressure: its pressure is free up to a constant, and the volume prescribed
-// around it must balance.
+// Connected components without a face at a given pressure. Their pressure is determined up to a constant, and the
+// prescribed fluxes around them must balance. Collective.
 template <int Dim>
 NullSpace find_closed_components(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 
-// Distance from a liquid cell's centre to the free surface towards an air cell, in cells. Clamped at 1e-8: any clamp
-// large enough to matter breaks hydrostatic rest (docs/decisions/0003).
+// Distance from a liquid cell's centre to the free surface towards an air cell, in cells, at least 1e-8. A larger lower
+// bound would break hydrostatic rest (docs/decisions/0003).
 double surface_distance(double phi_liquid, double phi_air);
 
-// The liquid's part of the link between two cells' centres.
+// The liquid's fraction theta of the link between two cell centres.
 double liquid_part(double phi_low, double phi_high);
 
-// rho/rho_f: the liquid's density over that of the link between the centres of two cells, theta rho + (1 - theta)
-// rho_gas with the liquid's part theta of it (Kang, Fedkiw, Liu 2000). Without gas 1/theta: the surface ends the link.
+// Inverse density ratio rho/rho_f of the link between two cell centres: rho_f = theta rho + (1 - theta) rho_gas, theta
+// the liquid's fraction of the link (Kang, Fedkiw, Liu 2000). Without gas it is 1/theta: the link ends at the surface.
 template <int Dim>
 double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across);
-// rho over the density of a cell.
+// Inverse density ratio of a cell: rho/rho_gas in gas, else 1.
 template <int Dim>
 double cell_lightness(const ProjectionInput<Dim>& in, Site cell);
-// p_low - p_high at the surface where it crosses the link of a face's cells, Pa; else 0.
+// Jump p_low - p_high at the surface if it crosses the link of a face's cells, Pa; else 0.
 template <int Dim>
 double jump_over(const ProjectionInput<Dim>& in, int axis, Site face);
 
-// sum_f w rho/rho_f (p_i - p_j -+ jump) = -(rho h/dt) sum_f +-(w u* + closed flux); without gas p = jump at the surface
-// (Gibou et al. 2002; Ng, Min, Gibou 2009). Scaled by h^(2-Dim) rho/dt.
+// The pressure system, with p = jump at the surface if there is no gas (Gibou et al. 2002; Ng, Min, Gibou 2009):
+//   sum_f w rho/rho_f (p_i - p_j -+ jump) = -(rho h/dt) (sum_f +-(w u* + closed flux) + cell flux + missing flux).
+// It is the volume balance of a cell (m^Dim/s) times h^(2-Dim) rho/dt. Collective.
 template <int Dim>
 DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 template <int Dim>
 std::vector<double> pressure_right_side(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                         const FaceField<Dim>& u);
 
-// Net volume a closed component is told to gain, and the largest volume moved around it (m^Dim/s each).
+// Net prescribed outflow of a closed component, and the sum of magnitudes of its prescribed fluxes (m^Dim/s each).
 struct VolumeMismatch {
   double net = 0, scale = 0;
 };
+// Mismatch of the closed component with the largest |net|/scale. Collective.
 template <int Dim>
 VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const NullSpace& closed);
 
-// (p_high - p_low +- jump)/(rho_f h): the acceleration the pressure gives a face, sign turned. Zero where no row
-// touches.
+// (p_high - p_low +- jump)/(rho_f h), m/s^2: minus the acceleration of a face by the pressure. Zero if neither cell has
+// its own pressure.
 template <int Dim>
 double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                            const CellField<Dim>& pressure, int axis, Site face);
@@ -114,13 +117,14 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
 template <int Dim>
 RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 
-// Gives each region of enclosed air the pressure at which just as much flows in as out, to rounding, and all its cells
-// that pressure. Ghosts filled. Collective.
+// Sets the pressure of each region of enclosed air, in all its cells. For the liquid's given pressures, its volume
+// balance then holds to round-off. Fills ghosts. Collective.
 template <int Dim>
 void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
                 CellField<Dim>& pressure);
 
-// Largest |net flux|/cell volume over the rows, 1/s, over all ranks.
+// Largest residual |net flux + missing flux|/h of the volume balance over the rows of all ranks, 1/s; fluxes per face
+// area. Collective.
 template <int Dim>
 double max_divergence(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u);
 

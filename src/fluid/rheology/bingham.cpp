@@ -1,4 +1,4 @@
-// Bingham 1922: tau = tau_y + mu r where liquid yields.
+// Bingham 1922: tau = tau_y + mu r in yielded liquid.
 #include <array>
 
 #include "fluid/rheology/rows.h"

@@ -1,4 +1,4 @@
-// Carreau 1972: mu = mu_inf + (mu_0 - mu_inf) (1 + (time r)^2)^((n - 1) / 2), bounded by itself.
+// Carreau 1972: mu = mu_inf + (mu_0 - mu_inf) (1 + (time r)^2)^((n - 1) / 2). Bounded without regularisation.
 #include <array>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Herschel, Bulkley 1926: tau = tau_y + K r^n where liquid yields.
+// Herschel, Bulkley 1926: tau = tau_y + K r^n in yielded liquid.
 #include <array>
 
 #include "fluid/rheology/rows.h"

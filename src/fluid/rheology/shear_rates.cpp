@@ -18,7 +18,7 @@ bool ShearRates<Dim>::is_inside(const IVec<Dim>& cell) const {
   return true;
 }
 
-// The faces that d_a u_b + d_b u_a is made of: u_a on both sides along b, u_b on both sides along a.
+// True if the faces of d_a u_b + d_b u_a are valid: u_a on both sides along b, u_b on both sides along a.
 template <int Dim>
 bool ShearRates<Dim>::is_valid(int plane, Site e) const {
   if (!valid_) return true;
@@ -35,8 +35,8 @@ double ShearRates<Dim>::shear(int plane, Site e) const {
   return (along_b + along_a) / layout_.h();
 }
 
-// The mean over those of the four sites at `site` and one step `towards` along either axis of the plane that count:
-// `value` adds to the sum and says whether its site does. 0 where none does.
+// Mean over four sites: `site` and its neighbours one step `towards` along either axis of the plane or both. `value`
+// adds its site's term to the sum and returns true, or returns false if the site does not count. 0 if none counts.
 template <int Dim>
 template <class Value>
 double ShearRates<Dim>::mean_of_four(int plane, Site site, const IVec<Dim>& index, int towards,
@@ -81,7 +81,7 @@ double ShearRates<Dim>::of_cell(Site c, const IVec<Dim>& index) const {
   return std::sqrt(squared_rate(c, index, no_plane));
 }
 
-// Over the cells of the domain that the edge is an edge of.
+// Mean over the cells of the domain around the edge.
 template <int Dim>
 double ShearRates<Dim>::mean_around(int plane, Site e, const IVec<Dim>& index, int left_out) const {
   return mean_of_four(plane, e, index, -1, [&](Site c, const IVec<Dim>& i, double& sum) {
@@ -91,8 +91,8 @@ double ShearRates<Dim>::mean_around(int plane, Site e, const IVec<Dim>& index, i
   });
 }
 
-// Whether the edge has a shear of its own: it does where its faces count, and in a side (not in two) where those of the
-// three edges inside do.
+// The edge's own shear. Returns false if the edge lies on two sides of the domain, or beyond a side, or if it needs an
+// invalid face. On one side, the three edges inside must be valid and the domain at least four cells wide.
 template <int Dim>
 bool ShearRates<Dim>::shear_at(int plane, Site e, const IVec<Dim>& index, double& value) const {
   const auto [a, b] = axes_of_plane<Dim>(plane);

@@ -10,20 +10,20 @@ constexpr std::array<int, 2> axes_of_plane(int plane) {
   return Dim == 3 ? std::array<int, 2>{(plane + 1) % 3, (plane + 2) % 3} : std::array<int, 2>{0, 1};
 }
 
-// Keeps references. `valid` may be null: then all velocities count.
+// Keeps references. `valid` may be null; then all velocities count.
 template <int Dim>
 class ShearRates {
  public:
   ShearRates(const Layout<Dim>& layout, const FaceField<Dim>& u, const FaceField<Dim, char>* valid)
       : layout_(layout), u_(u), valid_(valid) {}
 
-  // rate^2 = sum_a 2 (d_a u_a)^2 + sum_{a<b} mean over the four edges around of (d_a u_b + d_b u_a)^2. Edges that lie
-  // in sides of the domain or touch a face that is not valid are left out of the mean: next to walls it is one-sided.
+  // rate^2 = sum_a 2 (d_a u_a)^2 + sum_{a<b} mean of (d_a u_b + d_b u_a)^2 over the cell's four edges. The mean omits
+  // edges in sides of the domain and edges that touch an invalid face, so that it is one-sided next to walls.
   double of_cell(Site cell, const IVec<Dim>& index) const;
 
-  // rate^2 = (d_a u_b + d_b u_a)^2 of the edge itself, in sides continued from the three edges inside (a parabola),
-  // plus the mean of the other terms of the cells around; where the edge touches faces that are not valid, the mean of
-  // all terms of the cells around.
+  // rate^2 = (d_a u_b + d_b u_a)^2 at the edge itself plus the mean of the other terms over the adjacent cells. On a
+  // side of the domain the edge's shear is extrapolated from the three edges inside (a parabola). If there is no shear
+  // (an invalid face, or an edge on two sides), the result is the mean of all terms over the adjacent cells.
   double of_edge(int plane, Site edge, const IVec<Dim>& index) const;
 
  private:

@@ -16,7 +16,7 @@ Vec<Dim> sample_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, con
 
 namespace {
 
-// Mean of the faces around a cell or face centre: second order, enough for the first half of a midpoint step.
+// Mean over the faces around a cell or face centre. Second order is enough for the first half of a midpoint step.
 template <int Dim>
 Vec<Dim> mean_at_cell(const Layout<Dim>& layout, const FaceField<Dim>& u, Site c) {
   Vec<Dim> v;
@@ -37,7 +37,6 @@ Vec<Dim> mean_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int ax
 
 }  // namespace
 
-// x_d = x - dt u(x - dt/2 u(x)).
 template <int Dim>
 Vec<Dim> trace_midpoint(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& at_x, const Vec<Dim>& x,
                         double dt) {

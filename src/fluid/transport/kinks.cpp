@@ -8,15 +8,17 @@
 namespace seiche {
 namespace {
 
-// Between p1 and p2 phi has a kink, all of it from twice these on: slopes p1 - p0 and p3 - p2 differ as at a surface of
-// two cells' radius, or second differences at p1 and p2 by more than those of one of three cells' radius.
-constexpr double least_turn = 1, least_difference = 0.125;  // h
-// Cells from the zero within which kinks count, none of it from one cell farther: what moves the zero is nearer.
+// Thresholds of the kink detector, in h: a medial axis is detected above them and has full weight from twice them on.
+// least_turn: difference of the slopes p3 - p2 and p1 - p0, as at a surface of radius 2 h. least_difference: difference
+// of the second differences at p1 and p2, as at a surface of radius 3 h.
+constexpr double least_turn = 1, least_difference = 0.125;
+// One-sided interpolation has full weight up to this distance from the zero, none from one cell farther (cells). Values
+// farther away do not move the zero.
 constexpr double reach = 1;
-// Cells from the zero within which a kink is a corner of the liquid, not at all from twice that on.
+// Up to this distance from the zero a kink is a corner of the liquid; from twice this on it is a medial axis (cells).
 constexpr double corner = 0.15;
 
-// Second differences at p1 and p2, the share of a kink between p0 and p3 that they tell of.
+// Second differences at p1 and p2, and the detector's weight: 0 smooth, 1 medial axis between p0 and p3.
 struct Bend {
   double d1, d2, share;
 };
@@ -26,9 +28,9 @@ Bend bend(double p0, double p1, double p2, double p3, double h) {
   return {d1, d2, std::clamp(most - 1, 0.0, 1.0)};
 }
 
-// The straight lines through p0, p1 and through p2, p3 between p1 and p2: the lower one where they form a ridge (d1, d2
-// < 0), the higher one in a valley, where that is beyond q, the share of it that lies off the zero. At the zero itself
-// a kink is a corner of the liquid, which lines from its sides would lengthen step by step.
+// Extends the lines through p0, p1 (value `low`) and p2, p3 (value `high`) to the point between p1 and p2. At a ridge
+// (d1, d2 < 0) the result is the lower line if it is above q, in a valley the higher line if it is below q. Near the
+// zero the result is q: there a kink is a corner of the liquid, which extended lines would lengthen step by step.
 double beyond(double q, double low, double high, const Bend& b, double h) {
   double k = q;
   if (b.d1 < 0 && b.d2 < 0) k = std::max(q, std::min(low, high));
@@ -36,12 +38,13 @@ double beyond(double q, double low, double high, const Bend& b, double h) {
   return q + std::clamp((std::abs(k) / h - corner) / corner, 0.0, 1.0) * (k - q);
 }
 
-// Between p1 and p2, at the share t of the way, the cubic through all four is
+// Interpolates at fraction t between p1 and p2. The cubic through all four points is
 //   c = l + t (t - 1)/6 ((2 - t) d1 + (1 + t) d2),  l = p1 + t (p2 - p1).
-// Across a kink it is too low in the middle of threads, too high in that of gaps, by up to h/8 at their surface. With
-//   q = l + t (t - 1)/2 m,  m the lesser of d1, d2 (ENO, Harten et al. 1987),
-// phi is q where the kink lies outside [p1, p2] and where the lines from both sides meet inside (subcell resolution,
-// Harten 1989) otherwise. Goes over from c to that by the share of a kink.
+// Across a medial axis it is too low in the middle of threads and too high in that of gaps, by up to h/8 at their
+// surface. The one-sided parabola (ENO, Harten et al. 1987) is
+//   q = l + t (t - 1)/2 m,  m the smaller of d1, d2 in magnitude.
+// The one-sided value is q if the medial axis is outside [p1, p2]; else it follows the lines from both sides to their
+// intersection (subcell resolution, Harten 1989). The result blends from c to it by b.share.
 double interpolate_with_kinks(const std::array<double, 4>& p, double t, double h) {
   const Bend b = bend(p[0], p[1], p[2], p[3], h);
   const double line = p[1] + t * (p[2] - p[1]), cubic = line + t * (t - 1) / 6 * ((2 - t) * b.d1 + (1 + t) * b.d2);
@@ -51,7 +54,7 @@ double interpolate_with_kinks(const std::array<double, 4>& p, double t, double h
   return cubic + b.share * (beyond(one_sided, low, high, b, h) - cubic);
 }
 
-// Along the axes in turn, order[level] first and outermost; p is the second point along each.
+// Interpolates along the axes in turn; order[0] is the outermost. p is the second point along each axis.
 template <int Dim>
 double interpolate_in_order(const Layout<Dim>& layout, const double* p, const Vec<Dim>& t,
                             const std::array<int, Dim>& order, int level = 0) {
@@ -63,7 +66,7 @@ double interpolate_in_order(const Layout<Dim>& layout, const double* p, const Ve
   return interpolate_with_kinks(v, t[axis], layout.h());
 }
 
-// Whether any of the stencil's lines of four points along an axis crosses a kink.
+// True if any of the stencil's lines of four points along an axis crosses a medial axis.
 template <int Dim>
 bool meets_kink(const Layout<Dim>& layout, const double* p) {
   constexpr int lines = Dim == 2 ? 4 : 16;
@@ -79,7 +82,7 @@ bool meets_kink(const Layout<Dim>& layout, const double* p) {
 
 }  // namespace
 
-// At kinks the axes' turns do not commute: the mean over all orders favours none.
+// At the medial axis the result depends on the order of the axes; the mean over all orders is symmetric.
 template <int Dim>
 double interpolate_across_kinks(const Layout<Dim>& layout, const double* phi, const Vec<Dim>& g) {
   const double cubic = interpolate_cubic<Dim>(layout, phi, g);

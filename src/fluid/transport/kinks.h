@@ -1,11 +1,13 @@
 #pragma once
-// Interpolation of a distance phi across its kinks: the middle of threads, sheets and gaps a few cells thick.
+// One-sided interpolation of a distance phi at its medial axis: the middle of threads, sheets and gaps a few cells
+// thick.
 #include "grid/layout.h"
 
 namespace seiche {
 
-// phi at index coordinates g: interpolate_cubic, its bits too, where the 4^Dim points around are smooth or phi is more
-// than two cells from its zero; else one-sided (docs/decisions/0023-kinks.md). The same under turns of the grid.
+// phi at index coordinates g. Equals interpolate_cubic bit by bit if phi is smooth at the 4^Dim points around or at
+// least two cells from its zero; else one-sided (docs/decisions/0023-kinks.md). Equivariant under rotations of the
+// grid.
 template <int Dim>
 double interpolate_across_kinks(const Layout<Dim>& layout, const double* phi, const Vec<Dim>& g);
 

@@ -7,11 +7,11 @@ namespace {
 
 // Integrals over the part of a face with psi > 0, per area of the face.
 struct OpenPart {
-  double area = 0, distance = 0;  // of 1 and of psi
+  double area = 0, distance = 0;  // integrals of 1 and of psi
 };
 
-// Adds the open part of a simplex of N + 1 <= 3 corners: all of it, the tip at its one open corner, or all but the tip
-// at its one closed corner.
+// Adds the open part of a simplex of N + 1 <= 3 corners: all of it, the tip at its only open corner, or all but the tip
+// at its only closed corner.
 template <int N>
 void add_simplex(const std::array<double, N + 1>& psi, double measure, OpenPart& part) {
   int positive = 0, last_positive = 0, last_other = 0;
@@ -39,7 +39,7 @@ OpenPart open_part(const Layout<2>& layout, const NodeField<2>& psi, int axis, S
   return part;
 }
 
-// Four triangles around the centre, as the open fraction has them.
+// Four triangles around the centre, as for the open fraction.
 OpenPart open_part(const Layout<3>& layout, const NodeField<3>& psi, int axis, Site f) {
   const Site p = layout.stride((axis + 1) % 3), q = layout.stride((axis + 2) % 3);
   const std::array<Site, 5> ring{f, f + p, f + p + q, f + q, f};
@@ -57,9 +57,9 @@ class NoSlipFlux {
              const FaceField<Dim>& u)
       : in_(in), layout_(in.layout), s_(s), motion_(motion), u_(u) {}
 
-  // w du/dpsi (mean distance of the open part - distance of the centre), the slope that of a sample further out: taken
-  // from the face's own velocity it would feed back on itself, and solves in turns would not settle. Slits, whose
-  // centre lies in the solid, have next to no velocity of their own.
+  // w du/dpsi (mean distance of the open part - distance of the centre), with the slope from a sample farther out. A
+  // slope from the face's own velocity would feed back, and iterated solves would not converge. Slits, whose centre
+  // lies in the solid, have almost no velocity of their own.
   double operator()(int axis, Site f) const {
     const double w = in_.faces.open.at(axis, f);
     const int k = s_.solid.at(axis, f);
@@ -76,7 +76,8 @@ class NoSlipFlux {
   // The neighbour of the same component that is farthest from the wall, or -1.
   Site sample(int axis, Site f) const {
     Site best = -1;
-    // Nearer ones would magnify their errors; slits without any, less than a twentieth open, pass next to nothing.
+    // Nearer samples would magnify their errors. Slits without a farther one are less than a twentieth open and have
+    // almost no flux.
     double farthest = 0.25 * layout_.h();
     for (int b = 0; b < Dim; ++b)
       for (Site g : {f - layout_.stride(b), f + layout_.stride(b)}) {

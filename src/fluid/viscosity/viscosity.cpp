@@ -14,9 +14,9 @@ namespace {
 using Entries = std::vector<std::pair<Row, double>>;
 using Columns = std::vector<std::pair<int, double>>;
 
-// dt/2 d(z'Vz)/du_f: what row f adds to F, G and f.
+// dt/2 d(z'Vz)/du_f: the contributions of face f to its rows of F, G and f.
 struct RowParts {
-  Entries entries;  // the diagonal first
+  Entries entries;  // the diagonal is the first
   Columns columns;
   double known = 0;
 };
@@ -48,7 +48,7 @@ class RowAssembly {
     return s_.kind_at(axis, f) == SampleKind::unknown && s_.kind_at(axis, f + step) == SampleKind::unknown;
   }
 
-  // Whether only full cells and edges of unknown velocities touch the face.
+  // True if all cells and edges that touch the face are full and only have unknown velocities.
   bool is_plain(int axis, Site f) const {
     if (!in_.uniform_viscosity) return false;
     for (Site cell : {f - layout_.stride(axis), f}) {
@@ -69,12 +69,12 @@ class RowAssembly {
     return true;
   }
 
-  // Edges in a side have given velocities beyond, but for outflow whose unknowns lie in the side.
+  // True if the edge lies on an outflow side, whose faces are unknowns. Edges on other sides have given velocities.
   bool on_side(int a, int b, Site e) const {
     return in_.faces.kind_at(a, e) == FaceKind::outflow || in_.faces.kind_at(b, e) == FaceKind::outflow;
   }
 
-  // mu h^(Dim-2) (2 Dim u - neighbours), and kappa (grad div u) of the two cells.
+  // dt mu h^(Dim-2) times (2 Dim u - sum of neighbours), and the kappa (div u)^2 terms of the two cells.
   RowParts plain_row(int axis, Site f) const {
     const double c = in_.dt * terms_.coefficient(f), kappa = c * terms_.interior_kappa();
     RowParts r;
@@ -125,7 +125,7 @@ class RowAssembly {
     }
   }
 
-  // What products of terms have left where they cancel: the same limit for all rows, so that F stays symmetric.
+  // Removes the round-off of terms that cancel. The limit is the same for all rows, so that F stays symmetric.
   void drop_round_off(RowParts& r) const {
     const double least =
         in_.uniform_viscosity ? 1e-14 * in_.dt * terms_.coefficient(layout_.site(layout_.cells().lower)) : 0;
@@ -139,8 +139,8 @@ class RowAssembly {
   ViscousTerms<Dim> terms_;
 };
 
-// rho_f w h^Dim as the projection has it. A face without a pressure follows the stress: a thousandth of a full
-// face's mass towards u* is enough to fix what no stress holds.
+// Mass rho_f w h^Dim of a face, as in the projection. Pressure-free faces follow the stress and get a thousandth of a
+// full face's mass, which is enough to keep velocities without stress at u*.
 template <int Dim>
 double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   constexpr double follower = 1e-3;
@@ -154,8 +154,8 @@ double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   return w * full / link_lightness(in.projection, low, f);
 }
 
-// -+ dt w h^(Dim-1) p beyond outflow sides, from a row on their upper or lower side, and -dt w h^(Dim-1) (p_low -
-// p_high) where the surface crosses.
+// Impulse of given pressures on a face. Outflow sides: +dt w h^(Dim-1) p if the face's upper cell has a pressure, -dt w
+// h^(Dim-1) p if the lower one has. Faces that the surface crosses: -dt w h^(Dim-1) (p_low - p_high).
 template <int Dim>
 double given_impulse(const ViscousInput<Dim>& in, int axis, Site f) {
   const double area = in.dt * in.faces.open.at(axis, f) * in.layout.geometry().face_area();
@@ -165,7 +165,7 @@ double given_impulse(const ViscousInput<Dim>& in, int axis, Site f) {
   return in.rows.has_pressure(f - in.layout.stride(axis)) ? -push : 0;
 }
 
-// The bodies with unknowns, in the order of these.
+// The bodies with unknowns, in the order of their unknowns.
 template <int Dim>
 std::vector<int> free_bodies(const ViscousInput<Dim>& in) {
   std::vector<int> bodies;
@@ -279,7 +279,7 @@ void append_row(Entries& entries, DistributedMatrix& m) {
   m.row_start.push_back(int(m.value.size()));
 }
 
-// The rows of regions of air in D.
+// Appends the rows of regions of air to D and schur_mass.
 template <int Dim>
 void append_air_rows(const ViscousInput<Dim>& in, const std::vector<MatrixEntry>& entries,
                      std::vector<double>& mobility, ViscousSystem<Dim>& r) {
@@ -296,8 +296,9 @@ void append_air_rows(const ViscousInput<Dim>& in, const std::vector<MatrixEntry>
   }
 }
 
-// D_cf = +- w h^(Dim-1); what is known of the fluxes goes to q. The viscous part of the Schur complement is about the
-// diagonal of D diag(dt V)^-1 D', in full cells h^Dim/(dt mu); where walls hold a cell's faces it is much smaller.
+// D_cf = +- w h^(Dim-1); known fluxes go to q. schur_mass is the inverse of the diagonal of D diag(dt V)^-1 D', the
+// viscous part of the Schur complement. That diagonal is about h^Dim/(dt mu) in full cells, and much smaller in cells
+// whose faces are held by walls.
 template <int Dim>
 void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag, ViscousSystem<Dim>& r) {
   const double area = in.layout.geometry().face_area();
@@ -326,7 +327,7 @@ void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag
   for (double& known : r.q) known *= -area;
 }
 
-// Its transpose, and with it the rows of D that belong to regions of air.
+// Assembles Dt, and from it the rows of D that belong to regions of air.
 template <int Dim>
 void assemble_gradient(const ViscousInput<Dim>& in, const FaceField<Dim>& drag, ViscousSystem<Dim>& r) {
   const double area = in.layout.geometry().face_area();

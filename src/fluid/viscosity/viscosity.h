@@ -1,6 +1,6 @@
 #pragma once
-// The viscous operator of one step: minimises 1/2 (u-u*)'M(u-u*) + dt/2 z'Vz over z = (face velocities, unknowns of the
-// bodies) subject to D u + J v = q. Equations: docs/viscous-operator.md.
+// The viscous operator of one step: minimises 1/2 (u-u*)'M(u-u*) + dt/2 z'Vz over z = (face velocities, body unknowns)
+// subject to D u + J v = q. Equations: docs/viscous-operator.md.
 #include <functional>
 #include <memory>
 #include <utility>
@@ -20,15 +20,15 @@ struct RigidField {
   Vec3 at(const Vec3& x) const { return linear + angular.cross(x - center); }
 };
 
-// A solid as the viscous operator feels it; the index in the list is that of the scene's bodies.
+// Data of a solid for the viscous operator. The index in the list is that of the scene's bodies.
 template <int Dim>
 struct ViscousSolid {
   bool no_slip = true;
-  RigidField frame;        // known motion; of rigid unknowns zero, with `center` the point v is the velocity of
-  int first_unknown = -1;  // >= 0: where the body's unknowns start
-  bool rigid = false;      // its unknowns are a twist: v, omega (2D: vx, vy, omega about z)
-  // Elastic: the velocity along `axis` of the surface nearest to a face, as weights of unknowns counted from
-  // first_unknown.
+  RigidField frame;        // known motion; for rigid unknowns zero, with v the velocity of the point `center`
+  int first_unknown = -1;  // >= 0: index of the body's first unknown
+  bool rigid = false;      // true: its unknowns are a twist: v, omega (2D: vx, vy, omega about z)
+  // Elastic solids: appends the velocity along `axis` of the surface point nearest to a face, as weights of unknowns
+  // counted from first_unknown.
   std::function<void(int axis, Site face, std::vector<std::pair<int, double>>& weights)> surface;
 
   bool moves_freely() const { return first_unknown >= 0; }
@@ -43,10 +43,10 @@ struct ViscousInput {
   const Sides<Dim>& sides;
   const CellField<Dim>& phi;
   const FaceGeometry<Dim>& faces;
-  const NodeField<Dim>& psi;                 // distance to the nearest solid, m
-  const NodeField<Dim, std::int16_t>& body;  // its index, -1 without
+  const NodeField<Dim>& psi;                 // signed distance from the nearest solid, m
+  const NodeField<Dim, std::int16_t>& body;  // index of the nearest solid, -1: none
   const std::vector<ViscousSolid<Dim>>& solids;
-  int unknowns;                     // of all bodies
+  int unknowns;                     // number of unknowns of all bodies
   const CellField<Dim>& viscosity;  // Pa s, valid two cells around
   bool uniform_viscosity;
   double density;                // kg/m^3
@@ -54,10 +54,10 @@ struct ViscousInput {
   const FaceField<Dim>& u_star;  // m/s, ghosts filled
   const ProjectionInput<Dim>& projection;
   const PressureRows<Dim>& rows;
-  const EdgeField<Dim>* edge_viscosity = nullptr;  // Pa s, one cell around; null: the mean of the cells around an edge
+  const EdgeField<Dim>* edge_viscosity = nullptr;  // Pa s, one cell around; null: harmonic mean of the adjacent cells
 };
 
-// Unknown face velocities: faces that a pressure row or viscous liquid touches.
+// Unknown face velocities: faces that touch a pressure row or viscous liquid.
 template <int Dim>
 struct FaceRows {
   FaceField<Dim, std::int64_t> row;         // global row or -1, ghosts filled
@@ -68,20 +68,21 @@ struct FaceRows {
 template <int Dim>
 struct ViscousSamples;
 
+// Blocks of the coupled system:
 //   F u + G v + D'p^ = f,  G'u + (H + Hvv) v + J^'p^ = g,  D u + J^ v = q;  p^ = -dt p, J^ = h^(Dim-1) J.
 template <int Dim>
 struct ViscousSystem {
   FaceRows<Dim> rows;
-  DistributedMatrix F;              // M + dt V_uu, kg; the diagonal first in each row
+  DistributedMatrix F;              // M + dt V_uu, kg; the diagonal is the first entry of each row
   std::vector<double> mass;         // M, kg
-  BlockColumns G;                   // dt V_uv: a block a body with unknowns, by first_unknown
-  Eigen::SparseMatrix<double> Hvv;  // dt V_vv, the same on all ranks
-  std::vector<double> f;            // M u* + known motions and pressures
-  Eigen::VectorXd g;                // from known motions, the same on all ranks
+  BlockColumns G;                   // dt V_uv: one block per body with unknowns, in the order of first_unknown
+  Eigen::SparseMatrix<double> Hvv;  // dt V_vv, equal on all ranks
+  std::vector<double> f;            // M u* + terms of known motions and pressures
+  Eigen::VectorXd g;                // terms of known motions, equal on all ranks
   DistributedMatrix D;              // +- w h^(Dim-1): pressure rows by faces; columns ascend
-  DistributedMatrix Dt;             // its transpose
-  std::vector<double> q;            // -(closed flux + prescribed + missing flux) h^(Dim-1), m^Dim/s
-  std::vector<double> schur_mass;   // about dt mu/h^Dim, of each pressure row (Cahouet, Chabard 1988)
+  DistributedMatrix Dt;             // transpose of D
+  std::vector<double> q;            // -(closed + prescribed + missing flux) h^(Dim-1), m^Dim/s; without cell_flux
+  std::vector<double> schur_mass;   // about dt mu/h^Dim for each pressure row (Cahouet, Chabard 1988)
   std::shared_ptr<const ViscousSamples<Dim>> samples;
 };
 
@@ -91,18 +92,19 @@ FaceRows<Dim> number_faces(const ViscousInput<Dim>& in);
 template <int Dim>
 ViscousSystem<Dim> assemble_viscosity(const ViscousInput<Dim>& in);
 
-// What the viscous stress does to a solid: N and N m; in 2D N/m and N.
+// Force and torque of the viscous stress on a solid: N and N m; in 2D N/m and N.
 struct ViscousLoad {
   Vec3 force{0, 0, 0}, torque{0, 0, 0};
 };
 
-// Load on each solid, its torque about about[k], of face velocities u (ghosts filled) and body unknowns v. Collective.
+// Load on each solid, with the torque about about[k], for face velocities u (ghosts filled) and body unknowns v.
+// Collective.
 template <int Dim>
 std::vector<ViscousLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
                                         const FaceField<Dim>& u, const Eigen::VectorXd& v,
                                         const std::vector<Vec3>& about);
 
-// Rate of viscous dissipation z'Vz, W (2D: W/m). Collective.
+// Viscous dissipation rate z'Vz, W (2D: W/m). Collective.
 template <int Dim>
 double viscous_dissipation(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
                            const Eigen::VectorXd& v);

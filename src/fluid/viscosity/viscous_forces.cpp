@@ -10,7 +10,7 @@ double value_of(const AffineVelocity& s, const Slot& slot, const FaceField<Dim>&
   return sum;
 }
 
-// visit(term, s): s the velocities of the term's slots relative to its frame.
+// Calls visit(terms, term, s) for this rank's terms; s: velocities of the term's slots relative to its frame.
 template <int Dim, class Visit>
 void for_each_valued(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
                      const Eigen::VectorXd& v, const Visit& visit) {
@@ -32,8 +32,8 @@ double slope(const ViscousTerm<Dim>& t, const std::array<double, ViscousTerm<Dim
 
 }  // namespace
 
-// The force on body k is minus the change of half the dissipation rate when it moves rigidly: slots that read the body
-// move with it, and in its own frame all others move against it.
+// The force on body k is minus the derivative of half the dissipation rate with respect to its rigid motion. Slots that
+// read the body move with it; in terms with the body's frame, all other slots move against it.
 template <int Dim>
 std::vector<ViscousLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
                                         const FaceField<Dim>& u, const Eigen::VectorXd& v,

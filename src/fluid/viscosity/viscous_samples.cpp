@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// Faces whose corners and those of the faces beside are stored.
+// Faces whose corners, and the corners of adjacent faces, are stored.
 template <int Dim>
 Box<Dim> sampled(const Layout<Dim>& layout) {
   Box<Dim> box = layout.grown(2);
@@ -16,15 +16,16 @@ Box<Dim> sampled(const Layout<Dim>& layout) {
   return box;
 }
 
-// The node of a face's corner; bit b - 1 of its number says whether it is the high one along axis + b.
+// Node at a corner of a face. Bit b - 1 of the corner's number is set if it is at the high end along axis + b.
 template <int Dim>
 Site corner_node(const Layout<Dim>& layout, int axis, Site f, int corner) {
   for (int b = 1; b < Dim; ++b) f += ((corner >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
   return f;
 }
 
-// What the mean of a face's corners lacks of psi at its centre, along each of its axes (-a + 9b + 9c - d)/16 - (b +
-// c)/2. By a ball it is h^2/(8R) an axis, as much of its radius, and nowhere above h/8 if |grad psi| <= 1.
+// psi at a face's centre minus the mean of its corners: the sum of (-a + 9b + 9c - d)/16 - (b + c)/2 over the face's
+// axes. On a ball of radius R it is h^2/(8R) per axis, which would be an error of the radius. It is at most h/8 in
+// magnitude if |grad psi| <= 1.
 template <int Dim>
 double curvature_part(const ViscousInput<Dim>& in, int axis, Site f) {
   constexpr int corners = 1 << (Dim - 1);
@@ -41,7 +42,7 @@ double curvature_part(const ViscousInput<Dim>& in, int axis, Site f) {
   return sum;
 }
 
-// Distance at a face's centre, and the solid of the corner that lies deepest.
+// Distance psi at a face's centre (m), and the solid of the corner with the smallest psi.
 template <int Dim>
 std::pair<double, std::int16_t> nearest_solid(const ViscousInput<Dim>& in, int axis, Site f) {
   constexpr int corners = 1 << (Dim - 1);
@@ -57,7 +58,7 @@ std::pair<double, std::int16_t> nearest_solid(const ViscousInput<Dim>& in, int a
   return {mean + curvature_part(in, axis, f), solid};
 }
 
-// The sides beyond which a face lies: of each axis 0, 1 or -1.
+// For each axis, the side beyond which a face lies: 0 lower, 1 upper, -1 none.
 template <int Dim>
 std::array<int, Dim> sides_passed(const Layout<Dim>& layout, int axis, const IVec<Dim>& i) {
   std::array<int, Dim> r;
@@ -73,7 +74,7 @@ class Sampling {
  public:
   Sampling(const ViscousInput<Dim>& in, ViscousSamples<Dim>& out) : in_(in), layout_(in.layout), out_(out) {}
 
-  // All but what lies beyond sides and what is left to the rows.
+  // Classifies faces that are not beyond a side. Rows decide later about unknowns in the halo.
   void classify(int axis, Site f, const IVec<Dim>& i) {
     std::tie(out_.psi.at(axis, f), out_.solid.at(axis, f)) = nearest_solid(in_, axis, f);
     if (is_beyond(sides_passed(layout_, axis, i))) return;
@@ -83,13 +84,13 @@ class Sampling {
     set(axis, f, is_viscous(axis, f, i) || is_projected(axis, f) ? SampleKind::unknown : SampleKind::none);
   }
 
-  // What lies beyond sides. On one thread: their velocities may be formulas.
+  // Classifies faces beyond sides. Must run on one thread, since their velocities may be formulas.
   void classify_beyond(int axis, Site f, const IVec<Dim>& i) {
     const auto passed = sides_passed(layout_, axis, i);
     if (is_beyond(passed)) beyond(axis, f, i, passed);
   }
 
-  // A face that the projection opens, though its centre may lie in a solid.
+  // True if the face is an unknown of the projection. Its centre may lie in a solid.
   bool is_projected(int axis, Site f) const {
     return in_.faces.is_unknown(axis, f) && in_.faces.open.at(axis, f) > 0 &&
            in_.rows.touch_pressure(f - layout_.stride(axis), f);
@@ -112,7 +113,7 @@ class Sampling {
     return out_.psi.at(axis, f) <= 0 || closed;
   }
 
-  // Walls and inflow: their velocity. Outflow: the velocity before the solve.
+  // Walls and inflow give their velocity, outflow the velocity before the solve. Free-slip sides give none.
   void beyond(int axis, Site f, const IVec<Dim>& i, const std::array<int, Dim>& passed) {
     bool outflow = false;
     for (int b = 0; b < Dim; ++b) {
@@ -133,7 +134,8 @@ class Sampling {
     return true;
   }
 
-  // Whether viscous liquid fills part of a cell or of an edge's dual cell that the face touches.
+  // True if the face touches a cell or an edge's dual cell that contains viscous liquid. Edges on free-slip sides do
+  // not count.
   bool is_viscous(int axis, Site f, const IVec<Dim>& i) const {
     const Site d = layout_.stride(axis);
     if (is_cell_inside(i) && out_.share.cell[f] > 0) return true;
@@ -172,7 +174,7 @@ FaceRows<Dim> number(const ViscousInput<Dim>& in, const IsRow& is_row) {
   return r;
 }
 
-// Whether all cells and edges that an unknown touches are full, on all ranks.
+// True if all cells and edges that touch an unknown are full, on all ranks. Collective.
 template <int Dim>
 bool is_full(const ViscousInput<Dim>& in, const ViscousSamples<Dim>& s) {
   bool full = true;
@@ -200,7 +202,7 @@ ViscousSamples<Dim> sample_faces(const ViscousInput<Dim>& in) {
   s.given = s.psi = FaceField<Dim>(in.layout);
   s.share = viscous_shares(in);
   Sampling<Dim> sampling(in, s);
-  // Rows of faces within the halo are told by their owners.
+  // The owners decide the rows of faces in the halo.
   const Box<Dim> box = sampled(in.layout);
   for (int a = 0; a < Dim; ++a) {
     for_each_index(in.layout, box, [&](Site f, const IVec<Dim>& i) { sampling.classify(a, f, i); });

@@ -1,33 +1,34 @@
 #pragma once
-// What the velocity at each face centre is to the viscous stress.
+// Role of the velocity at each face centre in the viscous stress.
 #include "fluid/viscosity/viscous_shares.h"
 
 namespace seiche {
 
-// none: no viscous liquid touches it. unknown: of the liquid. solid: the velocity of a no-slip solid in which the face
-// centre lies or which closes the face. given: known beforehand (sides of the domain).
+// none: the face touches no viscous liquid. unknown: velocity of the liquid. solid: velocity of a no-slip solid that
+// contains the face centre or closes the face. given: known velocity (sides of the domain).
 enum class SampleKind : char { none, unknown, solid, given };
 
-// On the faces of the owned cells and two layers around.
+// Valid on the low faces of the owned cells and of two layers around.
 template <int Dim>
 struct ViscousSamples {
   FaceField<Dim, char> kind;           // SampleKind
-  FaceField<Dim, std::int16_t> solid;  // the nearest solid, -1 without
+  FaceField<Dim, std::int16_t> solid;  // the nearest solid, -1: none
   FaceField<Dim> given;                // m/s
-  FaceField<Dim> psi;                  // distance to that solid, m
+  FaceField<Dim> psi;                  // signed distance from that solid, m
   ViscousShares<Dim> share;
   FaceRows<Dim> rows;
-  // V = 1 and the same viscosity wherever liquid velocities differ, on all ranks: then the operator is the plain
-  // Laplacian of each component but for solids that turn.
+  // True if viscosity is uniform and V = 1 in all cells and edges that touch an unknown, on all ranks. The operator is
+  // then the Laplacian of each component, except next to rotating solids.
   bool plain = false;
 
   SampleKind kind_at(int axis, Site f) const { return SampleKind(kind.at(axis, f)); }
 };
 
+// Collective.
 template <int Dim>
 ViscousSamples<Dim> sample_faces(const ViscousInput<Dim>& in);
 
-// The side of the domain in whose plane index i of a node line lies along an axis: 0, 1, or -1.
+// The side of the domain (0 lower, 1 upper) that contains nodes of index i along an axis; -1: none.
 template <int Dim>
 int side_at(const Layout<Dim>& layout, int axis, int i) {
   if (layout.geometry().periodic[axis]) return -1;

@@ -9,13 +9,13 @@ namespace {
 template <int Dim>
 constexpr int corner_count = 1 << Dim;
 
-// Two functions at the corners of a cube; bit a of a corner's number is set where it is high along axis a.
+// Two functions at the corners of a cube. Bit a of a corner's number is set if it is at the high end of axis a.
 template <int Dim>
 struct Corners {
   std::array<double, corner_count<Dim>> phi, solid;
 };
 
-// Means over the corners that agree with `corner` along all axes but those of `free`.
+// Means of both functions over the corners that agree with `corner` along all axes that are not in the mask `free`.
 template <int Dim>
 std::pair<double, double> mean_over(const Corners<Dim>& c, int corner, int free) {
   double f = 0, g = 0;
@@ -27,8 +27,8 @@ std::pair<double, double> mean_over(const Corners<Dim>& c, int corner, int free)
   return {f / count, g / count};
 }
 
-// Part of a unit cube with phi < 0 and solid < 0, over the simplices (corner, middle of an edge, ..., centre): the same
-// under all turns of the grid, exact for planes.
+// Fraction of a unit cube with phi < 0 and solid < 0, over the simplices (corner, middle of an edge, ..., centre).
+// Equivariant under all rotations of the grid, exact for planes.
 template <int Dim>
 double cut_share(const Corners<Dim>& c) {
   std::array<int, Dim> order;
@@ -60,7 +60,7 @@ double share(const Corners<Dim>& c) {
   return cut_share(c);
 }
 
-// Mean over the sites around: those reached by stepping back along the axes of `back`.
+// Mean over the sites reached from s by stepping back along any of the axes in the mask `back`, s included.
 template <int Dim, class At>
 double mean_back(const Layout<Dim>& layout, Site s, int back, const At& at) {
   double sum = 0;
@@ -81,7 +81,7 @@ class Measure {
     for (const ViscousSolid<Dim>& s : in.solids) any_void_ = any_void_ || !s.no_slip;
   }
 
-  // The box of a cell (half = 0), or moved half a cell down along the axes of `half`.
+  // V of the box of cell s, shifted down by half a cell along the axes in the mask `half`.
   double at(Site s, int half) const {
     const double near = 3 * layout_.h();  // farther than the corners
     if (in_.phi[s] > near) return 0;
@@ -89,7 +89,7 @@ class Measure {
     Corners<Dim> c;
     constexpr int every = corner_count<Dim> - 1;
     for (int k = 0; k < corner_count<Dim>; ++k) {
-      // Along half axes corners are cell centres, along the others faces.
+      // Corners are at cell centres along the axes of `half`, at faces along the others.
       Site cell = s, node = s;
       for (int a = 0; a < Dim; ++a) {
         const bool high = (k >> a) & 1, is_half = (half >> a) & 1;
@@ -103,7 +103,7 @@ class Measure {
   }
 
  private:
-  // Distance to free-slip solids; nodes nearer to a no-slip one do not see them.
+  // Distance from free-slip solids. Nodes nearer to a no-slip solid ignore them.
   double void_distance(Site node) const {
     const int k = in_.body[node];
     return k < 0 || in_.solids[k].no_slip ? 3 * layout_.h() : in_.psi[node];

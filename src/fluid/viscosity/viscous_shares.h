@@ -1,10 +1,10 @@
 #pragma once
-// How much of each cell and of each edge's dual cell viscous liquid fills.
+// Volume fractions of viscous liquid in each cell and in each edge's dual cell.
 #include "fluid/viscosity/viscosity.h"
 
 namespace seiche {
 
-// The planes (a, b) in which edges turn: one in 2D, three in 3D.
+// The planes (a, b) perpendicular to edges: one in 2D, three in 3D.
 template <int Dim>
 constexpr int planes = Dim == 3 ? 3 : 1;
 template <int Dim>
@@ -12,8 +12,8 @@ constexpr std::array<int, 2> plane_axes(int plane) {
   return Dim == 3 ? std::array<int, 2>{(plane + 1) % 3, (plane + 2) % 3} : std::array<int, 2>{0, 1};
 }
 
-// V, 0..1, on the owned cells and one layer around. No-slip solids count by phi alone, air and free-slip solids as
-// void.
+// V, 0..1, on the owned cells and one layer around. Air and free-slip solids are void. In no-slip solids only phi
+// decides.
 template <int Dim>
 struct ViscousShares {
   CellField<Dim> cell;

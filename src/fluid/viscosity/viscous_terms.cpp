@@ -23,7 +23,7 @@ void ViscousTerm<Dim>::add_product(int i, int j, int k, int l, double c) {
   Q[j][k] -= c, Q[k][j] -= c;
 }
 
-// Its own, else the harmonic mean over the four cells around: exact for shear along layers.
+// The edge's own viscosity if given, else the harmonic mean over its four cells, which is exact for shear along layers.
 template <int Dim>
 double ViscousTerms<Dim>::edge_viscosity(int plane, Site e) const {
   if (in_.edge_viscosity) return (*in_.edge_viscosity)[plane][std::size_t(e)];
@@ -38,8 +38,9 @@ double ViscousTerms<Dim>::edge_viscosity(int plane, Site e) const {
   return 4 / sum;
 }
 
-// theta: cells from a liquid sample to the wall on the way to a solid one (Gibou et al. 2002). The limit keeps the
-// matrix's entries within a factor of 1000; the velocity at a sample so near is the wall's to 1e-3 of what h makes.
+// theta: distance from a liquid sample to the wall towards a solid sample, in cells (Gibou et al. 2002). Its lower
+// bound keeps matrix entries within a factor of 1000. A sample as near has the wall's velocity up to 1e-3 of the change
+// over h.
 template <int Dim>
 double ViscousTerms<Dim>::wall_distance(const Slot& liquid, const Slot& solid) const {
   const double outside = s_.psi.at(liquid.axis, liquid.face), inside = s_.psi.at(solid.axis, solid.face);
@@ -47,7 +48,7 @@ double ViscousTerms<Dim>::wall_distance(const Slot& liquid, const Slot& solid) c
   return std::clamp(outside / (outside + std::abs(inside)), 1e-3, 1.0);
 }
 
-// Drops terms without liquid; chooses the frame.
+// Chooses the term's frame. Returns false if the term contains no unknown or touches a face of kind none.
 template <int Dim>
 bool ViscousTerms<Dim>::settle(ViscousTerm<Dim>& t) const {
   bool any = false;
@@ -70,7 +71,7 @@ double ViscousTerms<Dim>::link_weight(const Slot& low, const Slot& high) const {
   return 1;
 }
 
-// A thin solid stands between two liquid samples: each is linked to it.
+// Links each of two liquid samples to the thin solid between them.
 template <int Dim>
 void ViscousTerms<Dim>::link_both_sides(ViscousTerm<Dim>& t, int low, int high, double c) const {
   for (int n = 0; n < 2; ++n) {
@@ -79,10 +80,11 @@ void ViscousTerms<Dim>::link_both_sides(ViscousTerm<Dim>& t, int low, int high, 
   }
 }
 
-// What the sides an edge lies in make of its two squares; false: the edge counts for nothing. Walls and inflow are half
-// a cell away from the liquid sample. At outflow half the dual cell is outside and d_n u = 0 beyond; where the products
-// are not null a link to the velocity before the solve keeps V positive. Not where gas flows: of viscous liquid beside
-// light gas the velocity before the solve moves the gas by mu dt/(rho_gas h^2) of itself, more in each step.
+// Weights of an edge's two squares on sides of the domain. Returns false if the edge has no term (free slip).
+// - Walls and inflow: half a cell away from the liquid sample, so the weight is 2.
+// - Outflow: half the dual cell is outside, and d_n u = 0 across the side. If products do not cancel, a link to the
+//   velocity before the solve keeps V positive. With gas flow this link is left out: next to viscous liquid, it moves
+//   light gas by mu dt/(rho_gas h^2) times its velocity, growing from step to step.
 template <int Dim>
 bool ViscousTerms<Dim>::weigh_by_sides(int plane, Site e, std::array<double, 2>& weight) const {
   const auto axes = plane_axes<Dim>(plane);
@@ -104,7 +106,8 @@ bool ViscousTerms<Dim>::weigh_by_sides(int plane, Site e, std::array<double, 2>&
   return true;
 }
 
-// mu h^(Dim-2) V [(s1 - s0)^2/theta + (s3 - s2)^2/theta + 2 (s1 - s0)(s3 - s2)]: d_b u_a and d_a u_b.
+// mu h^(Dim-2) V [(s1 - s0)^2/theta + (s3 - s2)^2/theta + 2 (s1 - s0)(s3 - s2)], the differences being h d_b u_a and
+// h d_a u_b.
 template <int Dim>
 bool ViscousTerms<Dim>::of_edge(int plane, Site e, ViscousTerm<Dim>& t) const {
   const auto [a, b] = plane_axes<Dim>(plane);
@@ -151,7 +154,7 @@ bool ViscousTerms<Dim>::of_cell(Site cell, ViscousTerm<Dim>& t) const {
   bool inside = true;
   for (int a = 0; a < Dim; ++a)
     inside = inside && (in_.layout.geometry().periodic[a] || (i[a] >= 0 && i[a] < in_.layout.geometry().cells[a]));
-  if (!inside && !s_.plain) return false;  // products without squares: a push of any size by what is known beyond
+  if (!inside && !s_.plain) return false;  // products without squares: known values beyond exert unbounded forces
   for (int a = 0; a < Dim; ++a) {
     if (inside) t.add_square(2 * a, 2 * a + 1, c * link_weight(t.slot[2 * a], t.slot[2 * a + 1]));
     for (int b = a + 1; b < Dim; ++b) t.add_product(2 * a + 1, 2 * a, 2 * b + 1, 2 * b, -c);
@@ -163,9 +166,9 @@ bool ViscousTerms<Dim>::of_cell(Site cell, ViscousTerm<Dim>& t) const {
   return true;
 }
 
-// The part of (sum_a s_2a+1 - s_2a)^2 that a cell's squares do not outweigh: sum_a (1 + 1/theta_a) G_a^2 - (1 -
-// r)(sum_a G_a)^2 is positive if (1 - r) sum_a 1/(1 + 1/theta_a) <= 1. Only 3D cells cut by a solid have one that the
-// divergence does not make up for.
+// Smallest r >= 0 for which a cell's squares outweigh (1 - r)(sum_a G_a)^2, G_a = s_2a+1 - s_2a: sum_a (1 + 1/theta_a)
+// G_a^2 - (1 - r)(sum_a G_a)^2 is positive if (1 - r) sum_a 1/(1 + 1/theta_a) <= 1. Returns 0 in cells that no solid
+// cuts, where the divergence term compensates it.
 template <int Dim>
 double ViscousTerms<Dim>::indefinite_part(const ViscousTerm<Dim>& t) const {
   double sum = 0;
@@ -189,7 +192,8 @@ double ViscousTerms<Dim>::kappa(Site cell) const {
   return s_.plain ? 0 : full ? interior_kappa() : 1;
 }
 
-// h div u = sum +- (w s + (1 - w) s_solid) where the projection keeps it zero, else sum +- s.
+// Adds c (h div u)^2. h div u = sum +- (w s + (1 - w) s_solid) in cells where the projection makes it zero, else sum +-
+// s.
 template <int Dim>
 void ViscousTerms<Dim>::add_divergence(ViscousTerm<Dim>& t, Site cell, double c) const {
   std::array<double, ViscousTerm<Dim>::most> d{};
@@ -209,7 +213,7 @@ void ViscousTerms<Dim>::add_divergence(ViscousTerm<Dim>& t, Site cell, double c)
     for (int j = 0; j < t.slots; ++j) t.Q[i][j] += c * d[i] * d[j];
 }
 
-// A face whose centre lies in a solid and that is open in part: a link of its own to the wall, over the mean distance
+// A slit is a partly open face whose centre lies in a solid. Its link to the wall has the length of the mean distance
 // of its open part, half that of its farthest corner.
 template <int Dim>
 bool ViscousTerms<Dim>::of_slit(int axis, Site f, ViscousTerm<Dim>& t) const {
@@ -219,7 +223,7 @@ bool ViscousTerms<Dim>::of_slit(int axis, Site f, ViscousTerm<Dim>& t) const {
     for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * in_.layout.stride((axis + b) % Dim);
     farthest = std::max(farthest, in_.psi[node]);
   }
-  // A twentieth: slits this narrow pass next to nothing, and narrower ones would only spoil the matrix.
+  // Lower bound 0.05: slits this narrow have almost no flux, and smaller values would only worsen the conditioning.
   const double theta = std::clamp(farthest / (2 * in_.layout.h()), 0.05, 1.0);
   const double c = std::max(coefficient(f), coefficient(f - in_.layout.stride(axis)));
   if (c <= 0) return false;
@@ -250,7 +254,7 @@ Vec3 ViscousTerms<Dim>::position(const Slot& slot) const {
   return extend<Dim>(in_.layout.position(in_.layout.index(slot.face), face_offset<Dim>(slot.axis)));
 }
 
-// The point of the surface nearest to a face: x - psi grad psi.
+// The point of the surface nearest to a face: x - psi grad psi/|grad psi|.
 template <int Dim>
 Vec3 ViscousTerms<Dim>::surface_point(const Slot& slot) const {
   constexpr int corners = 1 << (Dim - 1);

@@ -1,12 +1,13 @@
 #pragma once
-// The terms of the dissipation rate z'Vz: one a cell, one an edge, one a face whose centre lies in a solid.
+// The terms of the dissipation rate z'Vz: one per cell, one per edge, one per slit (a partly open face whose centre
+// lies in a solid).
 #include "fluid/viscosity/viscous_samples.h"
 #include "grid/loops.h"
 
 namespace seiche {
 
-// How a term reads the velocity at a face: as its sample, as the velocity of the nearest solid there, or as the row it
-// has although its centre lies in a solid.
+// Source of the velocity at a face. sample: its sample; solid: the velocity of the nearest solid there; row: the face's
+// unknown, even if its centre lies in a solid.
 enum class Reading : char { sample, solid, row };
 
 struct Slot {
@@ -30,7 +31,7 @@ struct ViscousTerm {
   void add_product(int i, int j, int k, int l, double c);
 };
 
-// A velocity as a row of the unknown faces, unknowns of bodies (by their index) and a known part.
+// A velocity as the sum of an unknown face velocity (`row`, -1: none), weighted body unknowns and a known part.
 struct AffineVelocity {
   Row row = -1;
   double known = 0;
@@ -42,27 +43,27 @@ class ViscousTerms {
  public:
   ViscousTerms(const ViscousInput<Dim>& in, const ViscousSamples<Dim>& samples) : in_(in), s_(samples) {}
 
-  // Whether there is such a term with an unknown in it.
+  // Set t to the term of a cell, edge or slit. Return false if it does not exist or contains no unknown.
   bool of_cell(Site cell, ViscousTerm<Dim>& t) const;
   bool of_edge(int plane, Site edge, ViscousTerm<Dim>& t) const;
   bool of_slit(int axis, Site face, ViscousTerm<Dim>& t) const;
-  // visit(term) for the terms a row takes part in.
+  // Calls visit(term) for the terms that contain a face's row.
   template <class Visit>
   void for_each_of_row(int axis, Site face, const Visit& visit) const;
-  // visit(term) for this rank's terms: every term is some rank's.
+  // Calls visit(term) for this rank's terms. Each term belongs to one rank.
   template <class Visit>
   void for_each_owned(const Visit& visit) const;
 
-  // s of a slot of a term.
+  // Velocity s of a term's slot relative to the term's frame.
   AffineVelocity relative_velocity(const ViscousTerm<Dim>& t, int slot) const;
   // Row of a slot, or -1.
   Row row(const Slot& slot) const;
-  // The solid that a slot reads, or -1.
+  // The solid whose velocity a slot reads, or -1.
   int solid(const Slot& slot) const;
   Vec3 position(const Slot& slot) const;
   double coefficient(Site cell) const { return in_.viscosity[cell] * scale(); }
-  // kappa of (div u)^2 in full cells of uniform viscosity: V is to be positive without the constraint too. Without it
-  // 2 D:D - (div u)^2 is negative for expansion in 3D, which a free surface permits.
+  // Factor kappa of (div u)^2 in full cells of uniform viscosity. It keeps V positive semi-definite without the
+  // divergence constraint: 2 D:D - (div u)^2 is negative for expansion in 3D, which a free surface permits.
   double interior_kappa() const { return s_.plain || Dim == 2 ? 0 : 1.0 / 3; }
 
  private:

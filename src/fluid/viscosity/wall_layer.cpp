@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// The stored sites beyond a side whose last one inside (or on it) has index `edge`.
+// The stored sites beyond a side. `edge`: index of the outermost site inside or on the side.
 template <int Dim>
 Box<Dim> beyond_side(const Layout<Dim>& layout, int axis, int side, int edge) {
   Box<Dim> box = layout.padded();
@@ -13,14 +13,14 @@ Box<Dim> beyond_side(const Layout<Dim>& layout, int axis, int side, int edge) {
   return box.cut(layout.padded());
 }
 
-// b h^2 of the parabola u_wall + a y + b y^2 whose means over the layers [0, h] and [h, 2h], or whose values in their
-// middle, are u0 and u1.
+// b h^2 of the parabola u_wall + a y + b y^2. u0 and u1 are its means over the layers [0, h] and [h, 2h], or its values
+// in their middle.
 double curvature(FaceValues values, double wall, double u0, double u1) {
   return values == FaceValues::means ? 0.75 * (u1 - wall) - 2.25 * (u0 - wall)
                                      : 2.0 / 3 * (u1 - wall) - 2 * (u0 - wall);
 }
 
-// Across the wall: u(-y) = u(y).
+// Extends the normal component: u(-y) = u(y).
 template <int Dim>
 void continue_across(const Layout<Dim>& layout, int axis, int side, FaceField<Dim>& u) {
   const int n = layout.geometry().cells[axis], edge = side == 0 ? 0 : n;
@@ -32,10 +32,9 @@ void continue_across(const Layout<Dim>& layout, int axis, int side, FaceField<Di
   });
 }
 
-// Along it: that of the k-th layer beyond is 2 u_wall - that of the k-th inside + 2 b y^2, the mean of y^2 over the
-// layer h^2 (k^2 - k + 1/3), in its middle h^2 (k - 1/2)^2.
-// Farther out than the first layer b counts for no more than the odd part: where few cells resolve the flow at the wall
-// it would grow with k^2.
+// Extends a tangential component: u(k-th beyond) = 2 u_wall - u(k-th inside) + 2 b y^2. The mean of y^2 over the layer
+// is h^2 (k^2 - k + 1/3), its value in the middle h^2 (k - 1/2)^2. Beyond the first layer, the even part is limited to
+// the odd part in magnitude: in badly resolved flow at the wall it would grow with k^2.
 template <int Dim>
 void continue_along(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, int component,
                     FaceValues values, FaceField<Dim>& u) {
@@ -54,7 +53,7 @@ void continue_along(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis
   });
 }
 
-// The side with which a face of a component shares the layer along an axis, or -1.
+// The side whose adjacent layer of cells along an axis contains the face (0 lower, 1 upper), or -1.
 template <int Dim>
 int wall_beside(const Layout<Dim>& layout, int component, int axis, const IVec<Dim>& i) {
   if (component == axis || layout.geometry().periodic[axis] || layout.geometry().cells[axis] < 2) return -1;
@@ -117,7 +116,7 @@ double excess_of_mean(const Layout<Dim>& layout, const FaceField<Dim>& u, int ax
   return sum / 24;
 }
 
-// Next to the wall 2 b h^2 - ((u1 - u0) - 2 (u0 - u_wall)), u_wall = (ghost + 5/2 u0 - 1/2 u1)/3.
+// Next to a wall the correction is 2 b h^2 - ((u1 - u0) - 2 (u0 - u_wall)), u_wall = (ghost + 5/2 u0 - 1/2 u1)/3.
 template <int Dim>
 double missing_laplacian(const Layout<Dim>& layout, const Sides<Dim>& sides, const FaceField<Dim>& u, int axis, Site f,
                          const IVec<Dim>& i) {

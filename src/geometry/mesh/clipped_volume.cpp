@@ -7,7 +7,7 @@ namespace {
 
 using Polygon = std::vector<Vec3>;
 
-// The part of a polygon, or of a segment as one of two corners, with sign x_axis <= sign level (Sutherland, Hodgman).
+// The part of a polygon with sign x_axis <= sign level (Sutherland, Hodgman 1974).
 Polygon clip(const Polygon& polygon, int axis, double level, double sign) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -19,7 +19,7 @@ Polygon clip(const Polygon& polygon, int axis, double level, double sign) {
   return kept;
 }
 
-// int (x - level) n_x dA over a polygon, n_x dA its area seen along x.
+// int (x - level) n_x dA over a polygon. n_x dA is its area projected along x.
 double flux(const Polygon& p, double level) {
   double sum = 0;
   for (std::size_t i = 2; i < p.size(); ++i) {
@@ -29,12 +29,12 @@ double flux(const Polygon& p, double level) {
   return sum;
 }
 
-// The same of a segment, the inside to its left: n_x ds = dy.
+// The same for a segment with the inside to its left: n_x ds = dy.
 double flux_of_segment(const Vec3& a, const Vec3& b, double level) {
   return (b[1] - a[1]) * (0.5 * (a[0] + b[0]) - level);
 }
 
-// Its end points are clipped by hand: as a polygon of two corners a segment would be gone through twice.
+// Clips the segment's parameter range, because clip() would traverse a polygon of two corners twice.
 double clipped_flux(const std::array<Vec3, 2>& segment, const Vec3& lower, const Vec3& upper, double level) {
   std::array<double, 2> range{0, 1};
   const Vec3 d = segment[1] - segment[0];
@@ -50,8 +50,8 @@ double clipped_flux(const std::array<Vec3, 2>& segment, const Vec3& lower, const
   return flux_of_segment(segment[0] + range[0] * d, segment[0] + range[1] * d, level);
 }
 
-// Volume with x <= level between the other sides. On the cap at x = level the field x - level is 0, and caps at the
-// other sides do not face along x.
+// Volume of the part with x <= level between the box's other sides, by the divergence theorem with the field (x -
+// level) e_x. The field is zero on the cap at x = level and tangential to the caps at the other sides.
 template <int Dim>
 double volume_below(const SurfaceMesh& s, const Vec3& lower, const Vec3& upper, double level) {
   double sum = 0;

@@ -4,7 +4,7 @@
 
 namespace seiche {
 
-// m^3; 2D (segments): m^2. Negative for a surface that is oriented inwards.
+// Result in m^3; 2D (segments): m^2. Negative for surfaces oriented inwards.
 template <int Dim>
 double clipped_volume(const SurfaceMesh& surface, const Vec3& lower, const Vec3& upper);
 

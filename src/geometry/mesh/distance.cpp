@@ -24,7 +24,7 @@ double squared_distance_to_box(const Vec3& x, const Vec3& lower, const Vec3& upp
   return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).squaredNorm();
 }
 
-// Whether x lies over the triangle: on the inner side of each edge's upright plane.
+// True if x projects into the triangle: it is on the inner side of the plane through each edge along the normal.
 bool is_over(const Vec3& x, const std::array<Vec3, 3>& corners, const Vec3& normal) {
   for (int e = 0; e < 3; ++e) {
     const Vec3 &p = corners[e], &q = corners[(e + 1) % 3];
@@ -74,7 +74,7 @@ NearestTriangle::Node NearestTriangle::enclose(int first, int last) const {
   return node;
 }
 
-// Halves a node at the median of its triangles along its longest side.
+// Splits a node at the median of its triangles along its box's longest side.
 void NearestTriangle::split(int index, const std::vector<Vec3>& centers) {
   const Node node = nodes_[index];
   if (node.last - node.first <= leaf_size) return;
@@ -103,7 +103,7 @@ double NearestTriangle::distance(const Vec3& x, double bound) const {
     const Node &low = nodes_[node.low], &high = nodes_[node.low + 1];
     const bool low_first =
         squared_distance_to_box(x, low.lower, low.upper) < squared_distance_to_box(x, high.lower, high.upper);
-    stack[depth++] = node.low + (low_first ? 1 : 0);  // the nearer is taken off first
+    stack[depth++] = node.low + (low_first ? 1 : 0);  // the nearer child is popped first
     stack[depth++] = node.low + (low_first ? 0 : 1);
   }
   return std::sqrt(least);

@@ -1,5 +1,5 @@
 #pragma once
-// The distance of points to the nearest of many triangles.
+// Distance of points from the nearest of many triangles.
 #include <array>
 #include <vector>
 
@@ -7,22 +7,22 @@
 
 namespace seiche::mesh {
 
-// The least distance of x to the triangle a, b, c (m).
+// Distance of x from the triangle a, b, c (m).
 double distance_to_triangle(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
-// A tree of boxes over the triangles of a mesh, which must outlive it. Any number of threads may ask at once.
+// A tree of boxes over the triangles of a mesh. The mesh must outlive it. Several threads may query it at once.
 class NearestTriangle {
  public:
   explicit NearestTriangle(const SurfaceMesh& mesh);
-  // The distance of x to the surface, or `bound` if that is less (m).
+  // Distance of x from the surface, at most `bound` (m).
   double distance(const Vec3& x, double bound) const;
   // Calls visit(corners) for each triangle whose box meets the line through x along an axis.
   template <class Visit>
   void visit_line(const Vec3& x, int axis, const Visit& visit) const;
 
  private:
-  static constexpr int most_depth = 128;  // halving 2^31 triangles goes 31 deep, two entries a level
-  // The triangles order_[first] up to order_[last]; children follow at `low` and `low + 1`, none if low is 0.
+  static constexpr int most_depth = 128;  // of the stack: a tree of 2^31 triangles has 31 levels, two entries each
+  // The triangles order_[first] ... order_[last - 1]. Children are nodes `low` and `low + 1`; low = 0: a leaf.
   struct Node {
     Vec3 lower, upper;
     int first = 0, last = 0, low = 0;

@@ -8,8 +8,8 @@
 namespace seiche {
 namespace {
 
-// An unevaluated sum of doubles, from small to large, none of which overlap (Shewchuk 1997): exact as long as nothing
-// over- or underflows. The last one has the sign of the sum.
+// An unevaluated sum of non-overlapping doubles in ascending order of magnitude (Shewchuk 1997). It is exact without
+// over- and underflow. The last term has the sign of the sum.
 using Expansion = std::vector<double>;
 
 struct Parts {
@@ -70,7 +70,7 @@ Column difference(const Vec3& a, const Vec3& b) {
   return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
 }
 
-// Rounding of the determinants below, in units of the sum of the absolute values of their products (Shewchuk 1997:
+// Round-off bounds of the determinants below, relative to the sum of the magnitudes of their products (Shewchuk 1997:
 // 3.3e-16 and 7.8e-16).
 constexpr double error_in_plane = 4e-16, error_in_space = 1e-15;
 
@@ -93,7 +93,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                        third[2] * (size[0] * other[1] + size[1] * other[0]);
   if (std::abs(det) > error_in_space * scale) return sign(det);
   for (int k = 0; k < 3; ++k)
-    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;  // in a plane across an axis; differences of equals are exact
+    if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;  // coplanar across an axis; differences of equals are exact
   const Column U = difference(b, a), V = difference(c, a), W = difference(d, a);
   return sign(W[0] * (U[1] * V[2] - U[2] * V[1]) + W[1] * (U[2] * V[0] - U[0] * V[2]) +
               W[2] * (U[0] * V[1] - U[1] * V[0]));

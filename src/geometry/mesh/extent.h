@@ -1,13 +1,13 @@
 #pragma once
-// The size of a mesh, before anything is computed from it.
+// The size of a mesh file, for checks before anything is computed from it.
 #include <filesystem>
 
 #include "base/vec.h"
 
 namespace seiche {
 
-// The edges of the box round the triangles of a file (OBJ, PLY, STL), as they stand there. Throws Error(bad_input)
-// where the file cannot be parsed.
+// Edge lengths of the bounding box of a file's triangles (OBJ, PLY, STL), in the file's coordinates. Throws
+// Error(bad_input) if the file cannot be parsed.
 Vec3 mesh_extent(const std::filesystem::path& file);
 
 }  // namespace seiche

@@ -14,10 +14,10 @@ using Part = std::vector<FacetWeights<Dim>>;
 template <int Dim>
 using Corners = Eigen::Matrix<double, Dim, Dim>;
 
-// How far beyond a facet the cell is looked up that a piece belongs to, in cells: far above rounding, far below h.
+// Distance beyond a facet at which the cell of a piece is looked up, in cells: far above round-off, far below h.
 constexpr double outward = 1e-9;
 
-// Normal with the length (2D) or area (3D) of the facet. The inside lies left of segments; triangles turn
+// Normal with the length (2D) or area (3D) of the facet. The inside lies left of segments; triangles are
 // counter-clockwise seen from outside.
 Vec<2> area_normal(const Corners<2>& p) {
   return {p(1, 1) - p(1, 0), p(0, 0) - p(0, 1)};
@@ -26,7 +26,7 @@ Vec<3> area_normal(const Corners<3>& p) {
   return 0.5 * (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
 }
 
-// Splits a part where the coordinate along an axis equals `plane`, and keeps the sides that are not empty.
+// Splits a part at the plane where the coordinate along an axis equals `plane` (cells).
 template <int Dim>
 void split(const Corners<Dim>& p, int axis, double plane, const Part<Dim>& part, Part<Dim>& below, Part<Dim>& above) {
   const auto height = [&](const FacetWeights<Dim>& w) { return p.row(axis).dot(w) - plane; };
@@ -46,7 +46,7 @@ void split(const Corners<Dim>& p, int axis, double plane, const Part<Dim>& part,
   }
 }
 
-// A part cut at all planes between cells along an axis.
+// Cuts a part at all planes between cells along an axis.
 template <int Dim>
 void cut_along(const Corners<Dim>& p, int axis, const Part<Dim>& part, std::vector<Part<Dim>>& pieces) {
   double low = 1e300, high = -1e300;
@@ -62,7 +62,7 @@ void cut_along(const Corners<Dim>& p, int axis, const Part<Dim>& part, std::vect
   if (rest.size() >= Dim) pieces.push_back(std::move(rest));
 }
 
-// A facet cut along all axes.
+// Cuts a facet along all axes.
 template <int Dim>
 std::vector<Part<Dim>> cut(const Corners<Dim>& p) {
   std::vector<Part<Dim>> parts(1);
@@ -85,7 +85,7 @@ IVec<Dim> cell_beside(const Corners<Dim>& p, const Part<Dim>& part, const Vec<Di
   return cell;
 }
 
-// Whether a facet has a point in a box of cells.
+// False if the facet's bounding box does not meet a box of cells.
 template <int Dim>
 bool may_meet(const Corners<Dim>& p, const Box<Dim>& box) {
   for (int a = 0; a < Dim; ++a)

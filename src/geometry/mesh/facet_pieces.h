@@ -1,5 +1,5 @@
 #pragma once
-// A surface cut at the cells of a grid.
+// Cuts a surface at the cells of a grid.
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// Weights of a facet's corners at one of its points; they add up to one.
+// Barycentric weights of a facet's corners at one of its points.
 template <int Dim>
 using FacetWeights = Eigen::Matrix<double, Dim, 1>;
 
@@ -16,12 +16,12 @@ template <int Dim>
 struct FacetPiece {
   IVec<Dim> cell;                          // index over the whole grid
   int facet = 0;                           // index in the surface
-  Vec<Dim> normal;                         // of the facet, outward, of unit length
-  std::vector<FacetWeights<Dim>> outline;  // 2D: its ends from the first corner on; 3D: a convex polygon
+  Vec<Dim> normal;                         // outward unit normal of the facet
+  std::vector<FacetWeights<Dim>> outline;  // 2D: both ends, the one near the first corner first; 3D: a convex polygon
 };
 
-// The pieces of a surface in the cells of `box`, in the order of the facets. Corners are at `points` (m). A piece that
-// lies in the plane between two cells belongs to the cell on its outer side.
+// The pieces of a surface in the cells of `box`, in the order of the facets. Corners are at `points` (m). A piece in
+// the plane between two cells belongs to the cell on its outer side. Facets without area are skipped.
 template <int Dim>
 std::vector<FacetPiece<Dim>> cut_at_cells(const Geometry<Dim>& grid, const Box<Dim>& box, const SurfaceMesh& surface,
                                           const std::vector<Vec<Dim>>& points);

@@ -4,7 +4,7 @@
 
 namespace seiche {
 
-// Segments (2D) or triangles (3D), Dim points each.
+// Segments (2D) or triangles (3D) of Dim points each.
 template <int Dim>
 const std::vector<std::array<int, Dim>>& facets_of(const SurfaceMesh& mesh) {
   if constexpr (Dim == 2)

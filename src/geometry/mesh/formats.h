@@ -1,5 +1,5 @@
 #pragma once
-// The readers behind read_closed_mesh(): bytes of a file to points and triangles, trusting nothing the file says.
+// The readers behind read_closed_mesh(). They turn bytes into points and triangles and validate everything they read.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,22 +15,24 @@ struct Source {
   std::string bytes;
 };
 
-// All of a file. Throws Error(bad_input) if it cannot be read or is empty.
+// The whole contents of a file. Throws Error(bad_input) if it cannot be read or is empty.
 std::string read_bytes(const std::filesystem::path& file);
 
-// Each throws Error(bad_input) naming the line or byte where the file is wrong. Polygons become fans of triangles.
+// Parse the points and triangles of a file. Polygons become fans of triangles. Throw Error(bad_input) naming the
+// offending line or byte.
 SurfaceMesh parse_obj(const Source& source);
 SurfaceMesh parse_ply(const Source& source);
 SurfaceMesh parse_stl(const Source& source);
 
-// Whether these are the bytes of a binary STL: no text, or exactly as long as its count of triangles says.
+// True for binary STL: the length agrees with its count of triangles, or the bytes are not text that begins with
+// "solid".
 bool is_binary_stl(std::string_view bytes);
 
-// "bunny.obj:12: message" and "bunny.stl: byte 84: message".
+// Throw Error(bad_input) "bunny.obj:12: message" or "bunny.stl: byte 84: message".
 [[noreturn]] void fail_at_line(const Source& source, std::size_t line, const std::string& message);
 [[noreturn]] void fail_at_byte(const Source& source, std::size_t byte, const std::string& message);
 
-// Whole-token numbers, whatever the locale; empty if the token is something else or does not fit.
+// Numbers that make up the whole token, independent of the locale. Empty if the token is no number or out of range.
 std::optional<double> to_double(std::string_view token);
 std::optional<long long> to_integer(std::string_view token);
 
@@ -40,7 +42,7 @@ class Tokens {
   explicit Tokens(std::string_view text, std::size_t first_line = 1) : rest_(text), line_(first_line) {}
   // The next token; empty at the end.
   std::string_view next();
-  // The rest of the current line, whose end is consumed.
+  // The rest of the current line; consumes the end of the line.
   std::string_view rest_of_line();
   bool at_end() const { return rest_.empty(); }
   std::size_t line() const { return line_; }
@@ -51,7 +53,7 @@ class Tokens {
   std::size_t line_;
 };
 
-// Points as indices take at most this many.
+// Largest number of points, since indices are int.
 constexpr std::size_t max_points = 2147483647;
 
 }  // namespace seiche::mesh

@@ -14,7 +14,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// An axis along which the triangle can be seen at all, if possible the one along which it is widest; -1: none.
+// An axis along which the triangle's projection has an area, if possible the one with the largest area; -1: none.
 int view(const Vec3& a, const Vec3& b, const Vec3& c) {
   int widest = 0;
   (b - a).cross(c - a).cwiseAbs().maxCoeff(&widest);
@@ -27,7 +27,7 @@ bool segments_meet_in_plane(const Vec3& p, const Vec3& q, const Vec3& a, const V
   const int pa = orientation(a, b, p, axis), qa = orientation(a, b, q, axis);
   const int ap = orientation(p, q, a, axis), bp = orientation(p, q, b, axis);
   if (pa != 0 || qa != 0 || ap != 0 || bp != 0) return pa * qa <= 0 && ap * bp <= 0;
-  for (int k = 0; k < 3; ++k)  // on one line
+  for (int k = 0; k < 3; ++k)  // collinear
     if (std::max(p[k], q[k]) < std::min(a[k], b[k]) || std::max(a[k], b[k]) < std::min(p[k], q[k])) return false;
   return true;
 }
@@ -59,14 +59,14 @@ std::array<Vec3, 3> corners(const SurfaceMesh& mesh, const Triangle& t) {
   return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
 }
 
-// The triangle turned so that the corners it shares with the other come first, and how many those are.
+// The triangle's corners, those shared with the other triangle first, and the number of shared corners.
 std::pair<Triangle, int> shared_first(Triangle t, const Triangle& other) {
   const auto is_shared = [&](int p) { return std::find(other.begin(), other.end(), p) != other.end(); };
   const auto end = std::stable_partition(t.begin(), t.end(), is_shared);
   return {t, int(end - t.begin())};
 }
 
-// Both lie in one plane and on the same side of their common edge.
+// True if both triangles lie in one plane and on the same side of their common edge.
 bool folded(const SurfaceMesh& mesh, const Triangle& s, const Triangle& t) {
   const Vec3 &u = mesh.points[s[0]], &v = mesh.points[s[1]], &a = mesh.points[s[2]], &b = mesh.points[t[2]];
   if (orientation(u, v, a, b) != 0) return false;
@@ -86,7 +86,7 @@ bool has_area(const SurfaceMesh& mesh, const Triangle& t) {
          (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).norm() > 0;
 }
 
-// A number for each point: the same for the corners of triangles without area that hang together, -1 for all others.
+// A group number for each point: equal for the corners of connected triangles without area, -1 for all other points.
 std::vector<int> sliver_points(const SurfaceMesh& mesh) {
   DisjointSets sets(mesh.points.size());
   std::vector<int> group(mesh.points.size(), -1);
@@ -108,7 +108,7 @@ bool share_sliver(const std::vector<int>& group, const Triangle& s, const Triang
   return false;
 }
 
-// The triangles at each edge of those with area.
+// The triangles with area, by edge.
 std::map<Edge, std::vector<int>> triangles_at_edges(const SurfaceMesh& mesh) {
   std::map<Edge, std::vector<int>> result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -122,8 +122,8 @@ std::map<Edge, std::vector<int>> triangles_at_edges(const SurfaceMesh& mesh) {
   return result;
 }
 
-// Pairs of triangles that share an edge, or of which one's edge comes close to the other: all that may intersect, for
-// where triangles meet, an edge of one meets the other. Lower index first, each once.
+// All pairs of triangles that may intersect, lower index first, each once: those that share an edge, and those where an
+// edge of one is close to the other. If triangles meet, an edge of one meets the other.
 std::vector<std::array<int, 2>> candidates(const SurfaceMesh& mesh) {
   const auto owners = triangles_at_edges(mesh);
   std::vector<Edge> edges;
@@ -144,8 +144,8 @@ std::vector<std::array<int, 2>> candidates(const SurfaceMesh& mesh) {
 
 }  // namespace
 
-// Triangles that share a corner meet elsewhere if and only if one's side opposite of it meets the other: the common
-// part is convex, and a ray from the corner leaves one of them first.
+// Triangles that share one corner meet elsewhere if and only if the side opposite to it in one of them meets the other:
+// the common part is convex, and a ray from the corner leaves one of them first.
 bool intersect(const SurfaceMesh& mesh, const Triangle& one, const Triangle& two) {
   const auto [s, shared] = shared_first(one, two);
   const Triangle t = shared_first(two, one).first;

@@ -1,4 +1,4 @@
-// Finds out what a mesh file is, has it parsed, and mends or refuses its surface.
+// Detects the format of a mesh file, parses it, and repairs or rejects its surface.
 #include "geometry/mesh/mesh.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ bool is_text(std::string_view bytes) {
   return bytes.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
-// What the content says, if it says so clearly.
+// The format that the content clearly indicates, or "".
 const char* sniff(std::string_view bytes) {
   if (bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r") return "PLY";
   if (!is_text(bytes)) return is_binary_stl(bytes) ? "STL" : "";
@@ -76,7 +76,7 @@ SurfaceMesh parse(const std::filesystem::path& file) {
   return mesh;
 }
 
-// Place in the file of a triangle that may have been turned since, counted from 1.
+// Number of a triangle in the file, counted from 1. The triangle may have been reoriented since.
 std::size_t number_in(const std::vector<std::array<int, 3>>& as_read, const std::array<int, 3>& t) {
   const auto same = [&](const std::array<int, 3>& r) { return std::is_permutation(r.begin(), r.end(), t.begin()); };
   return 1 + std::size_t(std::find_if(as_read.begin(), as_read.end(), same) - as_read.begin());

@@ -1,5 +1,5 @@
 #pragma once
-// Triangle meshes of solids (and in 2D closed polylines, as two-index elements).
+// Surface meshes: triangles in 3D, closed polylines of segments in 2D.
 #include <array>
 #include <filesystem>
 #include <vector>
@@ -14,9 +14,9 @@ struct SurfaceMesh {
   std::vector<std::array<int, 2>> segments;   // 2D; the inside lies to the left
 };
 
-// Reads a closed triangle mesh (OBJ, PLY, STL; text or binary), welds equal points, drops degenerate and duplicate
-// triangles with a note, orients it outwards and checks that it is closed, manifold and nowhere crosses or touches
-// itself. Throws Error(bad_input) naming the file and line or count and place of what is wrong.
+// Reads a closed triangle mesh (OBJ, PLY, STL; text or binary). Welds equal points, drops degenerate and duplicate
+// triangles with a note, and orients the surface outwards. Checks that it is closed and manifold, and that it does not
+// cross or touch itself. Throws Error(bad_input) naming the file and the line, or the number and place of the defects.
 SurfaceMesh read_closed_mesh(const std::filesystem::path& file, std::vector<std::string>& notes);
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-// Wavefront OBJ: v and f lines; indices count from 1, or from the last point backwards.
+// Wavefront OBJ: reads v and f lines. Indices count from 1, or backwards from the last point (-1).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 13> ignored{"vn",     "vt",     "vp",    
 struct Reader {
   const Source& source;
   SurfaceMesh mesh;
-  std::vector<std::size_t> lines{};  // of each triangle, for indices that are out of range
+  std::vector<std::size_t> lines{};  // line of each triangle, for messages about indices out of range
   std::size_t line = 0;
 };
 
@@ -35,7 +35,7 @@ void read_point(Reader& reader, Tokens words) {
   reader.mesh.points.push_back(p);
 }
 
-// "7", "7/1", "7//3" or "7/1/3" of a face, as an index from 0.
+// Reads "7", "7/1", "7//3" or "7/1/3" of a face as an index from 0.
 int read_index(const Reader& reader, std::string_view word) {
   const std::optional<long long> number = to_integer(word.substr(0, word.find('/')));
   const long long points = (long long)(reader.mesh.points.size());

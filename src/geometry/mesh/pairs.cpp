@@ -1,5 +1,5 @@
-// Space is halved until the edges and triangles in it are few, or all of them share a point: there is nothing to find
-// at the tip of a fan, however many triangles it has.
+// Halves space until few edges and triangles are left in it, or all of them share a point: the tip of a fan has no
+// pairs, however many triangles meet there.
 #include "geometry/mesh/pairs.h"
 
 #include <Eigen/Geometry>
@@ -13,13 +13,13 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-constexpr double few_pairs = 32;            // are tried one by one
-constexpr double gain = 0.8;                // of the pairs may be left after a halving that was worth it
+constexpr double few_pairs = 32;            // up to so many pairs are tried one by one
+constexpr double gain = 0.8;                // a halving is worthwhile if it leaves at most this fraction of the pairs
 constexpr int most_patience = 4;            // halvings without gain before all pairs are tried
-constexpr double rounding = 1e-12;          // of the largest coordinate, far above what clipping rounds
-constexpr std::size_t max_corners = 3 + 6;  // of a triangle clipped by a box
+constexpr double rounding = 1e-12;          // relative to the largest coordinate, far above the round-off of clipping
+constexpr std::size_t max_corners = 3 + 6;  // corners of a triangle clipped by a box
 
-// The part of an edge or triangle in a part of space.
+// An edge or triangle with the bounding box of its part in the current cell.
 struct Piece {
   int index;
   Box box;
@@ -35,7 +35,7 @@ struct Polygon {
   }
 };
 
-// What lies on the side of the plane x[axis] = at to which sign points (Sutherland, Hodgman 1974).
+// The part of a polygon on the side of the plane x[axis] = at that `sign` points to (Sutherland, Hodgman 1974).
 Polygon clip(const Polygon& polygon, int axis, double at, double sign) {
   Polygon result;
   for (std::size_t i = 0; i < polygon.count; ++i) {
@@ -93,7 +93,7 @@ class Search {
     }));
   }
 
-  // The pairs to be tried once those that share a certain point are left out; the point is the best of a few.
+  // Number of pairs to try without those that share `point`. The point is the best of a few candidates; -1: none.
   struct Work {
     int point = -1;
     double pairs = 0;
@@ -127,7 +127,7 @@ class Search {
     return Box(box.min().array() - margin_, box.max().array() + margin_);
   }
 
-  // The pieces that reach beyond a plane, cut off there.
+  // The parts of the pieces on one side of a plane.
   template <class Facets>
   Pieces beyond(const Facets& facets, const Pieces& pieces, int axis, double at, bool high) const {
     Pieces result;
@@ -164,7 +164,7 @@ class Search {
     return result;
   }
 
-  // Across the longest side, or, where that gains little, the side that gains most.
+  // Halves the longest side, or, if that gains little, the side that gains most.
   Halves best_halves(const Half& whole, const Box& cell, double now) const {
     Eigen::Index longest = 0;
     cell.sizes().maxCoeff(&longest);
@@ -191,7 +191,7 @@ class Search {
     halve(std::move(best.high), patience);
   }
 
-  // All pairs but those that share the point.
+  // Tries all pairs except those that share the point.
   void try_all(const Half& half, int point) {
     const auto has = [&](const auto& facet) { return std::find(facet.begin(), facet.end(), point) != facet.end(); };
     Pieces without;

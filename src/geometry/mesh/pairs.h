@@ -1,5 +1,5 @@
 #pragma once
-// Pairs of edges and triangles of a surface that come close enough to meet.
+// Pairs of edges and triangles of a surface that are close enough to meet.
 #include <array>
 #include <vector>
 
@@ -9,9 +9,9 @@ namespace seiche::mesh {
 
 using Edge = std::array<int, 2>;
 
-// The edge and the triangle (indices into the lists given) of every pair without a common point that meet, and of some
-// that only come close; in ascending order, each once. The cost follows the number of triangles, also where very many
-// of them share a point.
+// Pairs (edge, triangle) of indices into the lists, in ascending order, each once. Contains all pairs without a common
+// point that meet, and some that are only close. The cost grows with the number of triangles, even if very many of them
+// share a point.
 std::vector<std::array<int, 2>> close_pairs(const std::vector<Vec3>& points, const std::vector<Edge>& edges,
                                             const std::vector<std::array<int, 3>>& triangles);
 

@@ -1,4 +1,4 @@
-// PLY: text, little and big endian. Elements other than points and faces are read past.
+// PLY: text, little and big endian. Skips elements other than points and faces.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -142,7 +142,7 @@ class Body {
 
   double next(Type type) { return encoding_ == Encoding::text ? next_word() : next_bytes(type); }
 
-  // Throws unless so many numbers of a type can still follow.
+  // Fails unless `count` items of `size` bytes (in text: at least two characters) fit in the rest of the file.
   void require(std::uint64_t count, std::size_t size, std::string_view what) const {
     const bool text = encoding_ == Encoding::text;
     const std::size_t left = text ? words_.bytes_left() + 1 : source_.bytes.size() - at_;
@@ -199,7 +199,7 @@ class Body {
   Tokens words_;
 };
 
-// The least an element takes: its scalars and the counts of its lists.
+// Smallest size of an element in bytes: its scalars and the counts of its lists.
 std::size_t least_size(const Element& element) {
   std::size_t size = 0;
   for (const Property& p : element.properties) size += size_of(p.count.value_or(p.type));

@@ -1,5 +1,5 @@
 #pragma once
-// Where a segment goes through a facet of a surface.
+// Intersection of a segment with a facet of a surface.
 #include <array>
 #include <optional>
 
@@ -7,12 +7,12 @@
 
 namespace seiche {
 
-// By this share segments and facets count as longer, so that what goes through an edge meets one of the facets there:
-// far above rounding, far below what a grid sees.
+// Relative extension of segments and facets, so that a segment through an edge meets one of its facets. Far above
+// round-off, far below grid resolution.
 constexpr double crossing_slack = 1e-9;
 
-// The share of the way from p to q at which it meets a facet (2D: a segment, 3D: a triangle), empty where it does not.
-// What runs within the facet's plane does not meet it.
+// Fraction of the way from p to q at which it meets a facet (2D: a segment, 3D: a triangle); empty if it does not.
+// Segments within the facet's plane do not meet it.
 template <int Dim>
 std::optional<double> crossing(const Vec<Dim>& p, const Vec<Dim>& q, const std::array<Vec<Dim>, Dim>& facet);
 

@@ -1,4 +1,4 @@
-// STL, text and binary. Its normals are ignored: the order of the corners and the checks that follow decide.
+// STL, text and binary. Ignores the file's normals: the order of the corners and later checks determine orientation.
 #include <fmt/format.h>
 
 #include <array>

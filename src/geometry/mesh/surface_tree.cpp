@@ -62,7 +62,7 @@ Vec<Dim> middle(const SurfaceTree<Dim>& s, int element) {
   return sum / Dim;
 }
 
-// Splits the elements at the median along the longest side of the box of their middles.
+// Splits the elements at the median along the longest side of the bounding box of their centroids. Returns the node.
 template <int Dim>
 int grow_tree(SurfaceTree<Dim>& s, int first, int last) {
   const int node = static_cast<int>(s.nodes.size());
@@ -84,7 +84,7 @@ int grow_tree(SurfaceTree<Dim>& s, int first, int last) {
   return node;
 }
 
-// Divergence theorem about the first point.
+// By the divergence theorem, relative to the first point.
 template <int Dim>
 double signed_volume(const SurfaceTree<Dim>& s) {
   double sum = 0;

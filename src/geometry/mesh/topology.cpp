@@ -16,11 +16,11 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// One side of a triangle: its edge with the lower point first, and whether the triangle runs along it that way.
+// One side of a triangle.
 struct Side {
-  int low, high;
+  int low, high;  // points of its edge
   int triangle;
-  bool ascending;
+  bool ascending;  // true if the triangle traverses the edge from low to high
   std::pair<int, int> edge() const { return {low, high}; }
 };
 
@@ -39,12 +39,12 @@ std::vector<Side> sorted_sides(const SurfaceMesh& mesh) {
   return sides;
 }
 
-// The triangles across the three sides of each triangle of a closed surface.
 struct Neighbour {
   int triangle = -1;
-  bool agrees = false;  // both run along the shared edge in opposite directions, as in an oriented surface
+  bool agrees = false;  // true if both traverse the shared edge in opposite directions, as in an oriented surface
 };
 
+// The triangles across the three sides of each triangle of a closed surface.
 std::vector<std::array<Neighbour, 3>> neighbours(const SurfaceMesh& mesh) {
   const std::vector<Side> sides = sorted_sides(mesh);
   std::vector<std::array<Neighbour, 3>> result(mesh.triangles.size());
@@ -72,7 +72,7 @@ std::string describe(const SurfaceMesh& mesh, const std::vector<Side>& edges, st
   return text + (edges.size() > shown ? ", ..." : "");
 }
 
-// Six times the volume between a triangle and the first point of its mesh, exact enough far from the origin.
+// Six times the signed volume between a triangle and the mesh's first point. Accurate far from the origin, too.
 double signed_volume(const SurfaceMesh& mesh, const Triangle& t) {
   const Vec3& o = mesh.points.front();
   const Vec3 a = mesh.points[t[0]] - o, b = mesh.points[t[1]] - o, c = mesh.points[t[2]] - o;
@@ -88,7 +88,7 @@ void turn(Triangle& t) {
   std::swap(t[1], t[2]);
 }
 
-// Visits a piece from its first triangle on, turning triangles to agree with the one they were reached from.
+// Visits a connected piece from its first triangle on, and marks triangles to be reoriented so that neighbours agree.
 struct Flood {
   SurfaceMesh& mesh;
   const std::vector<std::array<Neighbour, 3>>& across;
@@ -120,7 +120,7 @@ struct Flood {
 
 struct Piece {
   std::vector<int> triangles;
-  double volume = 0;  // six times, signed
+  double volume = 0;  // six times the signed volume
   Vec3 lower = Vec3::Constant(INFINITY), upper = Vec3::Constant(-INFINITY);
 };
 
@@ -138,8 +138,7 @@ std::vector<Piece> collect(const SurfaceMesh& mesh, const std::vector<int>& piec
   return result;
 }
 
-// The share of the full sphere of directions that a closed piece covers as seen from x: 0 outside, +-1 inside
-// (van Oosterom, Strackee 1983).
+// Winding number of a closed piece about x, by solid angles: 0 outside, +-1 inside (van Oosterom, Strackee 1983).
 double winding(const SurfaceMesh& mesh, const Piece& piece, const Vec3& x) {
   double sum = 0;
   for (const int t : piece.triangles) {
@@ -155,7 +154,7 @@ bool encloses(const SurfaceMesh& mesh, const Piece& outer, const Piece& inner) {
   const bool within =
       (outer.lower.array() < inner.lower.array()).all() && (inner.upper.array() < outer.upper.array()).all();
   if (!within) return false;
-  constexpr std::size_t samples = 200;  // pieces that cross each other are joined, not nested
+  constexpr std::size_t samples = 200;  // several corners, since crossing pieces are not nested
   const std::size_t stride = 1 + inner.triangles.size() / samples;
   for (std::size_t i = 0; i < inner.triangles.size(); i += stride) {
     const Vec3& corner = mesh.points[mesh.triangles[inner.triangles[i]][0]];
@@ -218,7 +217,7 @@ void weld(SurfaceMesh& mesh) {
   }
   std::vector<int> order(mesh.points.size()), first(mesh.points.size()), compact(mesh.points.size(), -1);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), less);  // equal points: the first in the file leads
+  std::stable_sort(order.begin(), order.end(), less);  // of equal points, the first in the file comes first
   for (std::size_t k = 0; k < order.size(); ++k) {
     first[order[k]] = k > 0 && !less(order[k - 1], order[k]) ? first[order[k - 1]] : order[k];
   }

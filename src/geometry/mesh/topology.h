@@ -1,5 +1,5 @@
 #pragma once
-// Makes a closed, consistently oriented surface of triangles as files hold them, or says why it is none.
+// Turns the triangles of a file into a closed, consistently oriented surface, or reports why this is impossible.
 #include <string>
 #include <vector>
 
@@ -7,20 +7,22 @@
 
 namespace seiche::mesh {
 
-// Points that are equal become one and unused ones go; no note: every STL needs it.
+// Merges equal points and removes unused ones. Leaves no note, since every STL needs it.
 void weld(SurfaceMesh& mesh);
 
-// Triangles with a corner twice, and all but one of triangles on the same three points.
+// Removes triangles with a repeated corner, and all but one of the triangles on the same three points. Throws
+// Error(bad_input) if fewer than 4 are left.
 void drop_degenerate_and_duplicate(SurfaceMesh& mesh, std::vector<std::string>& notes);
 
-// Every edge must belong to two triangles. Throws Error(bad_input) with the counts and places of the others.
+// Throws Error(bad_input) with number and places of the edges that do not belong to exactly two triangles.
 void require_closed(const SurfaceMesh& mesh);
 
-// Turns triangles so that neighbours agree and each piece faces outwards (a cavity within a piece: into the cavity).
-// Throws Error(bad_input) if the surface has one side only or encloses no volume.
+// Reorients triangles so that neighbours agree and each connected piece faces outwards; a cavity within a piece faces
+// into the cavity. Throws Error(bad_input) if the surface is one-sided or a piece encloses no volume.
 void orient(SurfaceMesh& mesh, std::vector<std::string>& notes);
 
-// Triangles whose corners are distinct but lie on a line; after the checks, as their neighbours meet along it.
+// Removes triangles with distinct but collinear corners. Must follow the checks, since their neighbours then meet along
+// the line.
 void drop_slivers(SurfaceMesh& mesh, std::vector<std::string>& notes);
 
 }  // namespace seiche::mesh

@@ -12,9 +12,9 @@
 namespace seiche {
 namespace {
 
-constexpr double chord_share = 0.05;  // of a cell; far below the gaps that contacts keep
-constexpr double plane_reach = 4;     // domain diagonals from its middle that the face of a plane spans
-constexpr double contour_margin = 2;  // cells beyond the domain at which contoured shapes are cut off
+constexpr double chord_share = 0.05;  // chord error in cells; far below contact gaps
+constexpr double plane_reach = 4;     // half width of a plane's face, in domain diagonals
+constexpr double contour_margin = 2;  // contoured shapes are cut off this many cells beyond the domain
 
 template <int Dim>
 struct Row {
@@ -27,7 +27,7 @@ constexpr std::array<Row<Dim>, 4> primitives{{{"box", tessellate_box<Dim>},
                                               {"cylinder", tessellate_cylinder<Dim>},
                                               {"capsule", tessellate_capsule<Dim>}}};
 
-// x -> translate + R (scale x), within the plane in 2D
+// x -> translate + R (scale x). 2D: ignores z.
 template <int Dim>
 Vec3 to_world(const Vec3& own, const TransformSpec& t) {
   const Vec<Dim> turned = shape::rotation<Dim>(t.rotate) * truncate<Dim>(own);
@@ -39,7 +39,7 @@ void turn_inside_out(SurfaceMesh& mesh) {
   for (auto& s : mesh.segments) std::swap(s[0], s[1]);
 }
 
-// The block below the part of the plane near the domain; an inverted plane is that of the opposite normal.
+// The block behind the part of the plane near the domain. An inverted plane has the opposite normal.
 template <int Dim>
 SurfaceMesh plane_surface(const ShapeSpec& spec, const Vec<Dim>& lower, const Vec<Dim>& upper) {
   const TransformSpec turn{1, spec.transform.rotate, Vec3::Zero()};
@@ -54,7 +54,7 @@ SurfaceMesh plane_surface(const ShapeSpec& spec, const Vec<Dim>& lower, const Ve
   return block_surface<Dim>(corner, {2 * reach * u, reach * up, 2 * reach * w});
 }
 
-// The inverted shape has the surface of the shape itself, facing the other way.
+// Contours the shape itself; an inverted shape has the same surface facing the other way.
 template <int Dim>
 SurfaceMesh contoured_surface(ShapeSpec spec, const ShapeOptions& options, const Vec<Dim>& lower,
                               const Vec<Dim>& upper) {
@@ -68,7 +68,7 @@ SurfaceMesh contoured_surface(ShapeSpec spec, const ShapeOptions& options, const
 
 template <int Dim>
 SurfaceMesh primitive_surface(const ShapeSpec& spec, const ShapeOptions& options, const Row<Dim>& row) {
-  make_shape<Dim>(spec, options);  // refuses impossible sizes
+  make_shape<Dim>(spec, options);  // throws on impossible sizes
   SurfaceMesh mesh = row.tessellate(spec, chord_share * options.cell_size / spec.transform.scale);
   for (Vec3& p : mesh.points) p = to_world<Dim>(p, spec.transform);
   if (spec.invert) turn_inside_out(mesh);

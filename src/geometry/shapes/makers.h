@@ -1,7 +1,6 @@
 #pragma once
-// The makers behind the shape table. Each builds one kind from its spec in the shape's own frame unless said otherwise
-// and throws Error(bad_input), without place, on impossible sizes; make_shape() adds the place, transform and
-// inversion.
+// The makers behind the shape table. Each builds one kind from its spec, in the shape's own frame unless noted. They
+// throw Error(bad_input) without a location on impossible sizes. make_shape() adds location, transform and inversion.
 #include <memory>
 #include <string>
 
@@ -27,18 +26,19 @@ Field<Dim> make_expression(const ShapeSpec& spec, const ShapeOptions& options);
 template <int Dim>
 Field<Dim> make_level_set(const ShapeSpec& spec, const ShapeOptions& options);
 
-// In world coordinates: its vertices are transformed before they are sampled. 3D only.
+// In world coordinates: vertices are transformed before sampling. 3D only; throws Error(bad_input) in 2D.
 template <int Dim>
 Field<Dim> make_mesh(const ShapeSpec& spec, const ShapeOptions& options);
 
-// The closed mesh of a "mesh" shape, transformed; with invert its triangles face the other way.
+// The closed mesh of a "mesh" shape, transformed. With invert its triangles face the other way.
 SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options);
 
-// The rotation matrix of a transform; exact at multiples of 90 degrees about an axis of coordinates.
-// 2D: about z. 3D: throws Error(bad_input) if the axis is zero.
+// The rotation matrix of a transform, exact for multiples of 90 degrees about a coordinate axis. 2D: about z. 3D:
+// throws Error(bad_input) if the axis is zero.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> rotation(const RotationSpec& rotate);
 
+// Throws Error(bad_input).
 [[noreturn]] void refuse(const std::string& message);
 
 }  // namespace seiche::shape

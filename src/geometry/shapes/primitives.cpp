@@ -7,7 +7,7 @@
 namespace seiche::shape {
 namespace {
 
-// Distance to the box {q <= 0} given how far x is beyond each of its faces, q.
+// Signed distance from the box {q <= 0}. q: signed distances beyond its faces, one per axis.
 template <int N>
 double distance_of_excess(const Vec<N>& q) {
   return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
@@ -29,7 +29,7 @@ struct Sphere : ShapeField<Dim> {
   double operator()(const Vec<Dim>& x) const override { return (x - center).norm() - radius; }
 };
 
-// All points within radius of the axis, cut flat at both ends; in 2D a rectangle of width 2 radius.
+// All points within `radius` of the axis, cut off flat at both ends; in 2D a rectangle of width 2 radius.
 template <int Dim>
 struct Cylinder : ShapeField<Dim> {
   Vec<Dim> from, axis;  // axis has unit length

@@ -1,4 +1,4 @@
-// Shapes that are not closed forms: formulas, triangle meshes and level sets of frames.
+// Shapes without a closed form: expressions, triangle meshes and level sets of frames.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,11 +15,11 @@
 namespace seiche::shape {
 namespace {
 
-constexpr double mesh_band = 5;         // voxels to each side: nodes within a band of redistancing see true distances
-constexpr double steps_per_cell = 16;   // central differences of phi; a power of two keeps linear phi exact
-constexpr double reach_in_cells = 1e6;  // bound of phi / |grad phi| where the gradient vanishes
+constexpr double mesh_band = 5;         // voxels to each side; distances are true within the redistancing band
+constexpr double steps_per_cell = 16;   // for central differences of phi; a power of two keeps linear phi exact
+constexpr double reach_in_cells = 1e6;  // bound of phi / |grad phi|, e.g. if the gradient vanishes
 
-// phi / |grad phi|, a distance to first order near phi = 0 and exactly where phi is linear.
+// phi / |grad phi|: a first-order distance near phi = 0, exact if phi is linear.
 template <int Dim>
 struct ExpressionShape : ShapeField<Dim> {
   Expression phi;

@@ -9,14 +9,14 @@
 namespace seiche {
 namespace {
 
-constexpr int shift = 3, edge = 1 << shift, mask = edge - 1;  // voxels along a block
-constexpr double slack = 1e-9;                                // relative; above rounding
+constexpr int shift = 3, edge = 1 << shift, mask = edge - 1;  // edge: voxels along a block
+constexpr double slack = 1e-9;                                // relative, above round-off
 
 Vec3 position(const std::array<std::int64_t, 3>& block, double voxel, const Vec3& within) {
   return voxel * (edge * Vec3(double(block[0]), double(block[1]), double(block[2])) + within);
 }
 
-// The place in a block of the neighbour below a voxel: along the first axis where there is one, else along the others.
+// Position in a block of a voxel's lower neighbour along the first axis that has one.
 int neighbour_below(int site) {
   if (site & mask) return site - 1;
   if (site & (mask << shift)) return site - edge;
@@ -71,7 +71,7 @@ double SampledMesh::at(const Index& voxel) const {
   return (*last_)[std::size_t((voxel[0] & mask) + edge * ((voxel[1] & mask) + edge * (voxel[2] & mask)))];
 }
 
-// A block whose middle is farther from the surface than its corners and the band reach lies on one side of it.
+// A block is uniform if its middle is farther from the surface than its half diagonal plus the band.
 SampledMesh::Block SampledMesh::make_block(const Index& block) const {
   const double half = 0.5 * mask;
   const Vec3 middle = position(block, voxel_, Vec3::Constant(half));
@@ -80,8 +80,8 @@ SampledMesh::Block SampledMesh::make_block(const Index& block) const {
   return {float(mesh::contains(nearest_, middle) ? -band_ : band_)};
 }
 
-// Distances of neighbours differ by a voxel at most, which bounds the search; a voxel that is farther than that from
-// the surface lies on the same side as its neighbour.
+// Distances of neighbours differ by at most one voxel, which bounds the search. A voxel lies on the same side as its
+// neighbour if the neighbour is farther than one voxel from the surface.
 SampledMesh::Block SampledMesh::fill_block(const Index& block) const {
   constexpr int size = edge * edge * edge;
   const double step = voxel_ * (1 + slack);

@@ -1,5 +1,5 @@
 #pragma once
-// The signed distance of a closed mesh on voxels near the places where it is asked for.
+// The signed distance of a closed mesh, sampled on voxels on demand.
 #include <array>
 #include <cstdint>
 #include <unordered_map>
@@ -10,12 +10,12 @@
 
 namespace seiche {
 
-// Trilinear between the voxels i * voxel, limited to +-half_width voxels. Voxels are computed in blocks when a point in
-// them is first asked for: the cost follows the places asked for, however large the mesh is in voxels.
+// Trilinear between samples at i * voxel, limited to +-half_width voxels. Samples are computed in blocks when a point
+// in a block is first queried. The cost depends on the queried region, not on the size of the mesh.
 class SampledMesh : public vdb::SampledDistance {
  public:
   SampledMesh(SurfaceMesh mesh, double voxel, double half_width);  // m, voxels
-  // One thread at a time.
+  // Must be called by one thread at a time.
   double operator()(const Vec3& x) const override;
   std::size_t block_count() const { return blocks_.size(); }
 
@@ -24,7 +24,7 @@ class SampledMesh : public vdb::SampledDistance {
   struct Hash {
     std::size_t operator()(const Index& i) const;
   };
-  // Distances of the voxels of a block, first axis fastest, m; a single one where all are the same.
+  // Distances of the voxels of a block, first axis fastest, m; a single value if all are equal.
   using Block = std::vector<float>;
 
   double at(const Index& voxel) const;
@@ -34,7 +34,7 @@ class SampledMesh : public vdb::SampledDistance {
   SurfaceMesh mesh_;
   mesh::NearestTriangle nearest_;
   double voxel_, band_;
-  Vec3 lower_, upper_;  // beyond them the distance is the band's, m
+  Vec3 lower_, upper_;  // outside this box the distance is +band_, m
   mutable std::unordered_map<Index, Block, Hash> blocks_;
   mutable Index last_index_{};
   mutable const Block* last_ = nullptr;

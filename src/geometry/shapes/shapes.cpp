@@ -1,4 +1,4 @@
-// The shape table, and what every shape shares: transform, inversion, the place in messages.
+// The shape table, and the parts common to all shapes: transform, inversion, location in messages.
 #include "geometry/shapes/shapes.h"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace seiche {
 namespace shape {
 namespace {
 
-enum class Frame { own, world };  // what coordinates the made field takes
+enum class Frame { own, world };  // coordinates of the maker's field
 
 template <int Dim>
 struct Row {
@@ -22,7 +22,7 @@ struct Row {
   Frame frame;
 };
 
-// The table: a new shape is one more row.
+// The shape table. A new shape needs one more row.
 template <int Dim>
 constexpr std::array<Row<Dim>, 8> table{{
     {"box", make_box<Dim>, Frame::own},

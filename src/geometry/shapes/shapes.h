@@ -13,14 +13,14 @@ template <int Dim>
 class ShapeField {
  public:
   virtual ~ShapeField() = default;
-  // Signed distance at x (m), negative inside. Safe to call from one thread at a time only.
-  // Expressions are scaled to a first-order distance near their zero (phi / |grad phi|).
+  // Signed distance at x (m), negative inside. Must be called by one thread at a time. Expressions return the
+  // first-order distance phi / |grad phi|.
   virtual double operator()(const Vec<Dim>& x) const = 0;
 };
 
 struct ShapeOptions {
-  double cell_size = 0;                       // voxel size of sampled shapes (mesh, level_set), m
-  std::vector<std::string>* notes = nullptr;  // what was mended in files, for the log
+  double cell_size = 0;                       // resolution of sampled meshes, contours and expressions' gradients, m
+  std::vector<std::string>* notes = nullptr;  // notes about repaired files, for the log
 };
 
 // Builds the shape with its transform and inversion applied. Throws Error(bad_input) naming spec.where.
@@ -36,8 +36,8 @@ template <int Dim>
 SurfaceMesh shape_surface(const ShapeSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
                           const Vec<Dim>& upper);
 
-// The zero contour of a field on a grid of the given spacing, closed: what reaches beyond [lower, upper] is cut off
-// flat there.
+// The zero contour of a field on a grid of the given spacing. The shape is cut off flat at [lower, upper], so that its
+// surface is closed.
 template <int Dim>
 SurfaceMesh closed_contour(const ShapeField<Dim>& field, double spacing, const Vec<Dim>& lower, const Vec<Dim>& upper);
 

@@ -1,4 +1,4 @@
-// The surface of a shape for pictures and contacts: triangles in 3D, segments by marching squares in 2D.
+// Contours of shapes for pictures and contact: triangles in 3D, segments by marching squares in 2D.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,9 +12,9 @@
 namespace seiche {
 namespace {
 
-constexpr int margin = 2;  // nodes beyond the box, so that a shape that ends on its border is seen whole
+constexpr int margin = 2;  // nodes beyond the box, so that shapes that end on its border are contoured completely
 
-// Nodes lower + i * spacing, 0 <= i < nodes, which cover a box and its margin.
+// Nodes lower + i * spacing, 0 <= i < count, that cover a box and its margin.
 template <int Dim>
 struct Nodes {
   Vec<Dim> lower;
@@ -50,9 +50,9 @@ std::vector<float> sample(const ShapeField<Dim>& field, const Nodes<Dim>& nodes)
   return values;
 }
 
-// Marching squares. Corners of a square go round counter-clockwise: (0,0), (1,0), (1,1), (0,1); edge e joins corners
-// e and e + 1. A segment enters the square where the border turns from inside to outside and leaves at the opposite
-// turn, so that the inside lies to its left.
+// Marching squares. Corners of a square are counter-clockwise: (0,0), (1,0), (1,1), (0,1). Edge e joins corners e and e
+// + 1. A segment begins on an edge from inside to outside and ends on one from outside to inside. The inside is to its
+// left.
 class MarchingSquares {
  public:
   MarchingSquares(const std::vector<float>& values, const Nodes<2>& nodes) : values_(values), nodes_(nodes) {}
@@ -86,7 +86,7 @@ class MarchingSquares {
       if (!inside(a) && inside(b)) inward[entries++] = e;
     }
     if (turns == 0) return;
-    // At a saddle the mean tells whether the insides are joined across the square.
+    // At a saddle the sign of the mean decides whether the inside is connected across the square.
     const bool crossed = turns == 2 && ((mean < 0) == (inward[0] < outward[0]));
     for (int k = 0; k < turns; ++k) {
       const int end = inward[crossed ? 1 - k : k];
@@ -94,7 +94,7 @@ class MarchingSquares {
     }
   }
 
-  // The crossing on an edge of a square, one point for both its squares.
+  // The zero crossing on an edge of a square. Both squares at the edge share the point.
   int point(const Node& square, int edge) {
     Node a = corner(square, edge), b = corner(square, edge + 1);
     if (site(b) < site(a)) std::swap(a, b);

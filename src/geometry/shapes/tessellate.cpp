@@ -13,16 +13,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int fewest_round = 16, most_round_2d = 256, most_round_cylinder = 128, most_round_capsule = 48;
-constexpr int fewest_levels = 1, most_levels = 3;  // of icospheres: 42 to 642 points
+constexpr int fewest_levels = 1, most_levels = 3;  // subdivisions of icospheres: 42 to 642 points
 
-// The least multiple of four with r (1 - cos(pi/n)) <= chord, within bounds.
+// The smallest multiple of four n with r (1 - cos(pi/n)) <= chord, within bounds.
 int count_round(double radius, double chord, int most) {
   const double cosine = std::max(1 - chord / radius, 0.0);
   const double wanted = cosine < 1 ? pi / std::acos(cosine) : double(most);
   return int(std::ceil(std::clamp(wanted, double(fewest_round), double(most)) / 4)) * 4;
 }
 
-// 2D: a closed line through the points, counter-clockwise.
+// 2D: the closed polyline through counter-clockwise points.
 SurfaceMesh outline(std::vector<Vec3> points) {
   SurfaceMesh mesh{std::move(points), {}, {}};
   const int n = int(mesh.points.size());
@@ -30,7 +30,7 @@ SurfaceMesh outline(std::vector<Vec3> points) {
   return mesh;
 }
 
-// 2D: adds points on a circle from angle `begin` on (rad), `count` steps of 2 pi / round.
+// 2D: adds `count` points on a circle, from angle `begin` (rad) in steps of 2 pi / round.
 void add_arc(const Vec3& center, double radius, double begin, int count, int round, std::vector<Vec3>& points) {
   for (int i = 0; i < count; ++i) {
     const double angle = begin + 2 * pi * i / round;
@@ -50,7 +50,7 @@ SurfaceMesh icosahedron() {
   return mesh;
 }
 
-// Each triangle of a mesh of the unit sphere becomes four.
+// Splits each triangle of a mesh of the unit sphere into four.
 SurfaceMesh subdivide(const SurfaceMesh& coarse) {
   SurfaceMesh fine{coarse.points, {}, {}};
   std::map<std::pair<int, int>, int> middles;
@@ -67,7 +67,7 @@ SurfaceMesh subdivide(const SurfaceMesh& coarse) {
   return fine;
 }
 
-// How far the triangles of a mesh of the unit sphere lie inside it.
+// Largest distance of a unit sphere's triangles inside the sphere.
 double chord_of(const SurfaceMesh& unit) {
   double least = 1;
   for (const auto& [i, j, k] : unit.triangles) {
@@ -87,10 +87,12 @@ SurfaceMesh icosphere(const Vec3& center, double radius, double chord) {
   return mesh;
 }
 
-// A line to be turned about an axis: (distance along the axis, distance from it). The first and last point lie on it.
+// Profile of a surface of revolution: points (distance along the axis, distance from it). The first and the last point
+// lie on the axis.
 using Profile = std::vector<std::array<double, 2>>;
 
-// Triangles between two rings, or a ring and a pole, of `round` points each that begin at `low` and `high`.
+// Adds the triangles between two rings of `round` points, or a ring and a pole. `low` and `high` are their first
+// points.
 enum class Part { lower_cap, band, upper_cap };
 void add_part(Part part, int low, int high, int round, SurfaceMesh& mesh) {
   for (int j = 0; j < round; ++j) {
@@ -122,7 +124,7 @@ SurfaceMesh revolve(const Vec3& from, const Vec3& axis, const Profile& profile, 
   return mesh;
 }
 
-// Two quarter circles of `quarter` chords, a straight line of length `length` between them.
+// Two quarter circles of `quarter` chords each, and a straight line of length `length` between them.
 Profile capsule_profile(double length, double radius, int quarter) {
   Profile profile{{-radius, 0}};
   for (int end = 0; end < 2; ++end) {
@@ -148,7 +150,7 @@ struct Axis {
 
 }  // namespace
 
-// Corner i lies beyond edge a where bit a of i is set.
+// Corner i is at the far end of edge a if bit a of i is set.
 template <>
 SurfaceMesh block_surface<3>(const Vec3& corner, const std::array<Vec3, 3>& e) {
   SurfaceMesh mesh;
@@ -203,7 +205,7 @@ template <>
 SurfaceMesh tessellate_capsule<3>(const ShapeSpec& s, double chord) {
   const Axis<3> a(s);
   if (a.length == 0) return icosphere(s.from, s.radius, chord);
-  // The chords along and round the axis add up.
+  // The chord errors along and around the axis add up.
   const int round = count_round(s.radius, chord / 2, most_round_capsule);
   return revolve(a.from, a.direction, capsule_profile(a.length, s.radius, round / 4), round);
 }

@@ -5,8 +5,8 @@
 
 namespace seiche {
 
-// `chord` (m) is how far the surface may lie inside the shape; the counts of points are bounded, so that the surface
-// of a large body may lie further inside.
+// `chord` (m): largest distance of the surface inside the shape. The number of points is limited, so that it can be
+// larger on large bodies.
 template <int Dim>
 SurfaceMesh tessellate_box(const ShapeSpec& spec, double chord);
 template <int Dim>
@@ -16,7 +16,7 @@ SurfaceMesh tessellate_cylinder(const ShapeSpec& spec, double chord);
 template <int Dim>
 SurfaceMesh tessellate_capsule(const ShapeSpec& spec, double chord);
 
-// The box spanned from `corner` by three edges that form a right-handed system (in 2D the first two, z = 0).
+// The box spanned from `corner` by three edges that form a right-handed system. 2D: by the first two, z = 0.
 template <int Dim>
 SurfaceMesh block_surface(const Vec3& corner, const std::array<Vec3, 3>& edges);
 

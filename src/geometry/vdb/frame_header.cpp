@@ -21,7 +21,7 @@ constexpr std::string_view checksum_tag = "seiche crc32c ";
 constexpr std::uint32_t format_version = 224;
 constexpr std::size_t identifier_bytes = 36, transform_bytes = 18 * sizeof(double), longest_message = 200;
 
-// Reads forward; never beyond the end.
+// Reads forward and never beyond the end: throws Error(bad_input) instead.
 class Cursor {
  public:
   Cursor(const std::filesystem::path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
@@ -62,7 +62,7 @@ class Cursor {
   std::size_t at_ = 0;
 };
 
-// A table of sizes for reading later: a count of entries of at least a byte each, and the bytes they take when packed.
+// Checks OpenVDB's table for delayed loading: the number of its entries (at least a byte each) and its packed size.
 void check_delayed_load(Cursor value, std::size_t left_in_file) {
   if (value.left() < 2 * sizeof(std::uint32_t)) return;
   for (const char* what : {"the table for delayed loading", "its packed part"}) {
@@ -81,7 +81,7 @@ void check_metadata(const std::filesystem::path& file, Cursor& cursor) {
   }
 }
 
-// Gives the place of the numbers of its transform.
+// Checks a grid's header. Returns the position of its transform's numbers.
 std::size_t check_grid(const std::filesystem::path& file, Cursor& cursor) {
   cursor.text("the name of a grid");
   cursor.text("the type of a grid");

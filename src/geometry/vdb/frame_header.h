@@ -1,5 +1,5 @@
 #pragma once
-// The head and the checksum of a .vdb file, looked at before OpenVDB reads it.
+// The header and the checksum of a .vdb file, checked before OpenVDB reads it.
 #include <filesystem>
 #include <string>
 
@@ -7,23 +7,23 @@
 
 namespace seiche::vdb {
 
-// OpenVDB believes the lengths that a file gives for its texts, metadata and tables, and allocates them. Throws
-// Error(bad_input) where one reaches beyond the end of the file or the file is not in the format that Seiche writes.
+// Throws Error(bad_input) if a length in the header reaches beyond the end of the file, or if the format is not the one
+// that Seiche writes. OpenVDB allocates the lengths of texts, metadata and tables without such a check.
 void require_sound_header(const std::filesystem::path& file, const std::string& bytes);
 
-// Gives all grids of a frame, written with a map that scales alike and translates, the one that brings voxel i to
-// first + i h (m). OpenVDB constructs and copies no map whose h^3 is below 3e-15, but writes and reads one: the
-// translation, h, |h|, 1/h, 1/h^2 and 1/(2h), each along all axes.
+// Overwrites the transforms of all grids of a frame so that voxel i is at first + i h (m). The frame must have been
+// written with maps of uniform scale and translation. OpenVDB cannot construct or copy a map with h^3 < 3e-15, but can
+// write and read one: the translation, h, |h|, 1/h, 1/h^2 and 1/(2h), each along all axes.
 std::string with_transforms(std::string bytes, const Vec3& first, double h);
 
-// Frames end with a checksum of all before it, behind the last grid, where readers of .vdb files do not look: OpenVDB
-// does not notice changed bytes, and may write where it must not because of them.
+// Appends a checksum of all bytes after the last grid, where readers of .vdb files ignore it. OpenVDB does not detect
+// changed bytes, which may even make it write out of bounds.
 std::string with_checksum(std::string bytes);
 
-// Throws Error(bad_input) where the checksum at the end does not fit. Frames of older versions have none.
+// Throws Error(bad_input) if the checksum at the end does not match. Frames of older versions have none and pass.
 void require_checksum(const std::filesystem::path& file, const std::string& bytes);
 
-// The start of a message of another program, without what is no text.
+// The first 200 characters of a message from another library. Unprintable characters become '?'.
 std::string readable_start(const std::string& message);
 
 }  // namespace seiche::vdb

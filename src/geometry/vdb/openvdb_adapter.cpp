@@ -33,7 +33,7 @@ void initialize() {
   (void)once;
 }
 
-// Samples a grid whose voxel i lies at origin + i * spacing, trilinearly, values limited to +-band.
+// Trilinear interpolation of a grid with voxel i at origin + i * spacing. Values are limited to +-band.
 class GridDistance : public SampledDistance {
  public:
   GridDistance(FloatGrid::ConstPtr grid, const Vec3& origin, double spacing, double band)
@@ -74,8 +74,8 @@ void for_each_voxel(const Block& block, int width, Visit&& visit) {
   }
 }
 
-// Beyond the band values become +-background and inactive. Every voxel of the domain gets its sign explicitly, which
-// does what a flood fill does from the active voxels but cannot leak out of the domain or, in 2D, out of its layer.
+// Voxels beyond the band become inactive with the value +-background. Every voxel of the domain gets its sign
+// explicitly. A flood fill from the active voxels could leak out of the domain or, in 2D, out of its layer.
 FloatGrid::Ptr level_set_grid(const Grid& grid) {
   const float band = grid.background;
   FloatGrid::Ptr result = FloatGrid::create(band);
@@ -131,7 +131,7 @@ openvdb::GridBase::Ptr to_openvdb(const Grid& grid) {
   }
 }
 
-// Of the type that cell-centred grids have; its numbers are written later (with_transforms).
+// A transform of the type of cell-centred grids. Its numbers are written later by with_transforms().
 openvdb::math::Transform::Ptr scale_and_translation() {
   auto transform = openvdb::math::Transform::createLinearTransform(2);
   transform->postTranslate(openvdb::Vec3d(1));
@@ -152,7 +152,7 @@ openvdb::MetaMap metadata_of(const Frame& frame) {
   return meta;
 }
 
-// Archives to any seekable stream; openvdb's own Stream writes no offsets, so readers could not open single grids.
+// Archives to a string. openvdb::io::Stream writes no offsets, so that readers could not open single grids.
 class StringArchive : public openvdb::io::Archive {
  public:
   std::string bytes(const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& meta) {
@@ -185,7 +185,7 @@ void read_frame_metadata(const openvdb::MetaMap& meta, OpenFrame& open) {
   }
 }
 
-// From memory and with exceptions: OpenVDB itself goes on where a file ends too early.
+// Reads from memory with exceptions enabled, because OpenVDB itself ignores a premature end of the file.
 OpenFrame read_archive(const std::filesystem::path& file) {
   std::string bytes = mesh::read_bytes(file);
   require_checksum(file, bytes);
@@ -200,7 +200,7 @@ OpenFrame read_archive(const std::filesystem::path& file) {
   return open;
 }
 
-// Each grid tells the domain, too: a count that changed on the disk is not believed.
+// Checks that the domain in each grid's metadata agrees with the frame's, which detects damaged counts.
 void require_one_domain(const std::filesystem::path& file, const OpenFrame& open) {
   for (const auto& grid : *open.grids) {
     OpenFrame other;
@@ -292,7 +292,7 @@ FloatGrid::Ptr node_grid(const std::vector<float>& values, const std::array<int,
   return grid;
 }
 
-// True for the points of polygons that only close the surface beyond the outermost nodes.
+// Marks points beyond the outermost nodes. Their polygons only close the surface there.
 std::vector<char> points_beyond(const std::vector<openvdb::Vec3s>& points, const std::array<int, 3>& nodes) {
   std::vector<char> beyond(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// The only door to OpenVDB: contouring, frames written and read.
+// The only interface to OpenVDB: contouring, writing and reading of frames.
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -11,13 +11,14 @@
 
 namespace seiche::vdb {
 
-// The level set of one of our own frames, "surface" if it holds several; outside the frame's domain it is at least the
-// distance to the domain. 2D frames ignore z. Throws Error(bad_input) if the file is no such frame or of another
-// dimension than asked for.
+// The level set of a frame written by Seiche ("surface" if it holds several). Outside the frame's domain it is at least
+// the distance from the domain. 2D frames ignore z. Throws Error(bad_input) if the file is not such a frame or has
+// another dimension.
 std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file, int dimension = 3);
 
-// The zero contour of values given at the nodes lower + i*spacing, i < nodes, first axis fastest (3D). Triangles face
-// the positive side; where the negative side reaches the outermost nodes the surface is left open.
+// The zero contour of values at the nodes lower + i*spacing, 0 <= i < nodes, first axis fastest (3D). Triangles face
+// the positive side. The surface is open where the negative side reaches the outermost nodes. Independent of the number
+// of threads.
 SurfaceMesh contour(const std::vector<float>& values, const std::array<int, 3>& nodes, const Vec3& lower,
                     double spacing);
 
@@ -50,7 +51,7 @@ struct Frame {
 // The domain is the box from voxel 0 to the highest upper of all blocks. Throws Error(cannot_continue) naming grid and
 // voxel on a value that is not finite.
 std::string encode(const Frame& frame);
-// Reads a frame of ours back, each grid as one dense block over the frame's domain. Throws Error(bad_input).
+// Reads a frame written by encode(), each grid as one dense block over the frame's domain. Throws Error(bad_input).
 Frame decode(const std::filesystem::path& file);
 
 }  // namespace seiche::vdb

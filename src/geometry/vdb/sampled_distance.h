@@ -1,5 +1,5 @@
 #pragma once
-// Signed distances that are sampled on voxels.
+// Signed distances sampled on voxels.
 #include <array>
 #include <memory>
 
@@ -16,7 +16,8 @@ class SampledDistance {
 
 struct Frame;
 
-// A frame's level set, constant beyond the outermost cell centres and outside the domain at least the distance to it.
+// A frame's level set, constant beyond the outermost cell centres. Outside the domain it is at least the distance from
+// it.
 std::unique_ptr<SampledDistance> within_domain(std::unique_ptr<SampledDistance> distance, const Frame& frame,
                                                const std::array<int, 3>& cells);
 

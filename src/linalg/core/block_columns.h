@@ -1,5 +1,5 @@
 #pragma once
-// Tall matrices in blocks that each touch few rows: how bodies act on the liquid.
+// Tall sparse matrices in blocks of columns that each touch few rows: the coupling of bodies to the liquid.
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,22 +9,22 @@
 
 namespace seiche {
 
-// This rank's rows of `width` columns: entries start[i] up to start[i + 1] stand in row[i]. Rows ascend.
+// This rank's rows of `width` columns. Row row[i] holds entries start[i] up to start[i + 1]; rows ascend.
 struct ColumnBlock {
   int width = 0;
   std::vector<int> row;
   std::vector<int> start{0};
   std::vector<int> column;  // of each entry, within the block
   std::vector<double> value;
-  // Loads f, one a column of this matrix, to which the responses H^-1 f are combinations of the columns that a
-  // preconditioner had better know: of a body's nodes weights whose sums are forces and moments. Empty: each column by
-  // itself.
+  // Loads f, one a column (width rows). Preconditioners treat the responses H^-1 f exactly. For a deformable body:
+  // weights of its nodes whose sums are forces and moments. Empty: a rigid body, each of whose columns is treated
+  // exactly.
   Eigen::MatrixXd loads;
 
-  // Entries of one row come one after the other.
+  // The entries of a row must be added one after the other.
   void add(int in_row, int in_column, double entry);
   bool deforms() const { return loads.size() > 0; }
-  // Visits f(row, column, value).
+  // Calls f(row, column, value).
   template <class Visit>
   void for_each(const Visit& f) const {
     for (std::size_t i = 0; i < row.size(); ++i)
@@ -38,7 +38,7 @@ struct BlockColumns {
   bool any_deforms() const;
   // First column of each block, and the number of columns.
   std::vector<int> first_columns() const;
-  // Visits f(row, column, value), the column counted over all blocks.
+  // Calls f(row, column, value) with the column counted over all blocks.
   template <class Visit>
   void for_each(const Visit& f) const {
     int first = 0;
@@ -52,13 +52,13 @@ struct BlockColumns {
 // y += J v, v the same on all ranks.
 void add_multiplied(const BlockColumns& J, const Eigen::VectorXd& v, Vector& y);
 
-// J' x of this rank's rows.
+// This rank's part of J' x.
 Eigen::VectorXd local_transposed(const BlockColumns& J, const Vector& x);
 
 // J' x, the same on all ranks. Collective.
 Eigen::VectorXd multiply_transposed(const BlockColumns& J, const Vector& x, const Communicator& ranks);
 
-// The same bits on all ranks: those of rank 0. Collective.
+// Copies the bits of rank 0 to all ranks. Collective.
 void make_identical(Eigen::VectorXd& v, const Communicator& ranks);
 
 }  // namespace seiche

@@ -12,7 +12,7 @@ int root_of(std::vector<int>& parent, int i) {
   return i;
 }
 
-// Rows of each connected part of the graph of H, parts in the order of their first rows.
+// Rows of each connected part of the graph of H; parts ordered by their first rows.
 std::vector<std::vector<int>> connected_parts(const SparseMatrix& H) {
   std::vector<int> parent(std::size_t(H.rows()));
   std::iota(parent.begin(), parent.end(), 0);
@@ -49,7 +49,7 @@ void BodyMatrix::find_parts() {
   std::sort(shared_.begin(), shared_.end());
 }
 
-// A factor costs about n^2 in 3D (nested dissection), which ranks' loads are counted in.
+// Load of a rank: sum of n^2 over its parts, the cost of a factor in 3D with nested dissection.
 void BodyMatrix::share_out() {
   std::vector<std::size_t> order(parts_.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -95,9 +95,10 @@ Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
   for (const Part& part : parts_)
     if (part.owner == ranks_.rank()) x(part.rows) = part.factor.solve(gathered(b, part.rows));
-  // Each sum has one term that is not zero: no rounding.
+  // Each sum has a single nonzero term, so there is no rounding.
   ranks_.global_sum(std::span<double>(x.data(), std::size_t(x.size())));
-  // By way of a vector: Eigen would permute within the rows of x, and take what it has written for what it reads.
+  // Assigned through a temporary vector: otherwise Eigen permutes within the rows of x and reads entries that it has
+  // overwritten.
   if (!shared_.empty()) x(shared_) = Eigen::VectorXd(shared_factor_.solve(gathered(b, shared_)));
   return x;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The matrix behind bodies (inertia, stiffness, contact) with its Cholesky factors, bodies that do not touch apart.
+// The matrix H of the bodies (inertia, stiffness, contact) with its Cholesky factors; bodies that do not touch are
+// factored separately.
 #include <memory>
 #include <vector>
 
@@ -10,17 +11,18 @@
 
 namespace seiche {
 
-// Connected parts of more than `shared_limit` unknowns are factored each on one rank, the largest first on the rank
-// that has least to do; the others together, on every rank.
+// Each connected part of more than `shared_limit` unknowns is factored on one rank; parts are assigned by decreasing
+// size to the rank with the least load. All smaller parts are factored together, on every rank.
 class BodyMatrix {
  public:
   static constexpr int shared_limit = 1000;
 
   explicit BodyMatrix(const Communicator& ranks) : ranks_(ranks) {}
 
-  // H is the same on all ranks. Whether it is positive definite. Patterns that stay keep their ordering. Collective.
+  // Factors H, which is the same on all ranks. False if it is not positive definite. Large parts whose rows and pattern
+  // are unchanged reuse their ordering. Collective.
   [[nodiscard]] bool set(SparseMatrix H);
-  // H without factors: for its products and its size alone.
+  // Stores H without factors: products and size only.
   void keep(SparseMatrix H) { H_ = std::move(H); }
   const SparseMatrix& matrix() const { return H_; }
   int size() const { return int(H_.rows()); }

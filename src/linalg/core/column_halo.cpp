@@ -18,7 +18,7 @@ std::vector<Row> foreign_columns(const DistributedMatrix& A, Row first, int owne
   return ghosts;
 }
 
-// The first row of each rank, and the number of all rows at the end.
+// First row of each rank, followed by the total number of rows.
 std::vector<Row> gather_row_starts(int owned, const Communicator& ranks) {
   std::vector<std::int64_t> counts(ranks.size());
   const std::int64_t mine = owned;

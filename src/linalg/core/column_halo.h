@@ -1,5 +1,5 @@
 #pragma once
-// The entries of a distributed vector that this rank's matrix rows refer to while another rank owns them.
+// Ghost entries of a distributed vector: those that this rank's matrix rows refer to but another rank owns.
 #include <span>
 #include <vector>
 
@@ -10,15 +10,16 @@ namespace seiche {
 
 class ColumnHalo {
  public:
-  // Collective. Rows must be numbered in the order of the ranks, without gaps.
+  // For a square matrix. Rows must be numbered in the order of the ranks, without gaps. Collective.
   ColumnHalo(const DistributedMatrix& A, const Communicator& ranks);
-  // Of a rectangular matrix: the vector it is multiplied with has `owned` entries here, numbered from `first`.
+  // For a rectangular matrix: this rank owns `owned` entries of the vector it multiplies, numbered from `first`.
+  // Collective.
   ColumnHalo(const DistributedMatrix& A, Row first, int owned, const Communicator& ranks);
 
   int owned() const { return owned_; }
   int ghosts() const { return int(ghost_rows_.size()); }
 
-  // The place of a global row in a vector of owned() entries followed by ghosts().
+  // Index of a global row in a vector of owned() entries followed by ghosts().
   int local_index(Row global) const;
 
   // Fills the ghosts of x, which holds owned() + ghosts() entries, from the ranks that own them. Collective.
@@ -27,7 +28,7 @@ class ColumnHalo {
  private:
   struct Peer {
     int rank;
-    int first, count;  // its part of the ghosts, or of sent_
+    int first, count;  // range within the ghosts (receive_) or within sent_ (send_)
   };
   void ask_owners(const std::vector<Row>& row_starts);
 
@@ -36,7 +37,7 @@ class ColumnHalo {
   int owned_;
   std::vector<Row> ghost_rows_;  // ascending, so the ghosts of one owner are contiguous
   std::vector<Peer> receive_, send_;
-  std::vector<int> sent_;  // owned entries that others want, by peer
+  std::vector<int> sent_;  // owned entries that other ranks need, by peer
   mutable std::vector<double> send_buffer_;
 };
 

@@ -18,17 +18,17 @@ struct DistributedMatrix {
   int rows() const { return int(row_start.size()) - 1; }
 };
 
-// Where the rows sit on a structured grid: for solvers that use the grid (PFMG). Local cells lower <= i < upper, first
-// axis fastest; row_of_cell is the local row or -1 where the cell carries none.
+// Positions of the rows on a structured grid, for solvers that use the grid (PFMG). Local cells lower <= i < upper,
+// first axis fastest; row_of_cell is the local row, or -1 for cells without a row.
 struct RowGrid {
   int dimension = 3;
   std::array<int, 3> lower{0, 0, 0}, upper{1, 1, 1};
-  std::array<int, 3> periodic{0, 0, 0};  // cells along a periodic axis, else 0
+  std::array<int, 3> periodic{0, 0, 0};  // number of cells along a periodic axis, else 0
   std::vector<int> row_of_cell;
 };
 
-// Null spaces: the constant on each of `count` components. component[i] of local row i, or -1 where row i belongs to a
-// component with a Dirichlet face.
+// Null space: one constant vector for each of `count` components. component[i] is that of local row i, or -1 if its
+// component has a Dirichlet face.
 struct NullSpace {
   int count = 0;
   std::vector<int> component;

@@ -15,7 +15,7 @@ void for_cells(const CellBox& box, Visit visit) {
   }
 }
 
-// The cell of each row and of each ghost column: one vector an axis.
+// Cell indices of each row and ghost column, one vector an axis.
 std::array<Vector, 3> row_coordinates(const LinearSystem& system) {
   const RowGrid& grid = system.grid();
   std::array<Vector, 3> coordinates;
@@ -29,7 +29,7 @@ std::array<Vector, 3> row_coordinates(const LinearSystem& system) {
   return coordinates;
 }
 
-// The signed axis (+-1, 2, 3) along which the cells of two rows are neighbours; 0 if they are not.
+// Signed axis (+-1, 2, 3) along which the cells of two rows are neighbours; 0 if they are not.
 int neighbour_axis(const std::array<Vector, 3>& x, const std::array<int, 3>& periodic, int row, int column) {
   int axis = 0;
   for (int a = 0; a < 3; ++a) {
@@ -42,8 +42,8 @@ int neighbour_axis(const std::array<Vector, 3>& x, const std::array<int, 3>& per
   return axis;
 }
 
-// Enters the couplings towards higher cells; those towards lower cells are the same by symmetry. False if some pair of
-// rows is not a pair of neighbours.
+// Enters the couplings to higher cells; couplings to lower cells follow by symmetry. False if a nonzero couples cells
+// that are not neighbours.
 bool fill_couplings(const LinearSystem& system, const std::array<Vector, 3>& x, int row, double* entry) {
   const DistributedMatrix& A = system.pattern();
   for (int k = A.row_start[row] + 1; k < A.row_start[row + 1]; ++k) {
@@ -62,7 +62,7 @@ bool rows_on_grid(const LinearSystem& system) {
   return !system.ranks().any(!fits || on_grid != system.rows());
 }
 
-// This rank's part of the box and the rows there.
+// The stencil's box and rows on this rank, without coefficients.
 GridStencil empty_stencil(const LinearSystem& system, const CellBox& box) {
   const RowGrid& grid = system.grid();
   GridStencil stencil{grid.dimension, {}, grid.periodic, {}, {}};
@@ -131,7 +131,7 @@ StencilOrFailure make_grid_stencil(const LinearSystem& system, double diagonal_s
   for (const int n : system.grid().periodic) {
     if (n > 0 && n < 3) return {{}, "a periodic axis has fewer than 3 cells"};
   }
-  double scale = 0;  // of the identity in cells without a row
+  double scale = 0;  // diagonal entry of cells without a row
   for (int row = 0; row < system.rows(); ++row) scale = std::max(scale, system.diagonal(row));
   GridStencil stencil = empty_stencil(system, box);
   const bool filled = fill_coefficients(system, diagonal_shift, system.ranks().global_max(scale), stencil);

@@ -1,5 +1,5 @@
 #pragma once
-// A matrix whose rows couple only neighbouring cells, as coefficients on the cells of the grid's box.
+// A matrix that couples only neighbouring cells, stored as stencil coefficients on a box of cells.
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@ struct CellBox {
   std::int64_t cells() const;
 };
 
-// The smallest box around all rows of all ranks; whole along periodic axes; empty where the rows are not on a grid.
+// Bounding box of all rows of all ranks; the full extent along periodic axes; empty if some row is not on the grid.
 // Collective.
 CellBox box_of_rows(const LinearSystem& system);
 
@@ -22,14 +22,14 @@ struct GridStencil {
   CellBox box;                           // this rank's part of box_of_rows
   std::array<int, 3> periodic{0, 0, 0};  // as in RowGrid
   std::vector<int> row_of_cell;          // of the box; as in RowGrid
-  // Entry 0 is the diagonal, entry 1 + a the coupling to the next cell along axis a; a cell's entries are adjacent,
-  // cells run with the first axis fastest. Cells without a row hold a diagonal alone.
+  // Entry 0 is the diagonal, entry 1 + a the coupling to the next cell along axis a. Entries of a cell are adjacent;
+  // cells run with the first axis fastest. Cells without a row have a diagonal entry only.
   std::vector<double> coefficients;
   int entries() const { return dimension + 1; }
 };
 
-// Either the stencil or why the matrix has none, the same on all ranks. `diagonal_shift` is added, relative, to the
-// diagonal in components with a null space. Collective.
+// The stencil, or the reason why the matrix has none; the same on all ranks. In components with a null space the
+// diagonal is multiplied by 1 + diagonal_shift. Collective.
 struct StencilOrFailure {
   GridStencil stencil;
   std::string failure;

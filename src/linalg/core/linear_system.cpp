@@ -6,7 +6,7 @@
 namespace seiche {
 namespace {
 
-// An isolated cell with no open face: no equation, and no constant of its own to remove either.
+// An isolated cell without an open face has no equation, so it adds no constant to the null space.
 NullSpace without_rows(NullSpace null_space, const DistributedMatrix& A) {
   for (int i = 0; i < A.rows() && !null_space.component.empty(); ++i) {
     if (A.value[A.row_start[i]] == 0) null_space.component[i] = -1;

@@ -1,5 +1,6 @@
 #pragma once
-// The system as every rung of the ladder sees it: ghost columns numbered, rows without a diagonal made harmless.
+// The system as every attempt of the fallback chain sees it: ghost columns are numbered, and rows with a zero diagonal
+// are replaced by identity rows.
 #include <cstdint>
 #include <vector>
 
@@ -23,17 +24,17 @@ class LinearSystem {
   const Communicator& ranks() const { return ranks_; }
   const ColumnHalo& halo() const { return halo_; }
   const MeanRemover& means() const { return means_; }
-  // Of A, in its order; rows and columns whose diagonal was zero are those of the identity.
+  // Values of A in its order, with identity rows and columns in place of those with a zero diagonal.
   const std::vector<double>& values() const { return values_; }
   double diagonal(int row) const { return values_[pattern_.row_start[row]]; }
-  const std::vector<int>& identity_list() const { return identity_; }  // of this rank
+  const std::vector<int>& identity_list() const { return identity_; }  // local rows
   std::int64_t identity_rows() const { return identity_rows_; }        // over all ranks
 
   // y = A x. Collective.
   void multiply(const Vector& x, Vector& y) const;
   // r = b - A x. Collective.
   void residual(const Vector& b, const Vector& x, Vector& r) const;
-  // v is zero in identity rows and has zero mean on each component of the null space. Collective.
+  // Sets v to zero in identity rows and subtracts its mean over each component of the null space. Collective.
   void project(Vector& v) const;
 
  private:
@@ -46,7 +47,7 @@ class LinearSystem {
   Communicator ranks_;
   ColumnHalo halo_;
   std::vector<double> values_;
-  std::vector<int> columns_;   // as ColumnHalo::local_index gives them
+  std::vector<int> columns_;   // by ColumnHalo::local_index
   std::vector<int> identity_;  // local rows
   std::int64_t identity_rows_ = 0;
   MeanRemover means_;

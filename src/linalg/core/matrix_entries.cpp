@@ -31,7 +31,7 @@ std::vector<MatrixEntry> bring_home(const std::vector<MatrixEntry>& mine, Row fi
 
 std::vector<MatrixEntry> bring_home_sums(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
                                          const Communicator& ranks) {
-  constexpr double rounding = 1e-12;  // of up to 1e4 terms
+  constexpr double rounding = 1e-12;  // relative, of sums of up to 1e4 terms
   std::vector<MatrixEntry> sizes = mine;
   for (MatrixEntry& e : sizes) e.value = std::abs(e.value);
   sizes = bring_home(sizes, first, count, ranks);

@@ -1,5 +1,5 @@
 #pragma once
-// Entries of a distributed matrix that ranks find which do not have the row.
+// Exchange of matrix entries that were computed on ranks that do not own their rows.
 #include <vector>
 
 #include "base/communicator.h"
@@ -12,12 +12,12 @@ struct MatrixEntry {
   double value;
 };
 
-// Those of all ranks whose row is one of [first, first + count), ordered by row and column, those of one place added
-// up. Collective.
+// Entries of all ranks in rows [first, first + count), ordered by row and column; entries of one position are summed.
+// Collective.
 std::vector<MatrixEntry> bring_home(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
                                     const Communicator& ranks);
 
-// The same, but for sums that are no more than the rounding of what was added up.
+// As bring_home(), but drops sums no larger than 1e-12 of the sum of the absolute values (round-off). Collective.
 std::vector<MatrixEntry> bring_home_sums(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
                                          const Communicator& ranks);
 

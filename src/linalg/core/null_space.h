@@ -1,5 +1,6 @@
 #pragma once
-// Removes the constants that a singular system does not see: one per component without a Dirichlet face.
+// Projection onto vectors of zero mean: removes the null space of a singular system, one constant per component without
+// a Dirichlet face.
 #include <vector>
 
 #include "linalg/core/distributed_matrix.h"
@@ -9,16 +10,16 @@ namespace seiche {
 
 class MeanRemover {
  public:
-  // Collective. Rows whose component is -1 are left alone. An empty `component` stands for -1 everywhere.
+  // Rows whose component is -1 are left unchanged; an empty `component` means -1 everywhere. Collective.
   MeanRemover(const NullSpace& null_space, const Communicator& ranks);
 
-  // Subtracts from v its mean over each component. Collective.
+  // Subtracts the mean of v over each component. Collective.
   void apply(Vector& v) const;
 
  private:
   Communicator ranks_;
   std::vector<int> component_;
-  std::vector<double> rows_;  // of each component, over all ranks
+  std::vector<double> rows_;  // number of rows of each component, over all ranks
   mutable std::vector<double> mean_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 #ifdef SEICHE_CHOLMOD
 struct Method : Eigen::CholmodSupernodalLLT<SparseMatrix> {
-  Method() { cholmod().print = 0; }  // it would print where a matrix is not positive definite
+  Method() { cholmod().print = 0; }  // no output for indefinite matrices
 };
 #else
 using Method = Eigen::SimplicialLLT<SparseMatrix>;
@@ -23,7 +23,7 @@ using Method = Eigen::SimplicialLLT<SparseMatrix>;
 
 struct SparseCholesky::Factors {
   Method llt;
-  std::vector<int> outer, inner;  // the pattern that was ordered
+  std::vector<int> outer, inner;  // pattern of the current ordering
 
   bool knows(const SparseMatrix& A) const {
     return outer.size() == size_t(A.outerSize() + 1) && inner.size() == size_t(A.nonZeros()) &&

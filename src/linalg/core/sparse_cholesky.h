@@ -14,9 +14,9 @@ class SparseCholesky {
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  // False if A is not positive definite. Factors of matrices with the pattern of the one before reuse its ordering.
+  // False if A is not positive definite. The ordering is reused while the pattern of A stays the same.
   [[nodiscard]] bool factor(const SparseMatrix& A);
-  // x = A^-1 b; after a factor() that returned true.
+  // A^-1 b, after a call of factor() that returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:

@@ -6,7 +6,7 @@
 namespace seiche {
 namespace {
 
-// H on the rows and columns of S. `place` is -1 everywhere, before and after.
+// Dense submatrix of H on the rows and columns S. `place` is -1 everywhere before and after.
 Eigen::MatrixXd dense_part(const SparseMatrix& H, const std::vector<int>& S, std::vector<int>& place) {
   Eigen::MatrixXd part = Eigen::MatrixXd::Zero(Eigen::Index(S.size()), Eigen::Index(S.size()));
   for (std::size_t a = 0; a < S.size(); ++a) place[std::size_t(S[a])] = int(a);
@@ -19,7 +19,7 @@ Eigen::MatrixXd dense_part(const SparseMatrix& H, const std::vector<int>& S, std
 
 }  // namespace
 
-// Row i on the columns S: H_SS y = e_i, g = y/sqrt(y_i).
+// Row i of G on its columns S: g = y/sqrt(y_i) with H_SS y = e_i.
 SparseMatrix sparse_inverse_factor(const SparseMatrix& H, const std::vector<char>& wanted) {
   const int n = int(H.rows());
   std::vector<Eigen::Triplet<double>> entries;

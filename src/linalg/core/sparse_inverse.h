@@ -6,8 +6,9 @@
 
 namespace seiche {
 
-// G, lower triangular with the pattern of H there, such that G'G approximates H^-1 and diag(G H G') = 1 (Kolotilina,
-// Yeremin 1993). Columns that are not `wanted` are left out of the result, not of what it is made from.
+// Factorized sparse approximate inverse (Kolotilina, Yeremin 1993): lower triangular G with the pattern of H such that
+// G'G ~ H^-1 and diag(G H G') = 1. Columns that are not `wanted` are computed with but left out of the result; rows
+// without wanted columns are empty.
 SparseMatrix sparse_inverse_factor(const SparseMatrix& H, const std::vector<char>& wanted);
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #pragma once
-// Products with a distributed matrix that need not be square.
+// Products with a rectangular distributed matrix.
 #include "linalg/core/column_halo.h"
 #include "linalg/core/vector_ops.h"
 
@@ -8,18 +8,18 @@ namespace seiche {
 // Keeps a reference to the matrix.
 class SparseOperator {
  public:
-  // Columns are the entries of a vector of which this rank owns `owned`, numbered from `first`. Collective.
+  // Columns refer to a vector of which this rank owns `owned` entries, numbered from `first`. Collective.
   SparseOperator(const DistributedMatrix& A, Row first, int owned, const Communicator& ranks);
 
   int rows() const { return A_.rows(); }
   int owned_columns() const { return halo_.owned(); }
-  // y += A x, y of rows() entries at least, x of owned_columns(). Collective.
+  // y += A x; y has at least rows() entries, x has owned_columns(). Collective.
   void add_multiplied(std::span<const double> x, std::span<double> y) const;
 
  private:
   const DistributedMatrix& A_;
   ColumnHalo halo_;
-  std::vector<int> columns_;  // as ColumnHalo::local_index gives them
+  std::vector<int> columns_;  // by ColumnHalo::local_index
   mutable std::vector<double> extended_;
 };
 

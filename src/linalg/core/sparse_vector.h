@@ -1,5 +1,5 @@
 #pragma once
-// Vectors over this rank's rows of which few entries differ from zero.
+// Vectors over this rank's rows with few nonzero entries.
 #include "linalg/core/vector_ops.h"
 
 namespace seiche {
@@ -12,7 +12,7 @@ struct SparseVector {
 
 SparseVector nonzeros(const Vector& x);
 
-// Of this rank's entries.
+// Dot product over this rank's entries.
 double local_dot(const SparseVector& x, const Vector& y);
 
 // y += a x

@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// Four partial sums: the compiler may not reorder one.
+// Four partial sums allow vector instructions; the compiler may not reorder a single sum.
 double local_dot(const Vector& x, const Vector& y) {
   assert(x.size() == y.size());
   double s0 = 0, s1 = 0, s2 = 0, s3 = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Distributed vectors: each rank holds the entries of its own rows. The order of every sum is fixed, so that the same
-// run at the same rank count gives the same bits.
+// Distributed vectors: each rank holds the entries of its own rows. Every sum has a fixed order, so that runs on the
+// same number of ranks give the same bits.
 #include <cmath>
 #include <span>
 #include <vector>
@@ -11,10 +11,10 @@ namespace seiche {
 
 using Vector = std::vector<double>;
 
-// Sum over the ranks of x_i y_i. Collective.
+// Sum of x_i y_i over all ranks. Collective.
 double dot(const Vector& x, const Vector& y, const Communicator& ranks);
 
-// The 2-norm over the ranks. Collective.
+// 2-norm over all ranks. Collective.
 double norm(const Vector& x, const Communicator& ranks);
 
 // y += a x
@@ -23,7 +23,7 @@ void add_scaled(Vector& y, double a, const Vector& x);
 // y = x + a y
 void scale_and_add(Vector& y, double a, const Vector& x);
 
-// Whether no entry on any rank is infinite or NaN. Collective.
+// True if every entry on every rank is finite. Collective.
 bool all_finite(std::span<const double> x, const Communicator& ranks);
 
 }  // namespace seiche

@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// Rows n r / R up to n (r + 1) / R of H; it is symmetric, so its columns serve.
+// Rank r of R takes rows n r / R up to n (r + 1) / R of H. H is symmetric, so its stored columns serve as rows.
 DistributedMatrix share_of(const SparseMatrix& H, const Communicator& ranks) {
   const auto cut = [&](int rank) { return Row(H.rows()) * rank / ranks.size(); };
   DistributedMatrix M;
@@ -44,7 +44,7 @@ void KktOperator::unpack(const Vector& x, Vector& p, Eigen::VectorXd& v) const {
   p.assign(x.begin(), cells);
   v.setZero(Eigen::Index(rows_.global_rows));
   std::copy(cells, x.end(), v.begin() + first_unknown());
-  // Each sum has one term that is not zero: no rounding.
+  // Each sum has a single nonzero term, so there is no rounding.
   A_.ranks().global_sum(std::span<double>(v.data(), std::size_t(v.size())));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// [A, c1 J; c1 J', -(c1/c2) H] over the ranks: vectors are this rank's rows of A, then its share of the bodies'
+// K = [A, c1 J; c1 J', -(c1/c2) H], distributed. Vectors hold this rank's rows of A, then its share of the bodies'
 // unknowns.
 #include "linalg/kkt/solver.h"
 
@@ -11,18 +11,18 @@ class KktOperator {
   KktOperator(const KktSystem& system, const LinearSystem& A, const SparseMatrix& H);
 
   const LinearSystem& liquid() const { return A_; }
-  const LinearSystem& solid() const { return *H_; }  // this rank's rows of H
+  const LinearSystem& solid() const { return *H_; }  // H by rows
   const KktSystem& system() const { return system_; }
   int pressures() const { return A_.rows(); }
   int first_unknown() const { return int(rows_.first_row); }
 
   Vector pack(const Vector& p, const Eigen::VectorXd& v) const;
-  // v on all ranks. Collective.
+  // Gives v in full on all ranks. Collective.
   void unpack(const Vector& x, Vector& p, Eigen::VectorXd& v) const;
-  // Collective.
+  // y = K x and r = b - K x. Collective.
   void multiply(const Vector& x, Vector& y) const;
   void residual(const Vector& b, const Vector& x, Vector& r) const;
-  // Whether a product has met v'H v < 0.
+  // True if some product met v'H v < 0.
   bool met_indefinite() const { return indefinite_; }
 
  private:

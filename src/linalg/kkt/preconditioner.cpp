@@ -30,7 +30,7 @@ KktPreconditioner::KktPreconditioner(const KktOperator& K, const BodyMatrix& H, 
   if (failure_.empty()) failure_ = schur_.refresh(H, N);
 }
 
-// Axes of nodes first, then those of rigid bodies.
+// Component of each local row of H for unknown-based AMG: axes of nodes first, then the unknowns of rigid bodies.
 std::vector<int> KktPreconditioner::components() const {
   const KktSystem& s = K_.system();
   std::vector<int> all;
@@ -52,7 +52,7 @@ void KktPreconditioner::find_motions(const SparseMatrix& H) {
   }
 }
 
-// H m ~ load: roughly is enough, for motions need only span what moves easily.
+// Solves H m ~ load for each load. Low accuracy suffices, since the motions need only span the soft directions of H.
 void KktPreconditioner::add_responses(const ColumnBlock& block, int first, int unknowns) {
   constexpr double enough = 1e-3;
   constexpr int at_most = 40;
@@ -72,9 +72,9 @@ void KktPreconditioner::add_responses(const ColumnBlock& block, int first, int u
   orthonormalise(first, block.width, begin);
 }
 
-// Of one body's motions those that are independent.
+// Replaces one body's motions by an orthonormal basis of their span.
 void KktPreconditioner::orthonormalise(int first, int width, std::size_t begin) {
-  constexpr double dependent = 1e-6;  // what is left of a motion beside the others
+  constexpr double dependent = 1e-6;  // relative remainder below which a motion counts as dependent
   Eigen::MatrixXd own(width, Eigen::Index(motions_.size() - begin));
   for (Eigen::Index k = 0; k < own.cols(); ++k)
     own.col(k) = motions_[begin + std::size_t(k)].segment(first, width).normalized();
@@ -89,7 +89,7 @@ void KktPreconditioner::orthonormalise(int first, int width, std::size_t begin) 
   }
 }
 
-// c2/c1 (B + M N^-1 M') on the bodies, M their motions
+// Block of the bodies: c2/c1 (B + M N^-1 M') with B ~ H^-1, M the motions and N = M'H M.
 void KktPreconditioner::apply(const Vector& r, Vector& z) {
   const Vector rp(r.begin(), r.begin() + K_.pressures()), rv(r.begin() + K_.pressures(), r.end());
   Vector zp, zv(rv.size());

@@ -1,6 +1,6 @@
 #pragma once
-// Block diagonal: multigrid on A + c1 c2 J H^-1 J' (sparse approximation) and on H, motions of bodies as a whole
-// exactly.
+// Block-diagonal preconditioner: multigrid on the Schur complement A + c1 c2 J H^-1 J' (H^-1 approximated by a sparse
+// matrix) and multigrid on H with exact deflation of a few motions of each body.
 #include "linalg/kkt/operator.h"
 #include "linalg/spd/schur_preconditioner.h"
 
@@ -10,7 +10,7 @@ class KktPreconditioner {
  public:
   // Keeps references. Collective.
   KktPreconditioner(const KktOperator& K, const BodyMatrix& H, const AmgSettings& settings);
-  // Why it failed, else empty.
+  // Reason why the set-up failed; empty if it succeeded.
   const std::string& failure() const { return failure_; }
   // Collective.
   void apply(const Vector& r, Vector& z);
@@ -22,9 +22,9 @@ class KktPreconditioner {
   void orthonormalise(int first, int width, std::size_t begin);
 
   const KktOperator& K_;
-  std::unique_ptr<Preconditioner> B_;      // of H
-  std::vector<Eigen::VectorXd> motions_;   // of rigid bodies the unknowns, of others responses to their loads
-  Eigen::LDLT<Eigen::MatrixXd> energies_;  // of motions
+  std::unique_ptr<Preconditioner> B_;      // for H
+  std::vector<Eigen::VectorXd> motions_;   // unit vectors of rigid unknowns; responses of deformable bodies
+  Eigen::LDLT<Eigen::MatrixXd> energies_;  // M'H M, M = motions_
   SchurPreconditioner schur_;
   std::string failure_;
 };

@@ -22,8 +22,8 @@ AmgSettings settings_of(const std::string& strength) {
 
 struct KktSolver::Problem {
   Vector b;
-  double scale;               // of continuity
-  Eigen::VectorXd g, weight;  // of momentum: its right side, diag(H)^-1/2
+  double scale;               // of the continuity residual
+  Eigen::VectorXd g, weight;  // right-hand side of momentum; diag(H)^-1/2
 };
 
 KktSolver::KktSolver(const KktSystem& s, const SaddleOptions& options, const Communicator& ranks)
@@ -46,7 +46,7 @@ KktSolver::Residual KktSolver::measure(const Problem& problem, const Vector& x) 
   momentum *= system_.c2 / system_.c1;
   const Eigen::VectorXd push = system_.c2 * multiply_transposed(system_.J, p, ranks_);
   const auto weighed = [&](const Eigen::VectorXd& f) { return f.cwiseProduct(problem.weight).norm(); };
-  // What rounding leaves of H v, whose terms cancel where bodies are stiff, does not count against the tolerance.
+  // Round-off of H v does not count against the tolerance: its terms cancel for stiff bodies.
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   const double floor = rounding * v.cwiseQuotient(problem.weight).norm() / options_.tolerance;
   const double scale = std::max(weighed(problem.g) + weighed(push), floor);
@@ -72,12 +72,12 @@ std::string KktSolver::climb(const std::string& strength, const Problem& problem
   return result.failure;
 }
 
-// b made compatible, what is taken out of it in the report.
+// Makes b compatible and reports the relative norm of the removed part.
 KktSolver::Problem KktSolver::pose(const Vector& b, const Eigen::VectorXd& g, double scale,
                                    SaddleReport& report) const {
   Vector reachable = b, removed = b;
   coupled_.project(reachable);
-  coupled_.project(reachable);  // once more for the rounding of the first means
+  coupled_.project(reachable);  // again, for the round-off of the first means
   add_scaled(removed, -1, reachable);
   const double size = norm(b, ranks_);
   report.mismatch = size > 0 ? norm(removed, ranks_) / size : 0;

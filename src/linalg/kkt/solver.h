@@ -1,8 +1,9 @@
 #pragma once
-// Pressures and bodies at once, for bodies too large to factor:
+// Monolithic solve for pressures and bodies that are too large to factor:
 //   A p + c1 J v    = b
 //   H v  - c2 J'p   = g
-// What SpdSolver solves with H eliminated, by MINRES on [A, c1 J; c1 J', -(c1/c2) H] with multigrid on both blocks.
+// SpdSolver solves the same system with v eliminated. Here: MINRES on [A, c1 J; c1 J', -(c1/c2) H] with multigrid on
+// both blocks.
 #include <memory>
 
 #include "linalg/saddle/solver.h"
@@ -15,12 +16,12 @@ struct KktSystem {
   const NullSpace& closed;  // of A
   const BlockColumns& J;
   double c1, c2;  // positive
-  int dimension;  // axes of a node: unknown k of a block that deforms is its velocity along axis k % dimension
+  int dimension;  // unknown k of a deformable block is the velocity of a node along axis k % dimension
 };
 
 struct KktReport {
-  SaddleReport solve;       // momentum: of the second row; continuity: of the first
-  bool indefinite = false;  // v'H v < 0 was met: then nothing was solved
+  SaddleReport solve;       // momentum is the second row, continuity the first
+  bool indefinite = false;  // v'H v < 0 was met; p and v are then no solution
 };
 
 class KktOperator;
@@ -28,13 +29,13 @@ class KktPreconditioner;
 
 class KktSolver {
  public:
-  // Keeps references to what `system` refers to. Collective.
+  // Keeps references to the members of `system`. Collective.
   KktSolver(const KktSystem& system, const SaddleOptions& options, const Communicator& ranks);
   ~KktSolver();
 
-  // From the initial p and v. H, the same on all ranks, should be positive definite, v'H v < 0 is reported where it is
-  // met. The tolerance of continuity is relative to `scale`, or to |b| where that is 0; that of momentum, in the norm
-  // of diag(H)^-1, to g and c2 J'p, or to the rounding of H v. Collective.
+  // Solves from the initial p and v. H is the same on all ranks and should be positive definite; v'H v < 0 is reported
+  // if it is met. The continuity residual is relative to `scale`, or to |b| if `scale` is 0. The momentum residual is
+  // measured in the norm of diag(H)^-1, relative to |g| + |c2 J'p| or to the round-off of H v. Collective.
   [[nodiscard]] KktReport solve(const SparseMatrix& H, const Vector& b, const Eigen::VectorXd& g, Vector& p,
                                 Eigen::VectorXd& v, double scale = 0);
 

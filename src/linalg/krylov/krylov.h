@@ -1,8 +1,8 @@
 #pragma once
-// Krylov loops over any operator and preconditioner. An operator gives
+// Krylov methods for any operator and preconditioner. An operator provides
 //   multiply(x, y)     y = A x
 //   residual(b, x, r)  r = b - A x
-// and a preconditioner apply(r, z), z = B r. All are collective.
+// and a preconditioner apply(r, z), z = B r. All three are collective.
 #include <string>
 
 #include "linalg/core/vector_ops.h"
@@ -10,16 +10,16 @@
 namespace seiche {
 
 struct KrylovLimits {
-  double target = 0;  // stop at |r| <= target, with r the residual as the loop updates it
+  double target = 0;  // stop at |r| <= target; r is the residual of the recurrence
   int iterations = 0;
 };
 
 struct KrylovResult {
   int iterations = 0;
-  std::string failure;  // empty if the target was met
+  std::string failure;  // empty if the target is met
 };
 
-// Hestenes and Stiefel 1952, preconditioned. A and B symmetric positive (semi-)definite.
+// Preconditioned conjugate gradients (Hestenes, Stiefel 1952). A and B are symmetric positive (semi-)definite.
 template <class Operator, class Preconditioner>
 KrylovResult conjugate_gradients(const Operator& A, Preconditioner& B, const Vector& b, Vector& x,
                                  const KrylovLimits& limits, const Communicator& ranks) {
@@ -45,11 +45,11 @@ KrylovResult conjugate_gradients(const Operator& A, Preconditioner& B, const Vec
   }
 }
 
-// The small least-squares problem of GMRES, min |beta e1 - H y|, kept triangular by Givens rotations.
+// Least-squares problem of GMRES, min |beta e1 - H y|; Givens rotations keep H triangular.
 class HessenbergLeastSquares {
  public:
   explicit HessenbergLeastSquares(double beta) : rhs_{beta} {}
-  // Appends a column of k + 2 entries; returns the residual norm after it.
+  // Appends a column of k + 2 entries, k the number of columns so far. Returns the residual norm.
   double append(std::vector<double> column);
   std::vector<double> solve() const;
 
@@ -58,10 +58,10 @@ class HessenbergLeastSquares {
   std::vector<double> cosines_, sines_, rhs_;
 };
 
-// Preconditioned directions of GMRES: all kept, or made once more from their sum where the preconditioner is linear.
+// Preconditioned directions Z of GMRES: `kept` stores all; `summed` applies B once to V y, for linear preconditioners.
 enum class Directions { kept, summed };
 
-// x += Z y, or B V y where Z was not kept.
+// x += Z y, or x += B V y if Z was not kept.
 template <class Preconditioner>
 void add_combination(const std::vector<double>& y, const std::vector<Vector>& v, const std::vector<Vector>& z,
                      Preconditioner& B, Vector& x) {
@@ -73,8 +73,8 @@ void add_combination(const std::vector<double>& y, const std::vector<Vector>& v,
   add_scaled(x, 1, Bs);
 }
 
-// Saad and Schultz 1986, preconditioned from the right; with directions kept flexible (Saad 1993), for preconditioners
-// that are not quite linear. None need be symmetric. Restarts every `restart` steps.
+// Right-preconditioned GMRES (Saad, Schultz 1986). With Directions::kept it is flexible (Saad 1993): B may vary
+// slightly between applications. A and B need not be symmetric. Restarts every `restart` steps.
 template <class Operator, class Preconditioner>
 KrylovResult gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector& x, const KrylovLimits& limits,
                    const Communicator& ranks, Directions directions, int restart = 40) {
@@ -87,7 +87,7 @@ KrylovResult gmres(const Operator& A, Preconditioner& B, const Vector& b, Vector
     if (done >= limits.iterations) return {done, "iteration limit"};
     if (!std::isfinite(beta)) return {done, "not finite"};
     HessenbergLeastSquares small(beta);
-    std::vector<Vector> v, z;  // orthonormal residuals; preconditioned
+    std::vector<Vector> v, z;  // Krylov basis; preconditioned basis
     double residual = beta, length = beta;
     for (int k = 0; k < restart && done < limits.iterations && residual > limits.target && length > 0; ++k, ++done) {
       for (double& entry : r) entry /= length;

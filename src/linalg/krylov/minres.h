@@ -1,6 +1,5 @@
 #pragma once
-// Minimal residuals for symmetric indefinite systems, the operators and preconditioners those of
-// linalg/krylov/krylov.h.
+// MINRES for symmetric indefinite systems. Operators and preconditioners as in linalg/krylov/krylov.h.
 #include <cmath>
 
 #include "linalg/krylov/krylov.h"
@@ -11,7 +10,7 @@ struct MinresStep {
   double of_z, of_w, of_w_before, length;
 };
 
-// The next direction w, and a step along it.
+// Next direction w and a step along it.
 inline void take_step(const MinresStep& s, const Vector& z, Vector& w_before, Vector& w, Vector& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double next = s.of_z * z[i] - s.of_w_before * w_before[i] - s.of_w * w[i];
@@ -21,8 +20,8 @@ inline void take_step(const MinresStep& s, const Vector& z, Vector& w_before, Ve
   }
 }
 
-// Paige and Saunders 1975, preconditioned as in Elman, Silvester, Wathen 2014, algorithm 4.1. A symmetric, B symmetric
-// positive (semi-)definite. Stops where finished(|r|_B, x) says so; |r|_B = sqrt(r'B r) never grows.
+// Preconditioned MINRES (Paige, Saunders 1975; Elman, Silvester, Wathen 2014, algorithm 4.1). A symmetric, B symmetric
+// positive (semi-)definite. Stops when finished(|r|_B, x) returns true; |r|_B = sqrt(r'B r) never grows.
 template <class Operator, class Preconditioner, class Finished>
 KrylovResult minimal_residuals(const Operator& A, Preconditioner& B, const Vector& b, Vector& x, int iterations,
                                const Communicator& ranks, Finished&& finished) {
@@ -45,7 +44,7 @@ KrylovResult minimal_residuals(const Operator& A, Preconditioner& B, const Vecto
     B.apply(az, next);
     double gamma_next = dot(next, az, ranks);
     if (!std::isfinite(gamma_next)) return {k, "not finite"};
-    // Rounding may leave a negative zero; the residual is then at its floor.
+    // Round-off may make a zero slightly negative; the residual is then at its floor.
     if (gamma_next < -1e-10 * gamma * gamma) return {k, "preconditioner not positive definite"};
     gamma_next = std::sqrt(std::max(gamma_next, 0.0));
     const double a0 = c * delta - c_before * s * gamma, a1 = std::hypot(a0, gamma_next);

@@ -7,7 +7,7 @@
 namespace seiche {
 namespace {
 
-// The coefficients of the steps: d = first D^-1 r, then d = of_d d + of_r D^-1 r.
+// Coefficients of the Chebyshev steps: d = first D^-1 r, then d = of_d d + of_r D^-1 r.
 class Recurrence {
  public:
   explicit Recurrence(const SpectralInterval& i)
@@ -27,10 +27,10 @@ class Recurrence {
   double half_, middle_, rho_;
 };
 
-// Rows within a number of neighbours of where columns differ from zero, the nearest first.
+// Rows within a given number of neighbours of the nonzeros of the columns, the nearest first.
 class Reach {
  public:
-  // Of `far` neighbours; F's pattern is symmetric. Collective.
+  // Finds rows up to `far` neighbours away; F's pattern must be symmetric. Collective.
   Reach(const LinearSystem& F, const std::vector<Vector>& columns, int far)
       : F_(F), flags_(std::size_t(F.rows() + F.halo().ghosts()), 0.0) {
     for (int i = 0; i < F.rows(); ++i) {
@@ -78,10 +78,10 @@ class Reach {
   const LinearSystem& F_;
   Vector flags_;  // with ghosts
   std::vector<int> rows_, border_;
-  std::vector<std::size_t> ends_;  // of those within 0, 1, ... neighbours
+  std::vector<std::size_t> ends_;  // rows_ up to ends_[n] lie within n neighbours
 };
 
-// max_i sum_j |F_ij| / F_ii
+// Upper bound of the eigenvalues of D^-1 F: max_i sum_j |F_ij| / F_ii. Collective.
 double gershgorin_bound(const LinearSystem& F) {
   const DistributedMatrix& P = F.pattern();
   double high = 0;
@@ -95,7 +95,7 @@ double gershgorin_bound(const LinearSystem& F) {
 
 }  // namespace
 
-// The constant vector has rough layers beside walls, which relaxation takes out: x'F x / x'D x can only fall.
+// Starts from the constant vector. Relaxation removes its rough layers beside walls; x'F x / x'D x can only fall.
 SpectralInterval estimate_interval(const LinearSystem& F) {
   constexpr int relaxations = 10;
   const double high = gershgorin_bound(F);
@@ -112,7 +112,7 @@ SpectralInterval estimate_interval(const LinearSystem& F) {
   return {std::clamp(quotient, 1e-12 * high, high), high};
 }
 
-// |T_n((high + low)/(high - low))|^-1 < 2 exp(-2 n / sqrt(condition))
+// Bound on the error: |T_n((high + low)/(high - low))|^-1 < 2 exp(-2 n / sqrt(condition)).
 int chebyshev_steps(const SpectralInterval& interval, double share) {
   const double wanted = 0.5 * std::sqrt(interval.condition()) * std::log(2 / share);
   return int(std::ceil(std::clamp(wanted, 1.0, 1e6)));
@@ -144,7 +144,7 @@ void Chebyshev::apply(const Vector& r, Vector& z) {
 
 namespace {
 
-// Chebyshev's iteration on rows that grow in number; vectors are zero where they do not reach.
+// Chebyshev iteration on a growing set of rows; vectors are zero elsewhere.
 class LocalIteration {
  public:
   explicit LocalIteration(const LinearSystem& F)

@@ -1,28 +1,29 @@
 #pragma once
-// Polynomial preconditioners: for matrices that mass keeps well conditioned they do what a multigrid cycle does,
-// without a hierarchy to build, and the same on any number of ranks.
+// Chebyshev polynomial preconditioners. For matrices that the mass term keeps well conditioned they replace a multigrid
+// cycle. They need no hierarchy and are the same operator on any number of ranks.
 #include "linalg/core/sparse_vector.h"
 #include "linalg/precond/preconditioners.h"
 
 namespace seiche {
 
-// Where the eigenvalues of D^-1 F lie, D the diagonal of F.
+// Interval of the eigenvalues of D^-1 F, D = diag(F).
 struct SpectralInterval {
   double low = 1, high = 1;
   double condition() const { return high / low; }
 };
 
-// `high` bounds them (Gershgorin); `low` is the Rayleigh quotient of a smooth vector, near the lowest. Collective.
+// `high` is an upper bound (Gershgorin). `low` is the Rayleigh quotient of a smooth vector, close to the lowest
+// eigenvalue. Collective.
 SpectralInterval estimate_interval(const LinearSystem& F);
 
-// Steps of Chebyshev's iteration from zero that leave `share` of an error on the interval.
+// Number of Chebyshev steps, from a zero guess, that reduce errors on the interval to the fraction `share`.
 int chebyshev_steps(const SpectralInterval& interval, double share);
 
-// z = B r by `steps` steps of Chebyshev's iteration for D^-1 F z = D^-1 r (Saad 2003, algorithm 12.1). Symmetric, and
-// positive with B F < 2 as long as no eigenvalue is above `high`, wherever the lowest are.
+// z = B r by `steps` steps of the Chebyshev iteration for D^-1 F z = D^-1 r (Saad 2003, algorithm 12.1). B is
+// symmetric, and positive with B F < 2 if no eigenvalue exceeds `high`; eigenvalues below `low` are allowed.
 class Chebyshev : public Preconditioner {
  public:
-  // Keeps the reference to F.
+  // Keeps a reference to F.
   Chebyshev(const LinearSystem& F, const SpectralInterval& interval, int steps);
   void apply(const Vector& r, Vector& z) override;
 
@@ -33,8 +34,8 @@ class Chebyshev : public Preconditioner {
   Vector inverse_, rest_, d_, Fd_;
 };
 
-// As Chebyshev::apply to each of `columns`, which differ from zero in few rows: a step reaches one neighbour further,
-// and only rows that are reached are visited. Collective.
+// Applies Chebyshev::apply to each of `columns`, which are nonzero in few rows. Each step reaches one more neighbour;
+// only reached rows are visited. Collective.
 std::vector<SparseVector> solve_locally(const LinearSystem& F, const SpectralInterval& interval, int steps,
                                         const std::vector<Vector>& columns);
 

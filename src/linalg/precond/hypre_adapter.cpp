@@ -11,14 +11,14 @@
 namespace seiche {
 namespace {
 
-// hypre is started at its first use and stays until the program ends.
+// Starts hypre at its first use; it runs until the program ends.
 void start_hypre() {
   static const int started = HYPRE_Init();
   (void)started;
   HYPRE_ClearAllErrors();
 }
 
-// The ranks that have something to give to hypre; null on the others, so that empty parts never reach it.
+// Communicator of the ranks that have rows or cells. Null on the others, so that hypre never sees empty parts.
 class ActiveRanks {
  public:
   ActiveRanks(const Communicator& ranks, int size) {
@@ -62,7 +62,7 @@ using StructMatrix = Handle<HYPRE_StructMatrix, HYPRE_StructMatrixDestroy>;
 using StructVector = Handle<HYPRE_StructVector, HYPRE_StructVectorDestroy>;
 using PfmgSolver = Handle<HYPRE_StructSolver, HYPRE_StructPFMGDestroy>;
 
-// A vector of hypre's whose entries can be written in place.
+// A hypre vector whose entries can be written in place.
 class RowVector {
  public:
   void create(MPI_Comm comm, HYPRE_BigInt first, HYPRE_BigInt last) {
@@ -142,7 +142,7 @@ class BoomerAmg : public Preconditioner {
     HYPRE_BoomerAMGSetPrintLevel(solver_, 0);
   }
 
-  // hypre frees the list.
+  // hypre takes ownership of the list.
   void set_components(const AmgSettings& s) {
     auto* list = hypre_TAlloc(HYPRE_Int, s.component.size(), HYPRE_MEMORY_HOST);
     std::copy(s.component.begin(), s.component.end(), list);

@@ -19,7 +19,7 @@ std::vector<T> of_all_ranks(const std::vector<T>& mine, const Communicator& rank
   return items;
 }
 
-// Loose rows that a chain of loose rows of this rank joins to one of another rank; flags with ghosts.
+// Flags pressure-free rows in chains that reach rows of another rank. `flags` includes ghosts.
 std::vector<char> find_shared(const LinearSystem& F, const Vector& flags) {
   const DistributedMatrix& P = F.pattern();
   std::vector<char> shared(std::size_t(F.rows()), 0);
@@ -48,7 +48,7 @@ std::vector<char> find_shared(const LinearSystem& F, const Vector& flags) {
   return shared;
 }
 
-// F on `rows`, by global number and ascending, from entries of all of them.
+// F on `rows` (global numbers, ascending) from the entries in all these rows.
 SparseMatrix assemble(const std::vector<MatrixEntry>& entries, const std::vector<Row>& rows) {
   std::vector<Eigen::Triplet<double>> triplets;
   const auto place = [&](Row row) { return int(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()); };
@@ -58,7 +58,7 @@ SparseMatrix assemble(const std::vector<MatrixEntry>& entries, const std::vector
   return part;
 }
 
-// Entries of F in `rows` whose columns are loose.
+// Entries of F in `rows` in pressure-free columns.
 std::vector<MatrixEntry> loose_entries(const LinearSystem& F, const std::vector<int>& rows, const Vector& flags) {
   const DistributedMatrix& P = F.pattern();
   std::vector<MatrixEntry> entries;
@@ -118,7 +118,7 @@ void LooseRows::add_solved(const Vector& r, Vector& z) const {
   add(shared_factor_.solve(b), shared_first_, shared_);
 }
 
-// I - z-operator F = (I - S F)(I - B F)(I - S F), S the solve on the loose faces
+// Error propagation: I - P F = (I - S F)(I - B F)(I - S F), P this preconditioner, S the solve on pressure-free faces.
 void LooseFaces::apply(const Vector& r, Vector& z) {
   Vector first(r.size(), 0.0), rest(r.size());
   loose_.add_solved(r, first);

@@ -1,18 +1,18 @@
 #pragma once
-// Faces that no pressure row holds. Around a free surface they have next to no mass and only follow the stress, in
-// pairs and chains across axes along which relaxation hardly moves.
+// Pressure-free faces: faces that no pressure row touches. Near a free surface they have almost no mass and are coupled
+// through the stress in pairs and chains across axes; relaxation hardly reduces their errors.
 #include "linalg/core/sparse_cholesky.h"
 #include "linalg/precond/preconditioners.h"
 
 namespace seiche {
 
-// Exact solves with F on loose faces: chains within a rank by that rank, those that ranks share on all of them at once,
-// so that results do not depend on where ranks cut.
+// Exact solves with F on the pressure-free faces. Chains within a rank are factored by that rank. Chains across ranks
+// are gathered and factored on every rank, so that results do not depend on the partition.
 class LooseRows {
  public:
-  // `loose` by row of F, which it keeps no reference to. Collective.
+  // `loose`: one flag a row of F. Keeps no reference to F. Collective.
   LooseRows(const LinearSystem& F, const std::vector<char>& loose);
-  // Whether their matrix could be factored, on all ranks.
+  // True if the factorizations succeeded on all ranks.
   bool good() const { return good_; }
   // z_L += F_LL^-1 r_L. Collective.
   void add_solved(const Vector& r, Vector& z) const;
@@ -21,17 +21,17 @@ class LooseRows {
   void factor_shared(const LinearSystem& F, const Vector& flags);
 
   Communicator ranks_;
-  std::vector<int> own_, shared_;                    // rows of this rank
-  Eigen::Index shared_first_ = 0, shared_rows_ = 0;  // of all ranks'
+  std::vector<int> own_, shared_;                    // local rows
+  Eigen::Index shared_first_ = 0, shared_rows_ = 0;  // position of this rank's rows in shared_factor_, and their total
   SparseCholesky own_factor_, shared_factor_;
   bool good_ = true;
 };
 
-// Multigrid on faces, mended where it fails: z = B r with exact solves on the loose faces before and after. Symmetric,
-// and positive where B is and B F <= 2.
+// Face multigrid B with exact solves on the pressure-free faces before and after. Symmetric; positive if B is and B F
+// <= 2.
 class LooseFaces : public Preconditioner {
  public:
-  // Keeps the references.
+  // Keeps references to F and `loose`.
   LooseFaces(const LinearSystem& F, const LooseRows& loose, std::unique_ptr<Preconditioner> B)
       : F_(F), loose_(loose), B_(std::move(B)) {}
   void apply(const Vector& r, Vector& z) override;

@@ -29,7 +29,7 @@ PreconditionerOrFailure diagonal_scaling(const LinearSystem& system) {
   return {std::make_unique<DiagonalScaling>(system), {}};
 }
 PreconditionerOrFailure boomeramg(const LinearSystem& system) {
-  // Rows that touch thousands of others, those of enclosed air, are not on the grid. Aggressive coarsening costs them
+  // Rows of enclosed air couple to thousands of cells and are not on the grid. Aggressive coarsening then needs more
   // iterations (docs/decisions/0012-enclosed-air.md).
   const bool on_grid = box_of_rows(system).cells() > 0;
   return on_grid ? make_boomeramg(system) : make_boomeramg(system, {.aggressive_levels = 0});
@@ -45,7 +45,7 @@ constexpr PreconditionerEntry table[] = {
      multigrid},
 };
 
-// docs/decisions/0002-preconditioner-choice.md
+// Measured: docs/decisions/0002-preconditioner-choice.md.
 constexpr std::int64_t rows_worth_a_hierarchy = 2000;
 constexpr double share_worth_a_box = 0.25;
 
@@ -65,7 +65,7 @@ std::string choose_preconditioner(const std::string& name, const LinearSystem& s
   if (name != "auto") return name;
   const auto rows = system.pattern().global_rows;
   if (rows < rows_worth_a_hierarchy) return "none";
-  const std::int64_t box = box_of_rows(system).cells();  // none where rows are not on the grid: enclosed air
+  const std::int64_t box = box_of_rows(system).cells();  // 0 if some row is not on the grid (enclosed air)
   return box > 0 && double(rows) >= share_worth_a_box * double(box) ? "multigrid" : "boomeramg";
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The preconditioners by name. A new one is a file and a row in the table of preconditioners.cpp.
+// Preconditioners by name. A new one is a file and a row in the table of preconditioners.cpp.
 #include <memory>
 #include <span>
 #include <string>
@@ -16,7 +16,7 @@ class Preconditioner {
   virtual void apply(const Vector& r, Vector& z) = 0;
 };
 
-// Either a preconditioner or why there is none, the same on all ranks.
+// A preconditioner, or the reason why there is none; the same on all ranks.
 struct PreconditionerOrFailure {
   std::unique_ptr<Preconditioner> preconditioner;
   std::string failure;
@@ -30,13 +30,13 @@ struct PreconditionerEntry {
 
 std::span<const PreconditionerEntry> preconditioner_table();
 
-// The names a scene may ask for: "auto" and those of the table.
+// Names that a scene may use: "auto" and those of the table.
 std::vector<std::string> preconditioner_names();
 
-// What "auto" stands for on this system; any other name stands for itself. Collective.
+// Replaces "auto" by the choice for this system; returns any other name unchanged. Collective.
 std::string choose_preconditioner(const std::string& name, const LinearSystem& system);
 
-// Throws Error(bad_input) for a name that is not in the table.
+// Throws Error(bad_input) for a name that is not in the table. Collective.
 PreconditionerOrFailure make_preconditioner(const std::string& name, const LinearSystem& system);
 
 }  // namespace seiche

@@ -7,12 +7,12 @@
 namespace seiche {
 namespace {
 
-// Whether motions may touch the same rows or neighbouring ones.
+// True if two motions may touch the same rows or coupled rows.
 bool meet(const StiffMotion& a, const StiffMotion& b) {
   return a.region != b.region || std::abs(a.slab - b.slab) <= 2;
 }
 
-// F on the rows where a motion is zero.
+// F restricted to the rows where a motion is zero.
 class RowsAround {
  public:
   RowsAround(const LinearSystem& F, const SparseVector& motion) : F_(F), within_(motion.row) {}
@@ -48,8 +48,9 @@ RigidMotions::RigidMotions(const LinearSystem& F, const FacePlaces& places, int 
   invert_energies(energies());
 }
 
-// With the liquid around it at rest a part of n cells would cost n times what it does. Of so many motions, for they are
-// no longer sparse; what is next to nothing of them is left out.
+// Extends the motion of a whole region into the surrounding liquid by approximately solving F there. With the
+// surrounding liquid at rest, the energy of a region of n cells would be too large by a factor of about n. Only the
+// first `most` motions are extended, since extended ones are no longer sparse; small entries are dropped.
 void RigidMotions::extend() {
   constexpr int most = 24, steps = 12;
   constexpr double enough = 0.05, next_to_nothing = 0.01;
@@ -85,7 +86,8 @@ Eigen::MatrixXd RigidMotions::energies() const {
   return 0.5 * (E + E.transpose());
 }
 
-// Motions of nested regions may be the same but for rounding: what is next to nothing of a combination is left out.
+// Pseudo-inverse of the scaled Z'F Z. Motions of nested regions may agree up to round-off, so small eigenvalues are
+// dropped.
 void RigidMotions::invert_energies(Eigen::MatrixXd E) {
   constexpr double next_to_nothing = 1e-6;
   inverse_.setZero(E.rows(), E.cols());

@@ -1,7 +1,6 @@
 #pragma once
-// Multigrid on faces, mended where it fails: on rigid motions of stiff parts, which the energy of the rest alone
-// resists. Multigrid that interpolates each axis by itself bends what turns, at a cost that is larger by the ratio of
-// stiffness.
+// Deflation (balancing) of rigid motions of high-viscosity regions. Only the energy of the surrounding liquid resists
+// them. Unknown-based AMG does not represent rotations and gives them spurious energy, larger by the viscosity ratio.
 #include <Eigen/Core>
 
 #include "linalg/precond/preconditioners.h"
@@ -9,11 +8,13 @@
 
 namespace seiche {
 
-// z = Q r + (1 - Q F) B (1 - F Q) r, Q = Z (Z'F Z)^-1 Z' (balancing; Mandel 1993), Z = find_stiff_motions() with
-// the flow around them: symmetric, and positive where B is.
+// Balancing preconditioner (Mandel 1993):
+//   z = Q r + (1 - Q F) B (1 - F Q) r,   Q = Z (Z'F Z)^-1 Z'.
+// Z holds the near-null-space vectors of find_stiff_motions(), extended into the surrounding liquid. Symmetric;
+// positive if B is.
 class RigidMotions : public Preconditioner {
  public:
-  // Keeps the reference to F; `dimension` is 2 or 3. Collective.
+  // Keeps a reference to F; `dimension` is 2 or 3. Collective.
   RigidMotions(const LinearSystem& F, const FacePlaces& places, int dimension, std::unique_ptr<Preconditioner> B);
   void apply(const Vector& r, Vector& z) override;
   const std::vector<StiffMotion>& motions() const { return Z_; }

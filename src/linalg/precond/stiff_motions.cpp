@@ -28,8 +28,9 @@ Extent measure(const StiffRegion& region, const FacePlaces& places, int dimensio
   return e;
 }
 
-// Slabs about as long as the region is wide: at 0.7, 1.4 and 2.8 times a thread takes 16, 16 and 18 iterations of
-// conjugate gradients, and 34 without (docs/decisions/0017-viscous-speed.md). None where that leaves fewer than two.
+// Number of slabs, each about as long as the region is wide; 0 if fewer than two fit. At 0.7, 1.4 and 2.8 times this
+// length a viscous thread takes 16, 16 and 18 iterations of conjugate gradients, and 34 without slabs
+// (docs/decisions/0017-viscous-speed.md).
 int count_slabs(const StiffRegion& region, const Extent& extent, int dimension) {
   const double length = extent.length(extent.longest) + 1, cells = double(region.size) / dimension;
   const double width = std::pow(cells / length, 1.0 / (dimension - 1));
@@ -37,7 +38,8 @@ int count_slabs(const StiffRegion& region, const Extent& extent, int dimension) 
   return slabs < 2 ? 0 : slabs;
 }
 
-// Along the longest axis: 1 at node `slab` of `slabs` + 1, 0 at the others.
+// Hat functions along the longest axis: 1 at node `slab` of `slabs` + 1 nodes, 0 at the others. Constant 1 without
+// slabs.
 struct Hats {
   const Extent& extent;
   int slabs;
@@ -47,7 +49,7 @@ struct Hats {
     const auto a = std::size_t(extent.longest);
     return std::max(0.0, 1 - std::abs((x[a] - extent.low[a]) / spacing() - slab));
   }
-  // About which to turn, and what makes that as large as a translation.
+  // Centre of rotation. Below: length that scales a rotation to the size of a translation.
   std::array<double, 3> centre(int slab) const {
     std::array<double, 3> c{};
     for (std::size_t a = 0; a < 3; ++a) c[a] = 0.5 * (extent.low[a] + extent.high[a]);
@@ -97,7 +99,8 @@ double stiffness(const LinearSystem& F, const SparseVector& z, SparseProduct& mu
 
 }  // namespace
 
-// Of what F resists more multigrid takes care: of motions of the whole, and of slabs that bend against each other.
+// Thresholds on stiffness(): multigrid handles stiffer motions, of whole regions (`soft`) and of slabs (`soft_slab`),
+// which also bend against each other.
 std::vector<StiffMotion> find_stiff_motions(const LinearSystem& F, const FacePlaces& places, int dimension) {
   constexpr double soft = 1e-3, soft_slab = 0.1;
   SparseProduct multiply(F);

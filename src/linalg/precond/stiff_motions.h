@@ -1,5 +1,6 @@
 #pragma once
-// What stiff parts of liquid do at next to no cost: move and turn as a whole and, where they are slender, bend.
+// Near-null-space vectors of F: motions of high-viscosity regions that cost almost no energy. Regions translate and
+// rotate as a whole; slender ones bend.
 #include <array>
 
 #include "linalg/core/sparse_vector.h"
@@ -7,7 +8,7 @@
 
 namespace seiche {
 
-// Where the velocity of a row of F is, in cells, and along which axis.
+// Axis and position (in cells) of the velocity component of each row of F.
 struct FacePlaces {
   const std::vector<int>& axis;
   const std::vector<std::array<double, 3>>& position;
@@ -15,25 +16,26 @@ struct FacePlaces {
 
 struct StiffMotion {
   SparseVector z;
-  int region, slab;  // motions of one region whose slabs are more than two apart do not meet
-  bool whole;        // not of a slab
+  int region, slab;  // slabs of one region more than two apart share no row and have no coupling
+  bool whole;        // the whole region, no slab
 };
 
-// The translations and rotations of find_stiff_regions(); of a slender one those of overlapping slabs along its longest
-// axis, weighted by hats that add up to one. Those alone that F lets through. Collective.
+// Translations and rotations of the regions of find_stiff_regions(). A slender region gives those of overlapping slabs
+// along its longest axis, weighted by hat functions that sum to one. Only motions of small Rayleigh quotient z'F z /
+// z'D z, D = diag(F), are kept. Collective.
 std::vector<StiffMotion> find_stiff_motions(const LinearSystem& F, const FacePlaces& places, int dimension);
 
-// F x of vectors with few entries, from the rows that it reaches alone.
+// Product F x for sparse vectors; visits only the rows that x reaches and rows at rank boundaries.
 class SparseProduct {
  public:
-  // F's pattern is symmetric.
+  // F's pattern must be symmetric.
   explicit SparseProduct(const LinearSystem& F);
   // Collective.
   SparseVector operator()(const SparseVector& x);
 
  private:
   const LinearSystem& F_;
-  Vector x_;  // with ghosts; of owned rows zero between calls
+  Vector x_;  // with ghosts; owned entries are zero between calls
   std::vector<char> reached_;
   std::vector<int> border_;  // rows with ghost columns
 };

@@ -9,16 +9,17 @@
 namespace seiche {
 namespace {
 
-// Diagonals and links of liquid of one viscosity vary by less; levels are further apart, or what differs between them
-// would often be a fringe of faces alone.
+// `alike`: diagonals and links within liquid of one viscosity vary by a smaller factor. `level_ratio`: closer levels
+// would often differ only by a fringe of faces.
 constexpr double alike = 30, level_ratio = 1000;
 
-// Sets of this rank's rows that are joined, each with the lowest row that it is known to reach.
+// Union-find over this rank's rows; the label of a set is the lowest row that it is known to reach, on any rank.
 class JoinedRows {
  public:
   explicit JoinedRows(const LinearSystem& F) : F_(F), parent_(std::size_t(F.rows())) {}
 
-  // Of rows with a diagonal of at least `level`. Collective. The lowest row of each row's set; -1 without one.
+  // Labels of the connected sets of rows with a diagonal of at least `level`: the lowest row of each row's set, or -1
+  // below the level. Collective.
   const Vector& label(double level) {
     std::iota(parent_.begin(), parent_.end(), 0);
     set_flags(level);
@@ -33,7 +34,7 @@ class JoinedRows {
     }
     return label_;
   }
-  // Of sets with rows of other ranks beside this one's, at that level.
+  // Labels of this rank's sets that have links to other ranks, at the same level.
   std::set<Row> labels_across(double level) const {
     std::set<Row> labels;
     for_each_link(level, [&](int i, int j) {
@@ -68,7 +69,7 @@ class JoinedRows {
     const int a = root(i), b = root(j);
     parent_[std::size_t(std::max(a, b))] = std::min(a, b);
   }
-  // The labels of linked rows of other ranks, where lower. Whether any was.
+  // Takes over lower labels from linked rows of other ranks. True if a label changed.
   bool take_from_others(double level) {
     F_.halo().fill_ghosts(label_);
     bool changed = false;
@@ -92,7 +93,8 @@ struct Count {
   std::int64_t rows;
 };
 
-// Over all ranks, of sets with at least `fewest` rows; of smaller ones only those `across` ranks are heard of.
+// Sizes of the sets over all ranks; keeps those with at least `fewest` rows. Ranks exchange the counts of large sets
+// and of sets in `across` only.
 std::vector<StiffRegion> count_sets(const LinearSystem& F, const Vector& label, const std::set<Row>& across,
                                     int fewest) {
   std::map<Row, std::int64_t> mine, all;
@@ -121,7 +123,7 @@ void keep_largest(std::vector<StiffRegion>& regions, std::size_t most) {
   if (regions.size() > most) regions.resize(most);
 }
 
-// Takes out sets that are next to what an earlier level found. Collective.
+// Removes sets that an earlier level already found, with up to 5 % more rows. Collective.
 void drop_known(const LinearSystem& F, const Vector& label, const std::vector<StiffRegion>& known,
                 std::vector<StiffRegion>& sets) {
   constexpr double as_large = 1.05;

@@ -1,5 +1,5 @@
 #pragma once
-// Connected parts of a matrix whose diagonal is large beside that of what surrounds them.
+// High-viscosity regions: connected sets of rows whose diagonal is large compared to that of surrounding rows.
 #include <cstdint>
 
 #include "linalg/core/linear_system.h"
@@ -7,14 +7,14 @@
 namespace seiche {
 
 struct StiffRegion {
-  Row first;             // the lowest of its rows, over all ranks
+  Row first;             // its lowest row, over all ranks
   std::int64_t size;     // over all ranks
-  std::vector<int> row;  // of this rank, ascending
+  std::vector<int> row;  // local rows, ascending
 };
 
-// Rows joined by entries of the size of their diagonals, at several levels below the largest diagonal: regions are
-// nested or apart. At most `most`, the largest of those that have `fewest` rows; the same on any number of ranks.
-// Collective.
+// Finds sets of rows that are connected by entries comparable to their diagonals, at several levels below the largest
+// diagonal. Regions are nested or disjoint. Returns at most `most` regions, the largest of those with at least `fewest`
+// rows. The result is the same on any number of ranks. Collective.
 std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, std::size_t most);
 
 }  // namespace seiche

@@ -9,8 +9,8 @@
 namespace seiche {
 namespace {
 
-// What a cycle leaves of an error counts twice over: a sweep and four elements a row, enough elsewhere, take 72
-// iterations at 40^3, this one 16 (docs/decisions/0017-viscous-speed.md).
+// Stronger multigrid, since errors of the cycle enter twice. At 40^3 one sweep and four elements per row, enough
+// elsewhere, take 72 iterations, these settings 16 (docs/decisions/0017-viscous-speed.md).
 AmgSettings thorough(AmgSettings settings) {
   settings.sweeps *= 2;
   settings.elements_per_row = 6;
@@ -31,7 +31,7 @@ Commutator::Commutator(const SaddleOperator& K, const LooseRows* loose, const Am
   B_ = make_boomeramg(*L_, thorough(settings)).preconditioner;
 }
 
-// C = M + (diag F - M) max(1, layer / rows from the wall)
+// weight_ = C^-1 with C = M + (diag F - M) layer / rows, rows = distance from the wall in rows, at most `layer`.
 void Commutator::set_weights() {
   constexpr int layer = 4;
   const SaddleSystem& s = K_.system();
@@ -41,7 +41,7 @@ void Commutator::set_weights() {
     weight_[i] = 1 / (s.mass[i] + (K_.faces().diagonal(int(i)) - s.mass[i]) * layer / rows[i]);
 }
 
-// D C^-1 D' has the pattern of A.
+// L = D C^-1 D' on the pattern of A. Collective.
 DistributedMatrix Commutator::weighted_laplacian() const {
   const DistributedMatrix &A = K_.liquid().pattern(), &Dt = K_.system().Dt;
   DistributedMatrix L{A.first_row, A.global_rows, A.row_start, A.column, Vector(A.column.size(), 0.0)};
@@ -66,7 +66,7 @@ DistributedMatrix Commutator::weighted_laplacian() const {
   return L;
 }
 
-// x = L^-1 b; b loses what L cannot reach.
+// x ~ L^-1 b; b is projected onto the range of L.
 void Commutator::solve_laplacian(Vector& b, Vector& x) {
   L_->project(b);
   x.resize(b.size());
@@ -74,7 +74,7 @@ void Commutator::solve_laplacian(Vector& b, Vector& x) {
   L_->project(x);
 }
 
-// Fw = F w, the loose faces free to follow: w_L = -F_LL^-1 (F w)_L.
+// Fw = F w after w_L = -F_LL^-1 (F w)_L is added on the pressure-free faces L, so that (F w)_L = 0.
 void Commutator::follow_stress(Vector& w, Vector& Fw) const {
   K_.faces().multiply(w, Fw);
   if (!loose_) return;

@@ -1,19 +1,20 @@
 #pragma once
-// Preconditioners of the Schur complement of viscous flow, S = D F^-1 D', that see how viscosity varies.
+// LSC (BFBt) preconditioner of the Schur complement S = D F^-1 D' of viscous flow, for variable viscosity.
 #include "linalg/precond/hypre_adapter.h"
 #include "linalg/precond/loose_faces.h"
 #include "linalg/saddle/system.h"
 
 namespace seiche {
 
-// (S / schur_scale)^-1 by the least-squares commutator (BFBt; Elman et al. 2006; Rudi, Stadler, Ghattas 2017),
-//   S^-1 ~ L^-1 (D C^-1 F C^-1 D') L^-1,   L = D C^-1 D',   C diagonal,
-// L^-1 by a cycle of multigrid. Symmetric, and positive but for the null space. F is what is left of it once the loose
-// faces, which no pressure feels, have been eliminated. C is the diagonal of F, its viscous part larger near walls: the
-// commutator of F and the gradient does not vanish there (Elman, Tuminaro 2009).
+// Approximates (S / schur_scale)^-1 by the least-squares commutator (BFBt; Elman et al. 2006; Rudi, Stadler, Ghattas
+// 2017),
+//   S^-1 ~ L^-1 (D C^-1 F C^-1 D') L^-1,   L = D C^-1 D',   C diagonal.
+// L^-1 is one multigrid cycle. Symmetric, and positive up to the null space. F is the Schur complement after
+// elimination of the pressure-free faces. C is the diagonal of F with a larger viscous part near walls, where F does
+// not commute with the gradient (Elman, Tuminaro 2009).
 class Commutator : public Preconditioner {
  public:
-  // Keeps the references; `loose` may be null. Collective.
+  // Keeps references to K and *loose; `loose` may be null. Collective.
   Commutator(const SaddleOperator& K, const LooseRows* loose, const AmgSettings& settings);
   void apply(const Vector& r, Vector& z) override;
 

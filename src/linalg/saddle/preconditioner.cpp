@@ -5,8 +5,8 @@
 namespace seiche {
 namespace {
 
-// Traces of F - M and M: mu dt/(rho h^2) of about 7 in 3D. Below, what mass leaves to be done the mass-weighted model
-// does as well, in half the time.
+// True if trace(F - M) > 40 trace(M), i.e. mu dt/(rho h^2) > 7 in 3D. Below, the mass-weighted model does as well in
+// half the time.
 bool viscosity_prevails(const SaddleOperator& K) {
   constexpr double much = 40;
   std::array<double, 2> sums{0, 0};
@@ -28,7 +28,7 @@ std::string SaddlePreconditioner::refresh() {
   return pressure_->refresh(K_.bodies(), velocity_->direction_energies());
 }
 
-// S = schur_scale (A + ...); directions push Jd = J m - D W.
+// S = schur_scale (A + ...); the columns of the directions are Jd = J m - D W.
 void SaddlePreconditioner::make_pressure() {
   const double scale = K_.system().schur_scale;
   Vector mass = K_.system().schur_mass;
@@ -60,7 +60,7 @@ void SaddlePreconditioner::apply(const Vector& r, Vector& z) {
   z = K_.pack(zu, zv, zp);
 }
 
-// [V 0; D J -S]^-1
+// z = [V 0; (D J) -S]^-1 r
 void SaddlePreconditioner::apply_triangular(const Vector& r, Vector& z) {
   Vector ru, rp, zu, zp, flux;
   Eigen::VectorXd rv, zv;

@@ -1,24 +1,24 @@
 #pragma once
-// Preconditioners of saddle-point systems, from their velocity and pressure blocks.
+// Preconditioners of saddle-point systems, built from velocity and pressure blocks.
 #include "linalg/saddle/velocity.h"
 #include "linalg/spd/schur_preconditioner.h"
 
 namespace seiche {
 
-// Vectors as SaddleOperator packs them.
+// Vectors are packed by SaddleOperator.
 class SaddlePreconditioner {
  public:
-  // Keeps the reference. Collective.
+  // Keeps a reference to K; `pressure` is the name of the pressure preconditioner. Collective.
   SaddlePreconditioner(const SaddleOperator& K, const std::string& pressure, const AmgSettings& settings)
       : K_(K), settings_(settings), name_(pressure) {}
 
-  // For the present H of K; why it failed, else empty. Collective.
+  // Updates for the current H of K. Returns the reason of a failure, else an empty string. Collective.
   [[nodiscard]] std::string refresh();
-  // Block diagonal: symmetric and positive. Collective.
+  // Block-diagonal; symmetric and positive. Collective.
   void apply(const Vector& r, Vector& z);
-  // Block triangular, the pressure after the velocity: neither. Collective.
+  // Block-triangular, pressure after velocity; not symmetric. Collective.
   void apply_triangular(const Vector& r, Vector& z);
-  // The velocity block alone, of vectors without pressures. Collective.
+  // Velocity block only, for vectors without pressures. Collective.
   void apply_viscous(const Vector& r, Vector& z);
   [[nodiscard]] std::string refresh_velocity();
 

@@ -24,8 +24,8 @@ const SaddleSystem& checked_size(const SaddleSystem& s) {
                                              s.F.global_rows, limit));
 }
 
-// BoomerAMG on faces and cells: what is usual, and what costs more and fails less. Aggressive coarsening would take
-// nearly twice the iterations.
+// BoomerAMG on faces and cells: "standard", or "strong", which costs more and fails less. Aggressive coarsening would
+// nearly double the iterations.
 AmgSettings settings_of(const std::string& strength) {
   AmgSettings settings;
   settings.aggressive_levels = 0;
@@ -51,10 +51,10 @@ struct SaddleSolver::Rung {
   }
 };
 
-// A compatible right-hand side, and what each row's residual is relative to.
+// Compatible right-hand side and the weight of each row's residual.
 struct SaddleSolver::Problem {
   Vector b;
-  Vector weight;  // of momentum: (diag(F, H) scale^2)^-1/2; of continuity: 1 / scale
+  Vector weight;  // momentum: (diag(F, H) scale^2)^-1/2; continuity: 1 / scale
 };
 
 struct SaddleSolver::Residual {
@@ -109,7 +109,7 @@ Vector SaddleSolver::momentum_weight() const {
   return K_.pack(w, body, {});
 }
 
-// Below that, D u is the rounding of its sums: some hundred epsilon of |D diag(u)|, the Frobenius norm.
+// Round-off of the sums in D u: a hundred epsilon of the Frobenius norm of D diag(u).
 double SaddleSolver::rounding_of_divergence(const Vector& u) const {
   const DistributedMatrix& Dt = system_.Dt;
   double sum = 0;
@@ -118,8 +118,9 @@ double SaddleSolver::rounding_of_divergence(const Vector& u) const {
   return 100 * std::numeric_limits<double>::epsilon() * std::sqrt(K_.ranks().global_sum(sum));
 }
 
-// The flow (u1, v1) without the constraint and the pressure against it set the scales; f, g and q alone where there is
-// no preconditioner. Where u1 has no divergence but by rounding (shear between plates), the tolerance leaves that much.
+// Sets the scales from the flow (u, v) without the constraint and the pressure that enforces it. Without a
+// preconditioner only f, g and q are used. If u has no divergence but round-off (shear between plates), the tolerance
+// allows for that much.
 SaddleSolver::Problem SaddleSolver::pose(const Vector& f, const Eigen::VectorXd& g, const Vector& q,
                                          double flux_scale) {
   Problem problem{K_.pack(f, g, q), {}};
@@ -143,7 +144,7 @@ SaddleSolver::Problem SaddleSolver::pose(const Vector& f, const Eigen::VectorXd&
       momentum_scale += more, across = std::max(across + free, rounding_of_divergence(u) / options_.tolerance);
   }
   if (flux_scale > 0) across = flux_scale;
-  // Where nothing drives them: relative to one.
+  // Without any driving term the residuals are absolute.
   for (double& entry : weight) entry /= momentum_scale > 0 ? momentum_scale : 1;
   problem.weight = weight;
   problem.weight.insert(problem.weight.begin() + K_.velocities(), q.size(), 1 / (across > 0 ? across : 1));
@@ -152,7 +153,7 @@ SaddleSolver::Problem SaddleSolver::pose(const Vector& f, const Eigen::VectorXd&
 
 namespace {
 
-// As gmres() wants it: residuals in the norm that counts.
+// Scales residuals for gmres() to the norm of the tolerance.
 struct WeightedOperator {
   const SaddleOperator& K;
   const CoupledSystem& null_space;
@@ -180,7 +181,8 @@ struct WeightedPreconditioner {
 
 }  // namespace
 
-// The norm that MINRES watches is not the one that counts: it goes on until that is there as well.
+// MINRES watches the norm of its preconditioner. Whenever that has fallen to `target`, the residual in the norm of the
+// tolerance is measured.
 SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {
@@ -195,7 +197,7 @@ SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Proble
 }
 
 SaddleSolver::Climb SaddleSolver::reduce_residual(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
-  constexpr int restart = 60;  // viscosities that jump by 1e5 take up to 45, and twice as many if cut short
+  constexpr int restart = 60;  // viscosity jumps of 1e5 take up to 45 iterations, twice as many if restarted earlier
   const WeightedOperator A{K_, coupled_, problem.weight};
   WeightedPreconditioner P{B, problem.weight};
   const KrylovLimits limits{0.95 * options_.tolerance, options_.max_iterations};
@@ -203,8 +205,8 @@ SaddleSolver::Climb SaddleSolver::reduce_residual(SaddlePreconditioner& B, const
   return {result.iterations, result.failure};
 }
 
-// GMRES with the triangular preconditioner takes half the iterations of MINRES with the diagonal one, which needs a few
-// vectors where GMRES keeps one an iteration.
+// GMRES with the triangular preconditioner takes half the iterations of MINRES with the diagonal one, but stores a
+// vector for each iteration.
 std::vector<SaddleSolver::Rung> SaddleSolver::make_ladder() const {
   return {{Method::gmres, options_.preconditioner, "standard", Start::warm},
           {Method::minres, "boomeramg", "strong", Start::cold},
@@ -218,7 +220,7 @@ SaddleSolver::Climb SaddleSolver::climb(const Rung& rung, const Problem& problem
   return rung.method == Method::minres ? minimise(B, problem, x) : reduce_residual(B, problem, x);
 }
 
-// x keeps the best vector met.
+// x holds the best vector so far.
 void SaddleSolver::climb_ladder(const Problem& problem, Vector& x, SaddleReport& report) {
   Vector y = x;
   int index = 0;
@@ -249,12 +251,12 @@ void SaddleSolver::project_pressure(Vector& x) const {
   std::copy(p.begin(), p.end(), faces);
 }
 
-// |part of q that no velocity can reach| / |q|, taken out in place.
+// Removes the part of q that no velocity can match. Returns |removed part| / |q|.
 double SaddleSolver::make_compatible(Vector& q) const {
   const double before = norm(q, K_.ranks());
   Vector removed = q;
   coupled_.project(q);
-  coupled_.project(q);  // once more for the rounding of the first means
+  coupled_.project(q);  // again, for the round-off of the first means
   for (std::size_t i = 0; i < q.size(); ++i) removed[i] -= q[i];
   return before > 0 ? norm(removed, K_.ranks()) / before : 0;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Velocities and pressures at once, where viscosity lets no velocity be eliminated.
+// Monolithic solve for velocities and pressures, for flows in which viscosity couples the faces.
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,46 +9,46 @@
 namespace seiche {
 
 struct SaddleOptions {
-  // Of |b - K x| / scale, recomputed, of momentum and of continuity each. Momentum in the norm of diag(F, H)^-1,
-  // relative to f and g and to what q drives; continuity in the 2-norm, relative to `flux_scale` of solve(). Bounds the
-  // error in the velocity, and the volume lost.
+  // Bound on |b - K x| / scale, recomputed, for momentum and for continuity separately. Momentum: norm of diag(F,
+  // H)^-1, relative to f, g and the pressure gradient that q requires. Continuity: 2-norm, relative to `flux_scale` of
+  // solve(). Bounds the error of the velocity and the loss of volume.
   double tolerance = 1e-8;
-  int max_iterations = 400;             // of a rung of the ladder
-  std::string preconditioner = "auto";  // of the pressure
-  int fail_rungs = 0;                   // for tests: the first rungs return a wrong x and claim success
+  int max_iterations = 400;             // of each attempt
+  std::string preconditioner = "auto";  // for the pressure
+  int fail_rungs = 0;                   // for tests: the first attempts return a wrong x and claim success
 };
 
 struct SaddleReport {
   bool converged = false;
-  int iterations = 0;                   // over all rungs tried
+  int iterations = 0;                   // over all attempts
   double momentum = 0, continuity = 0;  // recomputed, relative
   double residual = 0;                  // the larger of the two
-  double mismatch = 0;                  // |part of q no velocity can reach| / |q|
-  std::string used;                     // the last rung
-  std::vector<std::string> ladder;      // one line a rung that failed
+  double mismatch = 0;                  // |part of q that no velocity can match| / |q|
+  std::string used;                     // the last attempt
+  std::vector<std::string> ladder;      // one line for each failed attempt
 
   void set(double of_momentum, double of_continuity);
 };
 
 class SaddlePreconditioner;
 
-// Solves with one F, G, D, J, several times, H changing from solve to solve. What is built for them is kept.
+// Solves several systems with the same F, G, D, J and different H. Preconditioner parts without H are kept.
 class SaddleSolver {
  public:
-  // Keeps references to what `system` refers to. Collective. Throws Error(machine) for more rows than hypre can index.
+  // Keeps references to the members of `system`. Throws Error(machine) for more rows than hypre can index. Collective.
   SaddleSolver(const SaddleSystem& system, const SaddleOptions& options, const Communicator& ranks);
   ~SaddleSolver();
 
-  // From the initial u, v, p. q is made compatible first, p keeps out of the null space. `flux_scale` 0 stands for the
-  // fluxes that would flow without the constraint. Preconditioned GMRES or MINRES, then the rungs of the ladder; never
-  // returns a result whose recomputed residual was not checked. Collective.
+  // Solves from the initial u, v, p. q is made compatible first; p has no part in the null space. `flux_scale` = 0
+  // means the fluxes of the flow without the constraint. Tries GMRES, then the other attempts of the fallback chain;
+  // the residual of every result is recomputed and checked. Collective.
   [[nodiscard]] SaddleReport solve(const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g, const Vector& q,
                                    Vector& u, Eigen::VectorXd& v, Vector& p, double flux_scale = 0);
-  // Without the constraint: [F G; G' H] (u, v) = (f, g) by preconditioned conjugate gradients. Collective.
+  // Solves [F G; G' H] (u, v) = (f, g), without the constraint, by preconditioned conjugate gradients. Collective.
   [[nodiscard]] SaddleReport solve_viscous(const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g, Vector& u,
                                            Eigen::VectorXd& v);
 
-  // Closed components of A that bodies feel: their mean pressure is what H and J decide.
+  // Closed components of A that bodies feel: H and J determine their mean pressure.
   const std::vector<int>& sensed_components() const { return coupled_.sensed_components(); }
 
  private:
@@ -78,7 +78,7 @@ class SaddleSolver {
   SaddleSystem system_;
   SaddleOptions options_;
   SaddleOperator K_;
-  CoupledSystem coupled_;  // the null space of p
+  CoupledSystem coupled_;  // for the null space of p
   std::vector<std::pair<std::string, std::unique_ptr<SaddlePreconditioner>>> built_;
 };
 

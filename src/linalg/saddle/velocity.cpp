@@ -9,14 +9,14 @@
 namespace seiche {
 namespace {
 
-// Below this share of the diagonal, off-diagonal sums leave the diagonal of F within 20 % of F.
+// If off-diagonal sums are below this fraction of the diagonal, diag(F) is within 20 % of F.
 constexpr double small_share = 0.2;
-// Of the polynomial that stands for multigrid: what it leaves of an error, and the steps that are still cheaper than a
-// hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0017-viscous-speed.md).
+// Polynomial in place of multigrid: fraction of an error that it leaves, and the number of steps up to which it is
+// cheaper than a hierarchy (mu dt/(rho h^2) up to about 5; docs/decisions/0017-viscous-speed.md).
 constexpr double share_left = 0.1;
 constexpr int most_steps = 16;
-// On the coarsest level, by hypre's number: F is not singular, and one relaxation leaves what a stiff inclusion does as
-// a whole.
+// Coarsest level of BoomerAMG: Gaussian elimination (hypre's number), since F is not singular. A single relaxation
+// would not reduce motions of a high-viscosity inclusion as a whole.
 constexpr int elimination = 9;
 
 bool is_mass_dominated(const LinearSystem& F) {
@@ -44,7 +44,7 @@ Vector multiply(const BlockColumns& G, const Eigen::VectorXd& m, int rows) {
 
 // Orthonormal responses of a deformable block to its loads.
 Eigen::MatrixXd modes_of(const ColumnBlock& b, int first, const BodyMatrix& H) {
-  constexpr double dependent = 1e-6;  // what is left of a response beside the others
+  constexpr double dependent = 1e-6;  // relative remainder below which a response counts as dependent
   Eigen::MatrixXd own(b.width, b.loads.cols());
   for (Eigen::Index k = 0; k < b.loads.cols(); ++k) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(H.size());
@@ -125,7 +125,7 @@ void VelocityPreconditioner::find_directions() {
   multiply_out(GM);
 }
 
-// F W ~ G m. The better W, the fewer iterations of the whole where light bodies are held by viscosity alone.
+// Solves F W ~ G m for each direction. An accurate W saves outer iterations if only viscosity couples light bodies.
 std::vector<SparseVector> VelocityPreconditioner::extend(const std::vector<Vector>& GM) const {
   constexpr double enough = 1e-3, roughly = 1e-2;
   constexpr int at_most = 12;
@@ -157,7 +157,7 @@ void VelocityPreconditioner::multiply_out(const std::vector<Vector>& GM) {
   dragged_ = (0.5 * (dragged_ + dragged_.transpose())).eval();
 }
 
-// H + C of the rigid unknowns.
+// H + C, with C the entries of dragged_ for the rigid unknowns.
 SparseMatrix VelocityPreconditioner::body_part() const {
   const SparseMatrix& H = K_.bodies().matrix();
   std::vector<Eigen::Triplet<double>> entries;
@@ -190,7 +190,7 @@ void VelocityPreconditioner::apply(const Vector& ru, const Eigen::VectorXd& rv, 
   zv.setZero(K_.unknowns());
   const auto n = Eigen::Index(directions_.size()), r = Eigen::Index(rigid_);
   if (n == 0) return;
-  Eigen::VectorXd felt(n);  // [-W; m]' (ru, rv), the part of m in the rigid ones by T
+  Eigen::VectorXd felt(n);  // [-W; m]' (ru, rv); for rigid directions -W'ru only, the rest enters through T
   for (Eigen::Index k = 0; k < n; ++k) {
     felt[k] = -local_dot(directions_[std::size_t(k)].W, ru);
   }

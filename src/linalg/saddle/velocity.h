@@ -1,5 +1,5 @@
 #pragma once
-// The velocity block of a saddle-point preconditioner: an approximate inverse of [F G; G' H], symmetric and positive.
+// Velocity block of the saddle-point preconditioner: a symmetric positive approximate inverse of [F G; G' H].
 #include <Eigen/Cholesky>
 
 #include "linalg/precond/chebyshev.h"
@@ -9,33 +9,34 @@
 
 namespace seiche {
 
-// A motion m of bodies with the flow -W ~ -F^-1 G m that it drags along.
+// A motion m of bodies and the flow -W ~ -F^-1 G m that it drags along.
 struct Direction {
-  int unknown;        // m is 1 here and 0 elsewhere; or -1:
-  Eigen::VectorXd m;  // of a body that deforms
+  int unknown;        // m is the unit vector of this unknown; -1:
+  Eigen::VectorXd m;  // m of a deformable body
   SparseVector W;
 };
 
-// Rigid bodies by the factors of the block matrix, with B ~ F^-1 (AMG, a polynomial where mass still
-// counts, or the diagonal where it prevails):
+// Rigid bodies: factors of the block matrix with B ~ F^-1. B is multigrid (AMG) where viscosity dominates, a Chebyshev
+// polynomial for moderate viscosity, the diagonal where mass dominates:
 //   [1 -W; 0 1] [B 0; 0 T^-1] [1 0; -W' 1],   T = [-W; 1]'[F G; G' H][-W; 1].
-// T is positive whatever W is. Bodies that deform keep H^-1, and move as a whole with the liquid by
-//   + Z E^-1 Z',   Z = [-W; m],   E = Z'[F G; G' H]Z.
+// T is positive for any W. Deformable bodies keep H^-1 (a block of T^-1). Their motions as a whole, with the liquid,
+// add
+//   Z E^-1 Z',   Z = [-W; m],   E = Z'[F G; G' H]Z.
 class VelocityPreconditioner {
  public:
-  // Keeps the reference. Collective.
+  // Keeps a reference to K. Collective.
   VelocityPreconditioner(const SaddleOperator& K, const AmgSettings& settings);
 
-  // For the present H. Whether T and E could be factored. Collective.
+  // Updates for the current H. False if T or E could not be factored. Collective.
   [[nodiscard]] bool refresh();
   void apply(const Vector& ru, const Eigen::VectorXd& rv, Vector& zu, Eigen::VectorXd& zv);
 
-  // Whether viscosity counts for so much that B is a multigrid cycle.
+  // True if viscosity is so large that B is a multigrid cycle.
   bool is_multigrid() const { return !mass_prevails_ && !interval_; }
-  // Faces without a pressure; null where there are none.
+  // Pressure-free faces; null if there are none.
   const LooseRows* loose_rows() const { return loose_.get(); }
   const std::vector<Direction>& directions() const { return directions_; }
-  // T of the rigid directions, E of the others, as one matrix.
+  // T of the rigid directions and E of the others as one block-diagonal matrix.
   const Eigen::MatrixXd& direction_energies() const { return energies_; }
 
  private:
@@ -49,7 +50,7 @@ class VelocityPreconditioner {
 
   const SaddleOperator& K_;
   bool mass_prevails_, good_ = true;
-  std::optional<SpectralInterval> interval_;  // where a polynomial stands for multigrid
+  std::optional<SpectralInterval> interval_;  // if B is a polynomial
   std::unique_ptr<LooseRows> loose_;
   std::unique_ptr<Preconditioner> B_;
   std::vector<Direction> directions_;  // rigid ones first

@@ -1,4 +1,4 @@
-// The velocity part of a saddle-point system by itself.
+// The velocity block of a saddle-point system on its own.
 #include <fmt/format.h>
 
 #include "linalg/krylov/krylov.h"
@@ -12,7 +12,8 @@ void weigh(const Vector& w, Vector& x) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] *= w[i];
 }
 
-// W K W, K = [F G; G' H], W = diag(F, H)^-1/2: its residuals, of W b, are in the norm that counts.
+// W K W with K = [F G; G' H], W = diag(F, H)^-1/2. Its residuals, for the right-hand side W b, are in the norm of the
+// tolerance.
 class ScaledViscous {
  public:
   ScaledViscous(const SaddleOperator& K, const Vector& w) : K_(K), w_(w) {}
@@ -51,7 +52,7 @@ struct ScaledPreconditioner {
 
 }  // namespace
 
-// The residual that the loop updates drifts from the true one: it starts again while that is not there.
+// Restarts until the true residual meets the tolerance, since the residual of the recurrence drifts from it.
 SaddleSolver::Climb SaddleSolver::iterate_viscous(SaddlePreconditioner& B, const Vector& w, const Vector& b, Vector& x,
                                                   SaddleReport& report) {
   const ScaledViscous A(K_, w);

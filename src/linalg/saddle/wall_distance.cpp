@@ -5,9 +5,10 @@
 namespace seiche {
 namespace {
 
-// Of velocities that are 1 along one axis F leaves mass and, where a wall is at rest beside them, its links.
+// Flags rows with links to walls at rest. Applied to velocities that are 1 along one axis, F leaves the mass and these
+// links.
 std::vector<char> rows_at_walls(const LinearSystem& F, const std::vector<int>& axis, const Vector& mass, int axes) {
-  constexpr double part = 0.05;  // a link to a wall is a fifth of a diagonal at least
+  constexpr double part = 0.05;  // a link to a wall is at least a fifth of the diagonal
   std::vector<char> at_wall(mass.size(), 0);
   Vector along(mass.size()), F_along(mass.size());
   for (int a = 0; a < axes; ++a) {

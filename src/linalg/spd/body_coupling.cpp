@@ -15,7 +15,7 @@ struct Entry {
   double value;
 };
 
-// Of this rank. Rows of the identity are left to themselves.
+// This rank's entries of the deformable blocks of J. Identity rows of A are left out.
 std::vector<Entry> local_entries(const LinearSystem& A, const BlockColumns& J) {
   std::vector<char> is_identity(std::size_t(A.rows()), 0);
   for (const int i : A.identity_list()) is_identity[std::size_t(i)] = 1;
@@ -44,7 +44,7 @@ std::vector<Entry> of_all_ranks(const std::vector<Entry>& mine, const Communicat
   return all;
 }
 
-// The rows that bodies touch, over all ranks, ascending.
+// Rows that bodies touch, over all ranks, ascending.
 std::vector<Row> touched_rows(const std::vector<Entry>& entries) {
   std::vector<Row> rows;
   for (const Entry& e : entries) rows.push_back(e.row);
@@ -58,7 +58,7 @@ int index_of(const std::vector<Row>& rows, Row row) {
   return found != rows.end() && *found == row ? int(found - rows.begin()) : -1;
 }
 
-// Off-diagonal entries below this share of the diagonal are dropped: nine in ten of them, and no iteration is lost.
+// Drops off-diagonal entries below this fraction of the diagonal: nine in ten of them, at no cost in iterations.
 constexpr double worth_keeping = 0.02;
 
 void drop_small(SparseMatrix& M) {
@@ -67,7 +67,7 @@ void drop_small(SparseMatrix& M) {
       [&](Eigen::Index i, Eigen::Index j, double v) { return i == j || std::abs(v) > worth_keeping * d[i] * d[j]; });
 }
 
-// J G'G J' on the rows that bodies touch.
+// J G'G J' on the touched rows.
 SparseMatrix coupling_of(const std::vector<Entry>& entries, const std::vector<Row>& rows, const SparseMatrix& H) {
   std::vector<Eigen::Triplet<double>> triplets;
   std::vector<char> wanted(std::size_t(H.rows()), 0);
@@ -95,7 +95,7 @@ DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J
   M.global_rows = P.global_rows;
   for (int i = 0; i < A.rows(); ++i) {
     const Row own = P.first_row + i;
-    std::map<Row, double> row;  // the diagonal, which comes first, as -1
+    std::map<Row, double> row;  // the diagonal has key -1, so that it comes first
     const auto add = [&](Row column, double value) { row[column == own ? -1 : column] += value; };
     for (int k = P.row_start[i]; k < P.row_start[i + 1]; ++k) add(P.column[k], A.values()[k]);
     if (const int m = index_of(rows, own); m >= 0)

@@ -61,7 +61,7 @@ std::vector<std::array<int, 3>> cells_of_rows(const LinearSystem& A) {
 
 std::vector<CellRange> ranges_of_blocks(const BlockColumns& J, const std::vector<std::array<int, 3>>& cells,
                                         const std::array<int, 3>& period, const Communicator& ranks) {
-  constexpr int far = 1 << 30;  // no cell index
+  constexpr int far = 1 << 30;  // beyond any cell index
   std::vector<CellRange> ranges(J.blocks.size(), CellRange{{far, far, far}, {-far, -far, -far}, period});
   for (std::size_t b = 0; b < ranges.size(); ++b)
     for (const int row : J.blocks[b].row)
@@ -82,7 +82,8 @@ std::vector<CellRange> ranges_of_blocks(const BlockColumns& J, const std::vector
   return ranges;
 }
 
-// Entries beside A's diagonal have one sign: what A makes of the rows without a place is nowhere zero beside them.
+// Off-diagonal entries of A have one sign. Hence A times the indicator of rows without a cell is nonzero at every row
+// that is coupled to them.
 std::vector<char> reaching_placeless(const LinearSystem& A, const std::vector<std::array<int, 3>>& cells,
                                      const std::vector<CellRange>& ranges) {
   Vector placeless(cells.size()), beside(cells.size());

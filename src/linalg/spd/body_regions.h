@@ -1,5 +1,5 @@
 #pragma once
-// Where bodies act on the grid, and which of them are far enough from each other to be handled at once.
+// Regions of the grid on which bodies act, and a colouring of bodies whose regions do not overlap.
 #include <array>
 #include <vector>
 
@@ -8,35 +8,35 @@
 
 namespace seiche {
 
-// Cells lower <= i < upper of the whole grid; along periodic axes what is beyond one side counts on the other.
+// Cells lower <= i < upper of the whole grid; indices wrap around along periodic axes.
 struct CellRange {
   std::array<int, 3> lower, upper;
   std::array<int, 3> period{0, 0, 0};  // cells along a periodic axis, else 0
   bool empty() const;
   int width(int axis) const { return upper[axis] - lower[axis]; }
-  // Cells from the range's lower end up to a cell; negative below it.
+  // Number of cells from the range's lower end to `cell`; negative below it (axis not periodic).
   int offset(int axis, int cell) const;
-  // Whether it goes all the way round.
+  // True if the range covers a whole periodic axis.
   bool wraps(int axis) const { return period[axis] > 0 && width(axis) >= period[axis]; }
   bool contains(const std::array<int, 3>& cell) const;
   CellRange grown(int n) const;
   bool meets(const CellRange& other) const;
 };
 
-// Cell of each of this rank's rows; rows of enclosed air have none, and no range contains them.
+// Cell of each local row. Rows of enclosed air have none: has_place() is false and no range contains them.
 std::vector<std::array<int, 3>> cells_of_rows(const LinearSystem& A);
 bool has_place(const std::array<int, 3>& cell);
 
-// The cells that each block's rows span, over all ranks. Collective.
+// Bounding range of the rows of each block, over all ranks. Collective.
 std::vector<CellRange> ranges_of_blocks(const BlockColumns& J, const std::vector<std::array<int, 3>>& cells,
                                         const std::array<int, 3>& period, const Communicator& ranks);
 
-// Of each range: whether A couples a cell in it to a row without a place. Collective.
+// Flags the ranges in which A couples some cell to a row without a cell. Collective.
 std::vector<char> reaching_placeless(const LinearSystem& A, const std::vector<std::array<int, 3>>& cells,
                                      const std::vector<CellRange>& ranges);
 
-// Colours 0, 1, ... such that ranges of one colour do not meet, and not more than one of them is `apart`; greedy in the
-// order given.
+// Colours 0, 1, ... such that ranges of one colour do not overlap and at most one of them has `apart` set. Greedy, in
+// the given order.
 std::vector<int> color(const std::vector<CellRange>& ranges, const std::vector<char>& apart);
 
 }  // namespace seiche

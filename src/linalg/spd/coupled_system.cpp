@@ -5,7 +5,8 @@
 namespace seiche {
 namespace {
 
-// J' chi of each component of the null space of A, and J' |.| as its scale: rounding decides what counts as zero.
+// J' chi for the indicator chi of each component of the null space of A; `sizes` has the sums of absolute values. Sums
+// below their round-off are set to zero.
 struct Felt {
   Eigen::MatrixXd sums, sizes;
 };
@@ -22,7 +23,7 @@ Felt feel_components(const LinearSystem& A, const BlockColumns& J) {
   if (felt.sums.size() == 0) return felt;
   A.ranks().global_sum(std::span<double>(felt.sums.data(), std::size_t(felt.sums.size())));
   A.ranks().global_sum(std::span<double>(felt.sizes.data(), std::size_t(felt.sizes.size())));
-  // Sums of up to 1e6 terms of rounding size 1e-16.
+  // Round-off of sums of up to 1e6 terms.
   const auto rounding = 1e-11 * felt.sizes.array();
   felt.sums = (felt.sums.array().abs() > rounding).select(felt.sums, 0.0);
   return felt;
@@ -41,8 +42,8 @@ CoupledSystem::CoupledSystem(const LinearSystem& A, const BlockColumns& J, doubl
   find_sensed();
 }
 
-// The null space of S: constants on the components of A that no body feels (J' chi = 0), and combinations of the other
-// components that no body feels together.
+// Null space of S: constants on the components of A that no body feels (J' chi = 0), and combinations of the other
+// components that no body feels.
 void CoupledSystem::find_sensed() {
   const Felt felt = feel_components(A_, J_);
   for (int c = 0; c < felt.sums.cols(); ++c)
@@ -58,7 +59,7 @@ void CoupledSystem::find_sensed() {
   for (int k = 0; k < n; ++k) C.col(k) = felt.sums.col(sensed_[k]);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(C.transpose() * C);
   int zeros = 0;
-  // Squares of sums whose rounding is 1e-11 of them.
+  // Eigenvalues are squares of sums with a relative round-off of 1e-11.
   while (zeros < n && eigen.eigenvalues()[zeros] <= 1e-20 * eigen.eigenvalues()[n - 1]) ++zeros;
   combinations_ = eigen.eigenvectors().leftCols(zeros);
 }
@@ -77,7 +78,7 @@ void CoupledSystem::residual(const Vector& b, const Vector& x, Vector& r) const 
   for (int i = 0; i < rows(); ++i) r[i] = b[i] - r[i];
 }
 
-// v -= chi N (N' W N)^-1 N' chi' v, W the rows of each component.
+// v -= chi N (N' W N)^-1 N' chi' v, W the number of rows of each component, N = combinations_.
 void CoupledSystem::project(Vector& v) const {
   if (!is_coupled()) return A_.project(v);
   for (const int i : A_.identity_list()) v[i] = 0;

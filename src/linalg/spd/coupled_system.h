@@ -1,12 +1,12 @@
 #pragma once
-// S = A + c J H^-1 J': a sparse matrix and what few unknowns, eliminated, add to it (bodies behind a pressure matrix).
+// S = A + c J H^-1 J': a sparse matrix A (pressure) and the Schur complement of a few eliminated unknowns (bodies).
 #include "linalg/core/block_columns.h"
 #include "linalg/core/body_matrix.h"
 #include "linalg/core/linear_system.h"
 
 namespace seiche {
 
-// The null space with some of its components left out.
+// The null space without the given components.
 NullSpace without(NullSpace null_space, const std::vector<int>& components);
 
 class CoupledSystem {
@@ -14,7 +14,7 @@ class CoupledSystem {
   // Keeps references. Collective.
   CoupledSystem(const LinearSystem& A, const BlockColumns& J, double c);
 
-  // H for the products that follow; kept by reference. Empty: S = A.
+  // Sets H for subsequent products; kept by reference. An empty H means S = A.
   void set_bodies(const BodyMatrix& H) { H_ = &H; }
 
   int rows() const { return A_.rows(); }
@@ -23,17 +23,17 @@ class CoupledSystem {
   const BlockColumns& columns() const { return J_; }
   double scale() const { return c_; }
   bool is_coupled() const { return H_ && H_->size() > 0; }
-  const SparseMatrix& bodies() const { return H_->matrix(); }  // where it is coupled
+  const SparseMatrix& bodies() const { return H_->matrix(); }  // only if is_coupled()
 
   // y = S x. Collective.
   void multiply(const Vector& x, Vector& y) const;
   // r = b - S x. Collective.
   void residual(const Vector& b, const Vector& x, Vector& r) const;
-  // Takes out of v the null space of S (of A, where S = A). Collective.
+  // Projects v onto the range of S, orthogonal to its null space (of A if S = A). Collective.
   void project(Vector& v) const;
-  // c H^-1 w. Collective.
+  // Returns c H^-1 w. Collective.
   Eigen::VectorXd weigh(const Eigen::VectorXd& w) const;
-  // Indicators of closed components whose constants S sees, since bodies feel them: null vectors of A only.
+  // Closed components that bodies feel (J' chi != 0): their indicators chi are null vectors of A but not of S.
   const std::vector<int>& sensed_components() const { return sensed_; }
 
  private:
@@ -43,9 +43,9 @@ class CoupledSystem {
   const BlockColumns& J_;
   double c_;
   const BodyMatrix* H_ = nullptr;
-  std::vector<int> sensed_;          // numbers of components
-  std::vector<double> sensed_rows_;  // of each of those, over all ranks
-  Eigen::MatrixXd combinations_;     // columns: weights of the sensed components that no body feels together
+  std::vector<int> sensed_;          // component numbers
+  std::vector<double> sensed_rows_;  // their numbers of rows, over all ranks
+  Eigen::MatrixXd combinations_;     // columns: combinations of the sensed components that no body feels
   MeanRemover unsensed_means_;
 };
 

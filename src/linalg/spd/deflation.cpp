@@ -10,15 +10,15 @@
 namespace seiche {
 namespace {
 
-// Cells around a body within which its own column of B J is kept where there are many bodies; for few it is kept whole.
-// Wider ranges save iterations and cost more colours (docs/decisions/0006-many-bodies.md).
+// Width (cells) of the neighbourhood to which a body's columns of B J are cut if there are many bodies. A wider one
+// saves iterations but needs more colours (docs/decisions/0006-many-bodies.md).
 constexpr int cut_reach = 4;
-// Columns from which dense factors are worth it.
+// Least number of columns for dense factors.
 constexpr Eigen::Index least_dense = 100;
 
 enum class Placeless { keep, drop };
 
-// Values of v on the rows that lie in a range, and on those that lie nowhere.
+// Nonzeros of v in rows whose cell lies in the range. Rows without a cell (placeless) are kept or dropped.
 SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range,
                  Placeless placeless) {
   SparseVector c;
@@ -29,8 +29,8 @@ SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, 
   return c;
 }
 
-// Lets the values fade out over the outer cells of a range: cut off sharply, what is left of A z at the edge costs
-// twice the iterations.
+// Scales values linearly to zero over the outer cells of a range. A sharp cut leaves large A z at the edge and doubles
+// the iterations.
 void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& range, SparseVector& c) {
   for (std::size_t n = 0; n < c.row.size(); ++n) {
     const auto& cell = cells[c.row[n]];
@@ -45,7 +45,7 @@ void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& ran
   }
 }
 
-// Sums of products over the ranks' rows, by pair of columns.
+// Sums over the rows of all ranks, one for each pair of columns.
 class PairSums {
  public:
   explicit PairSums(std::int64_t columns) : columns_(columns) {}
@@ -84,7 +84,7 @@ struct ColumnValue {
   double value;
 };
 
-// Columns by row.
+// Transposes columns to lists by row.
 std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseVector>& columns, int rows) {
   std::vector<std::vector<ColumnValue>> list(rows);
   for (std::size_t c = 0; c < columns.size(); ++c)
@@ -95,7 +95,7 @@ std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseVector>& co
 
 }  // namespace
 
-// Bodies that deform have a preconditioner of their own: what serves A alone then never meets H.
+// Deformable bodies have a preconditioner of their own, so a deflation made for A alone never meets their H.
 Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
   if (S.columns().any_deforms() && !S.is_coupled()) return;
   make_columns();
@@ -110,7 +110,7 @@ Deflation::Regions Deflation::find_regions() const {
   constexpr int everywhere = 1 << 28;
   for (const CellRange& r : ranges_of_blocks(J, regions.cells, S_.liquid().grid().periodic, S_.ranks())) {
     regions.kept.push_back(r.grown(regions.whole ? everywhere : cut_reach));
-    regions.touched.push_back(regions.kept.back().grown(1));  // A reaches one cell further
+    regions.touched.push_back(regions.kept.back().grown(1));  // A reaches one more cell
   }
   regions.color = color(regions.touched, reaching_placeless(S_.liquid(), regions.cells, regions.kept));
   return regions;
@@ -121,10 +121,10 @@ int Deflation::mode_count(std::size_t block) const {
   return b.deforms() ? int(modes_[block].cols()) : b.width;
 }
 
-// Of deformable bodies: an orthonormal basis of their responses to their loads. Free ones move rigidly under forces and
-// moments, held ones bend as they do most easily.
+// Per deformable body: an orthonormal basis of its responses to its loads. A free body moves rigidly under forces and
+// moments; a pinned one bends in its softest modes.
 void Deflation::find_modes() {
-  constexpr double dependent = 1e-6;  // what is left of a response beside the others
+  constexpr double dependent = 1e-6;  // relative remainder below which a response counts as dependent
   const auto& blocks = S_.columns().blocks;
   const std::vector<int> first = S_.columns().first_columns();
   modes_.resize(blocks.size());
@@ -148,7 +148,7 @@ void Deflation::find_modes() {
   }
 }
 
-// Bodies of one colour share one application of B a column.
+// Bodies of one colour share one application of B per column.
 void Deflation::make_columns() {
   const Regions regions = find_regions();
   find_modes();
@@ -165,7 +165,7 @@ void Deflation::make_columns() {
     }
 }
 
-// z = B (sum of the members' columns of J), then each member's part of it.
+// z = B (sum of the members' columns of J), cut to a column of Z for each member.
 void Deflation::add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode) {
   const LinearSystem& A = S_.liquid();
   Vector r(A.rows(), 0.0), z(A.rows()), own(A.rows(), 0.0), az(A.rows());
@@ -190,7 +190,7 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
   for (const std::size_t b : members) AZ_.push_back(cut(az, regions.cells, regions.touched[b], Placeless::keep));
 }
 
-// A sees no constants on closed components; where bodies feel them, S does.
+// Adds indicators of the closed components that bodies feel: null vectors of A but not of S.
 void Deflation::add_component_columns() {
   body_columns_ = int(Z_.size());
   const auto& component = S_.liquid().null_space().component;
@@ -233,13 +233,13 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
   return 0.5 * (schur + schur.transpose());
 }
 
-// E = Z'AZ + c (J'Z)' H^-1 (J'Z). Without H there is nothing to deflate.
+// E = Z'AZ + c (J'Z)' H^-1 (J'Z). Nothing is deflated without H.
 bool Deflation::refresh() {
   if (Z_.empty() || !S_.is_coupled()) return true;
   return S_.columns().any_deforms() ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
 }
 
-// Where H is large: column by column.
+// For large H: E column by column.
 bool Deflation::multiply_small() {
   const auto n = Eigen::Index(Z_.size());
   Eigen::MatrixXd JZ = Eigen::MatrixXd::Zero(S_.columns().columns(), n), E = Eigen::MatrixXd::Zero(n, n);
@@ -251,8 +251,7 @@ bool Deflation::multiply_small() {
   return small_->info() == Eigen::Success && E.allFinite();
 }
 
-// Where H is small, but bodies are many: E is the Schur complement of the factored matrix, which is quasi-definite and
-// sparse.
+// For small H and many bodies. E is the Schur complement of the extended matrix, which is sparse and quasi-definite.
 bool Deflation::factor_extended() {
   const int n = int(Z_.size()), m = S_.columns().columns();
   std::vector<Eigen::Triplet<double>> entries;
@@ -272,8 +271,8 @@ bool Deflation::factor_extended() {
   return extended_.info() == Eigen::Success;
 }
 
-// What does not depend on H where Z'AZ is all but dense, as it is of many bodies in 3D: dense factors are then far
-// quicker than sparse ones. Closed components make Z'AZ singular.
+// Computes the factors that do not depend on H if Z'AZ is nearly dense, as for many bodies in 3D: dense factors are
+// then much faster than sparse ones. Not if closed components make Z'AZ singular.
 void Deflation::factor_own() {
   const auto n = Eigen::Index(Z_.size()), m = Eigen::Index(S_.columns().columns());
   constexpr double dense = 0.1;

@@ -1,7 +1,7 @@
 #pragma once
-// Makes a preconditioner B of A serve for S = A + c J H^-1 J', whatever H: the directions Z = B J, cut to the
-// neighbourhood of each body, are solved for exactly (A-DEF2 of Tang, Nabben, Vuik, Erlangga 2009). With uncut Z and
-// H -> infinity nothing changes; with H -> 0 (massless bodies) Z spans what A alone does not know.
+// Extends a preconditioner B of A to S = A + c J H^-1 J' for any H, by deflation (A-DEF2 of Tang, Nabben, Vuik,
+// Erlangga 2009). The deflation vectors are Z = B J, cut to the neighbourhood of each body. If Z is not cut and H ->
+// infinity, B is unchanged. For H -> 0 (massless bodies), Z spans the directions that A alone lacks.
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -14,7 +14,7 @@
 
 namespace seiche {
 
-// Up to this many bodies columns are kept whole.
+// Up to this number of bodies, columns of Z are not cut.
 inline constexpr std::size_t few_bodies = 2;
 
 class Deflation {
@@ -22,26 +22,26 @@ class Deflation {
   // Keeps references. Collective.
   Deflation(const CoupledSystem& S, Preconditioner& B);
 
-  // For the present H of S. Collective; whether E = Z' S Z could be factored.
+  // Updates the factors for the current H of S. False if E = Z' S Z could not be factored. Collective.
   [[nodiscard]] bool refresh();
 
   // z = (I - Q S) B r + Q r, Q = Z E^-1 Z'. Collective.
   void apply(const Vector& r, Vector& z);
 
-  // x += Q (b - S x): afterwards the residual is orthogonal to Z, which apply() counts on. Collective.
+  // x += Q (b - S x): makes the residual orthogonal to Z, which apply() requires. Collective.
   void prepare(const Vector& b, Vector& x);
 
-  // (J'Z)(Z'AZ)^-1(Z'J), the Galerkin part of J'A^-1 J; closed components left out.
+  // (J'Z)(Z'AZ)^-1(Z'J), the Galerkin approximation of J'A^-1 J, without closed components.
   Eigen::MatrixXd estimate_schur() const;
 
-  int applications_of_B() const { return applications_; }  // at set-up
+  int applications_of_B() const { return applications_; }  // during set-up
 
  private:
   struct Regions {
-    std::vector<std::array<int, 3>> cells;  // of this rank's rows
-    std::vector<CellRange> kept, touched;   // of each body: where its columns of Z, and of A Z, are not zero
+    std::vector<std::array<int, 3>> cells;  // of local rows
+    std::vector<CellRange> kept, touched;   // per body: ranges where its columns of Z and of A Z may be nonzero
     std::vector<int> color;
-    bool whole;  // nothing is cut
+    bool whole;  // columns are not cut
   };
   Regions find_regions() const;
   void find_modes();
@@ -60,10 +60,10 @@ class Deflation {
 
   const CoupledSystem& S_;
   Preconditioner& B_;
-  std::vector<Eigen::MatrixXd> modes_;  // of each block that deforms
+  std::vector<Eigen::MatrixXd> modes_;  // per deformable block
   std::vector<SparseVector> Z_, AZ_;
   std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
-  int body_columns_ = 0;                          // the first of Z; closed components follow
+  int body_columns_ = 0;                          // columns of Z that belong to bodies; closed components follow
   double regularization_ = 0;
   int applications_ = 0;
   std::optional<Eigen::LDLT<Eigen::MatrixXd>> small_;  // of E

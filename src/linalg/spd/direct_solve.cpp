@@ -23,7 +23,7 @@ std::string to_bytes(const std::vector<T>& items) {
   return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
 }
 
-// What all ranks sent to rank 0, in the order of the ranks; empty elsewhere.
+// Items of all ranks on rank 0, in the order of the ranks; empty elsewhere.
 template <class T>
 std::vector<T> gather(const std::vector<T>& items, const Communicator& ranks) {
   std::string all;
@@ -33,7 +33,7 @@ std::vector<T> gather(const std::vector<T>& items, const Communicator& ranks) {
   return result;
 }
 
-// Of A and, where bodies are coupled in, of J and J', whose unknowns follow those of A.
+// Entries of A and, if bodies are coupled, of J and J'. Unknowns of bodies follow those of A.
 std::vector<Entry> local_entries(const CoupledSystem& coupled) {
   const LinearSystem& system = coupled.liquid();
   const DistributedMatrix& A = system.pattern();
@@ -52,7 +52,7 @@ std::vector<Entry> local_entries(const CoupledSystem& coupled) {
   return entries;
 }
 
-// Components whose constants bodies feel need no grounding.
+// Right-hand side and component of each row; -1 for components that bodies feel, which need no grounding.
 std::vector<RowData> local_rows(const CoupledSystem& coupled, const Vector& b) {
   std::vector<RowData> rows;
   const auto& component = coupled.liquid().null_space().component;
@@ -65,7 +65,7 @@ std::vector<RowData> local_rows(const CoupledSystem& coupled, const Vector& b) {
   return rows;
 }
 
-// -H/c
+// Appends -H/c and zero right-hand sides.
 void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std::vector<RowData>& rows) {
   if (!coupled.is_coupled()) return;
   const SparseMatrix& H = coupled.bodies();
@@ -79,7 +79,7 @@ void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-// Rows and columns of grounded unknowns keep their diagonal alone.
+// Rows and columns of grounded unknowns keep only their diagonal.
 Matrix grounded_matrix(const std::vector<Entry>& entries, const std::vector<char>& grounded) {
   std::vector<Eigen::Triplet<double>> kept;
   for (const Entry& e : entries) {
@@ -91,7 +91,7 @@ Matrix grounded_matrix(const std::vector<Entry>& entries, const std::vector<char
   return A;
 }
 
-// The better of two eliminations, each with one step of iterative refinement.
+// Factors A, solves, and refines once. False if the residual stays large.
 template <class Factors>
 bool eliminate(const Matrix& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   Factors factors;
@@ -104,7 +104,7 @@ bool eliminate(const Matrix& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   return true;
 }
 
-// Solves on rank 0; an empty vector means failure.
+// Solves on rank 0, by LDL' and, if that fails, by LU. An empty vector means failure.
 std::vector<double> solve_gathered(const std::vector<Entry>& entries, const std::vector<RowData>& rows,
                                    int components) {
   std::vector<char> grounded(rows.size(), 0), seen(components, 0);

@@ -8,9 +8,8 @@
 namespace seiche {
 namespace {
 
-// By itself BoomerAMG: a diagonal is no preconditioner of a Schur complement, and PFMG fails here and there (closed
-// boxes of odd sizes; a channel that a flap on its floor half closes, where it is not positive), which nothing would
-// notice.
+// "auto" means BoomerAMG. A diagonal is no preconditioner of a Schur complement. PFMG fails in some cases (closed boxes
+// of odd sizes; a channel half closed by a flap on its floor, where it is not positive), and nothing would detect that.
 std::string choose(const std::string& name, const BlockColumns& J) {
   return name == "auto" || J.any_deforms() ? "boomeramg" : name;
 }
@@ -57,13 +56,13 @@ void SchurPreconditioner::make_hierarchy(const SparseMatrix& H) {
   B_ = used_ == "boomeramg" ? make_boomeramg(*system, settings_) : make_preconditioner(used_, *system);
 }
 
-// Less costs fewer iterations than a new hierarchy takes.
+// Smaller changes cost fewer iterations than a new hierarchy.
 bool SchurPreconditioner::is_outdated(const SparseMatrix& H) const {
   return deforms_ && has_changed_much(H.diagonal(), diagonal_);
 }
 
-// S is chi'J H^-1 J'chi there. Where only rigid bodies feel them, directions bring that in: S0 is to be next to
-// nothing.
+// On an indicator chi the Schur complement is c chi'J H^-1 J'chi (H by its diagonal). If only rigid bodies feel chi,
+// the directions Jd supply this term, so S0 gets a small fraction of it.
 void SchurPreconditioner::find_constants(const SparseMatrix& H) {
   constexpr double next_to_nothing = 1e-5;
   constants_.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// Preconditioners of Schur complements on pressures: what liquid and bodies, eliminated, leave.
+// Preconditioner of the Schur complement for pressure: velocities of liquid and bodies are eliminated.
 #include <Eigen/Cholesky>
 
 #include "linalg/precond/hypre_adapter.h"
@@ -7,28 +7,29 @@
 
 namespace seiche {
 
-// An approximate inverse, symmetric and positive, of
-//   S0 + c Jd N^-1 Jd' (+ c J H^-1 J' of bodies that deform),   S0^-1 ~ A^-1 + diag(mass)   (Cahouet, Chabard 1988),
-// A^-1 by multigrid, the dense columns Jd by Woodbury, bodies that deform in the matrix that multigrid is made from.
+// Symmetric positive approximate inverse of
+//   S0 + c Jd N^-1 Jd' (+ c J H^-1 J' of deformable bodies),   S0^-1 ~ A^-1 + diag(mass)   (Cahouet, Chabard 1988).
+// A^-1 is applied by multigrid and the dense columns Jd by the Woodbury formula. Deformable bodies enter the matrix
+// from which the multigrid is made.
 class SchurPreconditioner {
  public:
-  // Keeps references to A and J. `mass` may be empty; `name` as in preconditioner_names(). Collective.
+  // Keeps references to A and J. `mass` may be empty; `name` is one of preconditioner_names(). Collective.
   SchurPreconditioner(const LinearSystem& A, const BlockColumns& J, double c, Vector mass, const std::string& name,
                       const AmgSettings& settings);
 
-  // In place of A^-1 and mass, where no body deforms.
+  // Replaces A^-1 and `mass`. Not for systems with deformable bodies.
   void set_liquid(std::unique_ptr<Preconditioner> inverse);
   void set_directions(std::vector<Vector> Jd);
-  // For the present H and N. Why it failed, else empty. Collective.
+  // Updates for the current H and N. Returns the reason of a failure, else an empty string. Collective.
   [[nodiscard]] std::string refresh(const BodyMatrix& H, const Eigen::MatrixXd& N);
   void apply(const Vector& r, Vector& z);
-  // Takes out the null space. Collective.
+  // Removes the null space. Collective.
   void project(Vector& v) const { coupled_.project(v); }
 
  private:
-  struct Constant {  // of a closed component that bodies feel
+  struct Constant {  // mode of a closed component that bodies feel
     std::vector<int> rows;
-    double inverse;  // S0^-1 on it, of sums over rows
+    double inverse;  // factor of S0^-1 for the sum over the rows
   };
   void make_hierarchy(const SparseMatrix& H);
   bool is_outdated(const SparseMatrix& H) const;
@@ -44,9 +45,9 @@ class SchurPreconditioner {
   std::string used_;
   AmgSettings settings_;
   bool deforms_;
-  std::unique_ptr<DistributedMatrix> matrix_;  // A + c J H^-1 J' where bodies deform
+  std::unique_ptr<DistributedMatrix> matrix_;  // A + c J H^-1 J' with deformable bodies
   std::unique_ptr<LinearSystem> filled_;
-  Eigen::VectorXd diagonal_;  // of the H it was made for
+  Eigen::VectorXd diagonal_;  // of the H that matrix_ was made for
   PreconditionerOrFailure B_;
   std::vector<Constant> constants_;
   std::vector<Vector> Jd_, Y_;  // Y = S0^-1 Jd

@@ -32,10 +32,10 @@ const char* name(Method method) {
   return "";
 }
 
-// What "auto" chose must earn its keep: so many iterations for each digit of the tolerance, or the next rung's turn.
+// Iterations per digit of the tolerance allowed to the choice of "auto" before the next attempt starts.
 constexpr double iterations_per_digit = 4;
 
-// What a solver that claims success wrongly leaves behind.
+// Overwrites x as a solver that wrongly claims success.
 void spoil(Vector& x, int rung) {
   const double wrong = rung % 2 == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   std::fill(x.begin(), x.end(), wrong);
@@ -63,7 +63,7 @@ struct SpdSolver::Rung {
   }
 };
 
-// A compatible right-hand side and what a solution must reach.
+// Compatible right-hand side and tolerance.
 struct SpdSolver::Problem {
   Vector b;
   double norm = 0;  // of b
@@ -71,9 +71,9 @@ struct SpdSolver::Problem {
 };
 
 struct SpdSolver::Built {
-  std::unique_ptr<DistributedMatrix> matrix;  // what it was made from, unless it was A
+  std::unique_ptr<DistributedMatrix> matrix;  // the matrix it was made from, if not A
   std::unique_ptr<LinearSystem> system;
-  Eigen::VectorXd diagonal;  // of H, which it knows of
+  Eigen::VectorXd diagonal;  // of H when it was made
   PreconditionerOrFailure made;
   std::unique_ptr<Deflation> deflation;
   int solves = 0, first_iterations = 0, last_iterations = 0;
@@ -95,7 +95,7 @@ int SpdSolver::setup_applications() const {
 
 std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) const {
   constexpr auto cg = Method::conjugate_gradients;
-  const int limit = options_.max_iterations, patience = std::max(2000, 10 * limit);  // the latter without a hierarchy
+  const int limit = options_.max_iterations, patience = std::max(2000, 10 * limit);  // patience: without a hierarchy
   const int start_limit = chosen == "none" ? patience : limit;
   std::vector<Rung> ladder;
   if (options_.preconditioner == "auto" && chosen == "multigrid") {
@@ -113,7 +113,7 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
   return ladder;
 }
 
-// Preconditioners that need not keep to the grid's stencil know of deformable bodies.
+// Preconditioners other than "multigrid", which needs the grid's stencil, include the coupling of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
   const LinearSystem* system = &liquid_;
   const bool filled = J_.any_deforms() && system_.is_coupled() && name != "multigrid";
@@ -124,8 +124,8 @@ void SpdSolver::make(const std::string& name, Built& built) const {
     system = built.system.get();
     built.diagonal = system_.bodies().diagonal();
   }
-  // Rows that deformable bodies fill are coarsened badly by aggressive coarsening (twice the iterations), and one sweep
-  // does not smooth them (a third more). Jumps: docs/decisions/0002-preconditioner-choice.md.
+  // Rows filled by deformable bodies: aggressive coarsening doubles the iterations, and a single sweep costs a third
+  // more. Jumps: docs/decisions/0002-preconditioner-choice.md.
   if (name != "boomeramg")
     built.made = make_preconditioner(name, *system);
   else if (filled)
@@ -145,8 +145,8 @@ SpdSolver::Built& SpdSolver::build(const std::string& name) {
   return *built;
 }
 
-// Stiffness or contact has come or gone, and it shows. Contact at a few nodes does not: there a new one costs far more
-// than it saves (docs/decisions/0018-hierarchies-in-contact.md).
+// True if stiffness or contact has changed and the solver has become slow. Contact at a few nodes alone does not slow
+// it down; a new hierarchy would cost far more than it saves (docs/decisions/0018-hierarchies-in-contact.md).
 bool SpdSolver::is_outdated(const Built& built) const {
   return built.diagonal.size() > 0 && built.has_become_slow() &&
          has_changed_much(system_.bodies().diagonal(), built.diagonal);
@@ -158,13 +158,13 @@ double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
   return norm(r, system_.ranks()) / problem.norm;
 }
 
-// Iterates, and starts again from where it stands while the true residual is not there yet.
+// Iterates; restarts from the current x until the true residual meets the tolerance.
 SpdSolver::Climb SpdSolver::iterate(const Rung& rung, const Problem& problem, Vector& x) {
   Built& built = build(rung.preconditioner);
   if (!built.made.preconditioner) return {0, built.made.failure};
   Deflation& B = *built.deflation;
   if (!B.refresh()) return {0, "the bodies' part of the preconditioner could not be factored"};
-  // A little less than the tolerance: the residual that the loops update drifts from the true one.
+  // Slightly below the tolerance, since the residual of the recurrence drifts from the true one.
   const double target = 0.95 * problem.tolerance * problem.norm;
   Climb total;
   for (int restart = 0; restart < 4; ++restart) {
@@ -187,8 +187,8 @@ SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vect
   return iterate(rung, problem, x);
 }
 
-// Among many bodies multigrid needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md), and with
-// any the columns of J seen through a hierarchy are a model of their added mass, seen through a diagonal they are not.
+// With many bodies PFMG needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md). With any bodies,
+// columns of B J model their added mass if B is a hierarchy, but not if B is a diagonal.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
   const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || J_.any_deforms()));
@@ -200,7 +200,7 @@ Eigen::MatrixXd SpdSolver::added_mass_estimate() const {
   return system_.scale() * last_built_->estimate_schur();
 }
 
-// x keeps the best finite vector met.
+// x holds the best finite vector so far.
 void SpdSolver::climb_ladder(const Problem& problem, Vector& x, SolveReport& report) {
   const std::string chosen = choose();
   Vector y = x;
@@ -224,12 +224,12 @@ void SpdSolver::climb_ladder(const Problem& problem, Vector& x, SolveReport& rep
   }
 }
 
-// Takes out of b what no x can reach, in place; |part taken out| / |b|.
+// Removes from b the part outside the range. Returns |removed part| / |b|.
 double SpdSolver::make_compatible(Vector& b) const {
   const double before = norm(b, system_.ranks());
   Vector removed = b;
   system_.project(b);
-  system_.project(b);  // once more for the rounding of the first means
+  system_.project(b);  // again, for the round-off of the first means
   for (std::size_t i = 0; i < b.size(); ++i) removed[i] -= b[i];
   return before > 0 ? norm(removed, system_.ranks()) / before : 0;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Symmetric positive (semi-)definite systems: preconditioned conjugate gradients with a ladder of preconditioners.
+// Symmetric positive (semi-)definite systems: preconditioned conjugate gradients with a fallback chain.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,49 +13,50 @@
 namespace seiche {
 
 struct SolveOptions {
-  double tolerance = 1e-8;   // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence left in the flow
-  int max_iterations = 400;  // of a rung with a hierarchy; rungs with "none" get ten times as many
+  double tolerance = 1e-8;   // of |b - A x| / |b|, 2-norms, recomputed; bounds the divergence of the flow
+  int max_iterations = 400;  // of an attempt with a hierarchy; with "none" ten times as many, 2000 at least
   std::string preconditioner = "auto";
-  bool jumps = false;  // coefficients differ by orders of magnitude, as those of liquid and gas do
-  int fail_rungs = 0;  // for tests: the first rungs of the ladder return a wrong x and claim success
+  bool jumps = false;  // coefficients differ by orders of magnitude (liquid and gas)
+  int fail_rungs = 0;  // for tests: the first attempts return a wrong x and claim success
 };
 
 struct SolveReport {
   bool converged = false;
-  int iterations = 0;               // over all rungs tried
+  int iterations = 0;               // over all attempts
   double residual = 0;              // recomputed |b - A x| / |b|
-  std::string used;                 // preconditioner of the last rung
-  std::vector<std::string> ladder;  // one line a rung that failed
-  std::int64_t identity_rows = 0;   // rows with a zero diagonal (cells with no open face): x = 0 there
-  double mismatch = 0;              // |part of b no x can reach| / |b|: net inflow of closed components, for instance
+  std::string used;                 // preconditioner of the last attempt
+  std::vector<std::string> ladder;  // one line for each failed attempt
+  std::int64_t identity_rows = 0;   // rows with a zero diagonal (cells without an open face): x = 0 there
+  double mismatch = 0;              // |part of b outside the range| / |b|, e.g. net inflow of closed components
 };
 
 class Deflation;
 class Preconditioner;
 
-// Solves with one matrix, several times: A x = b, or (A + c J H^-1 J') x = b with H changing from solve to solve. What
-// is built for A (hierarchies, J seen through them) is kept.
+// Solves several systems with one matrix: A x = b, or (A + c J H^-1 J') x = b with a different H each time. Hierarchies
+// for A and their products with J are kept.
 class SpdSolver {
  public:
-  // Takes copies of J, references to the rest. Collective. Throws Error(machine) for more rows than hypre can index.
+  // Copies J; keeps references to the other arguments. Throws Error(machine) for more rows than hypre can index.
+  // Collective.
   SpdSolver(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space, BlockColumns J, double c,
             const SolveOptions& options, const Communicator& ranks);
   ~SpdSolver();
 
-  // From the initial x. b is made compatible first (what no x can reach removed), x keeps out of the null space. Tries
-  // the preconditioner asked for, then the rungs of the ladder; never returns a result whose recomputed residual was
-  // not checked. H without rows leaves the second term out. The tolerance is relative to `scale`, or to |b| where that
-  // is 0.
+  // Solves from the initial x. The part of b outside the range is removed first; x has no part in the null space. Tries
+  // the chosen preconditioner, then the other attempts of the chain; the residual of every result is recomputed and
+  // checked. An H without rows drops the second term. The tolerance is relative to `scale`, or to |b| if `scale` is 0.
+  // Collective.
   [[nodiscard]] SolveReport solve(const BodyMatrix& H, const Vector& b, Vector& x, double scale = 0);
 
-  // Closed components of A that bodies feel: their mean pressure is what H and J decide.
+  // Closed components of A that bodies feel: H and J determine their mean pressure.
   const std::vector<int>& sensed_components() const { return system_.sensed_components(); }
-  int setup_applications() const;  // of preconditioners to columns of J, so far
-  // c (J'Z)(Z'AZ)^-1(Z'J): what the preconditioner last used knows of c J'A^-1 J, from below. Zero before any solve.
+  int setup_applications() const;  // applications of preconditioners to columns of J so far
+  // Estimate of c J'A^-1 J from below, c (J'Z)(Z'AZ)^-1(Z'J), by the preconditioner used last. Zero before any solve.
   Eigen::MatrixXd added_mass_estimate() const;
 
  private:
-  struct Built;  // a preconditioner, or why there is none
+  struct Built;  // a preconditioner, or the reason why there is none
   struct Problem;
   struct Rung;
   void make(const std::string& name, Built& built) const;
@@ -81,7 +82,7 @@ class SpdSolver {
   const Deflation* last_built_ = nullptr;
 };
 
-// Solves A x = b once, as SpdSolver does.
+// Solves A x = b once, as SpdSolver does. Collective.
 [[nodiscard]] SolveReport solve_spd(const DistributedMatrix& A, const RowGrid& grid, const NullSpace& null_space,
                                     const std::vector<double>& b, std::vector<double>& x, const SolveOptions& options,
                                     const Communicator& ranks);

@@ -94,12 +94,13 @@ std::vector<double> crossings(const Points& points, double level) {
   return found;
 }
 
-// Last crossing of each swing from beyond a quarter of the largest |y - level| to beyond it on the other side.
+// Swings go from beyond a band of a quarter of the largest |y - level| to beyond it on the other side. Returns the last
+// crossing of each swing.
 std::vector<double> swings(const Points& points, double level) {
   double band = 0;
   for (const auto& [x, y] : points) band = larger(band, 0.25 * std::abs(y - level));
   std::vector<double> found;
-  Points way;  // points since the last one beyond the band
+  Points way;  // points since the last one outside the band
   for (const auto& point : points) {
     way.push_back(point);
     if (std::abs(point.second - level) <= band) continue;

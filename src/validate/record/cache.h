@@ -22,10 +22,10 @@ void for_each_shape(AnyScene& scene, const Visit& visit) {
   }
 }
 
-// "3d5a0c11 of 1024 bytes". Throws Error(bad_input) where the file cannot be read.
+// Checksum of a file, such as "3d5a0c11 of 1024 bytes". Throws Error(bad_input) if the file cannot be read.
 std::string checksum_of(const std::filesystem::path& file);
 
-// A line of checksum for each file of the scene, in order. Throws Error(bad_input).
+// One checksum line for each file of the scene, in order. Throws Error(bad_input).
 std::string checksums_of_files(const Scene& scene);
 
 // Identity of a run besides its scene: version and digest of the build (base/version.h), ranks, operators broken for a

@@ -4,7 +4,7 @@
 
 namespace seiche {
 
-// Tables, plots, pictures and the cases' README pages. Reads the runs and renders their pictures.
+// Tables, plots, pictures and the cases' README pages. Reads the runs and renders their last frames.
 std::string format_html(const Report& report);
 
 }  // namespace seiche

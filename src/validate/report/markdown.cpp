@@ -65,7 +65,8 @@ std::string list_of_machines(const PageContext& page) {
   return text + fmt::format("- this page was written on {}\n\n", page.report.machine);
 }
 
-// The run that tells most of a case: of those with the smallest cells the one nearest to its bar, or farthest beyond.
+// The most informative run of a case: of those with the smallest cells, the one with the largest error relative to its
+// bar.
 const ReportedResult& finest_of(const std::vector<ReportedResult>& rows) {
   return *std::ranges::max_element(rows, {}, [](const ReportedResult& row) {
     const bool measured = is_measured(row.result);

@@ -20,7 +20,7 @@ bool is_other_text(const fs::path& file, std::string_view first_line) {
   return !there.empty() && !there.starts_with(first_line);
 }
 
-// What is there and was not written by a validation stays. Throws Error(bad_input).
+// Keeps files that no validation wrote. Throws Error(bad_input).
 void refuse_other_text(const fs::path& file, std::string_view first_line) {
   if (is_other_text(file, first_line))
     throw Error(ExitCode::bad_input, fmt::format("{} is there and is no page of seiche validate: name another file for "
@@ -32,7 +32,7 @@ void remove_pages_but(const std::vector<std::string>& files, const fs::path& fol
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& file = entry.path();
     if (file.extension() != ".md" || std::ranges::count(files, file.filename().string()) > 0) continue;
-    std::error_code ignored;  // one that stays is linked from nowhere
+    std::error_code ignored;  // a page that cannot be removed has no links to it
     if (entry.is_regular_file() && !is_other_text(file, case_page_title)) fs::remove(file, ignored);
   }
 }

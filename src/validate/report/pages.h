@@ -1,5 +1,5 @@
 #pragma once
-// The files of --write-docs: a summary, and a page for each case in a folder of the summary's name.
+// Files of --write-docs: a summary and a folder of the same name with one page a case.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace seiche {
 
-// "docs/validation" for the summary "docs/validation.md".
+// Folder of the pages: "docs/validation" for the summary "docs/validation.md".
 std::filesystem::path folder_of_pages(const std::filesystem::path& summary);
 
-// What would be found only after hours of runs: makes the folder, replaces nothing. Throws Error(bad_input) where the
-// summary has no extension or a text stands in the way that no validation wrote, Error(output_failed) where the folder
-// cannot be made.
+// Checks before hours of runs that the pages can be written: makes the folder, replaces nothing. Throws
+// Error(bad_input) if the summary has no extension or a file of the same name was not written by a validation,
+// Error(output_failed) if the folder cannot be made.
 void check_pages(const std::filesystem::path& summary, const std::vector<std::string>& cases);
 
-// Writes all pages and removes those of cases that are no more. Throws Error(output_failed).
+// Writes all pages and removes those of deleted cases. Throws Error(output_failed).
 void write_pages(const std::filesystem::path& summary, const Report& report);
 
 }  // namespace seiche

@@ -4,8 +4,8 @@
 
 namespace seiche {
 
-// Headings one level deeper, and links to files as seen from a page such as "docs/validation/fsi3.md": those of
-// `folder`, such as "validation/fsi3", become "../../validation/fsi3/...". Blocks of code stay as they are.
+// Makes headings one level deeper and rewrites links as seen from a page such as "docs/validation/fsi3.md": links to
+// files of `folder`, such as "validation/fsi3", become "../../validation/fsi3/...". Code blocks are unchanged.
 std::string embed_readme(const std::string& text, const std::string& folder);
 
 // "../../validation/fsi1/scene.toml" from "validation/fsi3" and "../fsi1/scene.toml".

@@ -58,7 +58,7 @@ Report whole_of(const std::vector<Planned>& runs, const Report& report, const st
   return whole;
 }
 
-// Writes the whole level as Markdown, including what concurrent validations have added to the record.
+// Writes the whole level as Markdown, including rows that concurrent validations have added to the record.
 void write_docs(const std::vector<Planned>& runs, const Report& report, const ValidateOptions& options) {
   std::optional<FolderLock> lock;
   std::optional<ValidationRecord> record;
@@ -119,7 +119,7 @@ std::vector<std::string> names_of(const std::vector<Planned>& runs) {
   return names;
 }
 
-// Checks now what would otherwise fail only after hours of runs. Throws Error(bad_input, output_failed). Collective.
+// Checks options and output files before hours of runs. Throws Error(bad_input, output_failed). Collective.
 void check_options(const ValidateOptions& options, const std::vector<Planned>& runs, const Communicator& ranks) {
   agree(ranks, "reading the options", [&] {
     parse_tampering(options.tampering);

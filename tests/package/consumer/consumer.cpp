@@ -1,5 +1,5 @@
-// A program of another project: describes a 2D column of water in code, advances it by three steps and prints what it
-// did. Exit code 1 where the volume is not that of the column.
+// A program of another project: builds a scene with a 2D column of water in code, advances it by three steps and prints
+// the result. Exit code 1 if the volume is not that of the column.
 #include <base/communicator.h>
 #include <base/scene.h>
 #include <coupling/state/simulation.h>
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   seiche::StepStats stats;
   for (int n = 0; n < 3; ++n) stats = simulation->step(scene.time.end);
   std::printf("t = %.4f s, volume = %.6f m^2, fastest %.3f m/s\n", stats.time, stats.liquid_volume, stats.max_speed);
-  // Three steps may lose a percent of a coarse column's volume, not more; it must have begun to fall.
+  // The coarse column may lose at most a percent in three steps, and must have begun to fall.
   const bool kept = std::abs(stats.liquid_volume - width * height) < 0.01 * width * height;
   return kept && stats.max_speed > 0 && simulation->step_count() == 3 ? 0 : 1;
 }

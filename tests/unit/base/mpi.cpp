@@ -1,4 +1,4 @@
-// How the program takes part in MPI.
+// Settings of MPI.
 #include <mpi.h>
 
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@ using namespace seiche;
 
 namespace {
 
-// A control variable of the MPI library; -1 where it has none of that name.
+// A control variable of the MPI library; -1 if there is none of that name.
 int control_variable(const char* name) {
   int provided = 0, index = 0, count = 0, value = -1;
   MPI_T_init_thread(MPI_THREAD_SINGLE, &provided);

@@ -8,7 +8,7 @@ TEST_CASE("edit distance counts insertions, deletions, substitutions and swaps")
   CHECK(edit_distance("", "") == 0);
   CHECK(edit_distance("abc", "") == 3);
   CHECK(edit_distance("", "abc") == 3);
-  CHECK(edit_distance("kitten", "sitting") == 3);  // Levenshtein's own example
+  CHECK(edit_distance("kitten", "sitting") == 3);  // a standard example
   CHECK(edit_distance("densty", "density") == 1);
   CHECK(edit_distance("shpae", "shape") == 1);
 }

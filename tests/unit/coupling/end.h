@@ -1,5 +1,5 @@
 #pragma once
-// How a scene built in code ends.
+// Runs a scene built in code and returns the error that ends it.
 #include <string>
 #include <utility>
 
@@ -8,7 +8,7 @@
 
 namespace seiche::test {
 
-// The error that ends the scene before the given time, or ("", done).
+// Error that ends the run before the given time, or ("", done).
 inline std::pair<std::string, ExitCode> end_of(const Scene& s, double until) {
   try {
     const auto sim = make_simulation(s, Communicator());

@@ -1,4 +1,4 @@
-// The most kinetic energy a step can end with, by closed-form motions.
+// Bound on the kinetic energy at the end of a step, against closed-form motions.
 #include "coupling/report/energy_budget.h"
 
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double margin2 = speed_margin * speed_margin;
 
-// Energy over the bound without its margin: at most 1 for a motion that is possible.
+// Energy over the bound without its margin: at most 1 for a possible motion.
 double used(double energy, const EnergyBudget& budget) {
   return margin2 * energy / most_kinetic_energy(budget);
 }
@@ -39,7 +39,8 @@ TEST_CASE("a stretched spring and a surface may let go all that they store, and 
   CHECK(used(8, b) == Approx(1));
 }
 
-// A piston of area A that starts at once: p = rho L U/dt, dt p.b = rho L A U^2, twice the energy that the column gets.
+// A piston of area A that starts impulsively: p = rho L U/dt, dt p.b = rho L A U^2, twice the energy that the column
+// gains.
 TEST_CASE("a piston that starts at once pays for what it pushes by pressure") {
   const double rho = 1000, length = 2, area = 0.5, speed = 3, dt = 1e-3;
   EnergyBudget b;

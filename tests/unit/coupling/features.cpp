@@ -51,7 +51,7 @@ TEST_CASE("what switches steps by halves off is told, and is what the step looks
   REQUIRE(told(scene).size() == 1);
   CHECK_THAT(told(scene)[0], Contains("off: steps by halves (because of: solids thinner than a cell)"));
   CHECK_FALSE(may_go_by_halves(Setup<2>(scene, Communicator())));
-  scene.time.scheme = TimeScheme::first_order;  // as asked for
+  scene.time.scheme = TimeScheme::first_order;  // as requested
   CHECK(told(scene).empty());
 }
 

@@ -1,4 +1,4 @@
-// Where pinned ends of elastic solids stand on others, and what that closes.
+// Pinned ends of elastic solids on other solids, and cavities that they close.
 #include <catch2/catch.hpp>
 
 #include "base/domain_spec.h"
@@ -11,7 +11,7 @@ using test::box;
 
 namespace {
 
-// A wall whose upper end is pinned `gap` below a plate that moves by `motion`.
+// A wall with its upper end pinned `gap` below a plate that moves by `motion`.
 std::vector<Body<2>> wall_and_plate(double gap, const Formula& motion) {
   SolidSpec wall = box(SolidKind::elastic, {0.4, 0, 0}, {0.6, 0.53, 0});
   PinSpec pin;
@@ -32,7 +32,7 @@ std::vector<Body<2>> wall_and_plate(double gap, const Formula& motion) {
 TEST_CASE("facets pinned at a solid that moves alike are joined to it", "[elastic][sealed]") {
   const double clearance = 1e-3;
   const auto joints = find_joints(wall_and_plate(5e-4, "-t"), clearance);
-  CHECK(joints.size() == 4);  // two quadratic elements' sides
+  CHECK(joints.size() == 4);  // sides of two quadratic elements
   for (const JoinedFacet<2>& joint : joints) CHECK(joint.body == 0);
   CHECK(find_joints(wall_and_plate(2e-3, "-t"), clearance).empty());
   CHECK(find_joints(wall_and_plate(5e-4, "-2*t"), clearance).empty());
@@ -46,7 +46,7 @@ TEST_CASE("joints leave no slit between an elastic solid and what it stands on",
   DomainSpec domain;
   domain.cell_size = 0.1;
   const Sides<2> sides(domain, WallFlow::slips);
-  // The face x = 0.5, 0.5 < y < 0.6 runs from within the wall, 0.03 m below its end, into the plate.
+  // The face x = 0.5, 0.5 < y < 0.6 reaches from inside the wall, 0.03 m below its end, into the plate.
   for (const bool joined : {true, false}) {
     const auto bodies = wall_and_plate(5e-4, joined ? "-t" : "-2*t");
     const SolidGeometry<2> solids(layout, sides, bodies);

@@ -1,4 +1,4 @@
-// What each kind of solid of the table must keep to, whichever it is.
+// Requirements that every kind of solid in the table must meet.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <map>
@@ -37,7 +37,7 @@ Scene two_of(int dim, const SolidKindRow& row) {
   return scene;
 }
 
-// By the bits: some numbers are none.
+// Compares bits, since some values are NaN.
 using Bits = std::vector<std::uint64_t>;
 
 struct Recorder : StateVisitor {
@@ -74,7 +74,7 @@ void check_row(const SolidKindRow& row) {
     CHECK(p.generalised({}).size() == p.unknowns());
     CHECK(recorded(start.solids).empty() == !row.kind.is_free());
   }
-  // All of the state moves with copies, and copies alone.
+  // Advancing a copy changes all of its state and nothing of the original.
   const auto before = recorded(start.solids);
   State<Dim> moved = start;
   for (std::size_t k = 0; k < start.solids.size(); ++k) {

@@ -1,4 +1,4 @@
-// Formulas that give no finite number, at the start and later.
+// Formulas without a finite value, at the start and later.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -9,7 +9,7 @@ using namespace seiche;
 
 namespace {
 
-// A pool with a sphere of its own velocity above it and a source in the air.
+// A pool, above it a sphere of liquid with its own velocity, and a source in the air.
 Scene pool() {
   Scene s = test::box_scene(2, 16);
   s.gravity = {0, -9.81, 0};
@@ -40,7 +40,7 @@ struct Row {
   std::function<void(Scene&, const Formula&)> put;
 };
 
-// Each place for a formula of x, y and t.
+// Every key that takes a formula of x, y and t.
 const std::vector<Row> table{
     {"liquid.velocity[1] = ", [](Scene& s, const Formula& f) { s.liquid.velocity[1] = f; }},
     {"liquid.region.1.velocity[0] = ", [](Scene& s, const Formula& f) { (*s.liquid.regions[1].velocity)[0] = f; }},
@@ -103,7 +103,7 @@ TEST_CASE("a shape's formula that is not finite is said with its place in the sc
 
 TEST_CASE("a formula that stops being finite ends the run in that step, by name") {
   for (const Row& row : table) {
-    if (row.said.find("liquid.velocity") == 0 || row.said.find("liquid.region") == 0) continue;  // used at t = 0 alone
+    if (row.said.find("liquid.velocity") == 0 || row.said.find("liquid.region") == 0) continue;  // used at t = 0 only
     Scene s = pool();
     row.put(s, "0*sqrt(0.04-t)");
     const auto [text, code] = test::end_of(s, 0.1);

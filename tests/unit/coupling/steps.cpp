@@ -1,4 +1,4 @@
-// Pinned steps, sources that open and close within steps, and what is reported at the start and in the air.
+// Fixed steps, sources that open and close within steps, and values reported at the start and in the air.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -9,7 +9,7 @@ using namespace seiche;
 
 namespace {
 
-// Periodic, full, moving at 2 m/s; cells of 1/16 m.
+// A full periodic box moving at 2 m/s; cells of 1/16 m.
 Scene stream(double cfl, double fixed_step) {
   Scene s = test::box_scene(2, 16);
   test::make_periodic(s);
@@ -42,7 +42,7 @@ void check_end(const Scene& s, ExitCode expected, const std::vector<std::string>
   for (const std::string& part : texts) CHECK(text.find(part) != std::string::npos);
 }
 
-// Liquid in the box after 0.1 s of a source across it, open from 0.033 to 0.047 s at 1 m/s in still air.
+// Volume of liquid after 0.1 s with a source across the box, open from 0.033 to 0.047 s at 1 m/s in still air.
 double volume_brought(int dim, double longest_step) {
   Scene s = test::box_scene(dim, 32);
   LiquidSourceSpec tap;
@@ -100,7 +100,7 @@ TEST_CASE("a source brings its shape and what flows through it while it is open,
     WARN(dim << "D: expected " << expected << ", in one step " << within << ", in steps of 0.02 s " << split
              << ", of 0.002 s " << many);
     for (const double volume : {within, split, many})
-      CHECK(volume == Approx(expected).margin(1e-6));  // flat fronts: exact but for rounding and the solves
+      CHECK(volume == Approx(expected).margin(1e-6));  // flat fronts: exact up to round-off and the solves
   }
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("moving solids are reported with their velocity at the start") {
   const auto sim = make_simulation(s, Communicator());
   const SolidState at_start = sim->solids().at(0);
   const double turn = 90 * 3.14159265358979323846 / 180;
-  // Reference point 0.1 m to the left of the centre it turns about.
+  // The reference point is 0.1 m to the left of the centre of rotation.
   CHECK(at_start.velocity[0] == Approx(0.6).epsilon(1e-8));
   CHECK(at_start.velocity[1] == Approx(-0.1 * turn).epsilon(1e-8));
   CHECK(at_start.angular_velocity[2] == Approx(turn).epsilon(1e-8));
@@ -122,7 +122,7 @@ TEST_CASE("a motion that is defined from the start on alone has a velocity there
   Scene s = test::box_scene(2, 16);
   s.solids = {mover("sqrt(t*t*t)+0.5*t")};
   const auto sim = make_simulation(s, Communicator());
-  // The 3/2 power leaves an error of order sqrt(tau), tau = 1e-4 frames = 4e-6 s.
+  // The power 3/2 leaves an error of order sqrt(tau), tau = 1e-4 frames = 4e-6 s.
   CHECK(sim->solids().at(0).velocity[0] == Approx(0.5).epsilon(3e-3));
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("pressure and velocity probes measure nothing in the air") {
     for (const ProbeKind kind : {ProbeKind::pressure, ProbeKind::velocity})
       for (const double y : {0.25, 0.75}) s.probes.push_back({"p", kind, {0.5, y, z}, {}});
     const auto sim = make_simulation(s, Communicator());
-    CHECK_FALSE(sim->probe(0).defined);  // nothing has been solved for yet
+    CHECK_FALSE(sim->probe(0).defined);  // before any solve
     CHECK(sim->probe(2).defined);
     (void)sim->step(0.01);
     CHECK(sim->probe(0).defined);
@@ -147,7 +147,7 @@ TEST_CASE("pressure and velocity probes measure nothing in the air") {
   }
 }
 
-// Without gravity and with liquid at rest nothing but these tells how fast the flow will be.
+// Without gravity and with liquid at rest, only moving sides, sources and solids tell how fast the flow will be.
 TEST_CASE("the first step is bounded by sides, sources and solids that move") {
   const double h = 1.0 / 16, year = 1;
   const auto first_step = [&](Scene s) {
@@ -183,7 +183,7 @@ TEST_CASE("the first step is bounded by sides, sources and solids that move") {
   }
 }
 
-// Turning at 10 rad/s in a step of 0.05 s would stretch it by an eighth.
+// Rotation at 10 rad/s in a step of 0.05 s would stretch the body by an eighth.
 TEST_CASE("the first step strains elastic bodies little by the velocities that they begin with") {
   for (int dim : {2, 3}) {
     Scene s = test::box_scene(dim, 16);

@@ -1,4 +1,4 @@
-// Operators that are made wrong on purpose.
+// Operator perturbations.
 #include <catch2/catch.hpp>
 
 #include "base/error.h"

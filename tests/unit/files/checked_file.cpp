@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Lets no file of this process grow beyond so many bytes.
+// Limits the size of this process's files.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

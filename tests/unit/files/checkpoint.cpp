@@ -111,7 +111,7 @@ TEST_CASE("an intact checkpoint of another version, byte order or precision is f
 }
 
 TEST_CASE("boxes cut from other boxes hold the same entries") {
-  // Two old slabs along z, three new ones along x.
+  // Two old slabs along z, three new slabs along x.
   const std::vector<FieldRecord> old{field("p", {0, 0, 0}, {7, 5, 1}), field("p", {0, 0, 1}, {7, 5, 4})};
   for (const auto& [low, high] : {std::pair{0, 2}, std::pair{2, 3}, std::pair{3, 7}}) {
     BoxFiller filler({{"p", {low, 0, 0}, {high, 5, 4}, {}}});

@@ -1,4 +1,4 @@
-// Frames of elastic solids: files for ParaView and Blender, read back by a program that shares no code with ours.
+// Frames of elastic solids: files for ParaView and Blender, read back by an independent program.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
@@ -18,7 +18,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// One body, its displacements a smooth function of the frame.
+// One body with displacements that are a smooth function of the frame.
 template <int Dim>
 class Deforming : public FakeSimulation {
  public:
@@ -102,15 +102,15 @@ TEMPLATE_TEST_CASE_SIG("frames of elastic solids are read by others", "[elastic]
     const Scene scene = scene_of(Dim);
     write_frames(scene, paths, simulation, 0, 3);
     check_by_reader(paths);
-    CHECK(entries(folder.path()) == 1);  // nothing beside frames/, whatever the solid is called
+    CHECK(entries(folder.path()) == 1);  // nothing beside frames/ for any name of the solid
     CHECK(samples_of(paths.frames() / "_._the_gate.pc2") == 4);
-    // The picture-maker's reader takes the surfaces of solids.NNNN.vtu, whatever their shape.
+    // The renderer's reader accepts the surfaces in solids.NNNN.vtu for any shape.
     const auto solids = render::read_solids(paths.frames() / "solids.0003.vtu");
     CHECK(solids.mesh.points.size() == 2 * simulation.solid_surface(1).points.size());
   }
 }
 
-// A run killed after frame 3 goes on from a checkpoint at frame 1; then from one at frame 4 without its cache.
+// A run killed after frame 3 resumes from a checkpoint at frame 1; then from one at frame 4 without its cache.
 TEST_CASE("a point cache survives a resume", "[elastic]") {
   const ScratchFolder folder;
   const RunPaths paths{folder.path()};
@@ -125,7 +125,7 @@ TEST_CASE("a point cache survives a resume", "[elastic]") {
   write_frames(scene, paths, simulation, 3, 4);
   check_by_reader(paths);
   const std::string whole = contents(cache);
-  // The same bytes as of a run that was not broken off.
+  // Same bytes as those of an uninterrupted run.
   const ScratchFolder other;
   make_folder(RunPaths{other.path()}.frames());
   write_frames(scene, RunPaths{other.path()}, simulation, 0, 4);
@@ -170,7 +170,7 @@ TEST_CASE("info tells what is in the frames of elastic solids", "[elastic]") {
   };
   const std::string elastic = text(paths.frames() / "elastic.0003.vtu");
   CHECK_THAT(elastic, Contains("solids at t = 0.3 s"));
-  // at y = 1, x = 1: 0.3 along x, 0.06 along y
+  // At y = 1, x = 1: 0.3 along x, 0.06 along y.
   CHECK_THAT(elastic, Contains("../the gate: 125 points, 48 elements; at most 0.3059 m displaced, 0.3059 m/s"));
   CHECK_THAT(text(paths.frames() / "solids.0003.vtu"), Contains("../the gate: 98 points, 192 facets\n"));
   CHECK_THAT(text(folder.path()), Contains("deforming surface _._the_gate.pc2: 98 points in 4 frames from frame 0"));

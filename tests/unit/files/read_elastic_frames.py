@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Reads what a run writes of its elastic solids, sharing no code with Seiche, and checks that it fits together:
-elastic.NNNN.vtu (types, fields, positive volumes), elastic.pvd, and for each point cache NAME.pc2 with NAME.obj: one sample a
-frame, each point at the place that a node has in the frame, the .obj at the places of the same nodes at rest.
+"""Reads a run's output of elastic solids, independently of Seiche's code, and checks that it is consistent:
+elastic.NNNN.vtu (types, fields, positive volumes), elastic.pvd, and for each point cache NAME.pc2 with NAME.obj: one
+sample per frame, each point at the position of a node in the frame, the .obj at the nodes' rest positions.
 
 Usage: read_elastic_frames.py FRAMES_FOLDER    Exit code 0 if all is well, else 1 with a line for each fault."""
 import base64
@@ -78,7 +78,7 @@ def cache_faults(file, frames):
         return
     undeformed = frames[0]["Points"] - frames[0]["displacement"]
     size = numpy.ptp(undeformed, axis=0).max()
-    # The node at rest nearest to each point of the .obj is the one that the sample must follow.
+    # Each sample point must follow the node whose rest position is nearest to the point of the .obj.
     nodes = numpy.linalg.norm(undeformed[None] - rest[:, None], axis=2).argmin(axis=1)
     if numpy.abs(undeformed[nodes] - rest).max() > 1e-6 * size:
         yield f"{file.name}: its .obj is not the surface at rest"

@@ -1,5 +1,5 @@
 #pragma once
-// A folder of its own for a test, removed with all its contents at the end.
+// A temporary folder for one test, removed with its contents at the end.
 #include <unistd.h>
 
 #include <filesystem>

@@ -40,7 +40,7 @@ TEST_CASE("the mark of a table is that of its bytes, also after it is opened aga
   }
   CHECK(first.bytes == 8);
   CHECK(first.checksum == crc32c("a,b\n1,2\n"));
-  CHECK(fault_of_table(path, first).empty());  // rows after the mark do no harm
+  CHECK(fault_of_table(path, first).empty());  // rows after the mark are ignored
   TableFile again(path, first.bytes, "a,b\n");
   CHECK(again.mark().checksum == first.checksum);
 }

@@ -9,7 +9,7 @@ using namespace seiche;
 
 namespace {
 
-// A field of 16 cubes of size 0.5 along each axis, given in cells.
+// A field on 16 cubes of size 0.5 along each axis, in units of cells.
 template <int Dim>
 struct Sampled {
   static constexpr double h = 0.5;
@@ -41,8 +41,8 @@ void for_points(const F& f) {
 
 }  // namespace
 
-// Straight on both sides: wherever its middle lies, a thread or gap along an axis is what the samples came from, near
-// its surface. Its middle is more than 0.3 cells from the zero, so that it is no corner.
+// Near its surface, a thread or gap along an axis, linear on both sides, is interpolated exactly for any position of
+// its middle. The middle is more than 0.3 cells from the zero, so that it is no corner.
 TEMPLATE_TEST_CASE_SIG("a thread or gap along an axis is interpolated without error", "", ((int Dim), Dim), 2, 3) {
   for (const double sign : {1.0, -1.0})
     for (const double middle : {8.0, 8.1, 8.25, 8.5, 8.9}) {
@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE_SIG("a thread or gap along an axis is interpolated without er
       });
       INFO("middle " << middle << ", cubic " << of_cubic);
       CHECK(of_cubic > 0.05);
-      // A kink within 1/8 of a point differs by less than 1/4 in second differences there: not all of it is told.
+      // A kink within 1/8 of a point changes second differences by less than 1/4: it is detected only in part.
       CHECK(most < (std::abs(middle - std::round(middle)) < 0.125 ? 0.02 : 1e-12));
     }
 }
@@ -66,14 +66,14 @@ TEMPLATE_TEST_CASE_SIG("smooth surfaces are interpolated by the cubic, bit by bi
   for_points<Dim>([&](const Vec<Dim>& g) { CHECK(ball.one_sided(g) == ball.cubic(g)); });
 }
 
-// Corners, where the kinks of several axes meet.
+// Corners, where kinks of several axes meet.
 TEMPLATE_TEST_CASE_SIG("no axis is preferred at a kink, nor a sign", "", ((int Dim), Dim), 2, 3) {
   const Vec<Dim> n = Vec<Dim>::LinSpaced(0.4, 1).normalized(), middle = Vec<Dim>::LinSpaced(7.7, 8.1);
   const auto corner = [&](const Vec<Dim>& g) {
     const Vec<Dim> x = g - middle;
     return std::max(std::abs(n.dot(x)) - 1.2, x[0] - 0.6 * x[1]);
   };
-  const auto turned = [](const Vec<Dim>& g) {  // axes permuted, the first one mirrored
+  const auto turned = [](const Vec<Dim>& g) {  // permutes the axes and mirrors the first
     Vec<Dim> r;
     for (int a = 0; a < Dim; ++a) r[a] = g[(a + 1) % Dim];
     r[0] = 15 - r[0];

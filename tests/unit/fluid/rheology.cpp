@@ -1,4 +1,4 @@
-// Viscosities by shear rate, and shear rates on the grid, against what they are known to be.
+// Viscosities by shear rate, and shear rates on the grid, against known values.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -44,7 +44,7 @@ const std::vector<RheologySpec> liquids{bingham(2, 3, 1e-3), power_law("herschel
                                         power_law("power_law", 2, 0.3, 0, 1e-3),
                                         power_law("power_law", 2, 1.7, 0, 1e-3), carreau(5, 0.1, 0.7, 0.4)};
 
-// A grid of h = 1/8 on one rank whose velocity is linear: u_a = sum_b gradient(a, b) x_b.
+// A grid with h = 1/8 on one rank and a linear velocity: u_a = sum_b gradient(a, b) x_b.
 template <int Dim>
 struct Sheared {
   Communicator ranks;
@@ -66,7 +66,7 @@ struct Sheared {
     g.periodic.fill(periodic);
     return g;
   }
-  // The largest and the smallest viscosity.
+  // Largest and smallest viscosity.
   std::pair<double, double> range(const RheologySpec& spec) const {
     CellField<Dim> mu(layout);
     set_viscosity(layout, halo, spec, u, mu);
@@ -83,7 +83,7 @@ void check_linear_flow() {
   const double rate = std::sqrt(2 * D.squaredNorm());
   for (const RheologySpec& spec : liquids) {
     const auto [most, least] = Sheared<Dim>(G, false).range(spec);
-    CHECK(most == Approx(viscosity(spec, rate)).epsilon(1e-12));  // rounding: the flow is linear
+    CHECK(most == Approx(viscosity(spec, rate)).epsilon(1e-12));  // round-off: the flow is linear
     CHECK(least == Approx(viscosity(spec, rate)).epsilon(1e-12));
   }
 }
@@ -118,7 +118,7 @@ TEST_CASE("viscosities are finite at rest and at any shear rate, and stress grow
 TEST_CASE("viscosity falls with the shear rate where liquid yields or thins") {
   for (const RheologySpec& spec : liquids) {
     if (spec.exponent > 1) continue;
-    double before = viscosity(spec, 0) * (1 + 1e-14);  // rounding
+    double before = viscosity(spec, 0) * (1 + 1e-14);  // round-off
     for (double rate = 1e-9; rate < 1e12; rate *= 1.5) {
       CHECK(viscosity(spec, rate) <= before);
       before = viscosity(spec, rate) * (1 + 1e-14);
@@ -156,7 +156,7 @@ TEST_CASE("the shear rate of a linear flow is exact in every cell, next to sides
   check_linear_flow<3>();
 }
 
-// rate = |cos(2 pi y)| 2 pi, at cell centres; second order where it is not zero.
+// rate = |cos(2 pi y)| 2 pi at cell centres; second order where it is nonzero.
 TEST_CASE("the shear rate of a wave is second order in space") {
   double before = 0;
   for (const int n : {16, 32, 64}) {
@@ -185,12 +185,12 @@ TEST_CASE("the shear rate of a wave is second order in space") {
   }
 }
 
-// Shear d_y u = 1 - 6 y + 3 y^2: the continuation from inside is exact for it.
+// Shear d_y u = 1 - 6 y + 3 y^2: extrapolation from inside is exact for it.
 TEST_CASE("the viscosity at edges is that of their own shear, in walls that of the profile continued") {
   Sheared<2> flow(Eigen::Matrix2d::Zero(), false);
   for_each_index(flow.layout, flow.layout.padded(), [&](Site f, const IVec<2>& i) {
     const double y = flow.layout.position(i, face_offset<2>(0))[1], h = flow.layout.h();
-    flow.u.at(0, f) = y - 3 * y * y + y * y * y - 0.25 * h * h * y;  // differences over h give the shear at edges
+    flow.u.at(0, f) = y - 3 * y * y + y * y * y - 0.25 * h * h * y;  // differences over h are the shear at edges
   });
   const FaceField<2, char> valid(flow.layout, 1);
   EdgeField<2> mu(flow.layout);
@@ -212,7 +212,7 @@ TEST_CASE("an edge at faces that are not valid has the rate of the cells around"
   const Site far = flow.layout.site({1, 1, 1});
   for (int plane = 0; plane < 3; ++plane) CHECK(mu[plane][std::size_t(far)] == Approx(2).epsilon(1e-12));
   CHECK(mu[2][std::size_t(flow.layout.site({6, 4, 4}))] == Approx(2).epsilon(1e-12));
-  CHECK(mu[2][std::size_t(wrong)] > 2);  // the stretch of the cells beside the face counts
+  CHECK(mu[2][std::size_t(wrong)] > 2);  // the strain rate of the adjacent cells counts
   CHECK(std::isfinite(mu[2][std::size_t(wrong)]));
 }
 

@@ -59,7 +59,7 @@ TEMPLATE_TEST_CASE_SIG("parabolas go on beyond walls, as points and as means", "
   const Box1<Dim> box;
   const double h = box.layout.h();
   for (const FaceValues values : {FaceValues::points, FaceValues::means}) {
-    // Component 0 along the lower wall of axis 1: y - y^2, its mean over a layer h^2/12 of y^2 more.
+    // Component 0 along the lower wall of axis 1: y - y^2. Its mean over a layer has h^2/12 more of y^2.
     const double more = values == FaceValues::means ? -h * h / 12 : 0;
     const auto f = [&](int a, const Vec<Dim>& x) {
       return a == 0 ? x[1] - x[1] * x[1] + more : a == 1 ? x[1] * x[1] : 0.0;
@@ -72,12 +72,12 @@ TEMPLATE_TEST_CASE_SIG("parabolas go on beyond walls, as points and as means", "
       i[1] = -k;
       const Site s = box.layout.site(i);
       CHECK(u.at(0, s) == Approx(exact.at(0, s)).margin(1e-13));
-      CHECK(u.at(1, s) == Approx(exact.at(1, s)).margin(1e-13));  // even
+      CHECK(u.at(1, s) == Approx(exact.at(1, s)).margin(1e-13));  // even continuation
     }
   }
 }
 
-// y - 3 y^2 with y = (k - 1/2)/12: beyond the first layer the even part is as large as the odd part at most.
+// y - 3 y^2 at y = (k - 1/2)/12: beyond the first layer the even part is limited to the odd part.
 TEST_CASE("farther out than the first layer a parabola is no steeper than its odd part twice") {
   const Box1<2> box;
   const auto f = [](int a, const Vec<2>& x) { return a == 0 ? x[1] - 3 * x[1] * x[1] : 0.0; };
@@ -97,13 +97,13 @@ TEMPLATE_TEST_CASE_SIG("the Laplacian is whole to fourth order, next to walls fo
     const Site d = box.layout.stride(b);
     return u.at(0, s - d) - 2 * u.at(0, s) + u.at(0, s + d);
   };
-  // x^4: u'' = 12 x^2 of points.
+  // x^4 at points: u'' = 12 x^2.
   const FaceField<Dim> quartic = box.faces([](int, const Vec<Dim>& x) { return std::pow(x[0], 4); });
   const IVec<Dim> middle = IVec<Dim>::Constant(n / 2);
   const Site m = box.layout.site(middle);
   const double lacking = missing_laplacian(box.layout, box.sides, quartic, 0, m, middle);
   CHECK((second_difference(quartic, m, 0) + lacking) / (h * h) == Approx(12 * 0.25));
-  // Means of y - 3 y^2; the operator's link to the wall is 2 u0.
+  // Means of y - 3 y^2. The operator's link to the wall is 2 u0.
   const auto along = [&](int, const Vec<Dim>& x) { return x[1] - 3 * x[1] * x[1] - 3 * h * h / 12; };
   FaceField<Dim> u = box.faces(along);
   continue_beyond_walls(box.layout, box.sides, 0, FaceValues::means, u);
@@ -119,7 +119,7 @@ TEST_CASE("means and points of a face differ by what its second differences say;
   const FaceField<2> u = box.faces([](int, const Vec<2>& x) { return 5 * x[1] * x[1]; });
   const double h = box.layout.h();
   CHECK(excess_of_mean(box.layout, u, 0, box.layout.site({5, 5})) == Approx(5 * h * h / 12));
-  CHECK(excess_of_mean(box.layout, u, 1, box.layout.site({5, 5})) == Approx(0).margin(1e-15));  // across is not within
+  CHECK(excess_of_mean(box.layout, u, 1, box.layout.site({5, 5})) == Approx(0).margin(1e-15));  // no tangential change
   DomainSpec channel = walls<2>();
   channel.sides[0][0].type = SideType::inflow;
   const FaceField<2, char> valid(box.layout, 1);

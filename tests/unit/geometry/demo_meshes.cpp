@@ -1,6 +1,6 @@
-// The meshes of the demo scenes: where they come from, and that they are sound. Each is the zero of a formula,
-// contoured and then moved onto the zero. A test that finds another mesh than the committed one leaves it in the
-// working folder.
+// Meshes of the demo scenes: their construction, and checks. Each is the zero of a formula, contoured and then
+// projected onto the zero (the wheel is extruded). If a test finds another mesh than the committed one, it writes its
+// own to the temporary folder.
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ double smooth_min(double a, double b, double k) {
   return std::min(a, b) - h * h * k / 4;
 }
 
-// One leg of the gyre: a tube that tapers while it winds up and inwards.
+// One leg of the gyre: a tube that tapers while it winds upwards and inwards.
 double leg(const Vec3& x, double angle) {
   constexpr int steps = 160;
   double least = INFINITY;
@@ -55,20 +55,20 @@ double leg(const Vec3& x, double angle) {
   return least;
 }
 
-// Three legs wound into one another, 0.4 m tall, cut flat at y = 0 to stand there.
+// Three intertwined legs, 0.4 m tall, cut flat at y = 0 so that it stands.
 double gyre(const Vec3& x) {
   const double pair = smooth_min(leg(x, 0), leg(x, 2 * pi / 3), 0.03);
   return std::max(smooth_min(pair, leg(x, 4 * pi / 3), 0.03), -x[1]);
 }
 
-// A distance to first order from an ellipsoid with these half axes.
+// Distance, to first order, from an ellipsoid with these half axes.
 double ellipsoid(const Vec3& x, const Vec3& center, const Vec3& axes) {
   const Vec3 r = (x - center).cwiseQuotient(axes);
   return r.norm() * (r.norm() - 1) / std::max(r.cwiseQuotient(axes).norm(), 1e-9);
 }
 
-// A bath duck 0.22 m long that looks along x: body with wings, a tail that points up, head and bill, joined smoothly.
-// Its middle is broad, so that it floats upright up to half under.
+// A bath duck 0.22 m long facing along x: body with wings, a raised tail, head and bill, joined smoothly. Its middle is
+// broad, so that it floats upright up to half submerged.
 double duck(const Vec3& point) {
   const Vec3 x(point[0], point[1], std::abs(point[2]));
   double d = ellipsoid(x, {0, 0.05, 0}, {0.082, 0.046, 0.066});
@@ -93,7 +93,7 @@ Vec3 gradient(const DemoMesh& demo, const Vec3& x) {
   return g;
 }
 
-// Newton steps along the gradient, none longer than a quarter of the spacing.
+// Newton steps along the gradient, each at most a quarter of the spacing.
 Vec3 onto_zero(const DemoMesh& demo, Vec3 x) {
   for (int i = 0; i < 4; ++i) {
     const Vec3 g = gradient(demo, x);
@@ -117,8 +117,8 @@ SurfaceMesh build(const DemoMesh& demo) {
   return mesh;
 }
 
-// A water wheel about the z axis: a hub with eight flat blades, 0.6 m across and 0.3 m wide. Its outline goes round
-// once; the cap is a fan over the hub and two triangles a blade.
+// A water wheel about the z axis: a hub with eight flat blades, 0.6 m across and 0.3 m wide. Its outline goes around
+// once; the cap is a fan over the hub and two triangles per blade.
 SurfaceMesh wheel() {
   constexpr int blades = 8;
   constexpr double hub = 0.1, radius = 0.3, half_width = 0.02, depth = 0.15;
@@ -179,8 +179,8 @@ std::filesystem::path committed(const std::string& name) {
   return root / "scenes" / "meshes" / (name + ".ply");
 }
 
-// As a file holds it: coordinates as floats. What differs is left among the temporary files, to be looked at
-// and copied.
+// Compares with the committed file (coordinates as floats). A different mesh is written to the temporary folder, for
+// inspection and copying.
 void check_committed(const std::string& name, const SurfaceMesh& made) {
   CAPTURE(name);
   std::ifstream file(committed(name), std::ios::binary);
@@ -207,7 +207,7 @@ TEST_CASE("the demo meshes are small, closed in one piece and lie on the zeros o
     const SurfaceMesh mesh = read_closed_mesh(committed(demo.name), notes);
     CHECK(notes.empty());
     const auto far = [&](const Vec3& p) { return std::abs(demo.phi(p)) > 0.02 * demo.spacing; };
-    // At the sharp rim of a foot a point cannot lie on both faces at once.
+    // At the sharp rim of a foot a point cannot lie on both faces.
     CHECK(std::count_if(mesh.points.begin(), mesh.points.end(), far) <= long(mesh.points.size() / 50));
   }
 }
@@ -230,7 +230,7 @@ TEST_CASE("the wheel is closed and has the volume of its hub and blades") {
   CHECK(notes.empty());
   double volume = 0;
   for (const auto& t : mesh.triangles) volume += mesh.points[t[0]].dot(mesh.points[t[1]].cross(mesh.points[t[2]])) / 6;
-  // A polygon of eight chords over the blades' feet and eight between them, and eight blades that begin at the feet.
+  // The hub is a polygon of eight chords over the blades' feet and eight between them; eight blades begin at the feet.
   const double foot_angle = std::asin(0.2), foot = 0.1 * std::cos(foot_angle);
   const double hub = 8 * (0.02 * foot + 0.005 * std::sin(2 * pi / 8 - 2 * foot_angle));
   CHECK(volume == Approx(0.3 * (hub + 8 * 0.04 * (0.3 - foot))).epsilon(1e-5));  // float coordinates

@@ -1,4 +1,4 @@
-// Surfaces cut at the cells of a grid.
+// Surfaces cut along the cells of a grid.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -28,8 +28,8 @@ double measure(const std::vector<FacetWeights<3>>& outline) {
   return sum;
 }
 
-// A facet with random corners in the unit box; the shares of its pieces, and the largest distance in cells by which a
-// corner of a piece is outside its cell.
+// Cuts a facet with random corners in the unit box. Returns the sum of the pieces' fractions, and the largest distance
+// (cells) of a piece's corner outside its cell.
 template <int Dim>
 std::pair<double, double> cut_random_facet(unsigned seed) {
   std::mt19937 engine(seed);

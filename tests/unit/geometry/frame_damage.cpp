@@ -1,4 +1,4 @@
-// Frames of very small cells, and damaged ones: refused in a line, without much memory.
+// Frames with very small cells, and damaged ones: rejected with one line and without much memory.
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
@@ -10,7 +10,7 @@ using mesh_files::TemporaryFolder;
 
 namespace {
 
-// A ball of a quarter of the domain, 16 cells across.
+// A ball with a radius of a quarter of the domain, 16 cells across.
 vdb::Frame ball(double cell_size) {
   vdb::Frame frame;
   frame.cell_size = cell_size;
@@ -27,7 +27,7 @@ vdb::Frame ball(double cell_size) {
   return frame;
 }
 
-// The refusal of a frame; empty where it is read.
+// Error message for a frame; empty if it is read.
 std::string refusal(const TemporaryFolder& folder, const std::string& bytes) {
   try {
     vdb::decode(folder.write("frame.vdb", bytes));
@@ -49,7 +49,7 @@ TEST_CASE("frames hold cells of any size") {
     CHECK(read.lower == written.lower);
     CHECK(read.grids.at(0).blocks.at(0).values == written.grids[0].blocks[0].values);
     const auto distance = vdb::read_distance(folder.path / "frame.vdb");
-    // The mean of eight voxels, half a cell off along each axis: 5 - 4 and (0.5^2 + 0.5^2)/(2 * 5) more.
+    // Mean of eight voxels, half a cell off along each axis: 5 - 4 plus (0.5^2 + 0.5^2)/(2 * 5).
     CHECK((*distance)(written.lower + h * Vec3(13, 8, 8)) == Approx(1.05 * h).epsilon(1e-3));
   }
 }

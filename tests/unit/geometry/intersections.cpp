@@ -1,4 +1,4 @@
-// Surfaces that cross themselves are found, surfaces that only bend sharply are not; exactly.
+// Exact detection of self-intersections: crossings are found, sharp bends are not reported.
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <random>
@@ -42,7 +42,7 @@ std::string refusal(const SurfaceMesh& mesh) {
 TEST_CASE("orientation is exact where doubles are not") {
   const Vec3 a(0, 0, 0), b(1e-3, 1, 0.1), c = 3 * b;
   CHECK(orientation(a, b, Vec3(3 * b[0], 3 * b[1], 0), 2) == orientation(a, b, c, 2));
-  // Points a unit in the last place off a line and a plane through them.
+  // Points one unit in the last place off a line, and a plane through them.
   const double e = std::ldexp(1.0, -52);
   CHECK(orientation(Vec3(0.5, 0.5, 0), Vec3(12, 12, 0), Vec3(24, 24 + 16 * e, 0), 2) == 1);
   CHECK(orientation(Vec3(0.5, 0.5, 0), Vec3(12, 12, 0), Vec3(24, 24, 0), 2) == 0);
@@ -62,15 +62,15 @@ TEST_CASE("pairs of triangles: apart, crossing, touching, sharing corners and ed
                             {0.25, 0.25, 0}, {0.25, 0.25, 1e-9}, {0.3, 0.4, 1e-9}, {-1, 0, 0}};
   CHECK(meet(x, {0, 1, 2}, {3, 4, 5}));          // through the middle
   CHECK_FALSE(meet(x, {0, 1, 2}, {4, 5, 9}));    // above
-  CHECK(meet(x, {0, 1, 2}, {6, 4, 5}));          // a corner on the face
-  CHECK(meet(x, {0, 1, 2}, {7, 10, 13}));        // in one plane
+  CHECK(meet(x, {0, 1, 2}, {6, 4, 5}));          // corner on the face
+  CHECK(meet(x, {0, 1, 2}, {7, 10, 13}));        // coplanar
   CHECK_FALSE(meet(x, {0, 1, 2}, {11, 12, 4}));  // 1e-9 above
-  CHECK_FALSE(meet(x, {0, 1, 2}, {0, 4, 9}));    // one common corner
-  CHECK(meet(x, {0, 1, 2}, {0, 3, 4}));          // the same, but the other side crosses
-  CHECK(meet(x, {0, 1, 2}, {0, 8, 9}));          // the same, an edge in the plane
-  CHECK_FALSE(meet(x, {0, 1, 2}, {0, 7, 13}));   // the same, in one plane, opposite
+  CHECK_FALSE(meet(x, {0, 1, 2}, {0, 4, 9}));    // one shared corner
+  CHECK(meet(x, {0, 1, 2}, {0, 3, 4}));          // one shared corner, opposite side crosses
+  CHECK(meet(x, {0, 1, 2}, {0, 8, 9}));          // one shared corner, an edge in the plane
+  CHECK_FALSE(meet(x, {0, 1, 2}, {0, 7, 13}));   // one shared corner, coplanar, opposite
   CHECK_FALSE(meet(x, {0, 1, 2}, {0, 1, 4}));    // folded up
-  CHECK_FALSE(meet(x, {0, 1, 2}, {0, 1, 11}));   // all but folded back
+  CHECK_FALSE(meet(x, {0, 1, 2}, {0, 1, 11}));   // almost folded back
   CHECK(meet(x, {0, 1, 2}, {0, 1, 10}));         // folded back
   CHECK_FALSE(meet(x, {0, 1, 2}, {1, 2, 8}));    // flat
 }
@@ -91,7 +91,7 @@ TEST_CASE("meshes that cross themselves are refused with the pair and its place"
   SurfaceMesh poked = sphere(Vec3(0, 0, 0), 1, 2);
   poked.points[0] *= -1.5;
   CHECK_THAT(refusal(poked), Catch::Contains("intersects itself"));
-  SurfaceMesh folded = cube();  // a point of the top pulled across one of its edges, in the plane
+  SurfaceMesh folded = cube();  // pulls a point of the top across one of its edges, within the plane
   folded.points.push_back(Vec3(0.5, -0.25, 1));
   folded.triangles[2] = {4, 5, 8};
   folded.triangles.push_back({5, 6, 8});
@@ -105,7 +105,7 @@ TEST_CASE("numbers of triangles are those of the file, whatever was dropped befo
   CHECK_THAT(refusal(mesh), Catch::Contains("the first 5 at (0.333333, 0.333333, 1)"));
 }
 
-// Two balls as far apart as makes them just touch or just not, turned at random.
+// Two balls at distances at which they just touch or just do not, rotated at random.
 TEST_CASE("the tree misses no pair that trying all would find") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> shift(-1, 1);

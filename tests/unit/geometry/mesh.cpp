@@ -1,4 +1,4 @@
-// Mesh files: every format gives the same surface, faults are mended with a note or refused with their place.
+// Mesh files: every format gives the same surface; faults are repaired with a note or rejected with their position.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -52,7 +52,7 @@ TEST_CASE("all formats give the same closed surface") {
     std::vector<std::string> notes;
     const SurfaceMesh mesh = read(folder, name, bytes, &notes);
     CHECK(notes.empty());
-    CHECK(mesh.points.size() == ball.points.size());  // STL repeats its points; they are welded
+    CHECK(mesh.points.size() == ball.points.size());  // STL repeats points; they are merged
     CHECK(mesh.triangles.size() == ball.triangles.size());
     CHECK(volume(mesh) == Approx(volume(ball)).epsilon(1e-6));  // float coordinates in STL
   }
@@ -164,7 +164,7 @@ TEST_CASE("edges of more than two triangles are refused with their count and pla
 
 TEST_CASE("surfaces with one side or no volume are refused") {
   const TemporaryFolder folder;
-  // The projective plane with six points, each edge in two triangles.
+  // The projective plane with six points; each edge is in two triangles.
   SurfaceMesh one_sided;
   for (int i = 0; i < 6; ++i) one_sided.points.push_back(Vec3(std::cos(i), std::sin(2.0 * i), 0.3 * i * i));
   one_sided.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
@@ -195,7 +195,7 @@ TEST_CASE("duplicate and degenerate triangles are dropped, with a note") {
   const TemporaryFolder folder;
   SurfaceMesh mesh = cube();
   mesh.triangles.push_back(mesh.triangles[4]);
-  mesh.triangles.push_back({3, 2, 1});  // as the second, the other way round
+  mesh.triangles.push_back({3, 2, 1});  // as the second one, reversed
   mesh.triangles.push_back({5, 5, 6});
   std::vector<std::string> notes;
   CHECK(read(folder, "messy.obj", obj(mesh), &notes).triangles.size() == 12);
@@ -207,7 +207,7 @@ TEST_CASE("duplicate and degenerate triangles are dropped, with a note") {
 TEST_CASE("triangles on a line close the surface and are then dropped") {
   const TemporaryFolder folder;
   SurfaceMesh mesh = cube();
-  mesh.points.push_back(Vec3(0.5, 0, 0));  // the edge 0-1 is whole in one face and split in the other
+  mesh.points.push_back(Vec3(0.5, 0, 0));  // the edge 0-1 is whole in one face and split in the other one
   mesh.triangles[4] = {0, 8, 4};
   mesh.triangles.push_back({8, 1, 4});
   mesh.triangles.push_back({0, 1, 8});

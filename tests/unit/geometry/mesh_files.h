@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces to try mesh readers on, and their files in every format.
+// Surfaces for tests of mesh readers, and their files in every format.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// Edges and triangles that come close: none missed, and few where very many share a point.
+// Close pairs of edges and triangles: none is missed, and only few are found if very many share a point.
 #include <catch2/catch.hpp>
 
 #include <random>
@@ -12,7 +12,7 @@ using namespace seiche::mesh_files;
 
 namespace {
 
-// A cone over a polygon of `count` corners whose distance from the axis varies by `wave`; its floor is a fan, too.
+// A cone over a polygon of `count` corners, whose distance from the axis varies by `wave`. The floor is a fan too.
 SurfaceMesh cone(int count, double wave) {
   SurfaceMesh mesh{{Vec3(0.1, 0.2, 1), Vec3(0.1, 0.2, 0)}, {}, {}};
   for (int i = 0; i < count; ++i) {

@@ -56,7 +56,7 @@ TEST_CASE("the distance to a sphere of triangles converges to the sphere's with 
   double previous = 0;
   for (const int refinement : {3, 4, 5}) {
     const auto file = folder.write("ball.ply", binary_ply(sphere(center, radius, refinement), "little"));
-    const double h = 0.8 * std::pow(0.5, refinement);  // cells about as large as triangles
+    const double h = 0.8 * std::pow(0.5, refinement);  // cells about the size of the triangles
     const auto phi = make_shape<3>(mesh_spec(file), {h, nullptr});
     double worst = 0;
     for (int i = 0; i < 4000; ++i) {  // spiral of directions, distances within four cells of the surface
@@ -66,7 +66,7 @@ TEST_CASE("the distance to a sphere of triangles converges to the sphere's with 
       worst = std::max(worst, std::abs((*phi)(x)-d));
     }
     CAPTURE(refinement, worst);
-    // Sagitta of edges of 1.7 h / 1.6 and trilinear interpolation 3 h^2 / 8 r', r' >= radius - 2 h.
+    // Sagitta of edges of length 1.7 h / 1.6, plus trilinear interpolation 3 h^2 / 8 r' with r' >= radius - 2 h.
     CHECK(worst < h * h / radius);
     if (previous > 0) CHECK(worst < previous / 3);  // order 2 gives 4
     previous = worst;
@@ -101,7 +101,7 @@ TEST_CASE("a mesh shape follows its transform and inversion") {
   spec.transform.translate = Vec3(0.1, 0.2, 0.3);
   const Vec3 center(0.1, 0.7, 0.3);
   const ShapeOptions options{0.02, nullptr};
-  // A chord of triangles of 1/32 of the circle lies 0.25 (2 pi / 128)^2 / 8 = 8e-5 inside; h^2 interpolation 4e-4.
+  // A chord of 1/32 of the circle lies 0.25 (2 pi / 128)^2 / 8 = 8e-5 inside; interpolation, h^2, adds 4e-4.
   CHECK((*make_shape<3>(spec, options))(Vec3(center + Vec3(0.28, 0, 0))) == Approx(0.03).margin(1e-3));
   const SurfaceMesh surface = shape_surface<3>(spec, options, Vec3(0, 0, 0), Vec3(1, 1, 1));
   CHECK(volume(surface) == Approx(4 * pi / 3 * std::pow(0.25, 3)).epsilon(0.01));

@@ -1,4 +1,4 @@
-// Which points lie inside of a mesh, and its distances on voxels near where they are asked for.
+// Points inside a mesh, and distances sampled on voxels near the queried points.
 #include <catch2/catch.hpp>
 
 #include "geometry/mesh/inside.h"
@@ -10,20 +10,20 @@ using namespace seiche::mesh_files;
 
 TEST_CASE("points of a grid lie inside or outside, though rays from them run along edges and through corners") {
   const SurfaceMesh shell = joined(cube(Vec3(0.25, 0.25, 0.25), 0.5), cube(Vec3(0.375, 0.375, 0.375), 0.25));
-  const SurfaceMesh ball = sphere(Vec3(0.5, 0.5, 0.5), 0.5, 1);  // its corners lie on the axes through the middle
+  const SurfaceMesh ball = sphere(Vec3(0.5, 0.5, 0.5), 0.5, 1);  // corners lie on the axes through the middle
   const mesh::NearestTriangle near_shell(shell), near_ball(ball);
   for (int n = 0; n < 17 * 17 * 17; ++n) {
     const Vec3 x = Vec3(n % 17, n / 17 % 17, n / 289) / 16;
     const double box = (x - Vec3::Constant(0.5)).cwiseAbs().maxCoeff();
     CAPTURE(x.transpose());
     if (box != 0.25 && box != 0.125) CHECK(mesh::contains(near_shell, x) == (box < 0.25 && box > 0.125));
-    const double r = (x - Vec3::Constant(0.5)).norm();  // the triangles lie beyond 0.4
+    const double r = (x - Vec3::Constant(0.5)).norm();  // the triangles lie beyond r = 0.4
     if (r < 0.4 || r > 0.5) CHECK(mesh::contains(near_ball, x) == (r < 0.4));
   }
 }
 
 TEST_CASE("a slit where triangles without area were dropped lets no ray through") {
-  SurfaceMesh mesh = cube();  // an edge of the top gets a point on one side of it alone, a hair off the edge
+  SurfaceMesh mesh = cube();  // one side of an edge of the top gets a point slightly off the edge
   mesh.points.push_back(Vec3(0.5, 1e-12, 1));
   mesh.triangles[2] = {4, 8, 6};
   mesh.triangles.push_back({8, 5, 6});

@@ -1,4 +1,4 @@
-// Shapes against closed forms, in both dimensions, transformed and inverted.
+// Shapes against closed forms, in 2D and 3D, transformed and inverted.
 #include <catch2/catch.hpp>
 
 #include <Eigen/Geometry>
@@ -53,7 +53,7 @@ ShapeSpec expression_spec(const Formula& phi) {
 const ShapeOptions options{0.0625, nullptr};
 const std::vector<std::string> primitives{"box", "sphere", "cylinder", "capsule", "plane"};
 
-// The least distance to many points of the outline of the 2D shape; an upper bound that converges.
+// Smallest distance to many points of the outline of the 2D shape; an upper bound that converges.
 double distance_to_outline(const std::vector<Vec<2>>& corners, const Vec<2>& x) {
   double least = INFINITY;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -76,7 +76,7 @@ void check_unit_gradient(const ShapeField<Dim>& phi) {
     regular += std::abs(gradient.norm() - 1) < 1e-4;  // second differences: e / distance to a kink
     CHECK(gradient.norm() < 1 + 1e-4);                // never more than a distance
   }
-  CHECK(regular >= 297);  // the rest fall on the medial axis, a set of measure zero
+  CHECK(regular >= 297);  // the others lie on the medial axis, a set of measure zero
 }
 
 double signed_volume(const SurfaceMesh& mesh) {
@@ -226,7 +226,7 @@ TEST_CASE("a linear expression is an exact distance, whatever its slope and tran
   spec.transform.translate = Vec3(0.2, 0, 0);
   const auto moved = make_shape<3>(spec, options);
   for (const Vec3& x : random_points<3>(50)) {
-    // Central differences over h/8 divide roundings of phi by h/8, so about 100 roundings.
+    // Central differences over h/8 amplify round-off of phi, so about 100 round-offs.
     CHECK((*phi)(x) == Approx((x[0] - 2 * x[1] + 2 * x[2] - 0.7) / 3).margin(100 * round_off));
     CHECK((*moved)(x) == Approx((x[0] - 0.2 - 2 * x[1] + 2 * x[2] - 0.07) / 3).margin(1000 * round_off));
   }
@@ -308,7 +308,7 @@ TEST_CASE("the contour of a sphere faces outwards and encloses its volume to sec
     const SurfaceMesh mesh = shape_surface<3>(spec, {h, nullptr}, Vec3(-1, -1, -1), Vec3(1, 1, 1));
     const double volume = 4.0 / 3 * pi * std::pow(0.35, 3);
     const double error = std::abs(signed_volume(mesh) / volume - 1);
-    CHECK(error < 2 * h * h / (0.35 * 0.35));  // chords lie h^2 / 8r inside, twice over with the averaging of vertices
+    CHECK(error < 2 * h * h / (0.35 * 0.35));       // chords lie h^2 / 8r inside; vertex averaging doubles this
     if (previous > 0) CHECK(error < previous / 3);  // order 2 gives 4
     previous = error;
   }

@@ -1,4 +1,4 @@
-// Frames are read back voxel for voxel by Seiche and by programs of others; corrupt ones are refused.
+// Frames are read back voxel by voxel by Seiche and by other programs; corrupt ones are rejected.
 #include <catch2/catch.hpp>
 
 #include <unistd.h>
@@ -32,7 +32,7 @@ std::filesystem::path write(const TemporaryFolder& folder, const std::string& na
   return folder.path / name;
 }
 
-// One dense block of a function of the cell centre; `width` values a voxel.
+// One dense block of a function of the cell centre, with `width` values per voxel.
 template <class Function>
 vdb::Block sample(const vdb::Frame& frame, const std::array<int, 3>& lower, const std::array<int, 3>& upper,
                   Function&& values) {
@@ -63,7 +63,7 @@ vdb::Frame empty_frame(int dimension) {
 
 const std::array<int, 3> extent3{33, 29, 21}, extent2{33, 29, 1};
 
-// A ball, with a velocity that turns inside it and is zero elsewhere, and a linear scalar; in two blocks.
+// A ball with a rotating velocity inside and zero outside, and a linear scalar; in two blocks.
 vdb::Frame ball_frame(int dimension) {
   vdb::Frame frame = empty_frame(dimension);
   const std::array<int, 3> all = dimension == 3 ? extent3 : extent2;
@@ -108,7 +108,7 @@ void require_equal_voxels(const vdb::Grid& written, const vdb::Grid& read) {
   CHECK(wrong == 0);
 }
 
-// OpenVDB keeps the grids of a file by name, not in the order they were written.
+// OpenVDB sorts the grids of a file by name, not by the order of writing.
 const vdb::Grid& find(const vdb::Frame& frame, const std::string& name) {
   const auto named = [&](const vdb::Grid& grid) { return grid.name == name; };
   const auto found = std::find_if(frame.grids.begin(), frame.grids.end(), named);
@@ -134,7 +134,7 @@ std::string refusal(const std::filesystem::path& file) {
   return "";
 }
 
-// Half a tank of liquid under a level surface, against all walls.
+// A half-full tank with a level surface that touches all walls.
 vdb::Frame tank_frame() {
   vdb::Frame frame = empty_frame(3);
   const double level = frame.lower[1] + 0.4;
@@ -240,11 +240,12 @@ TEST_CASE("the level set of a frame serves as a shape") {
     if (dimension == 2) return (*make_shape<2>(spec, {h, nullptr}))(truncate<2>(x));
     return (*make_shape<3>(spec, {h, nullptr}))(x);
   };
-  // Trilinear interpolation of a distance with curvature 1/r errs by at most 3 h^2 / (8 r) = 1.5e-3 at r = 0.25.
+  // Trilinear interpolation of a distance with curvature 1/r has an error of at most 3 h^2 / (8 r) = 1.5e-3 at r =
+  // 0.25.
   for (const double r : {0.2, 0.25, 0.3}) {
     CHECK(distance(Vec3(center + r * Vec3(0.6, 0.8, 0))) == Approx(r - 0.25).margin(1.5e-3));
   }
-  CHECK(distance(center) == Approx(-3 * h).epsilon(1e-6));  // the band's end, in float
+  CHECK(distance(center) == Approx(-3 * h).epsilon(1e-6));  // the end of the band, in float
   CHECK(distance(Vec3(center + Vec3(20, 0, 0))) > 15);      // far outside: distance to the domain
 }
 

@@ -19,7 +19,7 @@ Layout<3> cube(int n) {
 
 }  // namespace
 
-// Some slopes are steeper than the limit, others are not: the limit acts on one axis before the other or after it.
+// Some slopes exceed the limit, others do not. The limit may act on one axis before or after the other.
 TEST_CASE("values beyond edges and corners do not depend on the order of the axes") {
   const Layout<3> layout = cube(4);
   const auto value = [](const IVec<3>& i) { return std::sin(1.3 * i[0]) + 0.4 * i[1] * i[1] - 0.7 * i[2] * i[0]; };
@@ -34,7 +34,7 @@ TEST_CASE("values beyond edges and corners do not depend on the order of the axe
   for_each_index_in_order(layout, layout.padded(), [&](Site c, const IVec<3>& i) {
     worst = std::max(worst, std::abs(turned[c] - plain[layout.site({i[1], i[2], i[0]})]));
   });
-  CHECK(worst <= 1e-14);  // sums in another order
+  CHECK(worst <= 1e-14);  // sums in a different order
 }
 
 TEST_CASE("planes stay planes beyond edges and corners") {
@@ -46,5 +46,5 @@ TEST_CASE("planes stay planes beyond edges and corners") {
   double worst = 0;
   for_each_index_in_order(layout, layout.padded(),
                           [&](Site c, const IVec<3>& i) { worst = std::max(worst, std::abs(f[c] - plane(i))); });
-  CHECK(worst <= 1e-14);  // six sums of numbers about 1
+  CHECK(worst <= 1e-14);  // six sums of numbers of order 1
 }

@@ -1,4 +1,4 @@
-// Curvature at crossings: circles, spheres and ellipses, exact distances and not.
+// Curvature at crossings of circles, spheres and ellipses, for exact distances and others.
 #include <catch2/catch.hpp>
 
 #include "grid/loops.h"
@@ -21,7 +21,7 @@ struct Errors {
   int crossings = 0, by_differences = 0;
 };
 
-// phi(x) on the grid, kappa(x) exact near phi = 0.
+// phi(x) on the grid; kappa(x), exact near phi = 0.
 template <int Dim, class Phi, class Kappa>
 Errors measure(int n, const Phi& level, const Kappa& kappa) {
   const Layout<Dim> layout = unit_cube<Dim>(n);
@@ -63,7 +63,7 @@ TEMPLATE_TEST_CASE_SIG(
     INFO(n << " cells, error " << e.largest << ", before " << last.largest << "; " << e.by_differences << " of "
            << e.crossings << " by differences");
     CHECK(e.by_differences == 0);
-    // Those of volume-fraction heights (Basilisk, spurious.c, 25.6 and 102.4 cells a diameter).
+    // Errors of volume-fraction heights (Basilisk, spurious.c, 25.6 and 102.4 cells per diameter).
     if (n == 32) CHECK(e.largest < 3.1e-3);
     if (n == 128) CHECK(e.largest < 2.1e-4);
     if (n > 16) CHECK(std::log2(last.largest / e.largest) > 1.9);
@@ -92,7 +92,7 @@ TEST_CASE("curvature of an ellipse whose phi is no distance: order 2") {
     if (n == 32) first = e;
     last = e;
   }
-  // Over all three halvings: where on the ellipse the largest error is found changes from grid to grid.
+  // Order over all three halvings: the position of the largest error on the ellipse changes from grid to grid.
   CHECK(std::log2(first.largest / last.largest) / 3 > 1.9);
 }
 

@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE_SIG("liquid volume: exact under planes, second order for ball
   const Vec<Dim> n = Vec<Dim>::LinSpaced(1, 2).normalized();
   const Fixture<Dim> f(12);
   const auto middle = [&](const Vec<Dim>& x) { return n.dot(x - Vec<Dim>::Constant(0.5)); };
-  // A plane through the middle halves the unit box; round-off over some thousand cells.
+  // A plane through the middle halves the unit box; round-off of some thousand cells.
   CHECK(local_liquid_volume(f.layout, f.cells(middle), f.nodes(everywhere)) == Approx(0.5).margin(1e-12));
   const auto wall = [](const Vec<Dim>& x) { return x[0] - 0.37; };
   const auto pool = [](const Vec<Dim>& x) { return x[1] - 0.61; };
@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE_SIG("liquid volume: exact under planes, second order for ball
     const auto ball = [](const Vec<Dim>& x) { return (x - Vec<Dim>::Constant(0.5)).norm() - 0.31; };
     error[k] = std::abs(local_liquid_volume(g.layout, g.cells(ball), g.nodes(everywhere)) - ball_measure(Dim, 0.31));
   }
-  CHECK(std::log2(error[0] / error[1]) > 1.7);  // linear cuts: second order, not yet clean on 16 cells
+  CHECK(std::log2(error[0] / error[1]) > 1.7);  // linear cuts: second order, not yet asymptotic at 16 cells
 }
 
 TEMPLATE_TEST_CASE_SIG("redistancing leaves planes alone and keeps the volume of a distorted ball", "",
@@ -99,14 +99,14 @@ TEMPLATE_TEST_CASE_SIG("redistancing leaves planes alone and keeps the volume of
   const double volume = local_liquid_volume(f.layout, phi, f.nodes(everywhere));
   const auto exact_ball = [](const Vec<Dim>& x) { return (x - Vec<Dim>::Constant(0.5)).norm() - 0.31; };
   const double exact_cuts = local_liquid_volume(f.layout, f.cells(exact_ball), f.nodes(everywhere));
-  // 20 cells across: the zero of the distorted field itself lies h^2/8 times its curvature off between cell centres.
+  // 20 cells across: between cell centres the zero of the distorted field is off by h^2/8 times its curvature.
   CHECK(volume == Approx(exact_cuts).epsilon(0.005));
   double error = 0;
   for_each_index_in_order(f.layout, f.layout.cells(), [&](Site s, const IVec<Dim>& i) {
     const double exact = (f.layout.position(i, cell_offset<Dim>()) - Vec<Dim>::Constant(0.5)).norm() - 0.31;
     if (std::abs(exact) < 3 * f.layout.h()) error = std::max(error, std::abs(phi[s] - exact));
   });
-  CHECK(error < 0.1 * f.layout.h());  // second order in h times the curvature
+  CHECK(error < 0.1 * f.layout.h());  // second order in h times curvature
 }
 
 TEST_CASE("extrapolation continues straight lines, then constants, and nothing from thin drops") {
@@ -141,9 +141,9 @@ TEMPLATE_TEST_CASE_SIG("feet on the zero of a stretched level set: fourth order,
       if (foot) CHECK(std::abs(foot->slope - 1.15) < 0.15);  // 1 + 0.3 x
     });
     CHECK(found > 100);
-    CHECK((k == 0 || missed == 0));  // on the coarse grid a ball of 6.2 cells curves too much well inside
+    CHECK((k == 0 || missed == 0));  // on the coarse grid (radius 6.2 cells) curvature is too large deep inside
   }
-  CHECK(error[1] < 1e-4);                       // cells; 12.4 to the radius
+  CHECK(error[1] < 1e-4);                       // cells; radius of 12.4 cells
   CHECK(std::log2(error[0] / error[1]) > 2.6);  // distances in cells: one order less
   const Fixture<Dim> f(20);
   const auto far = [&](const Vec<Dim>& x) { return (x[0] - 0.2) / f.layout.h(); };
@@ -168,6 +168,6 @@ TEMPLATE_TEST_CASE_SIG("settling a stretched ball again and again leaves its zer
   };
   const double settled = lost(3), relaxed = lost(0);
   INFO(settled << " " << relaxed);
-  CHECK(settled < 2e-4);  // a slope of 2 % over the ball moves the zero of straight lines by h^2/8 of it
+  CHECK(settled < 2e-4);  // a slope of 2 % over the ball moves the linear zero by h^2/8 of it
   CHECK(settled < 0.1 * relaxed);
 }

@@ -1,4 +1,4 @@
-// The mean of a surface around a point.
+// Mean of surface values around a point.
 #include <catch2/catch.hpp>
 
 #include "levelset/surface_distance.h"
@@ -7,7 +7,7 @@ using namespace seiche;
 
 namespace {
 
-// The outline of the box from (x0, -t/2) to (x1, t/2), its long sides in n pieces.
+// Outline of the box from (x0, -t/2) to (x1, t/2), with its long sides in n pieces.
 SurfaceMesh strip(double x0, double x1, double t, int n) {
   SurfaceMesh m;
   for (const double side : {-0.5, 0.5})
@@ -49,7 +49,7 @@ TEST_CASE("the mean of a surface around a point is of all points near it, howeve
       seen[std::size_t(point)] = weight > 0;
     }
     CHECK(sum == Approx(1).epsilon(1e-14));
-    // Along the strip that of x, but for the sum in place of the integral; across, between both sides.
+    // Along the strip the mean is x, up to the quadrature error; across it lies between both sides.
     CHECK(mean[0] == Approx(x[0]).margin(0.01));
     CHECK(std::abs(mean[1]) < 0.02);
     for (std::size_t k = 0; k < points.size(); ++k)

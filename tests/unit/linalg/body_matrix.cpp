@@ -8,10 +8,9 @@ using namespace seiche;
 
 namespace {
 
-// A connected part of n rows whose order is no good one for elimination: a ring through rows that are visited with a
-// stride.
+// A connected part of n rows in a poor order for elimination: a ring through rows in steps of a stride.
 void add_ring(int first, int n, std::vector<Eigen::Triplet<double>>& entries) {
-  const int stride = 7;  // shares no factor with the n below
+  const int stride = 7;  // coprime to the n below
   for (int k = 0; k < n; ++k) {
     const int i = first + k * stride % n, j = first + (k + 1) * stride % n;
     entries.emplace_back(i, i, 4 + k % 3);

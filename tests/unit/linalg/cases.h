@@ -1,6 +1,6 @@
 #pragma once
-// Pressure-like systems on boxes of cells, built the same way at every rank count: the ranks own slabs across the last
-// axis, so the rows are numbered as in a serial run.
+// Pressure-like systems on boxes of cells. Ranks own slabs across the last axis, so rows have the numbers of a serial
+// run for any number of ranks.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ struct Poisson {
   std::array<int, 3> periodic{0, 0, 0};  // 1 along periodic axes
   std::function<Kind(Cell)> kind = [](Cell) { return Kind::liquid; };
   Kind outside = Kind::wall;
-  std::function<double(Cell, int)> weight = [](Cell, int) { return 1.0; };  // of the low face of a cell along an axis
+  std::function<double(Cell, int)> weight = [](Cell, int) { return 1.0; };  // of the lower face of a cell along an axis
   std::vector<int> cuts{};                                                  // first slab of ranks 1, 2, ..; empty: even
 };
 
@@ -36,7 +36,7 @@ inline std::int64_t index_of(const Poisson& p, Cell c) {
   return c[0] + std::int64_t(p.size[0]) * (c[1] + std::int64_t(p.size[1]) * c[2]);
 }
 
-// The neighbour of c, wrapped; its kind.
+// Neighbour of c (wrapped) and its kind.
 inline Kind neighbour(const Poisson& p, Cell& c, int axis, int step) {
   c[axis] += step;
   if (p.periodic[axis]) c[axis] = (c[axis] + p.size[axis]) % p.size[axis];
@@ -50,7 +50,7 @@ void for_cells(Cell low, Cell high, Visit visit) {
       for (int i = low[0]; i < high[0]; ++i) visit(Cell{i, j, k});
 }
 
-// The weights towards the 2 Dim neighbours.
+// Weights of the links to the 2 Dim neighbours.
 template <class Visit>
 void for_faces(const Poisson& p, Cell c, Visit visit) {
   for (int axis = 0; axis < p.dimension; ++axis) {
@@ -62,7 +62,7 @@ void for_faces(const Poisson& p, Cell c, Visit visit) {
   }
 }
 
-// Global row numbers by cell, -1 without one.
+// Global row number of each cell, or -1.
 inline std::vector<std::int64_t> number_rows(const Poisson& p) {
   std::vector<std::int64_t> rows;
   std::int64_t next = 0;
@@ -70,7 +70,7 @@ inline std::vector<std::int64_t> number_rows(const Poisson& p) {
   return rows;
 }
 
-// Components of cells joined by weights > 0; -1 for those that touch a Dirichlet face.
+// Components of cells connected by weights > 0; -1 for those with a Dirichlet face.
 inline std::vector<int> label_components(const Poisson& p, const std::vector<std::int64_t>& rows, int& count) {
   std::vector<int> label(rows.size(), -2);
   std::vector<Cell> stack;
@@ -141,7 +141,7 @@ inline System build(const Poisson& p, const Communicator& ranks) {
   return s;
 }
 
-// A number in (-1, 1) that depends on its argument alone: the same on every machine and rank count.
+// A number in (-1, 1) that depends only on its argument: the same on every machine and number of ranks.
 inline double noise(std::int64_t n) {
   std::uint64_t h = std::uint64_t(n) * 0x9E3779B97F4A7C15ull + 0x632BE59BD9B4E019ull;
   h = (h ^ (h >> 31)) * 0xBF58476D1CE4E5B9ull;
@@ -155,7 +155,7 @@ inline std::vector<double> noise_vector(const DistributedMatrix& A, int seed) {
   return v;
 }
 
-// A dam break some way into its fall: a wave-shaped surface with a splash above it, about half of the box full.
+// A dam break after some time: a wavy surface with splashes above it, about half of the box full.
 inline Kind splash(const std::array<int, 3>& size, Cell c) {
   const double x = (c[0] + 0.5) / size[0], y = (c[1] + 0.5) / size[1], z = (c[2] + 0.5) / size[2];
   const double height = 0.42 + 0.3 * (x - 0.5) * (x - 0.5) + 0.12 * std::sin(9 * x) * std::cos(7 * z);
@@ -166,8 +166,8 @@ inline Kind splash(const std::array<int, 3>& size, Cell c) {
   return y < height || drop ? Kind::liquid : Kind::air;
 }
 
-// Face weights of `splash` as a ghost-fluid surface (1 / theta, theta >= 0.01) and cut cells (open shares, some 1e-3)
-// give them. Cells are told by numbers alone, so that weights do not depend on the rank count.
+// Face weights for `splash` like those of a ghost-fluid surface (1 / theta, theta >= 0.01) and of cut cells (open
+// fractions, some 1e-3). They depend on cell numbers only, and hence not on the number of ranks.
 inline double cut_weight(const std::array<int, 3>& size, Cell c, int axis) {
   Cell low = c;
   --low[axis];

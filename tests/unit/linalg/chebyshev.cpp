@@ -9,7 +9,7 @@ using cases::Kind;
 
 namespace {
 
-// Mass and so much viscosity on a box with a hole: 1 + nu (sum of differences).
+// Mass plus viscosity on a box with a hole: 1 + nu (sum of differences).
 struct Helmholtz {
   cases::System system;
   LinearSystem F;
@@ -46,7 +46,7 @@ TEST_CASE("chebyshev: the interval holds what matters of the spectrum") {
   const double viscosity = GENERATE(0.1, 1.0, 10.0);
   const Helmholtz h(viscosity, ranks);
   const SpectralInterval i = estimate_interval(h.F);
-  // The constant is an eigenvector of the viscous part: 1 over the largest diagonal bounds the lowest eigenvalue.
+  // The constant is an eigenvector of F with eigenvalue 1: 1 over the largest diagonal is a lower bound.
   CHECK(i.low >= 1 / (1 + 6 * viscosity));
   CHECK(i.low <= 1 / (1 + 3 * viscosity));
   CHECK(i.high <= 2);
@@ -65,7 +65,7 @@ TEST_CASE("chebyshev: symmetric, positive, and leaves the share of an error that
   B.apply(c, Bc);
   CHECK(dot(b, Bc, ranks) == Approx(dot(c, Bb, ranks)).epsilon(1e-12));
   CHECK(dot(b, Bb, ranks) > 0);
-  // In the norm of F, the spectrum's lowest end being a little below the interval's.
+  // Error in the norm of F; the lowest eigenvalue lies slightly below the interval.
   const Vector x = h.solved_for(b, ranks), e = difference(x, Bb);
   Vector Fe(e.size());
   h.F.multiply(e, Fe);

@@ -15,7 +15,7 @@ using cases::StokesMatrices;
 
 namespace {
 
-// A square `jump` times as viscous as the rest of the box, below air where `surface`.
+// A square `jump` times as viscous as the rest of the box, below air if `surface`.
 Stokes square(int n, double viscosity, double jump, bool surface) {
   Stokes s;
   s.box.dimension = 2;
@@ -59,7 +59,7 @@ Eigen::MatrixXd dense(const DistributedMatrix& A, Eigen::Index columns) {
   return M;
 }
 
-// Eigenvalues of B S but for the null space, ascending: of one rank.
+// Eigenvalues of B S without those of the null space, ascending. One rank.
 Eigen::VectorXd spectrum(const Stokes& s, bool surface) {
   const Communicator alone(MPI_COMM_SELF);
   Parts p(s, alone);
@@ -86,8 +86,9 @@ TEST_CASE("commutator: near the inverse of the Schur complement, whatever the ju
   const bool surface = GENERATE(false, true);
   const Eigen::VectorXd eigenvalues = spectrum(square(18, viscosity, jump, surface), surface);
   CAPTURE(viscosity, jump, surface);
-  // Never below 1 with L solved for exactly (Cauchy, Schwarz); a cycle leaves up to a quarter of an error, twice. Above
-  // it is the commutator that counts, most with a stiff part in a box (7.2; without a jump 1.0 to 1.9).
+  // With exact L^-1 no eigenvalue is below 1 (Cauchy-Schwarz); a cycle leaves up to a quarter of an error, and enters
+  // twice. The upper end is due to the commutator: largest for a high-viscosity square in a box (7.2; 1.0 to 1.9
+  // without a jump).
   CHECK(eigenvalues.minCoeff() >= 0.5);
   CHECK(eigenvalues.maxCoeff() <= 8);
 }
@@ -113,7 +114,7 @@ TEST_CASE("loose faces: solved for exactly wherever ranks cut") {
   p.loose.add_solved(r, z);
   p.K.faces().residual(r, z, rest);
   for (std::size_t i = 0; i < r.size(); ++i) {
-    if (loose[i]) CHECK(std::abs(rest[i]) <= 1e-10);  // rounding, times the viscosity
+    if (loose[i]) CHECK(std::abs(rest[i]) <= 1e-10);  // round-off times the viscosity
     if (!loose[i]) CHECK(z[i] == 0);
   }
 }

@@ -10,7 +10,7 @@ using cases::Kind;
 
 namespace {
 
-// A block of cells, elastic: masses at the corners of its cells, springs along edges and diagonals of each cell.
+// An elastic block of cells: masses at the corners, springs along edges and diagonals of each cell.
 struct Lattice {
   int dimension, low, cells;  // the block spans cells low <= i < low + cells
   int side() const { return cells + 1; }
@@ -24,7 +24,7 @@ struct Lattice {
     const int z = dimension == 3 ? at[2] - low : 0;
     return at[0] - low + side() * (at[1] - low + side() * z);
   }
-  // Nodes of the box of steps 0 or 1 along the axes of `free`, from `at`.
+  // Nodes of the box with steps 0 or 1 along the axes of `free`, from `at`.
   std::vector<Cell> corners(Cell at, const std::array<bool, 3>& free) const {
     std::vector<Cell> all{at};
     for (int a = 0; a < dimension; ++a)
@@ -38,7 +38,7 @@ struct Lattice {
   }
 };
 
-// mass of each cell's share, stiffness dt^2 k of a spring.
+// Mass of a cell's share, stiffness dt^2 k of a spring.
 SparseMatrix inertia_and_stiffness(const Lattice& l, double mass, double stiffness) {
   std::vector<Eigen::Triplet<double>> entries;
   const int d = l.dimension;
@@ -72,7 +72,7 @@ struct Case {
   Eigen::VectorXd g;
 };
 
-// Net outflow of each liquid cell from the motion of the block's faces, each by the mean of its corners.
+// Net outflow of each liquid cell by the motion of the block's faces, each with the mean of its corners.
 ColumnBlock columns(const Lattice& l, const cases::System& s, const cases::Poisson& p) {
   ColumnBlock block;
   const int d = l.dimension;
@@ -86,7 +86,7 @@ ColumnBlock columns(const Lattice& l, const cases::System& s, const cases::Poiss
         Cell n = c;
         cases::neighbour(p, n, axis, step);
         if (!l.contains(n)) continue;
-        Cell at = step < 0 ? c : n;  // of the face's lowest corner
+        Cell at = step < 0 ? c : n;  // lowest corner of the face
         std::array<bool, 3> free{true, true, d == 3};
         free[axis] = false;
         const auto corners = l.corners(at, free);
@@ -159,7 +159,7 @@ TEST_CASE("kkt: equal to the bodies factored") {
   Vector difference = f.p;
   add_scaled(difference, -1, p);
   CHECK(norm(difference, ranks) <= 1e-6 * norm(p, ranks));
-  // Rounding in H v is 1e-16 of the stiffness, 1e6 of the inertia.
+  // The round-off of H v is 1e-16 of the stiffness, which is 1e6 of the inertia.
   CHECK((f.v - v).norm() <= 1e-6 * v.norm());
 }
 

@@ -13,7 +13,7 @@ using namespace seiche;
 using cases::Cell;
 using cases::Kind;
 
-// hypre's own, so that a test can leave its error flag raised.
+// hypre's function, so that a test can leave its error flag raised.
 extern "C" void hypre_error_handler(const char* file, int line, int error, const char* message);
 
 namespace {
@@ -49,7 +49,7 @@ TEST_CASE("solvers that claim success wrongly are caught, and the ladder gives t
   CHECK(report.converged);
   CHECK(int(report.ladder.size()) == options.fail_rungs);
   CHECK(report.residual <= options.tolerance);
-  CHECK(distance(x, reference, ranks) < 1e-8);  // the condition number, about 1e3, times the tolerance
+  CHECK(distance(x, reference, ranks) < 1e-8);  // condition number of about 1e3 times the tolerance
 }
 
 TEST_CASE("the last rung eliminates") {
@@ -63,7 +63,7 @@ TEST_CASE("the last rung eliminates") {
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, b, x, options, ranks);
   CHECK(report.converged);
   CHECK(report.used == "direct");
-  CHECK(report.residual < 1e-12);  // rounding of an elimination with one refinement
+  CHECK(report.residual < 1e-12);  // round-off of an elimination with one refinement
 }
 
 TEST_CASE("when every rung fails the report says so and x stays finite") {

@@ -15,7 +15,7 @@ Vector gathered(const Vector& own, Row first, Row total, const Communicator& ran
   return all;
 }
 
-// The whole matrix, entry by entry: no code of src/linalg.
+// The whole matrix, entry by entry, without code of src/linalg.
 Eigen::MatrixXd dense(const StokesMatrices& m, const Communicator& ranks) {
   const auto nf = Eigen::Index(m.F.global_rows), nv = Eigen::Index(m.H.rows()), np = Eigen::Index(m.D.global_rows);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(nf + nv + np, nf + nv + np);
@@ -47,7 +47,7 @@ Eigen::VectorXd dense(const StokesMatrices& m, const Vector& u, const Eigen::Vec
   return x;
 }
 
-// Against a dense factorisation; pressures up to what no velocity feels.
+// Compares with a dense factorisation; pressures up to the null space.
 void check_against_dense(const Stokes& s) {
   const Communicator ranks;
   const StokesMatrices m = cases::StokesBuilder(s, ranks).make();
@@ -60,7 +60,7 @@ void check_against_dense(const Stokes& s) {
   const Eigen::VectorXd b = dense(m, p.f, p.g, p.q, ranks), x = dense(m, a.u, a.v, a.p, ranks);
   const Eigen::VectorXd exact = K.completeOrthogonalDecomposition().solve(b);
   const Eigen::Index n = m.F.global_rows + m.H.rows();
-  // 1e-11 of the residual, times the condition of velocities against forces.
+  // Residual of 1e-11 times the condition of velocities against forces.
   CHECK((x - exact).head(n).norm() <= 1e-7 * exact.head(n).norm());
   CHECK((K * x - b).norm() <= 1e-8 * b.norm());
 }
@@ -167,7 +167,7 @@ TEST_CASE("saddle: right sides that are zero, impossible or not finite") {
     std::fill(p.q.begin(), p.q.end(), 1.0);
     const Answer a = solve(m, p, ranks);
     CHECK(a.report.mismatch == Approx(1));
-    CHECK(a.report.converged);  // of what is possible
+    CHECK(a.report.converged);  // in the compatible part
   }
   SECTION("sources and sinks") {
     for (std::size_t i = 0; i < p.q.size(); ++i) p.q[i] = (m.D.first_row + Row(i)) % 2 ? 1 : -1;

@@ -1,7 +1,7 @@
 #pragma once
-// Viscous liquid on a staggered box of cells of width 1, density 1, with one rigid body: built from the energy
-//   1/2 sum of weight * form * form,   a form a sum of coefficients times velocities of faces and of the body.
-// The ranks own slabs across the last axis, faces with the cell above them.
+// Viscous liquid on a staggered box with cells of width 1, density 1, and one rigid body. The system is the gradient of
+//   1/2 sum of weight * form * form,   a form being a sum of coefficients times velocities of faces and of the body.
+// Ranks own slabs across the last axis, with the lower face of each cell.
 #include <map>
 
 #include "linalg/saddle/solver.h"
@@ -11,8 +11,8 @@ namespace seiche::cases {
 
 struct Stokes {
   Poisson box;                                                       // walls are no-slip
-  std::function<double(Cell)> viscosity = [](Cell) { return 1.0; };  // of cells, dt mu/(rho h^2)
-  std::function<bool(Cell)> body = [](Cell) { return false; };       // its cells are Kind::wall of the box
+  std::function<double(Cell)> viscosity = [](Cell) { return 1.0; };  // per cell, dt mu/(rho h^2)
+  std::function<bool(Cell)> body = [](Cell) { return false; };       // its cells are Kind::wall in the box
   std::array<double, 3> centre{0, 0, 0};                             // of the body, in cells
   double body_density = 1;                                           // relative
   double kappa = 1;                                                  // weight of (div u)^2 in the energy
@@ -57,7 +57,7 @@ class StokesBuilder {
   }
 
  private:
-  // A velocity: of an unknown face, of the body at a face, or given as zero.
+  // A velocity: an unknown face, the body at a face, or zero.
   struct Sample {
     std::int64_t face = -1;
     bool of_body = false, exists = true;
@@ -70,7 +70,7 @@ class StokesBuilder {
 
   int unknowns() const { return has_body() ? dim_ * (dim_ + 1) / 2 : 0; }
   bool has_body() const { return s_.body_density >= 0; }
-  // Whether the cell exists, wrapped; what it is.
+  // Wraps c along periodic axes. Returns the kind of the cell, or that of the outside.
   Kind kind(Cell& c) const {
     for (int a = 0; a < dim_; ++a) {
       if (p_.periodic[a]) c[a] = (c[a] + p_.size[a]) % p_.size[a];
@@ -89,7 +89,7 @@ class StokesBuilder {
     c[axis] += step;
     return c;
   }
-  // Low face of c: unknown beside liquid, and in air where an edge at it touches liquid.
+  // Lower face of c: unknown beside liquid, and in air if an edge at it touches liquid.
   bool is_unknown(Cell c, int axis) const {
     Cell low = moved(c, axis, -1), high = c;
     const Kind a = kind(low), b = kind(high);
@@ -116,7 +116,7 @@ class StokesBuilder {
     global_ = next;
     first_ = ranks_.exclusive_prefix_sum(last_ - first_);
   }
-  // Whether both cells of a face are beyond the box (of walls: for edges there).
+  // True if the cell lies in the box.
   bool inside(const Cell& c) const {
     for (int a = 0; a < dim_; ++a)
       if (c[a] < 0 || c[a] >= p_.size[a]) return false;
@@ -133,8 +133,8 @@ class StokesBuilder {
     const bool wall = kind(low) == Kind::wall || kind(wrapped) == Kind::wall;
     return {-1, false, wall, {}};
   }
-  // Velocity along `axis` of the body at the low face of c, by its unknowns: v, omega. The body does not cross the
-  // sides of the box.
+  // Velocity along `axis` of the body at the lower face of c, as a form in its unknowns v, omega. The body does not
+  // cross the sides of the box.
   Eigen::VectorXd twist_at(const Cell& c, int axis) const {
     Eigen::VectorXd t = Eigen::VectorXd::Zero(unknowns());
     std::array<double, 3> r{};
@@ -157,7 +157,7 @@ class StokesBuilder {
     }
     return form;
   }
-  // weight f g, once for each order of the two.
+  // Adds weight f g, once for each order of the two.
   void add(double weight, const Form& f, const Form& g) {
     for (const auto& [i, a] : f.faces) {
       if (i < first_ || i >= last_) continue;
@@ -170,7 +170,7 @@ class StokesBuilder {
   }
   void add_pair(double weight, const Form& f, const Form& g) { add(weight, f, g), add(weight, g, f); }
 
-  // mu (sum g_a^2 - 2 sum g_a g_b + kappa (sum g_a)^2)
+  // Energy mu (sum g_a^2 - 2 sum g_a g_b + kappa (sum g_a)^2).
   void add_cell(const Cell& c) {
     if (!is_liquid(c)) return;
     const double mu = s_.viscosity(c);
@@ -181,11 +181,11 @@ class StokesBuilder {
       for (int b = 0; b < a; ++b) add_pair((s_.kappa - 1) * mu, g[a], g[b]);
     }
   }
-  // mu V (gx^2 + gy^2 + 2 gx gy), at the low edge of c; links to solids at half a cell.
+  // Energy mu V (gx^2 + gy^2 + 2 gx gy) at the lower edge of c; links to solids have half a cell's length.
   void add_edge(const Cell& c, int a, int b) {
     for (Cell at : edge_cells(c, a, b)) add_edge_at(at, a, b);
   }
-  // Edges on the high sides of the box have no cell above.
+  // Edges on the upper sides of the box have no cell above.
   std::vector<Cell> edge_cells(const Cell& c, int a, int b) const {
     std::vector<Cell> cells{c};
     const bool at_a = !p_.periodic[a] && c[a] + 1 == p_.size[a], at_b = !p_.periodic[b] && c[b] + 1 == p_.size[b];

@@ -17,7 +17,7 @@ int iterations(const Stokes& s) {
   return a.report.iterations;
 }
 
-// A thread in air, six cells across and so long, that hangs from the box's side; ranks cut it across.
+// A viscous thread in air, six cells across and `length` cells long, hanging from the box's side; ranks cut it across.
 Stokes thread(int length, double viscosity) {
   Stokes s = liquid(3, length, viscosity);
   s.box.size = {10, 10, length};
@@ -25,7 +25,7 @@ Stokes thread(int length, double viscosity) {
   return s;
 }
 
-// The same lying down: ranks cut it lengthwise, and its loose faces in chains.
+// The same thread horizontally: ranks cut it lengthwise, and its pressure-free faces in chains.
 Stokes thread_across(int length, double viscosity) {
   Stokes s = liquid(3, length, viscosity);
   s.box.size = {length, 10, 10};
@@ -33,7 +33,7 @@ Stokes thread_across(int length, double viscosity) {
   return s;
 }
 
-// The iterations at each size: at most so many, and not growing; on any number of ranks.
+// Iterations at each size are bounded and do not grow, on any number of ranks.
 void check_flat(const std::function<Stokes(int)>& make, const std::vector<int>& sizes, int most) {
   constexpr int scatter = 5;
   std::vector<int> counts;

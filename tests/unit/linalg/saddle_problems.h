@@ -1,5 +1,5 @@
 #pragma once
-// Viscous liquid in boxes, what is in it and what drives it.
+// Viscous liquid in boxes: contents and forces.
 #include <catch2/catch.hpp>
 
 #include "unit/linalg/saddle_cases.h"
@@ -37,7 +37,7 @@ inline void add_ball(Stokes& s, double density, double radius = 0.15) {
   s.box.kind = [body = s.body, kind = s.box.kind](Cell c) { return body(c) ? Kind::wall : kind(c); };
 }
 
-// A wavy one, across the second axis.
+// A wavy free surface, across the second axis.
 inline void add_surface(Stokes& s) {
   s.box.kind = [n = s.box.size[0], kind = s.box.kind](Cell c) {
     return c[1] + 0.5 > 0.7 * n + 0.1 * n * std::sin(6.0 * c[0] / n) ? Kind::air : kind(c);
@@ -49,7 +49,7 @@ struct Problem {
   Eigen::VectorXd g;
 };
 
-// Forces that would give the faces velocities of the order of one, rough and smooth; and pushes on the body.
+// Rough and smooth forces on the faces, which alone give velocities of order one; and forces on the body.
 inline Problem pose(const StokesMatrices& m) {
   Problem p{Vector(m.mass), Vector(m.schur_mass.size(), 0.0), Eigen::VectorXd::Zero(m.H.rows())};
   for (std::size_t i = 0; i < p.f.size(); ++i)

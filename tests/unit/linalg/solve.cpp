@@ -13,7 +13,7 @@ using cases::Kind;
 
 namespace {
 
-// |b - A x| / |b| by sums over the entries of A, with x and b known on every rank: no code of src/linalg.
+// |b - A x| / |b| by sums over the entries of A, with x and b known on every rank, without code of src/linalg.
 double residual_by_hand(const DistributedMatrix& A, const Vector& b, const Vector& x, const Communicator& ranks) {
   Vector all(A.global_rows, 0.0);
   std::copy(x.begin(), x.end(), all.begin() + A.first_row);
@@ -28,7 +28,7 @@ double residual_by_hand(const DistributedMatrix& A, const Vector& b, const Vecto
   return std::sqrt(ranks.global_sum(above) / ranks.global_sum(below));
 }
 
-// A right-hand side that some x has: A times noise.
+// A right-hand side in the range: A times noise.
 Vector reachable(const cases::System& s, const Communicator& ranks, int seed = 5) {
   const LinearSystem system(s.A, s.grid, s.null_space, ranks);
   Vector b(s.A.rows());
@@ -52,7 +52,7 @@ void check_solved(const cases::System& s, const std::string& preconditioner, int
   CHECK(report.converged);
   CHECK(report.ladder.empty());
   CHECK(report.iterations <= most_iterations);
-  CHECK(residual_by_hand(s.A, b, x, ranks) <= 1.0001e-8);  // the tolerance, and the rounding of two different sums
+  CHECK(residual_by_hand(s.A, b, x, ranks) <= 1.0001e-8);  // the tolerance, and round-off between two summations
 }
 
 cases::Poisson box(std::array<int, 3> size, Kind outside) {
@@ -70,7 +70,8 @@ cases::Poisson splash(std::array<int, 3> size) {
   return p;
 }
 
-// The solution by Eigen's SparseLU on every rank, grounded in the first row of each component, mean zero there.
+// Solution by Eigen's SparseLU on every rank: the first row of each component is grounded, then its mean is set to
+// zero.
 Vector reference(const cases::System& s, const Vector& b, const Communicator& ranks) {
   const auto n = Eigen::Index(s.A.global_rows);
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n + 2);  // A, b, component + 1
@@ -122,7 +123,7 @@ TEST_CASE("every preconditioner solves the Poisson equation on open and closed b
                              Cell{4, 4, 300}, Cell{61, 47, 1}, Cell{128, 96, 1});
   const cases::System s = cases::build(box(size, outside), Communicator());
   CAPTURE(size, outside == Kind::air);
-  check_solved(s, "none", 1000);     // the unknowns along the longest path, about; measured: 560 at most
+  check_solved(s, "none", 1000);     // about the unknowns along the longest path; measured: 560 at most
   check_solved(s, "boomeramg", 25);  // measured: 16 at most, and a few more at other rank counts
   check_solved(s, "multigrid", 25);  // measured: 15 at most
   check_solved(s, "auto", 1000);
@@ -157,12 +158,12 @@ TEST_CASE("the solution is that of an elimination, with mean zero on each closed
   cases::Poisson p = box({9, 8, 7}, Kind::wall);
   p.kind = [](Cell c) {
     if (c[0] == 4) return Kind::wall;                                  // two chambers
-    if (c[0] > 4 && c[1] == 7) return Kind::air;                       // the second one open at the top
+    if (c[0] > 4 && c[1] == 7) return Kind::air;                       // the second one is open at the top
     return (c[0] + c[1] + c[2]) % 6 == 0 ? Kind::wall : Kind::liquid;  // pores, some cells cut off
   };
   const cases::System s = cases::build(p, ranks);
   REQUIRE(s.null_space.count >= 1);
-  Vector b = cases::noise_vector(s.A, 3);  // not compatible: what the null space cannot take is removed
+  Vector b = cases::noise_vector(s.A, 3);  // not compatible: the part outside the range is removed
   SolveOptions options;
   options.tolerance = 1e-12;
   options.preconditioner = GENERATE("none", "boomeramg", "multigrid", "auto");
@@ -172,7 +173,7 @@ TEST_CASE("the solution is that of an elimination, with mean zero on each closed
   REQUIRE(report.converged);
   CHECK(report.mismatch > 0.01);
   LinearSystem(s.A, s.grid, s.null_space, ranks).project(b);
-  // condition number of about 1e3 times the tolerance
+  // Condition number of about 1e3 times the tolerance.
   CHECK(largest_difference(x, reference(s, b, ranks), ranks) < 1e-9);
 }
 
@@ -212,7 +213,7 @@ TEST_CASE("an incompatible right-hand side leaves its mean behind and says so") 
   Vector b = reachable(s, ranks), x(s.A.rows(), 0.0);
   const Vector compatible = b;
   const double size = norm(b, ranks) / std::sqrt(double(s.A.global_rows));
-  for (double& entry : b) entry += size;  // as large as the rest: |removed| / |b| = 1 / sqrt(2)
+  for (double& entry : b) entry += size;  // as large as the rest, so |removed| / |b| = 1 / sqrt(2)
   const SolveReport report = solve(s, b, x, {}, ranks);
   CHECK(report.converged);
   CHECK(report.mismatch == Approx(std::sqrt(0.5)).epsilon(1e-6));

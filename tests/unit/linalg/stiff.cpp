@@ -55,7 +55,7 @@ TEST_CASE("stiff: regions are found whole on any number of ranks") {
   const std::vector<StiffRegion> regions = find_stiff_regions(f.F, 6, 16);
   REQUIRE(regions.size() == 3);
   CHECK(regions[0].size == f.m.F.global_rows);
-  CHECK(regions[1].size == 2 * 9 * 8);  // faces within and around them
+  CHECK(regions[1].size == 2 * 9 * 8);  // faces within and around it
   CHECK(regions[2].size == 2 * 5 * 4);
   for (const StiffRegion& r : regions) CHECK(ranks.global_sum(std::int64_t(r.row.size())) == r.size);
 }
@@ -64,7 +64,7 @@ TEST_CASE("stiff: what moves and turns at no cost, and no more") {
   const Communicator ranks;
   const Matrices f(two_squares(), ranks);
   const std::vector<StiffMotion> motions = find_stiff_motions(f.F, f.places(), 2);
-  REQUIRE(motions.size() == 9);  // those of the box among them: by the squares' diagonals they are soft as well
+  REQUIRE(motions.size() == 9);  // includes those of the box, soft relative to the squares' diagonals
   for (const StiffMotion& m : motions) CHECK(m.whole);
 }
 
@@ -95,6 +95,6 @@ TEST_CASE("stiff: motions are solved for exactly, by a symmetric and positive op
   f.F.residual(a, Ba, rest);
   for (const StiffMotion& m : B.motions()) {
     const double left = ranks.global_sum(local_dot(m.z, rest)), before = ranks.global_sum(local_dot(m.z, a));
-    CHECK(std::abs(left) <= 1e-6 * (1 + std::abs(before)));  // rounding, times the jump of viscosity
+    CHECK(std::abs(left) <= 1e-6 * (1 + std::abs(before)));  // round-off times the viscosity ratio
   }
 }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder that goes when the test ends.
+// A folder that is removed at the end of the test.
 struct Scratch {
   fs::path folder = fs::temp_directory_path() / ("seiche_render_" + std::to_string(getpid()));
   Scratch() { fs::create_directories(folder / "frames"); }
@@ -137,7 +137,7 @@ TEST_CASE("a run is rendered in 2D and 3D, with label, contact sheet and only th
       label += x < 160 && y < 14 && first.rgb[i] < 100;
       differ += first.rgb[i] != last.rgb[i];
     }
-    CHECK(label > 100);    // "frame 1   t = 0.100 s": 17 signs of about ten dots each, three channels a dot
+    CHECK(label > 100);    // "frame 1   t = 0.100 s": 17 glyphs of about ten dots each, three channels a dot
     CHECK(differ > 1000);  // the surface moved
     CHECK(read_png(out / "contact_sheet.png").width > 3 * 320);
   }
@@ -172,7 +172,7 @@ TEST_CASE("info tells a frame's fields, time and liquid volume") {
   CHECK_THAT(text, Catch::Contains("about 0.5 m^3 below the surface"));
   CHECK_THAT(text, Catch::Contains("vel (staggered vectors)") && Catch::Contains("5 to 5"));
   text.clear();
-  // Liquid is not counted within solids: the table of the run knows.
+  // Liquid within solids does not count; the run's table has the right volume.
   write_file(scratch.folder / "stats.csv",
              "step,time,dt,liquid_volume\n1,0.1,0.1,0.4\n2,0.2,0.1,0.375\n3,0.3,0.1,0.3\n");
   for (const std::string& line : describe_path(scratch.folder / "frames" / "frame.0002.vdb")) text += line + "\n";

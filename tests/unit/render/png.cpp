@@ -61,7 +61,7 @@ TEST_CASE("light survives the trip to 8-bit sRGB") {
   for (int i = 0; i < 256; ++i) canvas.at(0, i) = from_srgb(float(i) / 255, 0, 1);
   const Image image = to_image(canvas);
   for (int i = 0; i < 256; ++i) {
-    CHECK(std::abs(int(image.rgb[3 * std::size_t(i)]) - i) <= 1);  // one step of the 4096-entry table near black
+    CHECK(std::abs(int(image.rgb[3 * std::size_t(i)]) - i) <= 1);  // one step of the table of 4096 entries near black
     CHECK(image.rgb[3 * std::size_t(i) + 2] == 255);
   }
 }

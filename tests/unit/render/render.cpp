@@ -17,7 +17,7 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 
-// The unit cube with n^3 cells and the level set of a ball in it, as a frame holds it (a band of 3 h).
+// The unit cube with n^3 cells and the level set of a ball, as in a frame (a band of 3 h).
 ScalarVolume ball_level_set(int n, const Vec3f& center, float radius) {
   ScalarVolume phi;
   phi.cells = {n, n, n};
@@ -66,7 +66,8 @@ TEST_CASE("rays meet the level set of a ball where they meet the ball") {
     const float exact = middle - std::sqrt(radius * radius - closest * closest);
     const Span span = clip(ray, {Vec3f::Zero(), Vec3f::Ones()});
     const float t = surface.first_crossing(ray, span.t0, span.t1);
-    // trilinear interpolation errs by h^2/(8 R) = 3e-4 in distance, twice that along slanted rays (aim at most 0.25)
+    // Trilinear interpolation has an error of h^2/(8 R) = 3e-4 in distance, twice that along slanted rays (aim at most
+    // 0.25).
     CHECK(t == Approx(exact).margin(1.5e-3));
     CHECK(surface.normal(ray.at(t)).dot((ray.at(t) - center).normalized()) > 0.995f);
   }
@@ -78,22 +79,22 @@ TEST_CASE("a ball of liquid covers a disc of the right area in the picture") {
   Stage stage;
   stage.liquid = std::make_unique<LiquidSurface>(ball_level_set(48, center, radius));
   stage.quantity = ball_level_set(48, center, radius);
-  for (float& value : stage.quantity->values) value = 0;  // all of it in the one colour of the low end
+  for (float& value : stage.quantity->values) value = 0;  // all in the colour of the low end
   stage.scale = {0, 1, "test"};
   const int size = 240;
   const Camera camera = make_camera({{0.5f, 4.5f, 0.5f}, center, 20}, Vec3f::UnitX(), size, size);
   light_stage(stage, -camera.forward);
   const Canvas canvas = trace_picture(stage, camera);
-  stage.liquid.reset();  // the ground and its shadow stay as they are
+  stage.liquid.reset();  // the ground and its shadow remain
   const Canvas without = trace_picture(stage, camera);
   int covered = 0;
   for (std::size_t i = 0; i < canvas.pixels.size(); ++i) {
     covered += (canvas.pixels[i] - without.pixels[i]).norm() > 0.02f;
   }
-  // the silhouette seen from the distance d = 4 has the slope R / sqrt(d^2 - R^2)
+  // The silhouette seen from the distance d = 4 has the slope R / sqrt(d^2 - R^2).
   const float slope = radius / std::sqrt(16 - radius * radius) / camera.slope;
   const float exact = pi * slope * slope * float(size * size) / 4;
-  CHECK(float(covered) == Approx(exact).epsilon(0.03));  // 120 pixels across: the rim, half a pixel wide, is 1.7 %
+  CHECK(float(covered) == Approx(exact).epsilon(0.03));  // 120 pixels across: a rim of half a pixel is 1.7 %
 }
 
 TEST_CASE("liquid that fills the domain shows the faces of its walls") {
@@ -107,7 +108,7 @@ TEST_CASE("liquid that fills the domain shows the faces of its walls") {
   const Canvas with = trace_picture(stage, camera);
   stage.liquid.reset();
   const Canvas without = trace_picture(stage, camera);
-  // at every corner turned to the viewer, a little inward, the pictures differ
+  // The pictures differ slightly inwards of every corner that faces the camera.
   for (const Vec3f& x : {Vec3f{0.1f, 1, 0.9f}, Vec3f{0.9f, 1, 0.9f}, Vec3f{0.1f, 0.2f, 1}, Vec3f{0.9f, 0.2f, 1}}) {
     const Vec3f p = camera.project(x);
     CHECK((with.at(int(p[0]), int(p[1])) - without.at(int(p[0]), int(p[1]))).norm() > 0.1f);
@@ -226,7 +227,7 @@ TEST_CASE("a disc of liquid covers its area of the plot, to a fraction of a pixe
     for (int x = x0; x < x1; ++x) covered += (1 - canvas.at(x, y)[0]) / (1 - blue[0]);
   }
   const double pixel = 2.0 / (x1 - x0);
-  CHECK(covered * pixel * pixel == Approx(pi * 0.09).epsilon(0.005));  // interpolation: h^2/(8 R) of R is 0.06 %
+  CHECK(covered * pixel * pixel == Approx(pi * 0.09).epsilon(0.005));  // interpolation error h^2/(8 R) is 0.06 % of R
 }
 
 TEST_CASE("outlines are filled: closed ones, holes, and those that the border of the region cuts") {
@@ -251,7 +252,7 @@ TEST_CASE("outlines are filled: closed ones, holes, and those that the border of
   SECTION("a triangle with a square hole") {
     chain({{10, 10, 0}, {90, 10, 0}, {10, 90, 0}}, true);
     chain({{20, 20, 0}, {20, 30, 0}, {30, 30, 0}, {30, 20, 0}}, true);
-    CHECK(area(box) == Approx(3200 - 100).epsilon(1e-3));  // four lines a pixel are exact for straight sides
+    CHECK(area(box) == Approx(3200 - 100).epsilon(1e-3));  // four lines per pixel are exact for straight sides
   }
   SECTION("the ground below a line") {  // the inside lies to the left: the line runs towards low x
     chain({{100, 40, 0}, {50, 40, 0}, {0, 20, 0}}, false);

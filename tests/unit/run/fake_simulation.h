@@ -1,5 +1,5 @@
 #pragma once
-// A simulation without physics: a chaotic sequence (so that every lost bit shows) on the smallest of grids.
+// A simulation without physics on a minimal grid: a chaotic sequence, in which every lost bit shows.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@ namespace seiche {
 
 class FakeSimulation : public Simulation {
  public:
-  std::int64_t fails_at = -1;  // this step cannot be done
+  std::int64_t fails_at = -1;  // this step fails
   double largest_step = 0.03;  // s
   double expected = 1;         // m^2 of liquid
 

@@ -35,7 +35,7 @@ Scene small_scene(double end) {
   return scene;
 }
 
-// A run directory with everything around the loop, as a program would set it up.
+// A run directory and the objects around the loop, set up as by a program.
 class Bench {
  public:
   explicit Bench(double end) : scene(small_scene(end)), paths{folder.path()} {
@@ -94,7 +94,7 @@ class Bench {
   }
 };
 
-// The file without its column wall_seconds, which no two runs share.
+// The file without its column wall_seconds, which differs between runs.
 std::string without_wall_seconds(const fs::path& csv) {
   std::istringstream in(contents(csv));
   std::string line, result;
@@ -125,7 +125,7 @@ TEST_CASE("frame n is written at n over the frame rate, the first and the last i
   CHECK(bench.frames(".vdb") == 6);
   CHECK(bench.frames(".vti") == 6);
   CHECK(bench.frames(".vtu") == 6);
-  // 0.03 goes four times into each tenth of a second; the initial state and the header are two more lines.
+  // Steps of 0.03 take four steps per tenth of a second; the initial state and the header are two more lines.
   CHECK(lines(bench.paths.stats()) == 5 * 4 + 2);
   CHECK(lines(bench.paths.solids()) == 5 * 4 + 2);
 }
@@ -163,7 +163,7 @@ TEST_CASE("a run that ends before it starts writes headers only") {
 TEST_CASE("probes are sampled at the first step end at or after each due time") {
   Bench bench(0.3);
   bench.run();
-  // Due at 0, 0.05, ...: steps end at .03 .06 .09 .1 in each tenth, so .06 and .1 of each, and 0.
+  // Due at 0, 0.05, ... Steps end at .03, .06, .09, .1 in each tenth, so output is at .06 and .1 of each, and at 0.
   CHECK(lines(bench.paths.probes()) == 1 + 1 + 3 * 2);
 }
 

@@ -1,4 +1,4 @@
-// Meshes in another unit are told by their width, before anything is computed from them.
+// Meshes in a wrong unit are detected by their width before anything is computed.
 #include <catch2/catch.hpp>
 
 #include <fstream>

@@ -44,7 +44,7 @@ TEST_CASE("the watchdog speaks once when beats stay away and names the last phas
       std::this_thread::sleep_for(20ms);
     }
     CHECK(spoken == 0);
-    std::this_thread::sleep_for(600ms);  // three times the limit: room for a busy machine
+    std::this_thread::sleep_for(600ms);  // three times the limit, for a busy machine
   }
   CHECK(spoken == 1);
   CHECK(phase == "solve");
@@ -97,7 +97,7 @@ TEST_CASE("work agreed on throws one error, with memory shortage told as such") 
 
 TEST_CASE("a grid that never fits is the scene's fault, one that does not fit now the machine's") {
   const double unlimited = std::numeric_limits<double>::infinity();
-  // Two of four ranks are here, so half of the estimate counts.
+  // Two of four ranks are on this machine, so half of the estimate counts.
   CHECK(code_of_memory(100, {60, 55, unlimited}) == ExitCode::done);
   CHECK(code_of_memory(130, {60, 55, unlimited}) == ExitCode::bad_input);
   CHECK(code_of_memory(115, {60, 55, unlimited}) == ExitCode::machine);
@@ -127,7 +127,7 @@ TEST_CASE("VTK files hold every field over the whole domain, velocities averaged
   vdb::Frame frame;
   frame.dimension = 2;
   frame.cell_size = 0.5;
-  // Two ranks' pieces of 3 x 1 cells; u = 2, 4, 8 on the low faces.
+  // Two ranks with 3 x 1 cells each; u = 2, 4, 8 on the lower faces.
   frame.grids.push_back({"vel",
                          vdb::GridKind::staggered_vector,
                          0,

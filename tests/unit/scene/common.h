@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that the tests of the reader vary.
+// Scenes for the tests of the reader.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,13 +16,13 @@ using Overrides = std::vector<Override>;
 inline const std::string small_scene = "[domain]\nupper = [1, 1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
 inline const std::string flat_scene = "dimension = 2\n[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
 
-// Reads `text` as scene.toml in the folder.
+// Reads `text` as scene.toml in `folder`.
 Scene parse(const std::string& text, const Overrides& overrides = {}, const std::filesystem::path& folder = ".");
 
-// What the reader says against the text; fails the test if it says nothing or not with exit code 2.
+// Message of the reader about an invalid text; fails the test if there is none or the exit code is not 2.
 std::string fault(const std::string& text, const Overrides& overrides = {}, const std::filesystem::path& folder = ".");
 
-// A scene that has every table, with the given shape, side type and probe kind; 2D or 3D. Files: s.obj and s.vdb.
+// A scene with every table and the given shape, side type and probe kind; 2D or 3D. Files: s.obj and s.vdb.
 std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe);
 
 std::size_t count_lines(const std::string& text);

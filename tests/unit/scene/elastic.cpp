@@ -18,14 +18,14 @@ namespace {
 const std::string rubber = "material = { youngs_modulus = 1e6, poisson_ratio = 0.4 }\n";
 const std::string bottom = "pinned = { shape = \"plane\", point = [0, 0.3, 0], normal = [0, 1, 0] }\n";
 
-// A ball in 3D, a disc in 2D, without further keys.
+// A ball in 3D, a disc in 2D, without additional keys.
 std::string bare(int dimension, const std::string& keys) {
   const std::string center = dimension == 2 ? "[0.5, 0.5]" : "[0.5, 0.5, 0.5]";
   return (dimension == 2 ? flat_scene : small_scene) +
          "[[solid]]\nkind = \"elastic\"\nshape = \"sphere\"\nradius = 0.2\ncenter = " + center + "\n" + keys;
 }
 
-// With all it needs.
+// With all required keys.
 std::string ball(const std::string& keys) {
   return bare(3, "density = 1100\nelement_size = 0.05\n" + rubber + keys);
 }

@@ -67,7 +67,7 @@ TEST_CASE("a scene file that cannot be opened is named with the system's reason"
   CHECK_THAT(refused_file(folder.write("file", "") / "scene.toml"), Contains("Not a directory"));
   const auto locked = folder.write("locked.toml", small_scene);
   std::filesystem::permissions(locked, std::filesystem::perms::none);
-  if (::geteuid() != 0) CHECK_THAT(refused_file(locked), Contains("Permission denied"));  // root may read anything
+  if (::geteuid() != 0) CHECK_THAT(refused_file(locked), Contains("Permission denied"));  // root may read any file
 }
 
 TEST_CASE("an empty scene is told what it needs") {
@@ -138,7 +138,7 @@ TEST_CASE("the domain is a whole number of cells, more than one, and no more tha
   CHECK(parse(domain("[2, 2, 2]", "1")).domain.cells == std::array{2, 2, 2});
   CHECK(parse(domain("[1, 4, 4]", "1")).domain.cells == std::array{1, 4, 4});
   CHECK(parse(domain("[1290, 1290, 1290]", "1")).domain.cells[0] == 1290);             // 1290^3 < 2^31 < 1291^3
-  CHECK(parse(domain("[0.3, 0.7, 0.9]", "0.1")).domain.cells == std::array{3, 7, 9});  // no decimal of these is exact
+  CHECK(parse(domain("[0.3, 0.7, 0.9]", "0.1")).domain.cells == std::array{3, 7, 9});  // none is exact in binary
 }
 
 TEST_CASE("sides fit the domain and each other") {
@@ -245,7 +245,7 @@ TEST_CASE("names are unique and fit into a table column") {
 TEST_CASE("probes lie in the domain") {
   const std::string probe = small_scene + "[[probe]]\nposition = [0.5, 1.5, 0.5]\n";
   check_all({{probe + "kind = \"pressure\"\n", "probe \"probe1\" lies outside the domain: y = 1.5"}});
-  CHECK_NOTHROW(parse(probe + "kind = \"surface_height\"\n"));  // the height along gravity does not matter
+  CHECK_NOTHROW(parse(probe + "kind = \"surface_height\"\n"));  // the coordinate along gravity does not matter
 }
 
 TEST_CASE("a prescribed motion must be finite and must not jump") {
@@ -262,7 +262,7 @@ TEST_CASE("a prescribed motion must be finite and must not jump") {
        {moving("{ translate = [\"0.1*x\", 0, 0] }"), "uses x; it may depend on t alone"},
        {moving("{ trnslate = [0, 0, 0] }"), "did you mean 'translate'?"}});
   CHECK_NOTHROW(parse(moving("{ translate = [\"exp(-t)*t\", \"0.1*sin(6.28*t)\", 0] }")));
-  CHECK_NOTHROW(parse(moving("{ translate = [\"1000*t\", 0, 0] }")));  // fast, but it does not jump
+  CHECK_NOTHROW(parse(moving("{ translate = [\"1000*t\", 0, 0] }")));  // fast, but without a jump
 }
 
 TEST_CASE("gravity is numbers, or formulas in t alone") {
@@ -322,7 +322,7 @@ TEST_CASE("files are looked for in the scene's folder and nowhere else unless al
   }
 }
 
-// Peak memory of the whole test program bounds that of each of these texts.
+// The peak memory of the whole test program bounds that for each of these texts.
 TEST_CASE("texts beyond all measure are refused in seconds and within a gigabyte") {
   using Clock = std::chrono::steady_clock;
   std::string many_keys, deep_header = "[a";

@@ -1,4 +1,4 @@
-// Flows that are given for all times, in scene files.
+// Prescribed flows in scene files.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"

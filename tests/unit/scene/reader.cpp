@@ -132,7 +132,7 @@ class DecimalComma : public std::numpunct<char> {
 
 }  // namespace
 
-// The C++ locale stands for those the machine has not got; the C locale is set too where it is installed.
+// The C++ locale replaces locales that the machine lacks; the C locale is set too if it is installed.
 TEST_CASE("numbers and formulas mean the same under a locale with decimal commas") {
   const std::string text = rich_scene(3, "expression", "inflow", "pressure") +
                            "[[solid]]\nshape = \"plane\"\n"

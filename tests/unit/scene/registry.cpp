@@ -1,4 +1,4 @@
-// Properties that hold for every key of the table.
+// Properties of every key in the table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ namespace {
 
 using T = OptionType;
 
-// The path with entry 0 of each list; motions belong to the second solid of the rich scene, inertia to the third, what
-// deforms to the fourth, springs to the fifth.
+// The path with entry 0 of each list. In the rich scene the motion belongs to the second solid, inertia to the third,
+// elastic keys to the fourth, springs to the fifth.
 std::string concrete_path(const Option& option) {
   std::string path = option.path;
   const auto& kinds = option.only_for.values;
@@ -38,14 +38,14 @@ std::string concrete_path(const Option& option) {
   return path;
 }
 
-// A rheology of the model with all its keys.
+// A rheology with all keys of the model.
 std::string rheology_text(const std::string& model) {
   std::string text = "rheology = { model = \"" + model + "\"";
   for (const std::string_view key : rheology_model(model).keys) text += fmt::format(", {} = 0.5", key);
   return text + " }";
 }
 
-// A scene in which the option has a meaning.
+// A scene in which the option applies.
 std::string scene_for(const Option& option) {
   std::string shape = "sphere", side = "inflow", probe = "pressure";
   const Condition& condition = option.only_for;
@@ -69,7 +69,7 @@ bool is_numeric_vector(const Option& o) {
   return o.type == T::vector || o.type == T::axis || o.type == T::spin || o.type == T::formula_vector;
 }
 
-// Only x_lower has a table in the rich scene; the other sides are built by the same rows.
+// Only x_lower has a table in the rich scene; the rows of the other sides are built alike.
 bool is_testable(const Option& o) {
   return o.path.rfind("domain.boundary.", 0) != 0 || o.path.rfind("domain.boundary.x_lower.", 0) == 0;
 }

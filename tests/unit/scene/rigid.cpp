@@ -25,7 +25,7 @@ std::string ball(int dimension, const std::string& keys) {
          "\n" + keys;
 }
 
-// A ball of density 400 with further keys.
+// A ball of density 400 with additional keys.
 std::string heavy(int dimension, const std::string& keys) {
   return ball(dimension, "density = 400\n" + keys + "\n");
 }

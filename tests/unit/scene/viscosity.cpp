@@ -1,4 +1,4 @@
-// Keys of viscous liquid.
+// Keys of viscous liquids.
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -45,7 +45,7 @@ TEST_CASE("a rheology keeps its numbers through writing and reading") {
   CHECK_FALSE(carreau.liquid.rheology.regularisation);
 }
 
-// sqrt(g / L) = sqrt(9.81 / 1) over the unit box of the small scene, whose run takes 1 s.
+// sqrt(g / L) = sqrt(9.81 / 1) in the unit box of the small scene; its run takes 1 s.
 TEST_CASE("the regularisation that a scene leaves out is derived from it and written") {
   const std::string text = rheology("model = \"bingham\", viscosity = 1, yield_stress = 2");
   const Scene scene = parse(text);

@@ -1,4 +1,4 @@
-// Surfaces for contacts: closed, facing outwards, on the shape they stand for.
+// Contact surfaces: closed, oriented outwards, on the shape.
 #include <catch2/catch.hpp>
 
 #include <Eigen/Geometry>
@@ -23,13 +23,13 @@ SurfaceMesh surface_of(const ShapeSpec& spec, double cell_size) {
   return contact_surface<Dim>(spec, {cell_size, nullptr}, Vec<Dim>::Constant(-2), Vec<Dim>::Constant(2));
 }
 
-// Signed volume: negative where the surface faces inwards.
+// Signed volume: negative for a surface oriented inwards.
 template <int Dim>
 double volume_of(const SurfaceMesh& mesh) {
   return mass_of_surface<Dim>(mesh, 1).volume;
 }
 
-// The largest distance of the corners from the shape's surface, and that of the middles of the triangles or segments.
+// Largest distance from the shape's surface: of the corners, and of the middles of triangles or segments.
 struct Distances {
   double corners = 0, middles = 0;
 };
@@ -47,7 +47,7 @@ Distances distances(const SurfaceMesh& mesh, const ShapeSpec& spec, double cell_
   return d;
 }
 
-// Corners are on the surface to round-off and middles within the promised 0.05 cells.
+// Corners lie on the surface up to round-off, middles within the promised 0.05 cells.
 template <int Dim>
 void check_primitive(ShapeSpec spec, double cell_size) {
   const MassProperties exact =
@@ -58,7 +58,7 @@ void check_primitive(ShapeSpec spec, double cell_size) {
   CHECK(self_intersections(mesh) == 0);
   CHECK(d.corners < 1e-13);
   CHECK(d.middles <= 0.05 * cell_size + 1e-13);
-  // A surface at most c inside a shape of least radius r misses about Dim c/r of its volume.
+  // A surface at most c inside a shape of smallest radius r lacks about Dim c/r of its volume.
   const double missing = Dim * 0.05 * cell_size / (spec.radius * spec.transform.scale);
   const double volume = volume_of<Dim>(mesh);
   CHECK(volume <= exact.volume * (1 + 1e-13));
@@ -150,7 +150,7 @@ TEST_CASE("a plane is a block whose face covers the domain") {
   CHECK(distances<2>(line, s, 0.1).corners > 1);
 }
 
-// Dual contouring puts its points in the middle of those on a cell's edges, less than h^2/(2 r) inside the surface.
+// Dual contouring averages the points on a cell's edges, so vertices lie less than h^2/(2 r) inside the surface.
 TEST_CASE("expressions are contoured, and cut off where they leave the domain") {
   ShapeSpec s = solid_shape("expression");
   s.phi = "y-0.1*sin(3*x)";
@@ -170,7 +170,7 @@ TEST_CASE("expressions are contoured, and cut off where they leave the domain") 
   CHECK(distances<3>(ball, s, 0.05).corners < 0.05 * 0.05 / (2 * 0.25));
 }
 
-// Two balls that overlap, a thin shell, and a block with a hole: creases and narrow gaps.
+// Two overlapping balls, a thin shell, and a block with a hole: creases and narrow gaps.
 TEST_CASE("contours do not go through themselves") {
   ShapeSpec s = solid_shape("expression");
   for (const char* phi :

@@ -1,5 +1,5 @@
 #pragma once
-// Dry rigid bodies stepped in time, and simple closed surfaces, for the tests of contact.
+// Time steps of dry rigid bodies, and simple closed surfaces, for the tests of contact.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -11,7 +11,7 @@ namespace seiche::contact_cases {
 template <int Dim>
 using TwistVector = Eigen::Matrix<double, twist_size<Dim>, 1>;
 
-// A box of the given sides about the origin; in 2D a rectangle.
+// A box of the given sides about the origin (2D: a rectangle).
 template <int Dim>
 SurfaceMesh box(const Vec3& sides) {
   SurfaceMesh m;
@@ -60,7 +60,7 @@ inline SurfaceMesh icosphere(double radius, int splits) {
   return m;
 }
 
-// Surface and matter swapped.
+// Flips the surface: inside and outside are swapped.
 inline SurfaceMesh inverted(SurfaceMesh m) {
   for (auto& t : m.triangles) std::swap(t[1], t[2]);
   for (auto& s : m.segments) std::swap(s[0], s[1]);
@@ -84,7 +84,7 @@ struct DryWorld {
   ContactReport report;  // of the last step
   int newton_iterations = 0, solves = 0;
 
-  // A box of uniform density (kg/m^3, kg/m^2), its middle at `center`.
+  // A box of uniform density (kg/m^3, kg/m^2) about `center`.
   DryBody<Dim>& add_box(const Vec3& sides, const Vec3& center, double density) {
     const double mass = density * sides.head<Dim>().prod();
     const Vec3 s = sides.cwiseAbs2();
@@ -100,7 +100,7 @@ struct DryWorld {
     return bodies.back();
   }
 
-  // One step: forces, then contact over dt, then the new poses. `ends` are those of the prescribed bodies.
+  // One step: forces, then contact over dt, then the new poses. `ends`: poses of the prescribed bodies at the end.
   void step(double dt, const std::map<int, Pose>& ends = {}) {
     std::vector<ContactMotion> motions;
     for (size_t b = 0; b < bodies.size(); ++b)

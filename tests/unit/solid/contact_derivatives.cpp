@@ -1,4 +1,4 @@
-// Gradients against differences, Hessians without negative eigenvalues.
+// Gradients against differences; Hessians without negative eigenvalues.
 #include <Eigen/Eigenvalues>
 #include <random>
 
@@ -16,7 +16,7 @@ struct Random {
   Vec3 vector(double size) { return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)}; }
 };
 
-// Two bodies near a wall and near each other, moving and turning; everything within reach.
+// Two translating and rotating bodies near a wall and near each other; all within reach.
 template <int Dim>
 struct Crowd {
   static constexpr int n = twist_size<Dim>;
@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE_SIG("the gradient of barrier and friction is that of the ener
     REQUIRE(terms.active > 4);
     REQUIRE(crowd.friction.size() > 2);
     CHECK(terms.energy == Approx(crowd.energy(crowd.v)).epsilon(1e-12));
-    const double h = 1e-5;  // the error of the differences, of fourth order, is then that of round-off
+    const double h = 1e-5;  // fourth-order differences; their error is then round-off
     Eigen::VectorXd differences(crowd.v.size());
     for (int i = 0; i < crowd.v.size(); ++i) {
       const Eigen::VectorXd e = h * Eigen::VectorXd::Unit(crowd.v.size(), i);

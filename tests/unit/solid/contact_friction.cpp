@@ -1,4 +1,4 @@
-// Coulomb friction against its closed forms (validation/README.md 6.11), in 2D and 3D.
+// Coulomb friction against closed forms (validation/README.md 6.11), in 2D and 3D.
 #include "unit/solid/contact_cases.h"
 
 using namespace seiche;
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180, g = 9.81;
 
-// A box of side 0.1 m at rest just above a floor y = 0, which gravity leaves by the angle given.
+// A box of side 0.1 m at rest just above a floor y = 0; gravity is rotated by the angle given.
 template <int Dim>
 DryWorld<Dim> box_on_slope(double angle, double friction) {
   DryWorld<Dim> world;
@@ -20,7 +20,7 @@ DryWorld<Dim> box_on_slope(double angle, double friction) {
   return world;
 }
 
-// The acceleration over one second, after half a second in which the box settles.
+// Mean acceleration over one second, after half a second in which the box comes to rest on the floor.
 template <int Dim>
 double acceleration(double angle, double friction) {
   DryWorld<Dim> world = box_on_slope<Dim>(angle, friction);
@@ -51,11 +51,11 @@ TEMPLATE_TEST_CASE_SIG("a box sticks above the angle of friction and slides belo
 TEMPLATE_TEST_CASE_SIG("a sliding box stops after v^2/(2 mu g)", "", ((int Dim), Dim), 2, 3) {
   const double mu = 0.3, v = 1, dt = 0.002;
   DryWorld<Dim> world = box_on_slope<Dim>(0, mu);
-  for (int i = 0; i < 100; ++i) world.step(dt);  // settles
+  for (int i = 0; i < 100; ++i) world.step(dt);  // comes to rest on the floor
   const double start = world.bodies[0].pose.displacement[0];
   world.bodies[0].velocity[0] = v;
   for (int i = 0; i < 300; ++i) world.step(dt);
-  // The implicit step stops v dt/2 early; that is not the friction's fault.
+  // The implicit step stops v dt/2 early, which is no error of friction.
   const double way = world.bodies[0].pose.displacement[0] - start + 0.5 * v * dt;
   CHECK(way == Approx(v * v / (2 * mu * g)).epsilon(0.01));
   CHECK(std::abs(world.bodies[0].velocity[0]) < world.options.creep_speed);

@@ -1,4 +1,4 @@
-// Collisions: nothing tunnels, momentum is kept, prescribed bodies push, impacts do not bounce.
+// Collisions: no tunnelling, conserved momentum, prescribed bodies push, impacts do not bounce.
 #include <random>
 
 #include "solid/contact/path.h"
@@ -21,7 +21,7 @@ struct Random {
   }
 };
 
-// The least distance of a pair on the way from `from` to `to`, sampled.
+// Smallest distance of a pair between `from` and `to`, sampled.
 template <int Dim>
 double least_distance(PairKind kind, const contact::PairPoints<Dim>& from, const contact::PairPoints<Dim>& to,
                       double share) {
@@ -51,7 +51,7 @@ void check_random_pairs(PairKind kind) {
     REQUIRE(share > 0);
     REQUIRE(share <= 1);
     stopped += share < 1;
-    REQUIRE(least_distance<Dim>(kind, from, to, share) >= 0.199 * start);  // a fifth is kept
+    REQUIRE(least_distance<Dim>(kind, from, to, share) >= 0.199 * start);  // a fifth of it is kept
   }
   CHECK(stopped > 100);
 }
@@ -91,11 +91,11 @@ TEMPLATE_TEST_CASE_SIG("a thin plate at high speed does not pass another", "", (
   DryWorld<Dim> world;
   world.add_box(Vec3(0.001, 1, 1), Vec3::Zero(), 1000);
   world.add_box(Vec3(0.001, 1, 1), Vec3(0.5, 0.02, 0.03), 1000);
-  world.bodies[0].velocity[0] = 49;  // 490 times its thickness in a step
+  world.bodies[0].velocity[0] = 49;  // 490 times its thickness per step
   world.bodies[1].velocity.tail(1)[0] = 3;
   for (int i = 0; i < 5; ++i) {
     world.step(0.01);
-    // The order along the normal of a plate: the plates tilt.
+    // Order along the normal of a plate, since the plates tilt.
     const Vec3 apart = world.bodies[1].pose.displacement - world.bodies[0].pose.displacement;
     CHECK(apart.dot(world.bodies[0].pose.rotation.col(0)) > 0.0009);
     CHECK(apart.dot(world.bodies[1].pose.rotation.col(0)) > 0.0009);
@@ -140,7 +140,7 @@ TEMPLATE_TEST_CASE_SIG("contact between free bodies keeps momentum", "", ((int D
     }
     CHECK(linear.norm() <= 1e-14 * largest);
     CHECK(angular.norm() <= 1e-14 * largest);  // lengths are below 1 m
-    CHECK(change.norm() <= 1e-10 * largest);   // what the velocities took, to the round-off of stiff contacts
+    CHECK(change.norm() <= 1e-10 * largest);   // velocity changes, up to the round-off of stiff contacts
   }
   CHECK(largest > 0.5);
 }
@@ -152,7 +152,7 @@ TEMPLATE_TEST_CASE_SIG("a prescribed piston pushes a row of boxes through many r
   for (int i = 0; i < 4; ++i) world.add_box(Vec3::Constant(0.1), Vec3(0.07 + 0.11 * i, 0.001 * i, 0), 100 * (1 + i));
   for (int i = 1; i <= 10; ++i) {
     Pose end = world.bodies[0].pose;
-    end.displacement[0] += 0.05;  // fifty times the reach
+    end.displacement[0] += 0.05;  // fifty times the contact reach
     world.step(0.01, {{0, end}});
   }
   for (int b = 1; b < 5; ++b) {
@@ -192,6 +192,6 @@ TEST_CASE("the safe share of a motion ends before the collision") {
   const double share = largest_safe_fraction<3>(world.scene(), motions, 0.1, v);
   CHECK(share <= 0.4);  // a fifth of the gap is kept
   CHECK(share > 0.38);
-  v[3] = 20;  // turning on the way
+  v[3] = 20;  // rotating as well
   CHECK(largest_safe_fraction<3>(world.scene(), motions, 0.1, v) < 0.5);
 }

@@ -1,4 +1,4 @@
-// Overlaps at the start: near, crossing, contained; containers as inverted solids; walls; nothing at all.
+// Initial overlaps: close, crossing and contained bodies, inverted containers, walls, empty surfaces.
 #include "unit/solid/contact_cases.h"
 
 using namespace seiche;
@@ -39,7 +39,7 @@ TEMPLATE_TEST_CASE_SIG("overlaps of two boxes", "", ((int Dim), Dim), 2, 3) {
   REQUIRE(by_a_hair.size() == 1);
   const auto crossing = two_boxes<Dim>(Vec3(0.7, 0, 0), 0.5);
   REQUIRE(crossing.size() == 1);
-  const double corner = 0.25 * (std::cos(0.1) + std::sin(0.1));  // how far the turned corner reaches
+  const double corner = 0.25 * (std::cos(0.1) + std::sin(0.1));  // reach of the rotated corner
   CHECK(crossing[0].depth == Approx(0.5 - 0.7 + corner));
   const auto inside = two_boxes<Dim>(Vec3(0.1, 0, 0), 0.5);
   REQUIRE(inside.size() == 1);

@@ -1,4 +1,4 @@
-// The search for near pairs finds each once; a thousand bodies; the same input gives the same bits.
+// The search for close pairs finds each pair once, for a thousand bodies, with the same bits each time.
 #include <random>
 
 #include "solid/contact/search.h"
@@ -9,7 +9,7 @@ using namespace seiche::contact_cases;
 
 namespace {
 
-// A lattice of boxes and balls (2D: hexagons), each a little out of place and turned.
+// A lattice of boxes and balls (2D: hexagons), slightly displaced and rotated.
 template <int Dim>
 DryWorld<Dim> lattice(int side, unsigned seed) {
   std::mt19937 engine(seed);
@@ -44,7 +44,7 @@ contact::Points<Dim> points_of(DryWorld<Dim>& world, double way) {
 
 using Key = std::tuple<char, std::array<int, 4>>;
 
-// Pairs nearer than `margin`, of those given; each must be there once.
+// Pairs closer than `margin` among the given ones; each must be there once.
 template <int Dim>
 std::vector<Key> near(const typename ContactScene<Dim>::Data& scene, const std::vector<contact::Candidate>& pairs,
                       const contact::Points<Dim>& points, double margin) {

@@ -1,4 +1,4 @@
-// Stacks that stand: equal masses, and the heaviest on top.
+// Stacks at rest: equal masses, and the heaviest on top.
 #include "unit/solid/contact_cases.h"
 
 using namespace seiche;
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double side = 0.1;
 
-// Ten boxes on the floor with the masses of a geometric series from bottom to top.
+// Ten boxes on the floor; their masses form a geometric series from bottom to top.
 template <int Dim>
 DryWorld<Dim> stack(double top_over_bottom) {
   DryWorld<Dim> world;
@@ -84,7 +84,7 @@ TEST_CASE("bodies without liquid: the minimum, its gradient and what is held") {
   CHECK(response.velocity[1] == 0);
   CHECK(std::abs(residual[0]) < 1e-14);
   CHECK(std::abs(residual[2]) < 1e-14);
-  CHECK(response.gradient[1] == Approx(-4));  // what holds it
+  CHECK(response.gradient[1] == Approx(-4));  // the reaction
   K.coeffRef(2, 2) = -10;
   CHECK(problem.minimise(K, r).shape == Shape::indefinite);
 }

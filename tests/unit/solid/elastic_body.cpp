@@ -1,4 +1,4 @@
-// Energy, force and stiffness of a body agree; masses; the patch test; steps that invert nothing.
+// Consistency of energy, force and stiffness; masses; the patch test; steps without inversion.
 #include <Eigen/Dense>
 #include <random>
 
@@ -46,7 +46,7 @@ void check_differences(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, d
   CHECK(SparseMatrix(K - SparseMatrix(K.transpose())).norm() < 1e-14 * K.norm());
 }
 
-// u = A X + b on the boundary: the inside follows, whatever the material, as stress is uniform.
+// With u = A X + b on the boundary the inside follows for any material, since stress is uniform.
 template <int Dim>
 void check_patch(int order, std::string_view material) {
   ElasticProperties properties;
@@ -60,14 +60,14 @@ void check_patch(int order, std::string_view material) {
   Pins pins = pin_nodes<Dim>(boundary_nodes(body.mesh));
   for (size_t i = 0; i < pins.dofs.size(); ++i) pins.targets[i] = exact[pins.dofs[i]];
   MinimizeOptions options;
-  options.step_tolerance = 1e-12;  // of a body of size 1 that moves by 1e-5
+  options.step_tolerance = 1e-12;  // for a body of size 1 that moves by 1e-5
   ElasticWorkspace workspace;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(body.size());
   const auto report = solve_static<Dim>(body, u, pins, 1, options, workspace, u);
   INFO(Dim << "D, order " << order << ", " << material << ": " << report.failure);
   REQUIRE(report.converged);
   const double error = (u - exact).lpNorm<Eigen::Infinity>() / exact.lpNorm<Eigen::Infinity>();
-  CHECK(error < 1e-9);  // F = 1 + 1e-6 rounds at 1e-16: 1e-10 of the strain
+  CHECK(error < 1e-9);  // F = 1 + 1e-6 has round-off 1e-16: 1e-10 of the strain
   WARN("patch test " << Dim << "D, order " << order << ", " << material << ": " << error);
 }
 
@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE_SIG("Force and stiffness of a body are derivatives of its ene
     const auto body = elastic_body<Dim>(distorted_box<Dim>(2, order, 0.2), "stable_neo_hookean", 1000, 1e4, 0.4);
     const Eigen::VectorXd shake = random_vector(body.size(), 0.02);
     check_differences<Dim>(body, shake, 1e-6);
-    // squeezed along x to 6 % of the volume, where the guard acts at every point; it bends within far shorter steps
+    // Compressed along x to 6 % of the volume, where the guard acts at every point; it varies over much shorter steps.
     check_differences<Dim>(
         body,
         0.01 * shake +
@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG("The patch test is met to round-off", "[elastic]", ((int 
   }
 }
 
-// The step to the mirror image would invert all elements; the bound stops before the first, and not long before.
+// A step to the mirror image would invert all elements; the bound stops just before the first inversion.
 TEMPLATE_TEST_CASE_SIG("The inversion bound keeps every volume", "[elastic]", ((int Dim), Dim), 2, 3) {
   for (int order : {1, 2}) {
     const auto body = elastic_body<Dim>(distorted_box<Dim>(2, order, 0.2), "corotated", 1, 1, 0);
@@ -121,10 +121,10 @@ TEMPLATE_TEST_CASE_SIG("The inversion bound keeps every volume", "[elastic]", ((
   }
 }
 
-// Pins that squeeze a block to a fifth of its height in one step.
+// Pins compress a block to a fifth of its height in one step.
 TEST_CASE("A squeezed block stays free of inversions", "[elastic]") {
   for (const auto& row : elastic_materials<2>()) {
-    if (row.name == "st_venant_kirchhoff") continue;  // has no minimum under such compression
+    if (row.name == "st_venant_kirchhoff") continue;  // no minimum under such compression
     for (int order : {1, 2}) {
       const auto body = elastic_body<2>(distorted_box<2>(4, order, 0.2), std::string(row.name).c_str(), 1, 1e5, 0.4);
       Pins pins = pin_nodes<2>(nodes_where(body.mesh, [](const Vec<2>& X) { return X[1] < 1e-9 || X[1] > 1 - 1e-9; }));

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of elastic bodies share.
+// Helpers for tests of elastic bodies.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -16,7 +16,7 @@ ElasticBody<Dim> elastic_body(ElasticMesh<Dim> mesh, const char* material, doubl
   return make_elastic_body<Dim>(std::move(mesh), seiche::elastic_material<Dim>(material), properties);
 }
 
-// Nodes whose rest place satisfies f.
+// Nodes whose rest position satisfies f.
 template <int Dim, class Predicate>
 std::vector<int> nodes_where(const ElasticMesh<Dim>& mesh, Predicate f) {
   std::vector<int> r;
@@ -35,7 +35,7 @@ int node_nearest(const ElasticMesh<Dim>& mesh, const Vec<Dim>& X) {
   return best;
 }
 
-// Faces all of whose nodes satisfy f.
+// Boundary faces whose nodes all satisfy f.
 template <int Dim, class Predicate>
 std::vector<BoundaryFace> faces_where(const ElasticMesh<Dim>& mesh, Predicate f) {
   std::vector<BoundaryFace> r;
@@ -45,7 +45,7 @@ std::vector<BoundaryFace> faces_where(const ElasticMesh<Dim>& mesh, Predicate f)
   return r;
 }
 
-// A field at the nodes.
+// Values of a field at the nodes.
 template <int Dim, class Field>
 Eigen::VectorXd at_nodes(const ElasticMesh<Dim>& mesh, Field f) {
   Eigen::VectorXd r(Dim * mesh.nodes.size());

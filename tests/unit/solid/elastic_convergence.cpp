@@ -1,4 +1,4 @@
-// Orders of convergence: manufactured states of rest in space, refined steps in time.
+// Orders of convergence: manufactured static solutions in space, refined steps in time.
 #include <Eigen/Dense>
 
 #include "unit/solid/elastic_cases.h"
@@ -30,7 +30,7 @@ struct Manufactured {
     for (int i = 0; i < Dim; ++i) F.row(i) += amplitude * std::cos(wave(i).dot(X) + i) * wave(i).transpose();
     return F;
   }
-  // f = -Div P, by central differences: error about 1e-8 of f
+  // f = -Div P by central differences; error about 1e-8 of f.
   Vec<Dim> load(const Vec<Dim>& X) const {
     const double h = 1e-4;
     Vec<Dim> f = Vec<Dim>::Zero();
@@ -84,8 +84,8 @@ double space_error(const Manufactured<Dim>& exact, int cells, int order) {
   return error_norm(body, u, exact);
 }
 
-// A block in free flight, turned and stretched from its rest shape on, steps as in wag: what steps add to its energy is
-// taken from it (solid/elastic/excess.h).
+// A block in free flight, rotating and stretched from its rest shape. Steps alternate as in wag(). The energy that
+// steps add is removed (solid/elastic/excess.h).
 Eigen::VectorXd tumble(const ElasticBody<2>& block, ElasticScheme scheme, int steps) {
   const double duration = 0.2;
   ElasticState state = at_rest(block);
@@ -101,8 +101,8 @@ Eigen::VectorXd tumble(const ElasticBody<2>& block, ElasticScheme scheme, int st
   return state.u;
 }
 
-// A clamped strip under a load that comes and goes as sin^2, from rest: smooth in time, so that the order shows. Steps
-// alternate between 0.8 and 1.2 dt. Displacements at the end.
+// Displacements at the end of a clamped strip under a load sin^2 in time, from rest: smooth in time, so that the order
+// shows. Steps alternate between 0.8 and 1.2 dt.
 Eigen::VectorXd wag(const Strip& strip, const Eigen::VectorXd& load, ElasticScheme scheme, int steps) {
   const double duration = 0.1;
   ElasticState state = at_rest(strip.body);

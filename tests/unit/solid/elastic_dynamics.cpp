@@ -1,4 +1,4 @@
-// Motion in time: Turek and Hron's CSM1 and CSM3, free vibration, energy, momentum.
+// Dynamics: CSM1 and CSM3 of Turek and Hron, free vibration, energy, momentum.
 #include <Eigen/Dense>
 #include <algorithm>
 
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// The flag of Turek and Hron 2006: 0.02 thick from the cylinder about (0.2, 0.2) of radius 0.05 to x = 0.6, clamped on
-// the arc; the middle of its end is A.
+// The flag of Turek and Hron 2006: 0.02 thick, from the cylinder of radius 0.05 about (0.2, 0.2) to x = 0.6, clamped on
+// the arc. Point A is the middle of its end.
 Strip turek_hron_flag(const IVec<2>& cells) {
   auto mesh = box_mesh<2>(Vec<2>(0, 0.19), Vec<2>(1, 0.21), cells, 2);
   for (auto& X : mesh.nodes) {
@@ -30,7 +30,7 @@ Eigen::VectorXd weight(const ElasticBody<2>& body, double gravity) {
   return body_force<2>(body, [&](const Vec<2>&) -> Vec<2> { return {0, -gravity * body.properties.density}; });
 }
 
-// Times and values of the extrema of a series, by the parabola through three samples.
+// Times and values of a series' extrema, by the parabola through three samples.
 struct Extremum {
   double time, value;
 };
@@ -46,7 +46,7 @@ std::vector<Extremum> extrema(const std::vector<double>& y, double dt) {
   return r;
 }
 
-// The vertical displacement of the tip, step by step, from time 0 on.
+// Vertical displacement of the tip at each step, from time 0.
 std::vector<double> swing(const Strip& s, ElasticState& state, const Eigen::VectorXd& force, double dt, int steps,
                           int& newton_steps) {
   ElasticWorkspace workspace;
@@ -62,14 +62,14 @@ std::vector<double> swing(const Strip& s, ElasticState& state, const Eigen::Vect
   return y;
 }
 
-// The lowest mode by inverse iteration on small static solutions: K u_next = M u. Returns its angular frequency.
+// Lowest mode by inverse iteration with small static solutions, K u_next = M u. Returns its angular frequency.
 double lowest_mode(const Strip& s, double size, Eigen::VectorXd& mode) {
   ElasticWorkspace workspace;
   Eigen::VectorXd load = weight(s.body, 1);
   double omega = 0;
   for (int i = 0; i < 8; ++i) {
     mode.setZero(s.body.size());
-    load *= 1e-8 / load.norm();  // small enough for the stiffness at rest
+    load *= 1e-8 / load.norm();  // small enough for the rest stiffness
     const auto report = solve_static<2>(s.body, load, s.clamp, 1, {}, workspace, mode);
     REQUIRE(report.converged);
     omega = std::sqrt(mode.dot(load) / mode.dot(s.body.mass * mode));
@@ -96,7 +96,7 @@ TEST_CASE("The flag of Turek and Hron hangs as in CSM1", "[elastic]") {
   }
 }
 
-// Reference: TH2006 amplitude 65.16 mm at 1.0995 Hz; the raw series of the same authors 65.64 mm.
+// Reference: TH2006 amplitude 65.16 mm at 1.0995 Hz; the same authors' raw series has 65.64 mm.
 TEST_CASE("The flag of Turek and Hron swings as in CSM3", "[elastic]") {
   const Strip flag = turek_hron_flag(IVec<2>(70, 4));
   ElasticState state = at_rest(flag.body);
@@ -114,7 +114,7 @@ TEST_CASE("The flag of Turek and Hron swings as in CSM3", "[elastic]") {
   CHECK(std::abs(frequency / 1.0995 - 1) < 0.015);
 }
 
-// L = 0.2, h = 0.02: Euler and Bernoulli's beam in plane strain has T = 0.254032 s.
+// L = 0.2, h = 0.02: the Euler-Bernoulli beam in plane strain has T = 0.254032 s.
 TEST_CASE("A beam vibrates freely at the frequency of beam theory", "[elastic]") {
   const auto strip = clamped_strip(0.2, 0.02, IVec<2>(20, 2), 2, "stable_neo_hookean", 1000, 2e6, 0.3975);
   Eigen::VectorXd mode;
@@ -133,14 +133,14 @@ TEST_CASE("A beam vibrates freely at the frequency of beam theory", "[elastic]")
   CHECK(std::abs(period / 0.254032 - 1) < 0.01);
 }
 
-// A body that flies and tumbles freely keeps its momentum. Its energy falls: in each step with backward Euler, in all
-// with BDF2, whose single steps may gain.
+// A free, tumbling body conserves momentum. Its energy falls in each step with backward Euler. With BDF2 it falls
+// overall, while single steps may gain.
 TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and ends with less energy", "[elastic]", ((int Dim), Dim), 2, 3) {
   for (const auto scheme : {ElasticScheme::backward_euler, ElasticScheme::bdf2}) {
     const auto body = elastic_body<Dim>(box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Constant(2), 2),
                                         "stable_neo_hookean", 1000, 1e5, 0.4);
     ElasticState state = at_rest(body);
-    state.v = at_nodes(body.mesh, [](const Vec<Dim>& X) {  // a turn, a stretch and a flight
+    state.v = at_nodes(body.mesh, [](const Vec<Dim>& X) {  // rotation, stretching and translation
       Vec<Dim> v = Vec<Dim>::Unit(0) + 0.5 * X;
       v[0] -= 2 * X[1];
       v[1] += 2 * X[0];
@@ -165,7 +165,7 @@ TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and ends with less energy", "
       grown += now > energy * (1 + 1e-10);
       energy = now;
     }
-    CHECK((momentum(state.v) - before).norm() < 1e-8 * before.norm());  // the tolerance of the steps
+    CHECK((momentum(state.v) - before).norm() < 1e-8 * before.norm());  // tolerance of the steps
     WARN("free flight " << Dim << "D, " << (scheme == ElasticScheme::bdf2 ? "BDF2" : "backward Euler")
                         << ": energy kept " << energy / start << " after 60 steps; it grew in " << grown
                         << ", at most by " << growth);
@@ -174,7 +174,7 @@ TEMPLATE_TEST_CASE_SIG("Free flight keeps momentum and ends with less energy", "
   }
 }
 
-// Rayleigh damping: the mass term alone slows a flight as 1 / (1 + alpha dt) a step; the stiffness term not at all.
+// Rayleigh damping: the mass term slows a translation by 1 / (1 + alpha dt) per step; the stiffness term not at all.
 TEST_CASE("Rayleigh damping acts as given", "[elastic]") {
   auto body =
       elastic_body<2>(box_mesh<2>(Vec<2>::Zero(), Vec<2>::Ones(), IVec<2>::Constant(2), 1), "neo_hookean", 1, 1e4, 0.3);

@@ -1,4 +1,4 @@
-// Every material of the table: derivatives against differences, objectivity, the rest state, the small-strain limit.
+// Every material of the table: derivatives against differences, objectivity, rest state, small-strain limit.
 #include <catch2/catch.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@ using namespace seiche;
 
 namespace {
 
-constexpr double stiffness_unit = 1e5;  // Young's modulus, Pa: results are compared relative to it
+constexpr double stiffness_unit = 1e5;  // Young's modulus, Pa; results are relative to it
 const Lame material = lame_of(stiffness_unit, 0.4);
 
 template <int Dim>
@@ -33,7 +33,7 @@ Gradient<Dim> random_rotation(std::mt19937& random) {
   }
 }
 
-// Rotated and strained by up to 0.3 an entry; det F > 0.
+// A rotation times a strain with entries up to 0.3; det F > 0.
 template <int Dim>
 Gradient<Dim> random_state(std::mt19937& random) {
   while (true) {
@@ -93,7 +93,7 @@ TEMPLATE_TEST_CASE_SIG("Materials do not see rotations", "[elastic]", ((int Dim)
   }
 }
 
-// At F = 1 the stiffness is that of Lame: 2 mu sym(dF) + lambda tr(dF).
+// At F = 1 the stiffness is that of linear elasticity: 2 mu sym(dF) + lambda tr(dF).
 TEMPLATE_TEST_CASE_SIG("Materials agree with linear elasticity at small strain", "[elastic]", ((int Dim), Dim), 2, 3) {
   std::mt19937 random(3);
   for (const auto& row : elastic_materials<Dim>()) {

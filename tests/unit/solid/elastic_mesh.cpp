@@ -1,4 +1,4 @@
-// Meshes: boxes, their boundary, promotion, quality, and the faults that are refused.
+// Meshes: boxes, boundary, promotion, quality, and rejected faults.
 #include <Eigen/Dense>
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ ElasticMesh<Dim> box(int order) {
   return box_mesh<Dim>(Vec<Dim>::Zero(), upper, cells, order);
 }
 
-// The volume inside the surface, by the divergence theorem.
+// Volume inside the surface, by the divergence theorem.
 double enclosed(const SurfaceMesh& s) {
   double r = 0;
   for (const auto& t : s.triangles) r += s.points[t[0]].dot(s.points[t[1]].cross(s.points[t[2]])) / 6;

@@ -1,4 +1,5 @@
-// Mesh files of every format: read back as written; truncated, lying and mutated ones refused in words.
+// Mesh files of every format: read back as written; truncated, inconsistent and mutated files are rejected with a
+// message.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -33,7 +34,7 @@ std::string point(const Vec<Dim>& X) {
   return fmt::format("{} {} {}\n", x[0], x[1], x[2]);
 }
 
-// Nodes of element e from `first` on; Gmsh swaps the last two of a quadratic tetrahedron.
+// Nodes of element e, numbered from `first`. Gmsh swaps the last two nodes of a quadratic tetrahedron.
 template <int Dim>
 std::string cell(const ElasticMesh<Dim>& mesh, int e, int first, bool gmsh = false) {
   std::vector<int> n(mesh.element(e), mesh.element(e) + mesh.nodes_per_element());
@@ -161,7 +162,7 @@ TEST_CASE("Mesh files that lie are refused", "[elastic]") {
   expect_refused(folder, "x.mesh", solid, "no triangles");
 }
 
-// Cut anywhere and with bytes changed anywhere: read or refused in words, and nothing else.
+// Files truncated or with bytes changed anywhere are either read or rejected with a message.
 TEST_CASE("Mutated mesh files are read or refused", "[elastic]") {
   const Folder folder;
   std::mt19937 random(7);
@@ -180,5 +181,5 @@ TEST_CASE("Mutated mesh files are read or refused", "[elastic]") {
     }
   }
   WARN("mesh files cut or changed: " << refused << " of " << tried << " refused");
-  CHECK(2 * refused > tried);  // all that were cut but for trailing white space
+  CHECK(2 * refused > tried);  // all truncated files except for missing trailing white space
 }

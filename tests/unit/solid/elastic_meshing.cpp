@@ -1,4 +1,4 @@
-// Elements made of shapes: volume, quality, order of the fit, faults, and the same mesh every time.
+// Meshing of shapes: volume, quality, order of the fit, faults, and reproducible meshes.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -64,7 +64,7 @@ std::string fault(const SolidSpec& spec) {
   return "";
 }
 
-// By the mass matrix: exact also where sides are curved.
+// Volume by the mass matrix: exact also for curved sides.
 template <int Dim>
 double volume(const ElasticSolid<Dim>& solid) {
   double sum = 0;
@@ -108,7 +108,7 @@ void check_shape(const char* what, const SolidSpec& spec, double exact, double t
 
 }  // namespace
 
-// Tolerances: chords of a surface of this size, squared by quadratic sides; a rim is a polygon.
+// Tolerances: chords of a surface with this element size, squared for quadratic sides; a rim is a polygon.
 TEST_CASE("2D shapes become triangles that fill them", "[elastic][meshing]") {
   check_shape<2>("box", block({0, 0, 0}, {0.31, 0.2, 0}, 0.05), 0.062, 1e-12, 0.8);
   check_shape<2>("disc", ball(0.3, 0.1), pi * 0.09, 1e-4, 0.5);
@@ -168,7 +168,7 @@ TEST_CASE("Quadratic sides follow round shapes", "[elastic][meshing]") {
                quadratic = std::log2(error(0.1, 2) / error(0.05, 2));
   WARN("volume of a disc: order " << linear << " with straight sides, " << quadratic << " with quadratic ones; error "
                                   << error(0.1, 1) << ", " << error(0.1, 2));
-  // 2 and 4, less what it makes that refinement splits some of the coarse sides
+  // Orders 2 and 4, reduced since refinement splits some of the coarse sides.
   CHECK(linear > 1.5);
   CHECK(quadratic > 3.2);
   CHECK(error(0.1, 2) < error(0.1, 1) / 100);
@@ -193,7 +193,7 @@ TEST_CASE("The same scene gives the same mesh", "[elastic][meshing]") {
   bowl.shape.phi = "max(max(sqrt(x*x+y*y+z*z)-0.4, 0.28-sqrt(x*x+y*y+z*z)), y)";
   for (const SolidSpec& spec : {ball(0.3, 0.15), bowl}) {
     const auto first = make<3>(spec);
-    make<3>(ball(0.2, 0.12));  // what came before must not matter
+    make<3>(ball(0.2, 0.12));  // earlier meshes must not matter
     const std::vector<double> heap(123457);
     const auto second = make<3>(spec);
     CHECK(first.body.mesh.elements == second.body.mesh.elements);
@@ -212,7 +212,7 @@ TEST_CASE("Boxes are cut along their own axes", "[elastic][meshing]") {
     CHECK(x[1] < 0.4 + 1e-12);
   }
   CHECK(volume(solid) == Approx(0.002 * 8));
-  // 0.3 / 0.1 is not 3 in binary numbers
+  // 0.3 / 0.1 is not 3 in binary.
   CHECK(make<2>(block({0, 0, 0}, {0.3, 0.1, 0}, 0.1, 1)).body.mesh.element_count() == 2 * 3);
 }
 
@@ -231,7 +231,7 @@ TEST_CASE("Elements that cannot be made are refused in words", "[elastic][meshin
   SolidSpec two = solid_of("expression", 0.05);
   two.shape.phi = "min(sqrt(x*x+y*y)-0.2, sqrt((x-1)*(x-1)+y*y)-0.2)";
   CHECK_THAT(fault<2>(two), Contains("do not hang together"));
-  SolidSpec comb = solid_of("expression", 0.05);  // as wide as two elements, in parts of half an element
+  SolidSpec comb = solid_of("expression", 0.05);  // two elements wide, with parts of half an element
   comb.shape.phi = "max(sqrt((x-0.5)^2+(y-0.6)^2)-0.2,sin(100*x)*sin(100*y))";
   CHECK_THAT(fault<2>(comb), Contains("lower element_size"));
   SolidSpec sheet = solid_of("cylinder", 0.1);
@@ -256,13 +256,13 @@ TEST_CASE("Pins hold the nodes that lie in them", "[elastic][meshing]") {
   spec.elastic.pinned = {pin, pin};
   const auto solid = make<2>(spec);
   REQUIRE(solid.pins.size() == 2);
-  CHECK(solid.pins[0].nodes.size() == 5);  // the lowest side: two elements of order 2
-  CHECK(solid.pins[1].nodes.empty());      // held already
+  CHECK(solid.pins[0].nodes.size() == 5);  // lowest side: two elements of order 2
+  CHECK(solid.pins[1].nodes.empty());      // already pinned
   const Pins pins = pins_at(solid, 1);
   REQUIRE(pins.dofs.size() == 10);
   CHECK(std::is_sorted(pins.dofs.begin(), pins.dofs.end()));
   for (std::size_t i = 0; i < pins.dofs.size(); i += 2) {
-    const Vec<2> X = solid.body.mesh.nodes[std::size_t(pins.dofs[i] / 2)];  // goes to (0.1 - y, x)
+    const Vec<2> X = solid.body.mesh.nodes[std::size_t(pins.dofs[i] / 2)];  // moves to (0.1 - y, x)
     CHECK(pins.targets[i] == Approx(0.1 - X[1] - X[0]).margin(1e-15));
     CHECK(pins.targets[i + 1] == Approx(X[0] - X[1]).margin(1e-15));
   }
@@ -285,7 +285,7 @@ TEST_CASE("Forces on an elastic solid add up", "[elastic][meshing]") {
   CHECK(sum[0] == Approx(0).margin(1e-12));
   CHECK(sum[1] == Approx(200 * 0.008));
   CHECK(sum[2] == Approx(0.05 * 0.008));
-  // On the upper side, 0.1 by 0.2, and on the one at z = 0.2, of which only the lower half.
+  // Tractions on the upper side, 0.1 by 0.2, and on the lower half of the side z = 0.2.
   TractionSpec upper{{}, {"0", "50*t", "z"}}, side{{}, {"0", "0", "8"}};
   upper.shape = spec.shape, side.shape = spec.shape;
   upper.shape.where = side.shape.where = "scene.toml:12";
@@ -327,7 +327,7 @@ TEST_CASE("An outline keeps its corners and its length", "[elastic][meshing]") {
   CHECK(length == Approx(4));
 }
 
-// Plates 0.04 m thick of one and of four elements across, balls 0.2 m across.
+// Plates 0.04 m thick with one and with four elements across, balls 0.2 m across.
 TEST_CASE("an elastic solid is thin where no ball of the cell's size fits into it") {
   for (const double size : {0.1, 0.01}) {
     CAPTURE(size);

@@ -1,4 +1,4 @@
-// Stresses that frames show, and points that probes follow.
+// Stresses in frames, and points that probes follow.
 #include "base/error.h"
 #include "base/probe_spec.h"
 #include "solid/elastic/output.h"
@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A bar along x, curved a little so that the maps of its quadratic elements are no straight ones.
+// A slightly curved bar along x, so that the maps of its quadratic elements are not affine.
 template <int Dim>
 ElasticMesh<Dim> bar(int order, double bend) {
   ElasticMesh<Dim> mesh = box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Constant(2), order);
@@ -21,7 +21,7 @@ ElasticMesh<Dim> bar(int order, double bend) {
 
 }  // namespace
 
-// Uniaxial stress of small strain e: 3D sigma = E e; in the plane E e / (1 - nu^2) along x and nu of it across.
+// Uniaxial stress at small strain e: 3D sigma = E e; 2D E e / (1 - nu^2) along x and nu times that across.
 TEMPLATE_TEST_CASE_SIG("Von Mises stress of a stretched bar", "[elastic][output]", ((int Dim), Dim), 2, 3) {
   const double E = 1e6, nu = 0.3, e = 1e-6;
   for (const int order : {1, 2}) {
@@ -36,7 +36,7 @@ TEMPLATE_TEST_CASE_SIG("Von Mises stress of a stretched bar", "[elastic][output]
       const double expected = Dim == 2 ? E * e / (1 - nu * nu) * std::sqrt(1 - nu + nu * nu) : E * e;
       INFO(model << ", order " << order);
       for (const double stress : von_mises_stress(body, u))
-        CHECK(stress == Approx(expected).epsilon(1e-4));  // O(e), E e round-off
+        CHECK(stress == Approx(expected).epsilon(1e-4));  // O(e), and round-off over E e
     }
   }
 }
@@ -49,7 +49,7 @@ TEMPLATE_TEST_CASE_SIG("Turning a body gives no stress", "[elastic][output]", ((
     r[1] = X[0] - X[1];
     return r;
   });
-  for (const double stress : von_mises_stress(body, u)) CHECK(stress < 1e-6);  // of 1e6 Pa: round-off
+  for (const double stress : von_mises_stress(body, u)) CHECK(stress < 1e-6);  // round-off of 1e6 Pa
 }
 
 TEMPLATE_TEST_CASE_SIG("A frame of a body is plain data", "[elastic][output]", ((int Dim), Dim), 2, 3) {
@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE_SIG("A frame of a body is plain data", "[elastic][output]", (
 TEMPLATE_TEST_CASE_SIG("Material points are found and followed", "[elastic][output]", ((int Dim), Dim), 2, 3) {
   for (const int order : {1, 2}) {
     const auto mesh = bar<Dim>(order, order == 2 ? 0.1 : 0);
-    // A field that elements of this order hold exactly, in the plain coordinates of the box.
+    // A field that elements of this order represent exactly, in the coordinates of the undistorted box.
     const auto plain = [&](Vec<Dim> X) {
       if (order == 2) X[1] -= 0.1 * X[0] * X[0];
       return X;

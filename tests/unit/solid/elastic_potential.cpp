@@ -1,4 +1,4 @@
-// The energy of elastic bodies by velocities, and held degrees of freedom.
+// Energy of elastic bodies as a function of velocities, and fixed degrees of freedom.
 #include <random>
 
 #include "solid/elastic/potential.h"
@@ -10,7 +10,7 @@ using namespace seiche::testing;
 
 namespace {
 
-// Two blocks whose velocities begin at `gap` and after the first one's, other unknowns before and between.
+// Two blocks whose velocities begin at `gap` and after those of the first block; other unknowns lie before and between.
 template <int Dim>
 struct TwoBlocks {
   ElasticBody<Dim> body = elastic_body<Dim>(box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Ones(), 2),
@@ -26,7 +26,7 @@ struct TwoBlocks {
     v = Eigen::VectorXd::NullaryExpr(2 * body.size() + 5, [&] { return range(random); });
   }
   ElasticPotential<Dim> potential() const {
-    constexpr double most = 3e3;  // Pa, less than the stress of some points, more than that of others
+    constexpr double most = 3e3;  // Pa; below the stress of some points, above that of others
     return {{{&body, &one, 3, {}}, {&body, &other, 5 + body.size(), hold_pressure(body, other, most)}},
             int(v.size()),
             dt,
@@ -49,7 +49,7 @@ TEMPLATE_TEST_CASE_SIG("the energy of elastic bodies by velocities has the deriv
   Eigen::VectorXd g = Eigen::VectorXd::Constant(blocks.v.size(), 7);
   std::vector<Eigen::Triplet<double>> entries;
   potential.add_terms(blocks.v, Curvature::exact, g, entries);
-  g.array() -= 7;  // what was there stays
+  g.array() -= 7;  // existing entries are kept
   Eigen::SparseMatrix<double> K(g.size(), g.size());
   K.setFromTriplets(entries.begin(), entries.end());
   std::mt19937 random(5);
@@ -83,12 +83,12 @@ TEMPLATE_TEST_CASE_SIG("held pressure adds neither energy nor force where it is 
   CHECK(elastic_energy(body, u, held) == elastic_energy(body, u));
   const double size = elastic_gradient(body, u).norm();
   CHECK((elastic_gradient(body, u, held) - elastic_gradient(body, u)).norm() < 1e-14 * size);
-  // The force of a uniform pressure turns with the body; without that the stress on a turned body pulls on.
+  // The force of a uniform pressure rotates with the body. Without that, stress in a rotated body leaves a force.
   const Eigen::VectorXd dead = elastic_gradient(body, turned) - elastic_gradient(body, u),
                         follows = elastic_gradient(body, turned, held) - elastic_gradient(body, u, held);
   CHECK(dead.norm() > 0.5 * angle * size);
   CHECK(follows.norm() < 1e-12 * size);
-  CHECK(hold_pressure<Dim>(body, -u, 1e9).pressure == std::vector<double>(body.weights.size()));  // stretched: none
+  CHECK(hold_pressure<Dim>(body, -u, 1e9).pressure == std::vector<double>(body.weights.size()));  // none if stretched
 }
 
 TEST_CASE("a step of elastic bodies is bounded where one of them would turn inside out", "[elastic]") {
@@ -101,7 +101,7 @@ TEST_CASE("a step of elastic bodies is bounded where one of them would turn insi
   for (size_t n = 0; n < blocks.body.mesh.nodes.size(); ++n)
     squeeze[5 + blocks.body.size() + 2 * Eigen::Index(n)] = -2 * blocks.body.mesh.nodes[n][0] / blocks.horizon;
   const double share = potential.step_bound(rest, squeeze);
-  CHECK(share == Approx(0.45).epsilon(0.01));  // where a tenth of the volume is left
+  CHECK(share == Approx(0.45).epsilon(0.01));  // at a tenth of the volume
   CHECK(std::isfinite(potential.energy(share * squeeze)));
   CHECK(!std::isfinite(potential.energy(squeeze)));
 }
@@ -120,7 +120,7 @@ TEST_CASE("held degrees of freedom have their velocities and pull on the others"
   CHECK(v[1] == 0.7);
   CHECK(v[3] == -0.4);
   CHECK(problem.holds(v));
-  const Eigen::VectorXd residual = M * (v - target) + K * v - r;  // no force on the free ones
+  const Eigen::VectorXd residual = M * (v - target) + K * v - r;  // no force on free ones
   CHECK(std::abs(residual[0]) < 1e-14);
   CHECK(std::abs(residual[2]) < 1e-14);
   DryProblem still(M.sparseView(), target, {Freedom::free, Freedom::fixed});

@@ -1,4 +1,4 @@
-// States of rest against the literature: Cook's membrane, large deflection, Turek and Hron's CSM1, locking.
+// Static solutions against the literature: Cook's membrane, large deflection, CSM1 of Turek and Hron, locking.
 #include "unit/solid/elastic_cases.h"
 
 using namespace seiche;
@@ -6,8 +6,8 @@ using namespace seiche::testing;
 
 namespace {
 
-// u_y of the corner (48, 60) of Cook's membrane, mm: (0,0) (48,44) (48,60) (0,44), clamped on the left, sheared by
-// 6.25 MPa on the right; E = 70 MPa, nu = 1/3, plane strain, small strain: a millionth of the load, times a million.
+// u_y (mm) of the corner (48, 60) of Cook's membrane (0,0) (48,44) (48,60) (0,44), clamped on the left, sheared by 6.25
+// MPa on the right. E = 70 MPa, nu = 1/3, plane strain, small strain: 1e-6 of the load, result times 1e6.
 double cook(int cells, int order) {
   auto mesh = box_mesh<2>(Vec<2>::Zero(), Vec<2>::Ones(), IVec<2>::Constant(cells), order);
   for (auto& X : mesh.nodes) X = Vec<2>(48 * X[0], 44 * X[0] + X[1] * (44 - 28 * X[0]));
@@ -27,7 +27,7 @@ struct Bent {
   MinimizeReport report;
 };
 
-// A strip under a dead tip load P with P L^2 / (E I) as given, per length.
+// Displacement of the tip, across and along, over the length, under a dead tip load P with the given P L^2 / (E I).
 Bent bend(const Strip& s, double bending_stiffness, double load_number, int load_steps) {
   const double P = load_number * bending_stiffness / (s.length * s.length);
   const Eigen::VectorXd load = traction_force<2>(s.body, s.end, [&](const Vec<2>&) -> Vec<2> {
@@ -50,7 +50,7 @@ TEST_CASE("Cook's membrane deflects as published", "[elastic]") {
                                                                << fine << "; P1 32x32 " << cook(32, 1));
 }
 
-// Elastica under a dead tip load; nu = 0 makes plane strain the beam's uniaxial stress, L / h = 100 makes shear and
+// Elastica under a dead tip load. nu = 0 makes plane strain the beam's uniaxial stress; L / h = 100 makes shear and
 // stretch small.
 TEST_CASE("A cantilever deflects far as the elastica does", "[elastic]") {
   struct Row {
@@ -74,7 +74,7 @@ double bending_share(double nu, const IVec<2>& cells, int order) {
   return bend(clamped_strip(L, h, cells, order, "stable_neo_hookean", 1, E, nu), D, 1e-4, 1).deflection / beam;
 }
 
-// The clamp holds the end's cross section too, which beam theory does not: the measure is the finest strip.
+// The clamp also fixes the cross section of the end, unlike beam theory, so the reference is the finest strip.
 TEST_CASE("Quadratic elements do not lock in bending", "[elastic]") {
   for (double nu : {0.3, 0.49, 0.4999}) {
     const double fine = bending_share(nu, IVec<2>(80, 8), 2);

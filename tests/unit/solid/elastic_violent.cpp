@@ -1,4 +1,4 @@
-// Steps that would invert many elements if taken whole.
+// Steps that would invert many elements without a bound on the step.
 #include <random>
 
 #include "unit/solid/elastic_cases.h"
@@ -8,8 +8,8 @@ using namespace seiche::testing;
 
 namespace {
 
-// Steps that failed of ten (3D: four), each node of a block thrown at random by up to `reach` of an element's size a
-// step.
+// Number of failed steps out of ten (3D: four). Each node of a block starts with a random displacement per step of up
+// to `reach` element sizes.
 template <int Dim>
 int failures(const char* material, double E, double reach, ElasticScheme scheme) {
   const int cells = Dim == 2 ? 3 : 2;
@@ -34,9 +34,9 @@ int failures(const char* material, double E, double reach, ElasticScheme scheme)
 
 }  // namespace
 
-// The volume guard gives every material, also those whose own energy stays finite, a minimum with det F > 0. Thrown by
-// up to a third of an element a step, Newton always finds it. Three elements a step (3D: one) is beyond any sensible
-// step: there the bodies that are not soft find it too.
+// The volume guard gives every material, also those of finite energy at inversion, a minimum with det F > 0. Newton
+// always finds it for displacements of up to a third of an element per step. Three elements (3D: one) per step is
+// beyond any sensible step; there Newton finds it for bodies that are not soft.
 TEMPLATE_TEST_CASE_SIG("Violent motion never inverts an element", "[elastic][long]", ((int Dim), Dim), 2, 3) {
   const double wild = Dim == 2 ? 3 : 1;
   for (const auto& row : elastic_materials<Dim>()) {

@@ -1,4 +1,4 @@
-// Mass, centre and inertia against closed forms and against sums over a fine grid.
+// Mass, centre and inertia against closed forms and sums over a fine grid.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -27,8 +27,8 @@ MassProperties measure(const ShapeSpec& spec, double density = 1) {
   return mass_properties<Dim>(spec, density, options, Vec<Dim>::Constant(-2), Vec<Dim>::Constant(2));
 }
 
-// The integrals as sums over a grid of n^Dim cells over [-1.5, 1.5]^Dim, a cell's share from the distance at its
-// middle.
+// Integrals as sums over n^Dim cells of [-1.5, 1.5]^Dim; the fraction of a cell is taken from the distance at its
+// centre.
 template <int Dim>
 MassProperties sum_over_grid(const ShapeSpec& spec, double density, int n) {
   const auto field = make_shape<Dim>(spec, options);
@@ -95,7 +95,7 @@ TEST_CASE("textbook inertias in 3D") {
   check_alike(measure<3>(s, density),
               {density * tube, tube, Vec3(0, 0, 0.25), diagonal(across, across, density * tube * 0.0625 / 2)},
               round_off);
-  // A capsule of no length is a ball.
+  // A capsule of zero length is a ball.
   s.kind = "capsule";
   s.to = s.from;
   check_alike(measure<3>(s, 1), {ball, ball, s.from, 0.4 * ball * 0.0625 * diagonal(1, 1, 1)}, round_off);
@@ -110,13 +110,13 @@ TEST_CASE("textbook inertias in 2D, a metre deep") {
   const double disc = pi * 0.0625;
   check_alike(measure<2>(s, 10), {10 * disc, disc, Vec3(0.1, -0.2, 0), diagonal(0, 0, 10 * disc * 0.0625 / 2)},
               round_off);
-  s = solid_shape("cylinder");  // a rectangle
+  s = solid_shape("cylinder");  // in 2D a rectangle
   const double length = std::hypot(0.7, 0.4), area = length * 0.5;
   check_alike(measure<2>(s, 1), {area, area, Vec3(0.05, 0.3, 0), diagonal(0, 0, area * (length * length + 0.25) / 12)},
               round_off);
 }
 
-// The blurred border of the sums adds (h/r)^2 to an inertia, relatively: 1.4e-3 in 3D, 9e-5 in 2D.
+// The smoothed boundary of the sums adds about (h/r)^2 to an inertia, relatively: 1.4e-3 in 3D, 9e-5 in 2D.
 TEST_CASE("primitives scaled, turned and moved have the moments of their inside") {
   for (const std::string& kind : primitives) {
     INFO(kind);
@@ -133,7 +133,7 @@ TEST_CASE("the moments of a box as a polyhedron are those of the box") {
   s.transform = skewed_transform(3);
   s.transform.translate += Vec3(100, -50, 20);  // far from the origin
   const auto surface = contact_surface<3>(s, options, Vec3::Constant(-2), Vec3::Constant(2));
-  check_alike(mass_of_surface<3>(surface, 5), measure<3>(s, 5), 1e-11);  // 100 m costs two digits of the corners
+  check_alike(mass_of_surface<3>(surface, 5), measure<3>(s, 5), 1e-11);  // a distance of 100 m costs two digits
   s.transform = skewed_transform(2);
   const auto outline = contact_surface<2>(s, options, Vec<2>::Constant(-2), Vec<2>::Constant(2));
   check_alike(mass_of_surface<2>(outline, 5), measure<2>(s, 5), round_off);
@@ -145,7 +145,7 @@ TEST_CASE("a tetrahedron from a file has its exact moments") {
   ShapeSpec s = solid_shape("mesh");
   s.file = file;
   s.transform = {2, {Vec3(0, 0, 1), 90}, Vec3(1, 0, 0)};
-  // Unit corner: V = 1/6, int x^2 = 1/60, int x y = 1/120; about the centre V c c' less; then scaled by two.
+  // Unit corner: V = 1/6, int x^2 = 1/60, int x y = 1/120. About the centre V c c' is subtracted; then scaled by two.
   Eigen::Matrix3d second = Eigen::Matrix3d::Constant(1.0 / 120 - 1.0 / 96);
   second.diagonal().setConstant(1.0 / 60 - 1.0 / 96);
   Eigen::Matrix3d r;
@@ -156,7 +156,7 @@ TEST_CASE("a tetrahedron from a file has its exact moments") {
   std::filesystem::remove(file);
 }
 
-// The blurred border adds (h'/r)^2/4 to the volume of a ball and twice that to its inertia, h' = h/4, r = 5 h: 6e-4.
+// The smoothed boundary adds (h'/r)^2/4 to the volume of a ball and twice that to its inertia, h' = h/4, r = 5 h: 6e-4.
 TEST_CASE("expressions have the moments of their inside") {
   ShapeSpec ball = solid_shape("sphere"), s = solid_shape("expression");
   s.phi = "sqrt((x-0.1)^2+(y+0.2)^2+(z-0.3)^2)-0.25";

@@ -1,4 +1,4 @@
-// The point of a solid that tables report.
+// Reference point of a solid in tables.
 #include <catch2/catch.hpp>
 
 #include "base/solid_spec.h"

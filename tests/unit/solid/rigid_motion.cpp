@@ -29,7 +29,7 @@ Vec3 random_vector(std::mt19937& generator) {
   return {normal(generator), normal(generator), normal(generator)};
 }
 
-// Some body, its axes turned against those of the world.
+// A body whose principal axes are rotated against the world's axes.
 PrincipalInertia body(const Vec3& moments) {
   const Matrix axes = exp_rotation(Vec3(0.3, -0.5, 0.7));
   return principal_inertia(axes * moments.asDiagonal() * axes.transpose());
@@ -49,7 +49,7 @@ TEST_CASE("exp and log of rotations are inverse to each other from zero to pi") 
       CHECK((log_rotation(r) - w).norm() < 1e-15 + 1e-14 * angle);
     }
   }
-  for (int a = 0; a < 3; ++a) {  // exactly pi: either sign is right
+  for (int a = 0; a < 3; ++a) {  // exactly pi: both signs are right
     const Vec3 w = pi * Vec3::Unit(a);
     CHECK((log_rotation(exp_rotation(w)).cwiseAbs() - w).norm() < 1e-14);
   }
@@ -87,7 +87,7 @@ TEST_CASE("a ball turns at l / I whatever the step, whole turns included") {
   }
 }
 
-// The axis of a symmetric top goes round l at |l| / b.
+// The axis of a symmetric top precesses about l at |l| / b.
 TEST_CASE("a symmetric top precesses exactly in one step") {
   const PrincipalInertia inertia = principal_inertia(Vec3(2, 2, 3).asDiagonal());
   const Vec3 l(0.5, 0, 1.5);
@@ -138,10 +138,10 @@ TEST_CASE("the free motion is of second order at least in the step, and reversib
   CHECK((rotate_freely(inertia, there.rotation, l, -0.3).rotation - Matrix::Identity()).norm() < 1e-13);
 }
 
-// Dzhanibekov: spin about the middle axis is unstable, the body turns over again and again; energy and |l| stay.
+// Dzhanibekov effect: rotation about the middle axis is unstable, and the body flips repeatedly; energy and |l| stay.
 TEST_CASE("a body spinning about its middle axis turns over and keeps its energy for 100 turns") {
   const PrincipalInertia inertia = principal_inertia(Vec3(1, 2, 3).asDiagonal());
-  const Vec3 l(1e-3, 2, 1e-3);  // 1 rad/s about the middle axis, nudged
+  const Vec3 l(1e-3, 2, 1e-3);  // 1 rad/s about the middle axis, perturbed
   for (const double angle : {0.01, 0.1, 0.5, 1.0}) {
     Matrix r = Matrix::Identity();
     const double before = energy(inertia, r, l);
@@ -156,7 +156,7 @@ TEST_CASE("a body spinning about its middle axis turns over and keeps its energy
       if (std::abs(upright) > 0.9) last = upright;
     }
     INFO("step " << angle << " rad: energy drift " << drift << ", flips " << flips << ", orthogonality " << defect);
-    CHECK(drift < 1e-4);  // bounded: of second order in the splitting's 0.05 rad
+    CHECK(drift < 1e-4);  // bounded; second order in the splitting's 0.05 rad
     CHECK(defect < 1e-14);
     CHECK(flips > 10);
   }

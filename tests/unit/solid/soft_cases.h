@@ -1,5 +1,5 @@
 #pragma once
-// Elastic bodies beside rigid ones stepped in time with contact (backward Euler), for the tests.
+// Time steps (backward Euler) of elastic and rigid bodies with contact, for the tests.
 #include "solid/contact/system.h"
 #include "solid/elastic/potential.h"
 #include "unit/solid/contact_cases.h"
@@ -7,13 +7,13 @@
 
 namespace seiche::testing {
 
-// Triangles in a disc, tetrahedra in a ball: the box [-1, 1]^Dim mapped so that cubes become spheres.
+// Triangles in a disc, tetrahedra in a ball: the box [-1, 1]^Dim mapped such that cubes become spheres.
 template <int Dim>
 ElasticMesh<Dim> ball_mesh(double radius, const Vec<Dim>& center, int cells, int order) {
   ElasticMesh<Dim> mesh = box_mesh<Dim>(-Vec<Dim>::Ones(), Vec<Dim>::Ones(), IVec<Dim>::Constant(cells), order);
   for (Vec<Dim>& X : mesh.nodes) {
     const double size = X.norm(), side = X.cwiseAbs().maxCoeff();
-    const double share = side * side;  // straight within, round without
+    const double share = side * side;  // straight inside, round outside
     if (size > 0) X *= (1 - share) * 0.75 + share * side / size;
     X = center + radius * X;
   }
@@ -25,10 +25,10 @@ struct SoftBody {
   ElasticBody<Dim> body;
   ElasticState state;
   std::optional<double> friction;
-  std::map<int, double> held;  // velocities of held degrees of freedom, m/s
+  std::map<int, double> held;  // velocities of fixed degrees of freedom, m/s
 };
 
-// Rigid bodies first, soft ones after them.
+// Rigid bodies come first, soft ones after them.
 template <int Dim>
 struct SoftWorld {
   std::vector<contact_cases::DryBody<Dim>> rigid;
@@ -76,7 +76,7 @@ struct SoftWorld {
     return list;
   }
 
-  // Inertia, gravity and held velocities of all, M (v - v_n - dt g).
+  // Terms of inertia, gravity and fixed velocities, M (v - v_n - dt g).
   DryProblem problem(double dt) const {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<double> target, velocities;
@@ -146,7 +146,7 @@ struct SoftWorld {
     }
   }
 
-  // Kinetic, elastic and barrier energy of soft bodies (J), with the stiffness that the last step ended with.
+  // Kinetic, elastic and barrier energy of soft bodies (J), with the contact stiffness at the end of the last step.
   double energy() const {
     double sum = 0;
     for (const auto& s : soft) sum += kinetic_energy(s.body, s.state.v) + elastic_energy(s.body, s.state.u);

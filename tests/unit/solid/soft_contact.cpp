@@ -1,4 +1,4 @@
-// Elastic bodies that touch each other, rigid bodies, prescribed ones and walls.
+// Contact of elastic bodies with each other, rigid bodies, prescribed bodies and walls.
 #include <random>
 
 #include "unit/solid/soft_cases.h"
@@ -10,7 +10,7 @@ namespace {
 
 using contact_cases::box;
 
-// A soft block on a wall, a second one, a free rigid box and a prescribed one above each other, all within reach.
+// A soft block on a wall, a second one, a free rigid box and a prescribed one, stacked within reach of each other.
 template <int Dim>
 struct Crowd {
   SoftWorld<Dim> world;
@@ -42,7 +42,7 @@ struct Crowd {
     aside.displacement[1] += 0.01;
     interval = contact::make_interval<Dim>(scene->data(), world.motions({{1, end}, {2, aside}}), 0.02);
     v = Eigen::VectorXd::NullaryExpr(scene->data().size, [&] { return range(random); });
-    v.segment(Dim, twist_size<Dim> - Dim).setZero();  // K leaves out how the left Jacobian changes
+    v.segment(Dim, twist_size<Dim> - Dim).setZero();  // K neglects the derivative of the left Jacobian
     friction = contact::friction_points<Dim>(scene->data(), at(v), pairs(v), weights);
   }
   contact::Placement<Dim> at(const Eigen::VectorXd& u, double share = 0.6) const {
@@ -92,8 +92,7 @@ TEMPLATE_TEST_CASE_SIG("barrier and friction of deformable bodies have the deriv
   CHECK(values.minCoeff() > -1e-13 * values.maxCoeff());
 }
 
-// Each body's impulse is minus the gradient of its degrees of freedom summed up, and all together are those of the
-// walls.
+// The impulse on each body is minus the sum of the gradient over its degrees of freedom.
 TEMPLATE_TEST_CASE_SIG("impulses on deformable bodies are sums over their nodes", "[soft]", ((int Dim), Dim), 2, 3) {
   const Crowd<Dim> crowd;
   const auto& data = crowd.scene->data();
@@ -138,7 +137,7 @@ TEMPLATE_TEST_CASE_SIG("soft blocks rest on each other", "[soft]", ((int Dim), D
   for (int i = 0; i < 2; ++i) {
     const Vec<Dim> low = Vec<Dim>::Unit(1) * (1.001 * i + 0.001) + Vec<Dim>::Unit(0) * 0.05 * i;
     world.add(box_mesh<Dim>(low, low + Vec<Dim>::Ones(), IVec<Dim>::Constant(2), 1), density, 1e6, 0).friction =
-        0.5;  // without it the upper one slides off: the lower one gives way more where it hangs over
+        0.5;  // without friction the upper block slides off the unevenly compressed lower one
   }
   for (int n = 0; n < 80; ++n) world.step(dt);
   double speed = 0;
@@ -151,8 +150,8 @@ TEMPLATE_TEST_CASE_SIG("soft blocks rest on each other", "[soft]", ((int Dim), D
   CHECK(world.overlaps() == 0);
 }
 
-// The weight of the heaviest body presses one pair to half the reach; a lighter one under it, and one that a heavy
-// rigid body rests on, keep gaps of that size too: no stiffening, which would throw them up.
+// The weight of the heaviest body presses one pair to half the reach. Pairs below a lighter body and below a heavy
+// rigid body keep similar gaps: no stiffening occurs, which would throw bodies up.
 TEMPLATE_TEST_CASE_SIG("heavy bodies on soft ones keep their gaps", "[soft]", ((int Dim), Dim), 2, 3) {
   SoftWorld<Dim> world;
   world.gravity = Vec3(0, -9.81, 0);
@@ -173,7 +172,7 @@ TEMPLATE_TEST_CASE_SIG("heavy bodies on soft ones keep their gaps", "[soft]", ((
   CHECK(weighs == Approx(1).epsilon(0.01));
 }
 
-// Held nodes drive one block, a prescribed piston the other, until they press on each other.
+// Pinned nodes drive one block, a prescribed piston the other, until they press on each other.
 TEMPLATE_TEST_CASE_SIG("held nodes and prescribed bodies press soft bodies together", "[soft]", ((int Dim), Dim), 2,
                        3) {
   SoftWorld<Dim> world;
@@ -201,13 +200,14 @@ TEMPLATE_TEST_CASE_SIG("held nodes and prescribed bodies press soft bodies toget
   CHECK((impulses[0].linear + impulses[1].linear + impulses[2].linear).norm() < 1e-12 * push);
 }
 
-// A comb whose teeth are nearer than the reach at rest does not push itself apart; a body that crosses itself is told.
+// A comb whose teeth are closer than the reach at rest does not push itself apart; a body that crosses itself is
+// reported.
 TEST_CASE("what is near by its shape does not push, what crosses itself is reported", "[soft]") {
   SoftWorld<2> world;
   world.options.reach = 0.3;
   ElasticMesh<2> comb = box_mesh<2>(Vec<2>::Zero(), Vec<2>(1, 1), IVec<2>(5, 5), 1), cut = comb;
   cut.elements.clear();
-  for (int e = 0; e < comb.element_count(); ++e) {  // every second column of the upper part is taken out
+  for (int e = 0; e < comb.element_count(); ++e) {  // removes every second column of the upper part
     Vec<2> middle = Vec<2>::Zero();
     for (int a = 0; a < 3; ++a) middle += comb.nodes[comb.element(e)[a]] / 3;
     if (middle[1] < 0.2 || int(middle[0] * 5) % 2 == 0)
@@ -220,7 +220,7 @@ TEST_CASE("what is near by its shape does not push, what crosses itself is repor
   CHECK(world.report.active == 0);
   CHECK(s.state.v.isZero(1e-12));
   CHECK(world.overlaps() == 0);
-  for (size_t n = 0; n < s.body.mesh.nodes.size(); ++n) {  // the left tooth leans over
+  for (size_t n = 0; n < s.body.mesh.nodes.size(); ++n) {  // the left tooth leans over the gap
     const Vec<2> X = s.body.mesh.nodes[n];
     if (X[0] < 0.21 && X[1] > 0.21) s.state.u[2 * Eigen::Index(n)] = 0.5 * (X[1] - 0.2);
   }
@@ -243,7 +243,7 @@ TEMPLATE_TEST_CASE_SIG("soft bodies go straight as far as is surely free, and a 
   auto& s = world.add(box_mesh<Dim>(Vec<Dim>::Zero(), Vec<Dim>::Ones(), IVec<Dim>::Constant(2), 1), 1000, 1e5, 0.3);
   for (int i = 1; i < s.body.size(); i += Dim) s.state.v[i] = -2;
   const double dt = 0.1, share = largest_safe_fraction<Dim>(world.scene(), world.motions(), dt, s.state.v);
-  CHECK(share <= 0.4);  // a fifth of the gap of 0.1 m is kept of a way of 0.2 m
+  CHECK(share <= 0.4);  // a fifth of the gap of 0.1 m is kept; the path is 0.2 m
   CHECK(share > 0.39);
   DryProblem inertia = world.problem(dt);
   const auto potential = world.potential(dt, inertia.size());

@@ -1,4 +1,4 @@
-// Elastic blocks that stick and slide.
+// Sticking and sliding elastic blocks.
 #include "unit/solid/soft_cases.h"
 
 using namespace seiche;
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-// A block of 0.1 m on a plane that gravity is tilted against by `degrees`, lying at rest but for a speed along x.
+// A block of 0.1 m on a plane, with gravity tilted by `degrees`, at rest except for a speed along x.
 template <int Dim>
 SoftWorld<Dim> block_on_plane(double mu, double degrees, double speed) {
   const double angle = degrees * 3.14159265358979323846 / 180;
@@ -24,7 +24,7 @@ SoftWorld<Dim> block_on_plane(double mu, double degrees, double speed) {
   return world;
 }
 
-// Of the centre of mass along x.
+// Velocity of the centre of mass along x.
 template <int Dim>
 double mean(const SoftWorld<Dim>& world, const Eigen::VectorXd& field) {
   const auto& s = world.soft[0];
@@ -40,7 +40,7 @@ TEMPLATE_TEST_CASE_SIG("an elastic block on an incline of 30 degrees slides as C
   const double dt = 0.01, angle = 30 * 3.14159265358979323846 / 180;
   for (double mu : {0.1, 0.3, 0.5}) {
     auto world = block_on_plane<Dim>(mu, 30, 0);
-    for (int n = 0; n < 10; ++n) world.step(dt);  // until it has settled
+    for (int n = 0; n < 10; ++n) world.step(dt);  // until it has come to rest
     const double before = mean(world, world.soft[0].state.v);
     for (int n = 0; n < 30; ++n) world.step(dt);
     const double a = (mean(world, world.soft[0].state.v) - before) / (30 * dt);
@@ -70,7 +70,7 @@ TEMPLATE_TEST_CASE_SIG("an elastic block that slides on a plane stops where Coul
   auto world = block_on_plane<Dim>(mu, 0, speed);
   for (int n = 0; n < 140; ++n) world.step(dt);
   const double way = mean(world, world.soft[0].state.u);
-  const double exact = speed * speed / (2 * mu * g) - 0.5 * speed * dt;  // the implicit step's own error
+  const double exact = speed * speed / (2 * mu * g) - 0.5 * speed * dt;  // minus the error of the implicit step
   WARN(Dim << "D: stops after " << way << " m for " << exact << ", " << world.newton_iterations / 140.
            << " iterations a step");
   CHECK(way == Approx(exact).epsilon(0.02));

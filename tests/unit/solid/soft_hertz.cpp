@@ -1,4 +1,4 @@
-// Hertz: a rigid cylinder and sphere pressed into an elastic half-space.
+// Hertz contact: a rigid cylinder and a rigid sphere pressed into an elastic half-space.
 #include "unit/solid/soft_cases.h"
 
 using namespace seiche;
@@ -8,12 +8,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// s in [0, 1] stretched so that steps near 0 are `fine` times the mean one.
+// Maps s in [0, 1] such that steps near 0 are `fine` times the mean step.
 double graded(double s, double fine) {
   return fine * s + (1 - fine) * s * s * s;
 }
 
-// The convex underside of radius R about (0, R, 0), |x| (and |z|) < half, closed by a lid.
+// Convex underside of radius R about (0, R, 0), |x| (and |z|) < half, closed by a lid.
 template <int Dim>
 SurfaceMesh underside(double R, double half, int count) {
   SurfaceMesh m;
@@ -49,8 +49,9 @@ struct Pressed {
   double force = 0, width = 0, peak = 0;  // N, m, Pa
 };
 
-// From the forces of contact f on the nodes of the soft body. Hertz's p has <r^2> = a^2/4 (2D), 2 a^2/5 (3D), and
-// weighed with (1 - r^2/a^2)^2 it sums to 5 pi/16 a p0 (2D), 2 pi/7 a^2 p0 (3D).
+// Force, contact width a and peak pressure p0 from the contact forces f on the nodes of the soft body. Hertz's p has
+// <r^2> = a^2/4 (2D), 2 a^2/5 (3D); with the weight (1 - r^2/a^2)^2 it integrates to 5 pi/16 a p0 (2D), 2 pi/7 a^2 p0
+// (3D).
 template <int Dim>
 Pressed measure(const SoftWorld<Dim>& world, double a) {
   const auto scene = world.scene();
@@ -97,7 +98,7 @@ TEST_CASE("Hertz: a cylinder pressed into an elastic half-space", "[soft][long]"
   auto& punch = world.add_rigid(underside<2>(R, 4 * aimed, 400), Vec3(0, 1e-4, 0), 0, Vec3::Ones());
   punch.contact.control = BodyControl::prescribed;
   const double Es = E / (1 - nu * nu);
-  // Line contact has no depth of its own: this one makes about the width aimed at in a block of this size.
+  // The indentation of a line contact depends on the size of the body. This one gives about the intended width here.
   const double depth = aimed * aimed / R * (std::log(2 * size / aimed) - 0.5) * 0.75;
   for (int n = 1; n <= 4; ++n) {
     Pose end = world.rigid[0].pose;

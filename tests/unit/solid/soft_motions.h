@@ -1,5 +1,5 @@
 #pragma once
-// Violent motions of soft bodies that the unit tests and the exact test of intersections share.
+// Violent motions of soft bodies, shared by the unit tests and the exact test of intersections.
 #include "unit/solid/soft_cases.h"
 
 namespace seiche::testing {
@@ -9,13 +9,13 @@ template <int Dim>
 SoftWorld<Dim> ball_at_wall(double E, double speed, int cells) {
   SoftWorld<Dim> world;
   world.walls = {{Vec3::Zero(), Vec3(0.1, 1, 0)}};
-  world.options.acceleration = 1e4;  // of an impact
+  world.options.acceleration = 1e4;  // m/s^2, of an impact
   auto& s = world.add(ball_mesh<Dim>(0.1, Vec<Dim>::Unit(1) * 0.105, cells, 2), 1000, E, 0.4);
   for (int i = 0; i < s.body.size(); ++i) s.state.v[i] = i % Dim == 1 ? -speed : 0;
   return world;
 }
 
-// A strip of 1 m, held below along its left half; fold() leads its right end round onto that.
+// A strip of 1 m, pinned below along its left half. fold() moves its right end around onto the left half.
 template <int Dim>
 struct FoldedStrip {
   static constexpr double length = 1, height = 0.05, dt = 0.05;
@@ -39,8 +39,8 @@ struct FoldedStrip {
     end = nodes_where(s.body.mesh, [&](const Vec<Dim>& X) { return near(X[0], length); });
   }
 
-  // First along a circle to half a turn, then straight down to 0.3 of its length from the left, a tenth of the height
-  // into the strip.
+  // Half a turn along a circle, then straight down to 0.3 of the length from the left, a tenth of the height into the
+  // strip.
   void fold() {
     auto& s = world.soft[0];
     const double pi = 3.14159265358979323846, t = std::min(1., (steps + 1.) / bending);

@@ -1,4 +1,4 @@
-// Impacts neither invert, nor cross, nor gain energy; a strip folded onto itself.
+// Impacts do not invert or cross elements or gain energy; a strip is folded onto itself.
 #include "unit/solid/soft_motions.h"
 
 using namespace seiche;

@@ -1,5 +1,5 @@
 #pragma once
-// What tests of solids ask of closed surfaces.
+// Properties of closed surfaces that tests of solids check.
 #include <Eigen/Geometry>
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace seiche::testing {
 
-// Each edge of a triangle (each end of a segment) is met by exactly one neighbour that runs the other way.
+// True if each edge of a triangle (end of a segment) is met by exactly one neighbour in the opposite direction.
 inline bool is_closed(const SurfaceMesh& mesh) {
   std::map<std::pair<int, int>, int> uses;
   for (const auto& t : mesh.triangles) {
@@ -43,7 +43,7 @@ inline bool pierces(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) 
   return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
 }
 
-// How many edges go through the inside of a triangle that they share no corner with.
+// Number of edges that pass through the interior of a triangle with which they share no corner.
 inline int self_intersections(const SurfaceMesh& mesh) {
   int count = 0;
   const auto corners = [&](const std::array<int, 3>& t) {
@@ -67,7 +67,7 @@ inline int self_intersections(const SurfaceMesh& mesh) {
   return count;
 }
 
-// A spec with every field set, no part of it along an axis.
+// A spec with every field set and nothing aligned with an axis.
 inline ShapeSpec solid_shape(const std::string& kind) {
   ShapeSpec spec;
   spec.kind = kind;

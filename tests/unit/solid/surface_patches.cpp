@@ -1,4 +1,4 @@
-// Pieces of a surface that pins leave, and what those of several solids enclose together.
+// Patches of a surface between pins, and volumes enclosed by patches of several solids.
 #include <catch2/catch.hpp>
 
 #include "base/solid_spec.h"
@@ -13,7 +13,7 @@ namespace {
 
 const Vec3 low_corner(0, 0, 0), high_corner(1, 1, 1);
 
-// Holds nodes below a plane x_axis = at, or (side 1) above it.
+// Pins nodes below a plane x_axis = at (side 0) or above it (side 1).
 void pin(SolidSpec& s, int axis, int side, double at, const Formula& lift = "0") {
   PinSpec p;
   p.shape.kind = "box";
@@ -30,7 +30,7 @@ ElasticSolid<Dim> make(const SolidSpec& s) {
   return make_elastic_solid<Dim>(s, {0.05, nullptr}, truncate<Dim>(low_corner), truncate<Dim>(high_corner));
 }
 
-// An upright wall between floor and something that moves.
+// An upright wall between the floor and a moving solid.
 ElasticSolid<2> upright(double x, const Formula& lift) {
   SolidSpec s = box(SolidKind::elastic, {x, 0, 0}, {x + 0.1, 0.5, 0});
   pin(s, 1, 0, 0);
@@ -38,7 +38,7 @@ ElasticSolid<2> upright(double x, const Formula& lift) {
   return make<2>(s);
 }
 
-// The patch of a wall whose points stand at x.
+// The patch of a wall with points at x.
 int patch_at(const ElasticSolid<2>& wall, double x) {
   for (std::size_t k = 0; k < wall.patches.size(); ++k) {
     const auto node = std::size_t(wall.surface.nodes[std::size_t(wall.patches[k].facets[0][0])]);
@@ -87,7 +87,7 @@ TEST_CASE("in 3D what is pinned all round has two sides", "[elastic][sealed]") {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(across.body.size());
     const double flat = enclosed_volume(walls, {u});
     CHECK(std::abs(flat) < 1e-14);
-    // A free node on the side sweeps a third of the area of its facets, times its way.
+    // A free node on the side sweeps a third of the area of its facets times its displacement.
     const Eigen::VectorXd g = enclosed_volume_gradient(walls, 0, u);
     Eigen::Index n = 0;
     const double most = g.cwiseAbs().maxCoeff(&n);

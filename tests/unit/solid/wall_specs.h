@@ -1,5 +1,5 @@
 #pragma once
-// Boxes of an elastic or prescribed solid, for tests of what pins join and divide.
+// Boxes of elastic or prescribed solids, for tests of pins and surface patches.
 #include "base/scene.h"
 
 namespace seiche::test {

@@ -12,7 +12,7 @@ namespace seiche {
 
 namespace fs = std::filesystem;
 
-// Liquid that moves with 1 m/s through a periodic box.
+// Liquid that moves at 1 m/s through a periodic box.
 inline const char* const scene_text = R"(dimension = 2
 gravity = [0.0, 0.0]
 [domain]
@@ -40,7 +40,7 @@ inline std::string case_text(const std::string& column, double bar) {
          "[\"domain.cell_size=0.0625\"]\n";
 }
 
-// A change relative to what is zero at the start.
+// A change relative to an initial value of zero.
 inline std::string unmeasurable_text() {
   std::string text = case_text("volume_corrected", 1);
   text.replace(text.find("max_of_column\"\n"), 15, "column_drift\"\n");

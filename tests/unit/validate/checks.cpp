@@ -1,4 +1,4 @@
-// What is said of wrong cases, data and records before anything is run.
+// Messages about wrong cases, data and records before anything is run.
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
@@ -11,7 +11,7 @@ using namespace seiche;
 
 namespace {
 
-// Refused when the case is read, with this word.
+// Rejected when the case is read, with this word in the message.
 void refuses_case(const std::string& name, const std::string& text, const char* word) {
   const ScratchFolder folder;
   put_case(folder, name, text);
@@ -28,7 +28,7 @@ Scene tank() {
   return scene;
 }
 
-// What check_measure says of data.
+// Message of check_measure about data.
 void refuses_data(const char* kind, const std::string& text, const char* word) {
   const ScratchFolder folder;
   put(folder / "data.csv", text);

@@ -1,4 +1,4 @@
-// What measures compute on frames, on fields whose answer is known.
+// Measures of frames, on fields with known results.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ using namespace seiche;
 
 namespace {
 
-// n x n cells of the unit square whose faces hold u(axis, x) and whose cells hold phi(x).
+// n x n cells of the unit square with u(axis, x) on faces and phi(x) in cells.
 vdb::Frame square_frame(int n, const std::function<double(int, const Vec3&)>& u,
                         const std::function<double(const Vec3&)>& phi) {
   vdb::Frame frame;
@@ -47,7 +47,7 @@ LineExtreme line(int component, int along, const Vec3& point, LineExtreme::Kind 
 
 }  // namespace
 
-// Along x the faces of a half count, along y all: the mean is taken for each axis by itself.
+// The faces of one half count along x, all along y: means are taken for each axis separately.
 TEST_CASE("velocities are compared where the region says") {
   const auto frame = square_frame(
       16, [](int a, const Vec3& x) { return a == 0 ? (x[0] < 0.5 ? 3 : 7) : 4.0; }, none);
@@ -74,7 +74,7 @@ TEST_CASE("extremes along lines are found between the samples") {
   CHECK(extreme_along(frame, line(0, 1, {0.51, 9, 0}, Kind::min)).value == Approx(-1.51).epsilon(1e-6));
   const auto highest = extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::max));
   CHECK(highest.value == Approx(0.25).epsilon(1e-6));
-  CHECK(highest.place == Approx(0.3).margin(1e-5));  // 32-bit rounding over a parabola's bend
+  CHECK(highest.place == Approx(0.3).margin(1e-5));  // 32-bit round-off at a flat maximum
   const auto last = extreme_along(frame, line(1, 0, {9, 0.5, 0}, Kind::min));
   CHECK(last.value == Approx(0.25 - std::pow(1 - 0.5 / 64 - 0.3, 2)).epsilon(1e-6));  // the last sample
   CHECK(last.place == 1 - 0.5 / 64);
@@ -85,8 +85,8 @@ TEST_CASE("extremes along lines are found between the samples") {
         Approx(2.3).margin(1e-5));  // on faces along x
 }
 
-// psi = -(1 - (x - 0.37)^2) y (1 - y)^2, whose extreme is a third of a cell off the corners: 0.5 h^2 of it from
-// the sums, 0.1 and 0.75 h^2 more without the parabolas along x and y.
+// psi = -(1 - (x - 0.37)^2) y (1 - y)^2. Its extreme is a third of a cell off the corners. Relative errors: 0.5 h^2
+// from the sums; 0.1 and 0.75 h^2 more without the parabolas along x and y.
 TEST_CASE("the stream function is what flows between a corner and the lower wall") {
   const auto vortex = [](int a, const Vec3& x) {
     const double along = 1 - std::pow(x[0] - 0.37, 2);
@@ -118,7 +118,8 @@ TEST_CASE("extremes to compare with are read from CSV") {
                     Catch::Contains("is to be component,along"));
 }
 
-// A cubic is met between the faces to rounding of the frame's floats; a line beside its faces is linear between them.
+// A cubic is reproduced between the faces up to the round-off of floats. A line beside its faces is interpolated
+// linearly between them.
 TEST_CASE("a profile along a line is a cubic through the faces") {
   const auto cubic = [](double y) { return 1 - 3 * y + 2 * y * y - 5 * y * y * y; };
   const auto frame = square_frame(
@@ -148,14 +149,15 @@ TEST_CASE("a surface is compared with a formula near it alone") {
   const auto frame = square_frame(
       32, [](int, const Vec3&) { return 0.0; }, [](const Vec3& x) { return x[1] - 0.5 > 0.04 ? 9 : x[1] - 0.51; });
   CHECK(surface_difference(frame, "y-t") == Approx(0.01).epsilon(1e-5));
-  CHECK(surface_difference(frame, "y-0.51") < 1e-6);  // 32-bit rounding
+  CHECK(surface_difference(frame, "y-0.51") < 1e-6);  // 32-bit round-off
   CHECK_THROWS_AS(surface_difference(square_frame(
                                          8, [](int, const Vec3&) { return 0.0; }, none),
                                      "y"),
                   Error);
 }
 
-// A circle's is 1, a square's sqrt(pi)/2, of two equal circles together 1/sqrt(2); of the inside or the outside alike.
+// Circularity of a circle: 1; of a square: sqrt(pi)/2; of two equal circles: 1/sqrt(2). Inside and outside give the
+// same.
 TEST_CASE("circularity of outlines") {
   const auto still = [](int, const Vec3&) { return 0.0; };
   const auto circle = [](double x0, double r) {
@@ -170,7 +172,7 @@ TEST_CASE("circularity of outlines") {
   CHECK(std::abs(fine) < 0.35 * std::abs(coarse));  // second order: 0.25
   CHECK(of(80, [&](const Vec3& x) { return -whole(x); }) == Approx(1 - fine).epsilon(1e-6));
   const auto square = [](const Vec3& x) { return std::max(std::abs(x[0] - 0.5), std::abs(x[1] - 0.5)) - 0.303; };
-  CHECK(of(80, square) == Approx(0.5 * std::sqrt(3.14159265358979)).epsilon(0.01));  // corners are cut off
+  CHECK(of(80, square) == Approx(0.5 * std::sqrt(3.14159265358979)).epsilon(0.01));  // corners are cut off by the grid
   const auto left = circle(0.25, 0.15), right = circle(0.75, 0.15);
   CHECK(of(80, [&](const Vec3& x) { return std::min(left(x), right(x)); }) == Approx(std::sqrt(0.5)).epsilon(1e-3));
   CHECK_THROWS_WITH(of(16, [](const Vec3& x) { return x[1] - 0.5; }), Catch::Contains("domain's sides"));
@@ -201,9 +203,9 @@ TEST_CASE("the least circularity of the frames in a time is measured") {
   CHECK(measure(spec, run).error < 1e-3);
 }
 
-// An ellipse of the ratio 1 + s is by 3 s^2/16 longer than the circle of its area, but for terms in s^3: with
-// s = 0.3 - 0.1 (t - 1.2)^2 the circularity is least at t = 1.2, and the parabola through the exact ones at 0.6, 1 and
-// 1.6 at 1.198. An error of 1e-4, which 40 cells make, moves that by 0.02.
+// The circumference of an ellipse with axis ratio 1 + s exceeds that of the circle of equal area by 3 s^2/16 + O(s^3),
+// relatively. With s = 0.3 - 0.1 (t - 1.2)^2 the circularity is lowest at t = 1.2, and the parabola through the exact
+// values at 0.6, 1 and 1.6 has its vertex at 1.198. An error of 1e-4, as with 40 cells, moves it by 0.02.
 TEST_CASE("the time of the least circularity is found between frames") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
@@ -227,9 +229,9 @@ TEST_CASE("the time of the least circularity is found between frames") {
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("first or last"));
 }
 
-// Discs of radius 0.25 and 0.3, and one a tenth off to the side; 2 r^2 asin(d/2r) + d sqrt(r^2 - d^2/4) lie between two
-// discs d apart. Linear between cells, the frame's disc lacks the segments between chords and arc, h^2/12 R of its
-// area: a five-hundredth.
+// Discs of radius 0.25 and 0.3, and one shifted by 0.1. Two discs d apart differ by twice 2 r^2 asin(d/2r) + d sqrt(r^2
+// - d^2/4). The frame's disc, linear between cells, lacks the segments between chords and arc: h^2/12 R of its area,
+// 1/500.
 TEST_CASE("the area between two surfaces is found to a few thousandths of a disc") {
   const auto frame = square_frame(
       32, [](int, const Vec3&) { return 0.0; }, [](const Vec3& x) { return (x - Vec3(0.5, 0.5, 0)).norm() - 0.25; });

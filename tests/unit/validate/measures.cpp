@@ -1,4 +1,4 @@
-// The arithmetic behind the measures of `seiche validate`, on data whose answer is known.
+// Arithmetic of the measures of `seiche validate`, on data with known results.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A frame of 8 x 4 cells whose faces hold (x + t, 2 y) plus `offset` along x.
+// A frame of 8 x 4 cells with (x + t, 2 y) on faces, plus `offset` along x.
 vdb::Frame linear_frame(double offset) {
   vdb::Frame frame;
   frame.dimension = 2;
@@ -51,7 +51,7 @@ double l2_of(const vdb::Frame& frame) {
 
 TEST_CASE("a least-squares slope sees only the points between its bounds") {
   const Points points{{0, 9}, {1, 2}, {2, 2.5}, {3, 3}, {4, 4.5}};
-  CHECK(slope_between(points, 2, 4) == Approx(0.5).epsilon(1e-14));  // three points on a line: rounding only
+  CHECK(slope_between(points, 2, 4) == Approx(0.5).epsilon(1e-14));  // three points on a line: round-off only
   CHECK(slope_between({{0, 0}, {1, 2}, {2, 1}}, 0, 5) == Approx(0.5).epsilon(1e-14));
   CHECK_THROWS_AS(slope_between(points, 4, 4.6), Error);
   CHECK_THROWS_AS(slope_between({{1, 1}, {1, 2}}, 0, 5), Error);
@@ -60,7 +60,7 @@ TEST_CASE("a least-squares slope sees only the points between its bounds") {
 TEST_CASE("the mean period of a sampled wave is that of the wave") {
   Points points;
   for (int n = 0; n <= 1000; ++n) points.emplace_back(0.01 * n, 3 + std::cos(2 * pi * 0.01 * n / 1.7));
-  CHECK(mean_period(points, 3) == Approx(1.7).epsilon(1e-4));  // straight lines: (pi dt / T)^2 of a sample at most
+  CHECK(mean_period(points, 3) == Approx(1.7).epsilon(1e-4));  // linear interpolation: (pi dt / T)^2 of a sample
   CHECK_THROWS_AS(mean_period(points, 5), Error);
   points.resize(100);  // 1 s: under one period
   CHECK_THROWS_AS(mean_period(points, 3), Error);
@@ -82,13 +82,13 @@ TEST_CASE("samples of one probe are picked from probes.csv, undefined ones left 
 }
 
 TEST_CASE("vector_l2 compares face velocities of the last frame at the faces' own places") {
-  CHECK(l2_of(linear_frame(0)) < 1e-7);                            // frames are 32-bit: rounding of numbers up to 8
-  CHECK(l2_of(linear_frame(0.25)) == Approx(0.25).epsilon(1e-6));  // the same
+  CHECK(l2_of(linear_frame(0)) < 1e-7);                            // frames are 32-bit: round-off of numbers up to 8
+  CHECK(l2_of(linear_frame(0.25)) == Approx(0.25).epsilon(1e-6));  // 32-bit round-off
 }
 
 TEST_CASE("the slope during a time takes the rows at its ends in") {
   const Points points{{0, 9}, {0.1, 2}, {0.2, 4}, {0.1 + 0.2, 6}, {0.4, 9}};
-  CHECK(slope_during(points, 0.1, 0.3) == Approx(20).epsilon(1e-12));  // rounding of times
+  CHECK(slope_during(points, 0.1, 0.3) == Approx(20).epsilon(1e-12));  // round-off of times
   CHECK_THROWS_AS(slope_during(points, 0.15, 0.25), Error);
   CHECK_THROWS_WITH(slope_during(points, 0.1, 0.5), Catch::Contains("does not reach"));
   CHECK_THROWS_WITH(slope_during(points, -0.1, 0.3), Catch::Contains("does not reach"));
@@ -97,7 +97,7 @@ TEST_CASE("the slope during a time takes the rows at its ends in") {
 TEST_CASE("a settled mean leaves next to nothing of an oscillation, whatever the steps") {
   Points points;
   for (double t = 0, n = 0; t < 10; t += 0.02 + 0.01 * std::sin(n++)) points.emplace_back(t, 3 + std::cos(2 * t));
-  CHECK(settled_mean(points, 1, 9) == Approx(3).epsilon(0.01));  // between one and two hundred rows, five periods
+  CHECK(settled_mean(points, 1, 9) == Approx(3).epsilon(0.01));  // 100 to 200 rows, five periods
   CHECK_THROWS_AS(settled_mean(points, 1, 11), Error);
   CHECK_THROWS_AS(settled_mean({}, 0, 1), Error);
   const Points later(points.begin() + 1, points.end());  // no pressure before the first solve
@@ -146,10 +146,10 @@ TEST_CASE("a component of a vector probe is measured by its period, mean, peak a
 }
 
 TEST_CASE("periods that differ scatter, and chatter about the level is no period") {
-  Points points{{0, 1}, {1, -1}, {3, 1}, {5, -1}, {7, 1}, {9, -1}};  // passes at 0.5, 2, 4, 6, 8: 3.5, 4 and 4
+  Points points{{0, 1}, {1, -1}, {3, 1}, {5, -1}, {7, 1}, {9, -1}};  // zeros at 0.5, 2, 4, 6, 8: 3.5, 4 and 4
   const double scatter = std::sqrt(1.0 / 18) / (23.0 / 6);
   CHECK(period_scatter(points, 0) == Approx(scatter));
-  points.insert(points.begin() + 2, {{1.9, 0.1}, {1.95, -0.05}});  // passes three times, the last at 2
+  points.insert(points.begin() + 2, {{1.9, 0.1}, {1.95, -0.05}});  // three crossings, the last at 2
   CHECK(period_scatter(points, 0) == Approx(scatter));
   CHECK_THROWS_WITH(period_scatter(points, 2), Catch::Contains("0 swings"));
   points.emplace_back(20, -1);
@@ -166,7 +166,7 @@ TEST_CASE("liquid arrives with the first sample that has a value") {
   CHECK(measure(spec, run).value == 0.25);
   CHECK(measure(spec, run).error == Approx(0.25));
   put(run.probes(), "time,name,value,x,y,z\n0,gauge,,,,\n0.1,gauge,,,,\n");
-  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // it never arrived: no time of 0
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // it never arrived: an error, no time of 0
 }
 
 TEST_CASE("an impact's peak counts from when the probe was dry") {
@@ -182,26 +182,26 @@ TEST_CASE("an impact's peak counts from when the probe was dry") {
   spec.to = 0.5;
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
   put(run.probes(), "time,name,value,x,y,z\n0,p,,,,\n1,p,,,,\n");
-  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // a peak of 0 that was never wet
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no samples"));  // a probe that was never wet has no peak of 0
 }
 
 TEST_CASE("a column of stats.csv is compared over time, and by how fast it falls") {
   const ScratchFolder folder;
   const RunPaths run{folder.path()};
-  std::string text = "step,time,energy\n";  // 6 - 2 tanh(t - 3): falls by 2 sech^2, most at t = 3
+  std::string text = "step,time,energy\n";  // 6 - 2 tanh(t - 3): falls at 2 sech^2, fastest at t = 3
   for (int n = 0; n <= 600; ++n) text += fmt::format("{},{},{:.17g}\n", n, 0.01 * n, 6 - 2 * std::tanh(0.01 * n - 3));
   put(run.stats(), text);
   MeasureSpec spec;
   spec.column = "energy", spec.from = 1, spec.to = 5, spec.unit = "4";
   spec.kind = "column_fall", spec.reference = "0.5";
-  CHECK(measure(spec, run).value == Approx(0.5).epsilon(1e-4));  // differences over 0.01: 0.01^2/12 of the second one
+  CHECK(measure(spec, run).value == Approx(0.5).epsilon(1e-4));  // differences over 0.01: 0.01^2/12 of u'''
   spec.kind = "column_fall_time", spec.reference = "3";
-  CHECK(measure(spec, run).error < 0.005 / 3 + 1e-9);  // the middle of the step next to it
+  CHECK(measure(spec, run).error < 0.005 / 3 + 1e-9);  // the middle of the nearest step
   spec.kind = "column_rms", spec.time_unit = "2", spec.unit = "2", spec.data = folder.path() / "data.csv";
   put(spec.data, "t,y\n0.5,4.1640275800758169\n1.5,2.5\n");  // 3 - tanh(2 0.5 - 3) + 0.2, 3 - tanh(0) - 0.5
   CHECK(measure(spec, run).error == Approx(std::sqrt((0.2 * 0.2 + 0.5 * 0.5) / 2)));
   spec.kind = "column_extreme_time", spec.from = 2, spec.reference = "4";
-  CHECK(measure(spec, run).value == 2);  // it falls all the time
+  CHECK(measure(spec, run).value == 2);  // it falls throughout
   CHECK(measure(spec, run).error == 0.5);
   spec.kind = "column_fall", spec.to = 7;
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("does not reach"));
@@ -301,7 +301,7 @@ TEST_CASE("a measure that would pass on nothing fails") {
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("zero at the start"));
   spec.kind = "column_peak", spec.from = 0.2, spec.to = 0.8;  // between two rows
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no rows between"));
-  spec.to = 2, spec.unit = "-1";  // would be an error below any bar
+  spec.to = 2, spec.unit = "-1";  // would be a negative error, below any bar
   CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("below zero"));
   spec.kind = "front_slope", spec.probe = "f", spec.data = folder / "data.csv", spec.from = 1, spec.to = 3;
   put(spec.data, "t,z\n0,1\n1,2\n2,3\n");
@@ -326,14 +326,14 @@ TEST_CASE("a run that does not hold what is measured is said not to be measurabl
   MeasureSpec spec;
   spec.kind = "max_of_column";
   spec.column = "max_speed";
-  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no rows"));  // and not an error of 0
+  CHECK_THROWS_WITH(measure(spec, run), Catch::Contains("no rows"));  // an error, not a figure of 0
   put(run.stats(), "step,max_speed\n0,1\n1,-2\n");
   CHECK(measure(spec, run).error == 2);
   spec.kind = "column_drift";
   put(run.stats(), "step,max_speed\n0,2\n1,1\n2,2.5\n");
   CHECK(measure(spec, run).error == 0.5);
   spec.kind = "energy_growth";
-  spec.from = 0.5;  // the rise before does not count
+  spec.from = 0.5;  // the earlier rise does not count
   put(run.stats(), "time,kinetic_energy,elastic_energy\n0,1,0\n1,3,1\n2,2,1.5\n3,1.5,2.5\n4,0,1\n");
   CHECK(measure(spec, run).error == 0.125);
   spec.from = 2.5;

@@ -1,4 +1,4 @@
-// The record of a validation, and what keeps wrong figures out of it.
+// The record of a validation, and protection against wrong figures.
 #include <catch2/catch.hpp>
 #include <thread>
 
@@ -77,7 +77,7 @@ TEST_CASE("rows that several validations put on a record at once are all there")
     for (int n = 0; n < rows; ++n)
       found += record.find("case" + std::to_string(writer), std::to_string(n), "00000001").has_value();
   CHECK(found == writers * rows);
-  CHECK(entries(folder.path()) == 1);  // nothing else is left
+  CHECK(entries(folder.path()) == 1);  // no other files remain
 }
 
 TEST_CASE("a run that fails replaces the pass on record") {
@@ -178,7 +178,7 @@ TEST_CASE("one file is not taken for two outputs") {
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
-// Both runs are off by 1 m/s: order 0, which a run that is chosen alone does not know.
+// Both runs have errors of 1 m/s: order 0, which a single selected run does not know.
 TEST_CASE("a single run does not escape the order that its case asks for") {
   const ScratchFolder folder;
   put_case(folder, "one", "min_order = 1.9\n" + case_text("max_speed", 1.5));
@@ -214,7 +214,7 @@ TEST_CASE("probes, solids and columns that a scene does not have are named befor
   refused("probe_mean", "did you mean 'tip'");
   m.probe = "tip", m.column = "value";
   refused("probe_mean", "there are: x, y, z");
-  refused("probe_rms", "there are: x, y, z");  // of scalar probes
+  refused("probe_rms", "there are: x, y, z");  // a scalar probe has no components
   refused("impact_peak", "is to measure pressure");
   m.data = folder / "none.csv", m.probe = "wall";
   refused("probe_rms", "none.csv");
@@ -251,7 +251,7 @@ TEST_CASE("the order is judged at the last run that has a figure") {
   Report report;
   report.results = {row_of(one, 0.4, 0.4), row_of(one, 0.2, 0.12), row_of(one, 0.1, 0.036), row_of(one, 0.05, {})};
   const ReportedResult* changed = judge_last_measured(report);
-  REQUIRE(changed);  // orders of 1.74: within the scatter of each pair, but not of the fit
+  REQUIRE(changed);  // orders of 1.74: within the scatter of pairs, but too low for the fit
   CHECK(changed->result.cell_size == 0.1);
   CHECK(changed->result.verdict == Verdict::missed);
   CHECK(*changed->result.fitted_order == Approx(1.737).epsilon(1e-3));
@@ -276,10 +276,10 @@ TEST_CASE("orders are taken within a series, in whatever turn its runs come") {
   const auto order_at = [&](const ResolutionSpec& series, double error) {
     CaseResult fine = row(series, 0.1, error).result;
     judge_by_all({&one, &series, {}, true}, report, fine);
-    CHECK(fine.order == fine.fitted_order);  // of the same two runs
+    CHECK(fine.order == fine.fitted_order);  // from the same two runs
     return *fine.order;
   };
-  CHECK(order_at(one.resolutions[0], 0.1) == Approx(2).epsilon(1e-12));  // rounding of two logarithms
+  CHECK(order_at(one.resolutions[0], 0.1) == Approx(2).epsilon(1e-12));  // round-off of two logarithms
   CHECK(order_at(one.resolutions[1], 0.04) == Approx(1).epsilon(1e-12));
   one.resolutions[1].reference = "2";
   CHECK_FALSE(same_series(one, one.resolutions[1], report.results[1].resolution));

@@ -1,4 +1,4 @@
-// Runs of a validation that were stopped and go on.
+// Validation runs that are stopped and resumed.
 #include <catch2/catch.hpp>
 
 #include <csignal>

@@ -88,7 +88,7 @@ TEST_CASE("cases are chosen by name and tag, and a slip gets a suggestion") {
   CHECK(names_chosen(cases, {}) == "alpha beta gamma ");
   CHECK(names_chosen(cases, {"waves", "beta"}) == "alpha beta gamma ");
   CHECK(names_chosen(cases, {"waves"}) == "alpha gamma ");
-  cases[0].name = "rest";  // which is a tag, too
+  cases[0].name = "rest";  // also a tag
   CHECK(names_chosen(cases, {"rest"}) == "rest ");
   CHECK(names_chosen(cases, {"rest", "waves"}) == "rest gamma ");
   CHECK_THROWS_WITH(Selection(cases, {"bta"}), Catch::Contains("did you mean 'beta'"));
@@ -129,7 +129,7 @@ TEST_CASE("the cases folder is found here, beside an installed program, and arou
   add(tree / "validation");
   CHECK(find_cases_folder(here, prefix / "bin/seiche") == prefix / "share/seiche/validation");
   CHECK(find_cases_folder(here, tree / "build/release/seiche") == tree / "validation");
-  fs::create_directories(here / "validation");  // someone else's, without cases
+  fs::create_directories(here / "validation");  // another program's folder, without cases
   CHECK(find_cases_folder(here, tree / "build/release/seiche") == tree / "validation");
   add(here / "validation");
   CHECK(find_cases_folder(here, tree / "build/release/seiche") == here / "validation");
@@ -141,7 +141,7 @@ TEST_CASE("error, fitted order and the order of two resolutions decide") {
   one.min_order = 1.9;
   CaseResult fine = result_of(0.1, 0.25);
   fine.order = observed_order(result_of(0.2, 1), fine);
-  CHECK(*fine.order == Approx(2).epsilon(1e-12));  // rounding of two logarithms
+  CHECK(*fine.order == Approx(2).epsilon(1e-12));  // round-off of two logarithms
   CHECK(judge(one, {}, fine) == Verdict::passed);
   fine.order = 1.75;
   CHECK(judge(one, {}, fine) == Verdict::passed);  // within order_scatter
@@ -159,7 +159,7 @@ TEST_CASE("error, fitted order and the order of two resolutions decide") {
 }
 
 TEST_CASE("the fitted order is that of a line through all errors") {
-  // Pairs of 1.89 and 2.11: 2.0 between the ends of three equal steps, which is what least squares give there.
+  // Pairs have the orders 1.89 and 2.11. For three equal steps least squares give the slope between the ends, 2.0.
   const double e = 1, f = e / std::pow(2, 1.89), g = f / std::pow(2, 2.11);
   CHECK(*fitted_order({result_of(0.4, e), result_of(0.2, f), result_of(0.1, g)}) == Approx(2).epsilon(1e-12));
   CHECK_FALSE(fitted_order({result_of(0.1, 1)}));
@@ -190,14 +190,14 @@ TEST_CASE("passing, missing and unmeasurable cases end with codes 0, 1 and 3 and
 TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
   const ScratchFolder folder;
   put_case(folder, "first", case_text("max_speed", 1.5));
-  put_case(folder, "second", case_text("dt", 1.5));  // the same scene: the run of the first serves
+  put_case(folder, "second", case_text("dt", 1.5));  // the same scene: reuses the first run
   const auto cached = [](const Outcome& o) { return o.json.find("\"cached\": true") != std::string::npos; };
   CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));
   CHECK(fs::exists(folder / "out" / "first" / "8" / "validate.txt"));
   const Outcome again = validate(folder, {"first"}, "quick");
   CHECK(cached(again));
   CHECK(again.code == ExitCode::done);
-  CHECK(again.table.find("(") != std::string::npos);  // the seconds of an earlier run
+  CHECK(again.table.find("(") != std::string::npos);  // seconds of an earlier run
   validate(folder, {"second"}, "quick");
   CHECK_FALSE(fs::exists(folder / "out" / "second" / "8" / "stats.csv"));
 
@@ -207,7 +207,7 @@ TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
   ValidateOptions broken;
   broken.tampering = "divergence:0.5";
   CHECK_FALSE(cached(validate(folder, {"first"}, "quick", broken)));
-  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));  // which the broken run had replaced
+  CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));  // replaced by the broken run
   std::string faster = scene_text;
   faster.replace(faster.find("[1.0, 0.0]", faster.find("velocity")), 10, "[1.1, 0.0]");
   put(folder / "cases" / "first" / "scene.toml", faster);
@@ -239,7 +239,7 @@ TEST_CASE("a record keeps figures of other builds, and the pages have all cases"
   CHECK(validate(folder, {"first"}, "full", options).code == ExitCode::done);
   CHECK(contents(folder / "page.md").find("2 pass, 2 not run") != std::string::npos);
 
-  // As another build would have left it: the runs are gone, the figures are not.
+  // As another build would leave it: no runs, but their figures.
   std::string kept = contents(folder / "record.csv");
   for (std::size_t at; (at = kept.find(build_digest())) != std::string::npos;)
     kept.replace(at, build_digest().size(), "abcdef0123456789");
@@ -252,7 +252,7 @@ TEST_CASE("a record keeps figures of other builds, and the pages have all cases"
   CHECK(contents(folder / "page" / "first.md").find("- Made by build abcdef01, 20") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out" / "first"));
 
-  // Figures of a case that has changed since are none of it.
+  // Figures of a case that has changed since do not count.
   fs::remove_all(folder / "out");
   put_case(folder, "first", case_text("dt", 1.5));
   options.making = Making::report;
@@ -277,7 +277,7 @@ TEST_CASE("the pages show misses with their cause, plots and a picture") {
   CHECK(html.find("the sun &lt;was&gt; in its eyes") != std::string::npos);
   CHECK(html.find("<polyline") != std::string::npos);
   CHECK(html.find("data:image/png;base64,iVBORw0KGgo") != std::string::npos);
-  CHECK(html.find("http") == std::string::npos);  // it needs no other file
+  CHECK(html.find("http") == std::string::npos);  // needs no other file
   CHECK(page.find("**MISS**") != std::string::npos);
   CHECK(page.find("Misses its bar: the sun") != std::string::npos);
   options.making = Making::report;
@@ -304,7 +304,7 @@ TEST_CASE("the page of a case has what it takes to make its figures again") {
   }
   CHECK(summary.find("- machine 1, of 2 runs: ") != std::string::npos);
   CHECK(page.find(folder.path().string()) == std::string::npos);
-  // The machine is that of the run, also where the run is found later.
+  // The machine is that of the run, also if the run is found later.
   const std::string record = contents(folder / "record.csv");
   fs::remove(folder / "record.csv");
   CHECK(validate(folder, {}, "full", options).code == ExitCode::done);
@@ -358,7 +358,7 @@ TEST_CASE("a case's README stands in its page with its headings deeper and its l
         "## A\ntext # no heading\n```\n# code [a](b)\n```\n    # code\n### B\n");
   CHECK(embed_readme("[a](b.csv), [c](../d/e.md#f), [g](#h), [i](https://j.k)\n\n", "v/one") ==
         "[a](../../v/one/b.csv), [c](../../v/d/e.md#f), [g](#h), [i](https://j.k)\n");
-  CHECK(embed_readme("~~~\n# code\n```\n", "v/one") == "~~~\n# code\n```\n~~~\n");  // closed for what follows
+  CHECK(embed_readme("~~~\n# code\n```\n", "v/one") == "~~~\n# code\n```\n~~~\n");  // closed for the following text
   CHECK(embed_readme("<!-- a -->\n<!-- b\n", "v/one") == "<!-- a -->\n<!-- b\n-->\n");
   CHECK(link_from_page("v/one", "../../scenes/s.toml") == "../../scenes/s.toml");
 }

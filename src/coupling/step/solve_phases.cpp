@@ -1,0 +1,248 @@
+#include "coupling/step/solve_phases.h"
+
+#include <utility>
+
+#include "base/time_spec.h"
+#include "coupling/solve/coupled_solve.h"
+#include "coupling/solve/rheology_iteration.h"
+#include "coupling/step/checks.h"
+#include "coupling/step/step_size.h"
+#include "coupling/thin/films.h"
+#include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/restore.h"
+#include "coupling/transport/transport.h"
+#include "coupling/transport/two_fluids.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// All that the solves of a step read and do not change.
+template <int Dim>
+struct SolveTask {
+  const Setup<Dim>& s;
+  const State<Dim>& before;
+  const std::optional<SurfaceTension<Dim>>& tension;
+  const Predicted<Dim>& predicted;
+  const StepTimes& times;
+  Phases& phases;
+};
+
+// Several solves of a step from the same place: a later one begins with the pressure of an earlier one that succeeded.
+template <int Dim>
+struct Solves {
+  std::optional<CellField<Dim>> guess = {};  // Pa; empty: the pressure of the step before
+  int iterations = 0;                        // of all solves
+
+  // The pressure of a solve that failed may be anything.
+  void go_on_from(Attempt<Dim> attempt) {
+    iterations = attempt.solve.iterations;
+    if (attempt.failure.empty()) guess = std::move(attempt.state.pressure);
+  }
+};
+
+template <int Dim>
+ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Dim>& state,
+                                      const StepGeometry<Dim>& geometry) {
+  const Setup<Dim>& s = task.s;
+  return {s.domain.layout,
+          s.domain.halo,
+          s.domain.ranks,
+          state.phi,
+          geometry.faces,
+          s.fluids.density(),
+          task.times.dt,
+          s.fluids.liquid.separates ? &state.parting : nullptr,
+          s.tampering.gas_density * s.fluids.gas_density(),
+          task.tension ? &task.tension->jump : nullptr,
+          s.fluids.keeps_air() ? &state.air : nullptr};
+}
+
+// A gap of half a cell at a wall becomes air.
+template <int Dim>
+void open_gaps(const Domain<Dim>& domain, State<Dim>& state) {
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    if (state.parting.gap[c] < 0.5) return;
+    state.phi[c] = std::max(state.phi[c], (state.parting.gap[c] - 0.5) * domain.layout.h());
+    state.parting.gap[c] = 0;
+  });
+  fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
+}
+
+// N, the acceleration by viscosity: the solve's u* less the one predicted, over the implicit share of dt.
+template <int Dim>
+void set_viscous_acceleration(const SolveTask<Dim>& task, const FaceField<Dim>& solved_u_star, Level<Dim>& level) {
+  const double span = task.predicted.viscosity.implicit * task.times.dt;
+  const Layout<Dim>& layout = task.s.domain.layout;
+  for (int a = 0; a < Dim && task.s.fluids.is_viscous(); ++a)
+    for_each_site(layout, layout.faces(a), [&](Site f) {
+      if (level.valid.at(a, f) == face_solved)
+        level.n.at(a, f) = (solved_u_star.at(a, f) - task.predicted.u_star.at(a, f)) / span;
+    });
+}
+
+// The viscosity that the step's implicit share leaves.
+template <int Dim>
+ViscosityField<Dim> implicit_part(const Layout<Dim>& layout, ViscosityField<Dim> viscosity, double share) {
+  if (share == 1) return viscosity;
+  for_each_site(layout, layout.padded(), [&](Site c) { viscosity.value[c] *= share; });
+  for (int p = 0; viscosity.edge && p < EdgeField<Dim>::count; ++p)
+    for (double& mu : (*viscosity.edge)[p]) mu *= share;
+  return viscosity;
+}
+
+// Sets pressure, solids and counts of `out`.
+template <int Dim>
+CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>* viscosity, const Solves<Dim>& earlier,
+                           Attempt<Dim>& out) {
+  const Setup<Dim>& s = task.s;
+  const PhaseFault fault = task.phases.enter("solve");
+  const auto timed = task.phases.timers.measure("solve");
+  const FaceField<Dim> slope = of_both(s.domain, task.before, &Level<Dim>::q),
+                       flow = of_both(s.domain, task.before, &Level<Dim>::u);
+  const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
+  const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
+  CoupledSolution<Dim> solution =
+      solve_coupled(CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, slope, flow, task.predicted.u_star,
+                                      out.state.horizon, viscosity, fault});
+  out.solve = solution.report;
+  out.solve.iterations += earlier.iterations;
+  out.newton_iterations = solution.newton_iterations;
+  out.contacts = solution.contacts;
+  out.parting_error = solution.parting_error;
+  out.failure = solution.failure;
+  out.state.pressure = solution.pressure;
+  return solution;
+}
+
+// Sets the velocity of `out` from the pressure.
+template <int Dim>
+void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, Attempt<Dim>& out) {
+  const Setup<Dim>& s = task.s;
+  const PhaseFault fault = task.phases.enter("restore");
+  const auto timed = task.phases.timers.measure("restore");
+  const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
+  settle_air(liquid, solution.rows, solution.u_star, out.state.pressure);
+  Restored<Dim> restored =
+      restore_velocity(s.domain, s.fluids, s.solids, s.tampering, liquid, solution.rows, out.state.pressure, solution.u_star, out.geometry);
+  set_viscous_acceleration(task, solution.u_star, restored.level);
+  auto level = std::make_shared<Level<Dim>>(std::move(restored.level));
+  if (s.fluids.has_gas()) {
+    set_viscous_acceleration(task, solution.u_star, restored.gas);
+    out.state.gas.now = std::make_shared<Level<Dim>>(std::move(restored.gas));
+  }
+  out.state.film = std::move(restored.film);
+  out.divergence = restored.divergence;
+  if (s.fluids.liquid.separates) {
+    advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.parting);
+    open_gaps(s.domain, out.state);
+  }
+  inject(s.domain, fault, level->u[0].data());
+  out.failure = find_non_finite(s.domain, "u", level->u);
+  out.state.now = level;
+  out.state.viscous_loads = solution.viscous_loads;
+  out.dissipation = solution.dissipation / task.predicted.viscosity.implicit;
+}
+
+// One solve from where surface and solids stand, with a given viscosity (null: none).
+template <int Dim>
+Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const ViscosityField<Dim>* viscosity,
+                        const Solves<Dim>& earlier) {
+  Attempt<Dim> out;
+  out.state = std::move(moved.state);
+  out.geometry = std::move(moved.geometry);
+  const CoupledSolution<Dim> solution = solve(task, viscosity, earlier, out);
+  if (out.failure.empty()) restore(task, solution, out);
+  return out;
+}
+
+// Viscosity that depends on the flow is solved for until both agree (Picard).
+template <int Dim>
+Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, Solves<Dim>& solves) {
+  const Layout<Dim>& layout = task.s.domain.layout;
+  RheologyIteration<Dim> rheology(task.s, moved.state.phi, *task.before.now, moved.state.time);
+  for (;;) {
+    const ViscosityField<Dim> implicit = implicit_part(layout, rheology.viscosity(), task.predicted.viscosity.implicit);
+    Attempt<Dim> out = solve_once(task, moved, &implicit, solves);
+    if (!out.failure.empty()) return out;
+    if (!rheology.is_unsettled_by(*out.state.now)) {
+      out.rheology_iterations = rheology.count();
+      out.state.viscous_rate = rheology.viscosity().largest / (task.s.fluids.density() * layout.h() * layout.h());
+      return out;
+    }
+    solves.go_on_from(std::move(out));
+  }
+}
+
+template <int Dim>
+Attempt<Dim> solve_for_horizon(const SolveTask<Dim>& task, Moved<Dim> moved, Solves<Dim>& solves) {
+  if (task.s.fluids.is_viscous()) return solve_viscous(task, moved, solves);
+  return solve_once<Dim>(task, std::move(moved), nullptr, solves);
+}
+
+}  // namespace
+
+template <int Dim>
+Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, const Moved<Dim>& moved,
+                                const StepTimes& times, Phases& phases) {
+  const auto timed = phases.timers.measure("velocity");
+  const CellField<Dim>& phi = moved.state.phi;
+  Predicted<Dim> p;
+  p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
+  p.u_star = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
+  set_film_velocity(s.domain, moved.geometry.faces, before.film, s.fluids.gravity.of_step(moved.state.time, times.dt),
+                    times.dt, p.u_star);
+  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);
+  p.failure = find_non_finite(s.domain, "phi", s.domain.layout.cells(), phi.data());
+  if (p.failure.empty()) p.failure = find_non_finite(s.domain, "u", p.u_star);
+  return p;
+}
+
+// The solve leads elastic solids to the end of the coming step, which is planned before the speeds of solids and flow
+// are known. Where these turn out too fast, a shorter step is solved for: cut short instead, the solids would head
+// straight for where the longer one leads, and rotating ones stretch. Once only: light bodies that crumple get to where
+// forces balance in any step, faster the shorter it is (a sheet with E = 100 Pa blew up). A solve that fails, as of
+// bodies in contact that find no state, is tried for half the horizon, twice at most.
+template <int Dim>
+Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved<Dim> moved,
+                            const Predicted<Dim>& predicted, const StepTimes& times, Phases& phases) {
+  constexpr int most_plans = 2, most_failures = 2;
+  const std::optional<SurfaceTension<Dim>> tension = std::exchange(moved.tension, std::nullopt);
+  const SolveTask<Dim> task{s, before, tension, predicted, times, phases};
+  Solves<Dim> solves;
+  moved.state.horizon = choose_horizon(s, moved.state, times.dt);
+  if (!s.solids.plans_steps() || s.scene.time.fixed_step) return solve_for_horizon(task, std::move(moved), solves);
+  for (int plans = 1, failures = 0;;) {
+    Attempt<Dim> out = solve_for_horizon(task, moved, solves);
+    if (!out.failure.empty()) {
+      if (++failures > most_failures) return out;
+      moved.state.horizon /= 2;
+    } else {
+      if (++plans > most_plans || can_go_as_planned(s, out.state)) return out;
+      moved.state.horizon = choose_horizon(s, out.state, times.dt);
+    }
+    solves.go_on_from(std::move(out));
+  }
+}
+
+template <int Dim>
+Attempt<Dim> prescribe_velocity(const Setup<Dim>& s, Moved<Dim> moved) {
+  Attempt<Dim> out;
+  out.state = std::move(moved.state);
+  out.geometry = std::move(moved.geometry);
+  out.failure = find_non_finite(s.domain, "phi", s.domain.layout.cells(), out.state.phi.data());
+  out.state.now = prescribed_level(s.domain, s.fluids, out.state.phi, out.state.time);
+  out.divergence = largest_divergence(s.domain, out.state.phi, out.state.now->u);
+  return out;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                    \
+  template Predicted<D> predict_velocity<D>(const Setup<D>&, const State<D>&, const Moved<D>&, const StepTimes&, \
+                                            Phases&);                                                            \
+  template Attempt<D> solve_and_plan<D>(const Setup<D>&, const State<D>&, Moved<D>, const Predicted<D>&,         \
+                                        const StepTimes&, Phases&);                                              \
+  template Attempt<D> prescribe_velocity<D>(const Setup<D>&, Moved<D>);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,30 @@
+#pragma once
+// Phases of a step that find its velocity: predict it, solve for pressure and solids, restore it from the pressure.
+#include "coupling/step/surface_phases.h"
+#include "coupling/transport/viscous_transport.h"
+
+namespace seiche {
+
+// The velocity before the solve, and how the step treats viscosity.
+template <int Dim>
+struct Predicted {
+  FaceField<Dim> u_star;  // m/s, ghosts filled
+  ViscousPlan viscosity;
+  std::string failure;  // names a value that is not finite; empty: none
+};
+
+// u*, transported to the faces near liquid with the acceleration along its path. Collective.
+template <int Dim>
+Predicted<Dim> predict_velocity(const Setup<Dim>& setup, const State<Dim>& before, const Moved<Dim>& moved,
+                                const StepTimes& times, Phases& phases);
+
+// Pressure, solids and velocity at the end of the step, and the velocities of solids over the step to come. Collective.
+template <int Dim>
+Attempt<Dim> solve_and_plan(const Setup<Dim>& setup, const State<Dim>& before, Moved<Dim> moved,
+                            const Predicted<Dim>& predicted, const StepTimes& times, Phases& phases);
+
+// In place of both where the scene prescribes the flow. Collective.
+template <int Dim>
+Attempt<Dim> prescribe_velocity(const Setup<Dim>& setup, Moved<Dim> moved);
+
+}  // namespace seiche

@@ -1,0 +1,179 @@
+#include "coupling/step/surface_phases.h"
+
+#include "base/time_spec.h"
+#include "coupling/solids/sealed_liquid.h"
+#include "coupling/solids/solid_coupling.h"
+#include "coupling/step/checks.h"
+#include "coupling/step/half_steps.h"
+#include "coupling/thin/thin_solids.h"
+#include "coupling/thin/thin_weight.h"
+#include "coupling/transport/air_volume.h"
+#include "coupling/transport/formula_checks.h"
+#include "coupling/transport/level_in_solids.h"
+#include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/transport.h"
+#include "coupling/transport/two_fluids.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// The state at the end of the step as far as it follows from its length alone.
+template <int Dim>
+State<Dim> shifted_levels(const State<Dim>& before, double dt) {
+  State<Dim> next = before;
+  next.time = before.time + dt;
+  next.step = before.step + 1;
+  next.earlier = before.before;
+  next.before = before.now;
+  next.gas.earlier = before.gas.before;
+  next.gas.before = before.gas.now;
+  next.dt_before = before.dt_now;
+  next.dt_now = dt;
+  return next;
+}
+
+template <int Dim>
+void move_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Participants<Dim>& solids) {
+  const std::vector<Eigen::VectorXd> velocities = each_velocity_over(s.solids, before, times.dt);
+  for (std::size_t k = 0; k < velocities.size(); ++k)
+    solids[k].advance({s, before, times.dt, times.lead, velocities[k]});
+}
+
+template <int Dim>
+StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, const StepTimes& times,
+                                   Phases& phases) {
+  const PhaseFault fault = phases.enter("geometry");
+  const auto timed = phases.timers.measure("geometry");
+  StepGeometry<Dim> geometry =
+      s.solids.geometry.measure(times.leapfrog ? place_halfway(next, times.dt) : place_bodies(next), next.time);
+  check_geometry_of_step(s.domain, s.solids, s.scene.domain, geometry, times.start, next.time);
+  inject(s.domain, fault, geometry.faces.closed_flux[0].data());
+  return geometry;
+}
+
+// Volume that flows in through the sides per time, m^Dim/s: through a side that feeds liquid all of it, elsewhere the
+// share of the cell beside it that phi counts as liquid.
+template <int Dim>
+double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
+                  const FaceField<Dim>& u) {
+  double sum = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (int side = 0; side < 2; ++side) {
+      Box<Dim> box = domain.layout.faces(a);
+      if (box.empty() || !(side == 0 ? domain.layout.at_lower(a) : domain.layout.at_upper(a))) continue;
+      (side == 0 ? box.upper[a] : box.lower[a]) = side == 0 ? box.lower[a] + 1 : box.upper[a] - 1;
+      for_each_index_in_order(domain.layout, box, [&](Site f, const IVec<Dim>&) {
+        const Site inside = side == 0 ? f : f - domain.layout.stride(a);
+        const double inward = (side == 0 ? 1 : -1) * g.faces.open.at(a, f) * u.at(a, f);
+        const bool fed = domain.sides.type(a, side) == SideType::inflow && inward > 0;
+        const double share = std::clamp(0.5 - phi[inside] / domain.layout.h(), 0.0, 1.0);
+        sum += inward * (fed ? 1 : share);
+      });
+    }
+  return domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
+}
+
+// Empty volume at walls that phi still counts as liquid, m^Dim.
+template <int Dim>
+double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Parting<Dim>& parting) {
+  if (!fluids.liquid.separates) return 0;
+  const double cells =
+      local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return parting.gap[c]; });
+  return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
+}
+
+// The most that the volume control moves the surface by, m.
+template <int Dim>
+double largest_shift(const Domain<Dim>& domain) {
+  return 0.05 * domain.layout.h();
+}
+
+template <int Dim>
+void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Phases& phases,
+                   Moved<Dim>& moved) {
+  const PhaseFault fault = phases.enter("transport");
+  const auto timed = phases.timers.measure("surface");
+  const FaceField<Dim> u = s.fluids.has_prescribed_flow()
+                               ? prescribed_flow(s.domain, s.fluids, before.phi, times.start + 0.5 * times.dt)
+                               : flow_at_surface(s.domain, s.fluids, before);
+  CellField<Dim>& phi = moved.state.phi;
+  const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
+  // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
+  if (!times.leapfrog && may_go_by_halves(s.features) && s.scene.time.cfl > 2) make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
+  moved.state.expected_volume += transport_surface(s, before, u, times.start, times.lead, phi);
+  make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
+  inject(s.domain, fault, phi.data());
+}
+
+// Shifts of the surface that keep the volumes of liquid and of each region of enclosed air.
+template <int Dim>
+void control_liquid_and_air(const Setup<Dim>& s, const State<Dim>& before, double dt, double expected,
+                            Moved<Dim>& moved) {
+  State<Dim>& next = moved.state;
+  next.air = follow_air(s.domain, before.air, before.now->u, dt, moved.geometry, next.phi, next.lost_air);
+  next.corrected_volume +=
+      control_volumes(s.domain, moved.geometry, expected, largest_shift(s.domain), next.air, next.phi);
+}
+
+template <int Dim>
+void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Phases& phases,
+                  Moved<Dim>& moved) {
+  const auto timed = phases.timers.measure("surface");
+  State<Dim>& next = moved.state;
+  const StepGeometry<Dim>& geometry = moved.geometry;
+  next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
+  keep_sides_of_walls(s.domain, geometry, next.phi);
+  keep_sealed_full(s, before, next, geometry, next.phi);
+  if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, before, geometry, next.phi);
+  const double uncounted =
+      gap_volume(s.domain, s.fluids, before.parting) + volume_beyond(s.domain, s.solids, geometry, next.phi);
+  const double expected = next.expected_volume + uncounted;
+  if (s.fluids.keeps_air())
+    control_liquid_and_air(s, before, times.dt, expected, moved);
+  else
+    next.corrected_volume += control_volume(s.domain, geometry.psi, expected, largest_shift(s.domain), next.phi);
+  keep_sides_apart(s.domain, s.solids, before, geometry, next.phi);
+  if (s.fluids.keeps_air())
+    next.air = follow_air(s.domain, next.air, before.now->u, 0, geometry, next.phi, next.lost_air);
+}
+
+}  // namespace
+
+template <int Dim>
+Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
+                                   Phases& phases) {
+  Moved<Dim> moved{shifted_levels(before, times.dt), {}, {}};
+  move_solids(s, before, times, moved.state.solids);
+  moved.geometry = measure_geometry(s, moved.state, times, phases);
+  carry_surface(s, before, times, phases, moved);
+  keep_volumes(s, before, times, phases, moved);
+  const auto timed = phases.timers.measure("surface");
+  if (s.fluids.has_surface_tension())
+    moved.tension = surface_tension(s.domain, s.fluids, s.solids, s.tampering, moved.geometry, before.phi, moved.state.phi, times.lead, times.dt);
+  return moved;
+}
+
+template <int Dim>
+void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Phases& phases,
+                      Attempt<Dim>& solved) {
+  const auto timed = phases.timers.measure("surface");
+  State<Dim>& next = solved.state;
+  const bool can = can_go_on(s.domain, s.solids, s.scene.time, next, times.dt);
+  const State<Dim>& leading = can ? next : before;
+  const FaceField<Dim> u = flow_at_surface(s.domain, s.fluids, leading);
+  next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
+  next.expected_volume += transport_surface(s, next, u, times.start + times.lead, times.lead, next.phi);
+  for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
+  if (any_moves(s.solids)) solved.geometry = stand_at_end(s.solids, next, std::move(solved.geometry));
+  const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.parting);
+  next.corrected_volume += control_volume(s.domain, solved.geometry.psi, expected, largest_shift(s.domain), next.phi);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                \
+  template Moved<D> move_surface_and_solids<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&); \
+  template void move_second_half<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&, Attempt<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

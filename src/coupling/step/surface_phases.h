@@ -1,0 +1,41 @@
+#pragma once
+// Phases of a step around its solve that move surface and solids.
+#include <optional>
+
+#include "coupling/state/attempt.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+#include "coupling/tension/surface_tension.h"
+
+namespace seiche {
+
+// A step from `start` to start + dt. The solve finds surface and solids `lead` after the start: half-way in a leapfrog
+// step (half_steps.h), else at the end.
+struct StepTimes {
+  double start, dt, lead;  // s
+  bool leapfrog;
+
+  double end() const { return start + dt; }
+};
+
+// Surface and solids where the solve finds them; flow and pressure are still those of the step before.
+template <int Dim>
+struct Moved {
+  State<Dim> state;
+  StepGeometry<Dim> geometry;
+  std::optional<SurfaceTension<Dim>> tension;
+};
+
+// Moves solids and surface, measures the geometry between them, and keeps the volumes of liquid and enclosed air.
+// Collective.
+template <int Dim>
+Moved<Dim> move_surface_and_solids(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times,
+                                   Phases& phases);
+
+// The second half of a leapfrog step, by the velocities at its end; by those at its start where its end is too fast.
+// Collective.
+template <int Dim>
+void move_second_half(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times, Phases& phases,
+                      Attempt<Dim>& solved);
+
+}  // namespace seiche
