@@ -9,7 +9,7 @@ struct RedistanceOptions {
   int iterations = 8;  // each carries distance 0.45 cells outwards
   int entering = 2;    // layers beyond the band that may enter it: the interface's motion since the last call, cells
   // Width of closest-point redistancing on each side of the zero, cells; at most halo - 1. 0: relaxation only.
-  double settled = 0;
+  double closest_point_cells = 0;
 };
 
 // Redistances phi (m). Cells where `kept` is set are read but keep phi. Fills ghosts. Collective.

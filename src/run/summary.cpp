@@ -43,7 +43,7 @@ std::string format_summary(const RunSummary& s) {
                                  {"omp_num_threads", s.omp_num_threads.empty() ? JsonValue() : s.omp_num_threads},
                                  {"steps", s.state.step},
                                  {"rejected_steps", s.state.rejected_steps},
-                                 {"unsettled_partings", s.state.unsettled_partings},
+                                 {"unsettled_partings", s.state.unconverged_separations},
                                  {"frames", s.state.frame + 1},
                                  {"time", s.state.time},
                                  {"end", s.end},

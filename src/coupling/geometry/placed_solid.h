@@ -24,7 +24,7 @@ class PlacedSolid {
   // True if the surface moves with nodal velocities instead of the pose.
   virtual bool deforms() const { return false; }
   // Nodes and weights of the surface velocity near x. Empty if the surface is not near, or if deforms() is false.
-  virtual SurfaceWeights attach(const Vec<Dim>&) const { return {}; }
+  virtual SurfaceWeights weights_at(const Vec<Dim>&) const { return {}; }
   // True if each face is closed entirely or not at all, as by thin deforming solids. Their stretching changes the flux
   // balance of a cell. Slivers left open beside sealed faces would carry that volume away.
   virtual bool closes_whole_faces() const { return false; }

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "coupling/geometry/joints.h"
+#include "fluid/boundary/domain_boundary.h"
 #include "fluid/boundary/face_geometry.h"
-#include "fluid/boundary/sides.h"
 #include "levelset/surface_distance.h"
 #include "solid/rigid/state.h"
 
@@ -21,7 +21,7 @@ using FaceShares = std::vector<FaceShare>;
 
 // Per face share of an elastic body: mesh nodes and weights that interpolate the surface velocity there. Thick bodies
 // use the nearest surface point, thin ones a local mean over the surface. Empty where the surface is not near.
-using Attachments = std::vector<SurfaceWeights>;
+using FaceWeights = std::vector<SurfaceWeights>;
 
 // Entry of J besides the body's face shares: flux out of `cell` at unit velocity of the unknown `column`, per face
 // area.
@@ -50,16 +50,16 @@ struct StepGeometry {
   NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside; without thin elastic solids
   NodeField<Dim, std::int16_t> body;  // index of that solid, -1: none
   FaceGeometry<Dim> faces;
-  std::vector<std::shared_ptr<const FaceShares>> shares;       // per body; owned faces and two layers around
-  std::vector<std::shared_ptr<const Attachments>> attached;    // per deforming body, one entry per share; else null
-  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // per deforming body, once coupled; else null
-  std::vector<SealedFace> sealed;                              // of all thin bodies; owned faces and two layers around
+  std::vector<std::shared_ptr<const FaceShares>> shares;         // per body; owned faces and two layers around
+  std::vector<std::shared_ptr<const FaceWeights>> face_weights;  // per deforming body, one entry per share; else null
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;    // per deforming body, once coupled; else null
+  std::vector<SealedFace> sealed;  // of all thin bodies; owned faces and two layers around
   // Placement of each body at the solve. After a leapfrog step, poses and psi are at the end of the step. Shares, faces
   // and the velocities of twists are at its middle.
   std::vector<Placement> placed;
   std::vector<Vec3> pivots;  // reference point of each body at the solve, m
 
-  bool deforms(int k) const { return attached[std::size_t(k)] != nullptr; }
+  bool deforms(int k) const { return face_weights[std::size_t(k)] != nullptr; }
 };
 
 // Sets the velocity of a body: its twist and, if it deforms, its nodal velocities (m/s). Updates faces.closed_flux by
@@ -74,12 +74,12 @@ void set_node_velocity(const Layout<Dim>& layout, int body, const Eigen::VectorX
 
 // Component along `axis` of the surface velocity with the weights `hung`, m/s. `node_velocity` is stacked node by node.
 template <int Dim>
-double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity);
+double velocity_at(const SurfaceWeights& weights, int axis, const Eigen::VectorXd& node_velocity);
 
 template <int Dim>
 class SolidGeometry {
  public:
-  SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides, const std::vector<Body<Dim>>& bodies);
+  SolidGeometry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, const std::vector<Body<Dim>>& bodies);
 
   // Geometry for the given placements of all bodies; values of the domain's sides are those at time t (s).
   StepGeometry<Dim> measure(const std::vector<Placement>& placed, double t) const;
@@ -99,7 +99,7 @@ class SolidGeometry {
   bool is_leaving(const Placement& placed, double radius) const;
 
   const Layout<Dim>& layout_;
-  const Sides<Dim>& sides_;
+  const DomainBoundary<Dim>& sides_;
   const std::vector<Body<Dim>>& bodies_;
   StepGeometry<Dim> still_;  // of the static bodies
   std::vector<JoinedFacet<Dim>> joints_;

@@ -1,7 +1,7 @@
 #pragma once
 // Cavities of liquid without a given pressure, and the patches of elastic bodies that are their walls.
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/solids/link_graph.h"
-#include "coupling/solids/swept_volume.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"
 

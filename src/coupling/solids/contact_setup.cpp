@@ -8,9 +8,9 @@
 #include "base/domain_spec.h"
 #include "base/error.h"
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
@@ -39,7 +39,8 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
 }  // namespace
 
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering) {
+ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids,
+                                     const OperatorPerturbation& perturbation) {
   std::vector<ContactBody> contact;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const Body<Dim>& body = solids[k].body();
@@ -47,7 +48,7 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>
     c.surface = body.contact_surface();
     solids[k].describe_contact(c);
     c.friction = body.spec().friction;
-    if (c.friction) *c.friction *= tampering.friction;
+    if (c.friction) *c.friction *= perturbation.friction;
     c.name = body.spec().name;
   }
   return {contact, closed_sides<Dim>(scene.domain)};
@@ -66,13 +67,13 @@ std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horiz
 // crosses the domain in about ten frames replaces it.
 template <int Dim>
 ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& extent, const TimeSpec& time,
-                               const Gravity& gravity, const Tampering& tampering) {
+                               const Gravity& gravity, const OperatorPerturbation& perturbation) {
   const double length = (extent.upper - extent.lower).norm(), rate = 0.1 * time.frame_rate;
   const double h = domain.layout.h(), weight = gravity.largest(0, time.end),
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = tampering.contact * g;
+  o.acceleration = perturbation.contact * g;
   o.usual_speed = std::sqrt(g * h);
   o.creep_speed = 1e-4 * o.usual_speed;
   o.speed_tolerance = 0.01 * o.creep_speed;
@@ -228,14 +229,14 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
   return largest_safe_fraction(*solids.contact, contact_motions(state, dt), dt, velocities_over(solids, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                      \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);          \
-  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
-  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);  \
-  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);        \
-  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                 \
-  template ContactOptions contact_options<D>(const Domain<D>&, const DomainSpec&, const TimeSpec&, const Gravity&, \
-                                             const Tampering&);                                                    \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const OperatorPerturbation&); \
+  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);             \
+  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);    \
+  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);          \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                   \
+  template ContactOptions contact_options<D>(const Domain<D>&, const DomainSpec&, const TimeSpec&, const Gravity&,   \
+                                             const OperatorPerturbation&);                                           \
   template double safe_share<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,17 +1,18 @@
 #pragma once
 // The solids and the walls of the domain as the contact solve sees them.
 #include "base/domain_spec.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // All solids of the scene. Every side of the domain is a wall, except periodic and outflow sides.
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering);
+ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids,
+                                     const OperatorPerturbation& perturbation);
 
 // Throws Error(bad_input), naming the pairs and depths: a body with unknowns touches or overlaps something at the
 // start, or an elastic body crosses a periodic side.
@@ -26,7 +27,7 @@ std::vector<ContactMotion> contact_motions(const State<Dim>& state, double horiz
 // Reach, stiffness and speeds of contact on this grid.
 template <int Dim>
 ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& extent, const TimeSpec& time,
-                               const Gravity& gravity, const Tampering& tampering);
+                               const Gravity& gravity, const OperatorPerturbation& perturbation);
 
 // Names of the solids with unknowns that reach a periodic side, for messages.
 template <int Dim>

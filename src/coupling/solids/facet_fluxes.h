@@ -1,6 +1,6 @@
 #pragma once
 // Pressure of each cell on the facets of an elastic body within it.
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"

@@ -50,9 +50,9 @@ class LinkGraph {
 
 // Minimum-norm flux d_cn on the links with sum_c d_cn = wanted_n for each node and sum_n d_cn equal for all rows. The
 // common row sum is sum_n wanted_n over the number of rows. The minimiser has the form d_cn = y_c + z_n.
-class LeastFlux {
+class MinimumNormFlux {
  public:
-  explicit LeastFlux(const LinkGraph& graph);  // keeps a reference; the graph must be complete()
+  explicit MinimumNormFlux(const LinkGraph& graph);  // keeps a reference; the graph must be complete()
   std::vector<double> solve(const Eigen::VectorXd& wanted) const;
 
  private:
@@ -65,9 +65,10 @@ class LeastFlux {
 // Minimum-norm flux d_cn on the links with sum_n d_cn = wanted_c for each row and sum_c d_cn = 0 for each node that is
 // not held. It has the form d_cn = y_c + z_n with z_n = 0 at held nodes. A connected piece without held nodes has such
 // a flux only if sum_c wanted_c = 0. Otherwise its node sums are sum_c wanted_c over the number of its nodes.
-class BalancedFlux {
+class BalancedMinimumNormFlux {
  public:
-  BalancedFlux(const LinkGraph& graph, const std::vector<char>& held);  // keeps references; the graph must be numbered
+  BalancedMinimumNormFlux(const LinkGraph& graph,
+                          const std::vector<char>& held);  // keeps references; the graph must be numbered
   std::vector<double> solve(const Eigen::VectorXd& wanted) const;
 
  private:

@@ -33,7 +33,7 @@ struct CoupledSolution {
   Eigen::VectorXd reactions;               // N: constraint forces on the unknowns, 0 for free ones
   std::vector<ViscousLoad> viscous_loads;  // one a solid; empty: inviscid liquid
   double dissipation = 0;                  // by viscosity, W
-  double parting_error = 0;                // PartingSearch::error
+  double separation_error = 0;             // SeparationSearch::error
   std::string failure;                     // empty: accepted
 };
 

@@ -10,7 +10,7 @@ template <int Dim>
 class RheologyIteration {
  public:
   // Starts with the viscosity for the velocities of `flow`. Keeps a reference to the setup.
-  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow, double t);
+  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const TimeLevel<Dim>& flow, double t);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
   int count() const { return count_; }  // number of solves; 0: Newtonian liquid
   double change() const { return change_; }
@@ -18,7 +18,7 @@ class RheologyIteration {
   // Takes the velocities of the last solve. True if another solve is due, with the new viscosity(): they changed by
   // more than solver.rheology_tolerance of the fastest, and there were fewer than solver.rheology_iterations solves.
   // False for Newtonian liquid. Collective.
-  bool is_unsettled_by(const Level<Dim>& flow);
+  bool differs_from(const TimeLevel<Dim>& flow);
 
  private:
   const Setup<Dim>& setup_;

@@ -89,7 +89,8 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
     return r;
   }
   const auto motions = contact_motions(state, horizon);
-  const ContactOptions options = contact_options(s.domain, s.scene.domain, s.scene.time, s.fluids.gravity, s.tampering);
+  const ContactOptions options =
+      contact_options(s.domain, s.scene.domain, s.scene.time, s.fluids.gravity, s.perturbation);
   ContactInLiquid modelled = solve_modelled(s.solids, s.scene.solver, motions, dt, horizon, coupling, liquid, options);
   ContactReport contact = std::move(modelled.contact);
   if (!modelled.agreed && contact.failure.empty())

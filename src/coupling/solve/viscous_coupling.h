@@ -2,10 +2,10 @@
 // Viscosity in the coupled solve of a step: its values, the choice of solver and the operator.
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/viscosity/viscosity.h"
 
@@ -23,8 +23,9 @@ struct ViscosityField {
 // Viscosity of the scene at time t; shear-dependent liquid has the shear rates of `flow`. Throws Error(cannot_continue)
 // if a formula is not a number or negative. Collective.
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Tampering& tampering,
-                                      const CellField<Dim>& phi, const Level<Dim>& flow, double t);
+ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids,
+                                      const OperatorPerturbation& perturbation, const CellField<Dim>& phi,
+                                      const TimeLevel<Dim>& flow, double t);
 
 // split: viscosity first, then pressure; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };

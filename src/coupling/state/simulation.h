@@ -37,7 +37,7 @@ struct StepStats {
   int rheology_iterations = 0;     // solves until viscosity and flow agree; 0 for Newtonian liquid
   // Separating walls: largest violation by a cell on the wrong side of the unilateral condition, over the largest
   // pressure. Suction in attached cells or squeeze in parted ones; 0: none.
-  double parting_error = 0;
+  double separation_error = 0;
 };
 
 // One row of solids.csv.

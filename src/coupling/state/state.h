@@ -12,7 +12,7 @@ namespace seiche {
 
 // One time level of the flow.
 template <int Dim>
-struct Level {
+struct TimeLevel {
   FaceField<Dim> u;            // m/s, extrapolated beyond the liquid, ghosts filled
   FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
@@ -22,19 +22,19 @@ struct Level {
 // Time levels of one fluid's flow, extrapolated beyond its own region. Null: no such level.
 template <int Dim>
 struct Flow {
-  std::shared_ptr<const Level<Dim>> now, before, earlier;
+  std::shared_ptr<const TimeLevel<Dim>> now, before, earlier;
 };
 
 // A level at rest, without valid faces.
 template <int Dim>
-Level<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {
+TimeLevel<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {
   return {FaceField<Dim>(layout), FaceField<Dim, char>(layout), FaceField<Dim>(layout),
           viscous ? FaceField<Dim>(layout) : FaceField<Dim>()};
 }
 
 // Open fractions of the faces and their velocities (m/s), in slits as solved (thin/films.h).
 template <int Dim>
-struct Film {
+struct GapFlow {
   FaceField<Dim> open, u;
 };
 
@@ -42,17 +42,17 @@ template <int Dim>
 struct State {
   double time = 0;
   std::int64_t step = 0;
-  std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
-  double dt_now = 0, dt_before = 0;                        // steps that led to `now` and `before`, s
-  Flow<Dim> gas;                                           // only if gas flows; now, before, earlier are the liquid's
-  Film<Dim> film;                                          // at `now`
-  CellField<Dim> phi;                                      // m, ghosts filled
-  CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
-  double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
-  double corrected_volume = 0;                             // restored by the volume control so far, m^Dim
+  std::shared_ptr<const TimeLevel<Dim>> now, before, earlier;  // before and earlier are null at the start
+  double dt_now = 0, dt_before = 0;                            // steps that led to `now` and `before`, s
+  Flow<Dim> gas;                // only if gas flows; now, before, earlier are the liquid's
+  GapFlow<Dim> gap_flow;        // at `now`
+  CellField<Dim> phi;           // m, ghosts filled
+  CellField<Dim> pressure;      // Pa, 0 where the cell has no row
+  double expected_volume = 0;   // initial + sources + net inflow, m^Dim
+  double corrected_volume = 0;  // restored by the volume control so far, m^Dim
   Participants<Dim> solids;
   double horizon = 0;           // interval ahead for which the solids' velocities were solved, s
-  Parting<Dim> parting;         // only with separating walls
+  Separation<Dim> separation;   // only with separating walls
   double viscous_rate = 0;      // largest mu/(rho h^2) of the last solve, 1/s
   AirRegions<Dim> air;          // only if enclosed air keeps its volume
   double lost_air = 0;          // volume of vanished regions too small for the grid, m^Dim

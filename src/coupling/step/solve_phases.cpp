@@ -7,7 +7,7 @@
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/step/checks.h"
 #include "coupling/step/step_size.h"
-#include "coupling/thin/films.h"
+#include "coupling/thin/gap_flow.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
@@ -52,8 +52,8 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
           geometry.faces,
           s.fluids.density(),
           task.times.dt,
-          s.fluids.liquid.separates ? &state.parting : nullptr,
-          s.tampering.gas_density * s.fluids.gas_density(),
+          s.fluids.liquid.separates ? &state.separation : nullptr,
+          s.perturbation.gas_density * s.fluids.gas_density(),
           task.tension ? &task.tension->jump : nullptr,
           s.fluids.keeps_air() ? &state.air : nullptr};
 }
@@ -62,16 +62,16 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
 template <int Dim>
 void open_gaps(const Domain<Dim>& domain, State<Dim>& state) {
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
-    if (state.parting.gap[c] < 0.5) return;
-    state.phi[c] = std::max(state.phi[c], (state.parting.gap[c] - 0.5) * domain.layout.h());
-    state.parting.gap[c] = 0;
+    if (state.separation.gap[c] < 0.5) return;
+    state.phi[c] = std::max(state.phi[c], (state.separation.gap[c] - 0.5) * domain.layout.h());
+    state.separation.gap[c] = 0;
   });
   fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
 }
 
 // N, the acceleration by viscosity: the solve's u* less the one predicted, over the implicit share of dt.
 template <int Dim>
-void set_viscous_acceleration(const SolveTask<Dim>& task, const FaceField<Dim>& solved_u_star, Level<Dim>& level) {
+void set_viscous_acceleration(const SolveTask<Dim>& task, const FaceField<Dim>& solved_u_star, TimeLevel<Dim>& level) {
   const double span = task.predicted.viscosity.implicit * task.times.dt;
   const Layout<Dim>& layout = task.s.domain.layout;
   for (int a = 0; a < Dim && task.s.fluids.is_viscous(); ++a)
@@ -98,8 +98,8 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const Setup<Dim>& s = task.s;
   const PhaseFault fault = task.phases.enter("solve");
   const auto timed = task.phases.timers.measure("solve");
-  const FaceField<Dim> slope = of_both(s.domain, task.before, &Level<Dim>::q),
-                       flow = of_both(s.domain, task.before, &Level<Dim>::u);
+  const FaceField<Dim> slope = of_both(s.domain, task.before, &TimeLevel<Dim>::q),
+                       flow = of_both(s.domain, task.before, &TimeLevel<Dim>::u);
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
   CoupledSolution<Dim> solution =
@@ -109,7 +109,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   out.solve.iterations += earlier.iterations;
   out.newton_iterations = solution.newton_iterations;
   out.contacts = solution.contacts;
-  out.parting_error = solution.parting_error;
+  out.separation_error = solution.separation_error;
   out.failure = solution.failure;
   out.state.pressure = solution.pressure;
   return solution;
@@ -122,19 +122,19 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, A
   const PhaseFault fault = task.phases.enter("restore");
   const auto timed = task.phases.timers.measure("restore");
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
-  settle_air(liquid, solution.rows, solution.u_star, out.state.pressure);
-  Restored<Dim> restored =
-      restore_velocity(s.domain, s.fluids, s.solids, s.tampering, liquid, solution.rows, out.state.pressure, solution.u_star, out.geometry);
+  equalise_air_pressure(liquid, solution.rows, solution.u_star, out.state.pressure);
+  Restored<Dim> restored = restore_velocity(s.domain, s.fluids, s.solids, s.perturbation, liquid, solution.rows,
+                                            out.state.pressure, solution.u_star, out.geometry);
   set_viscous_acceleration(task, solution.u_star, restored.level);
-  auto level = std::make_shared<Level<Dim>>(std::move(restored.level));
+  auto level = std::make_shared<TimeLevel<Dim>>(std::move(restored.level));
   if (s.fluids.has_gas()) {
     set_viscous_acceleration(task, solution.u_star, restored.gas);
-    out.state.gas.now = std::make_shared<Level<Dim>>(std::move(restored.gas));
+    out.state.gas.now = std::make_shared<TimeLevel<Dim>>(std::move(restored.gas));
   }
-  out.state.film = std::move(restored.film);
+  out.state.gap_flow = std::move(restored.gap_flow);
   out.divergence = restored.divergence;
   if (s.fluids.liquid.separates) {
-    advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.parting);
+    advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.separation);
     open_gaps(s.domain, out.state);
   }
   inject(s.domain, fault, level->u[0].data());
@@ -165,7 +165,7 @@ Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, 
     const ViscosityField<Dim> implicit = implicit_part(layout, rheology.viscosity(), task.predicted.viscosity.implicit);
     Attempt<Dim> out = solve_once(task, moved, &implicit, solves);
     if (!out.failure.empty()) return out;
-    if (!rheology.is_unsettled_by(*out.state.now)) {
+    if (!rheology.differs_from(*out.state.now)) {
       out.rheology_iterations = rheology.count();
       out.state.viscous_rate = rheology.viscosity().largest / (task.s.fluids.density() * layout.h() * layout.h());
       return out;
@@ -190,8 +190,8 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
   p.u_star = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
-  set_film_velocity(s.domain, moved.geometry.faces, before.film, s.fluids.gravity.of_step(moved.state.time, times.dt),
-                    times.dt, p.u_star);
+  set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
+                   s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);
   p.failure = find_non_finite(s.domain, "phi", s.domain.layout.cells(), phi.data());
   if (p.failure.empty()) p.failure = find_non_finite(s.domain, "u", p.u_star);

@@ -1,7 +1,7 @@
 // One time step, as the algorithm reads: move surface and solids, predict the velocity, solve, restore.
 #include "coupling/step/step.h"
 
-#include "coupling/step/half_steps.h"
+#include "coupling/step/leapfrog.h"
 #include "coupling/step/solve_phases.h"
 #include "coupling/step/surface_phases.h"
 #include "coupling/transport/prescribed_flow.h"
@@ -11,7 +11,7 @@ namespace {
 
 template <int Dim>
 StepTimes times_of_step(const Setup<Dim>& s, const State<Dim>& before, double dt) {
-  const bool leapfrog = goes_by_halves(s.solids, s.sources, s.features, before, dt);
+  const bool leapfrog = is_leapfrog_step(s.solids, s.sources, s.features, before, dt);
   return {before.time, dt, leapfrog ? dt / 2 : dt, leapfrog};
 }
 

@@ -4,9 +4,9 @@
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/step/checks.h"
-#include "coupling/step/half_steps.h"
+#include "coupling/step/leapfrog.h"
+#include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
-#include "coupling/thin/thin_weight.h"
 #include "coupling/transport/air_volume.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
@@ -76,10 +76,10 @@ double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const C
 
 // Empty volume at walls that phi still counts as liquid, m^Dim.
 template <int Dim>
-double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Parting<Dim>& parting) {
+double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Separation<Dim>& separation) {
   if (!fluids.liquid.separates) return 0;
   const double cells =
-      local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return parting.gap[c]; });
+      local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return separation.gap[c]; });
   return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
 }
 
@@ -100,7 +100,8 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   CellField<Dim>& phi = moved.state.phi;
   const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
-  if (!times.leapfrog && may_go_by_halves(s.features) && s.scene.time.cfl > 2) make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
+  if (!times.leapfrog && may_leapfrog(s.features) && s.scene.time.cfl > 2)
+    make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
   moved.state.expected_volume += transport_surface(s, before, u, times.start, times.lead, phi);
   make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
   inject(s.domain, fault, phi.data());
@@ -127,7 +128,7 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   keep_sealed_full(s, before, next, geometry, next.phi);
   if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, before, geometry, next.phi);
   const double uncounted =
-      gap_volume(s.domain, s.fluids, before.parting) + volume_beyond(s.domain, s.solids, geometry, next.phi);
+      gap_volume(s.domain, s.fluids, before.separation) + volume_beyond(s.domain, s.solids, geometry, next.phi);
   const double expected = next.expected_volume + uncounted;
   if (s.fluids.keeps_air())
     control_liquid_and_air(s, before, times.dt, expected, moved);
@@ -150,7 +151,8 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   keep_volumes(s, before, times, phases, moved);
   const auto timed = phases.timers.measure("surface");
   if (s.fluids.has_surface_tension())
-    moved.tension = surface_tension(s.domain, s.fluids, s.solids, s.tampering, moved.geometry, before.phi, moved.state.phi, times.lead, times.dt);
+    moved.tension = surface_tension(s.domain, s.fluids, s.solids, s.perturbation, moved.geometry, before.phi,
+                                    moved.state.phi, times.lead, times.dt);
   return moved;
 }
 
@@ -165,8 +167,8 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
   next.expected_volume += transport_surface(s, next, u, times.start + times.lead, times.lead, next.phi);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
-  if (any_moves(s.solids)) solved.geometry = stand_at_end(s.solids, next, std::move(solved.geometry));
-  const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.parting);
+  if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
+  const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);
   next.corrected_volume += control_volume(s.domain, solved.geometry.psi, expected, largest_shift(s.domain), next.phi);
 }
 

@@ -96,7 +96,7 @@ CellField<Dim> look_ahead(const Domain<Dim>& domain, const Fluids& fluids, const
 
 template <int Dim>
 SurfaceTension<Dim> surface_tension(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                                    const Tampering& tampering, const StepGeometry<Dim>& g,
+                                    const OperatorPerturbation& perturbation, const StepGeometry<Dim>& g,
                                     const CellField<Dim>& before, const CellField<Dim>& phi, double lead, double dt) {
   SurfaceTension<Dim> r{FaceField<Dim>(domain.layout)};
   FaceField<Dim, char> crossed(domain.layout);
@@ -119,7 +119,7 @@ SurfaceTension<Dim> surface_tension(const Domain<Dim>& domain, const Fluids& flu
   agree_in_slivers(domain, fluids, phi, crossed, r.jump);
   filter_for_step(domain, fluids, phi, crossed, dt, r.jump);
   balance_closed_pieces(domain, g.faces, phi, crossed, r.jump);
-  const double sigma = tampering.surface_tension * fluids.liquid.surface_tension;
+  const double sigma = perturbation.surface_tension * fluids.liquid.surface_tension;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });
   domain.halo.fill_ghosts(r.jump);
@@ -135,10 +135,10 @@ double capillary_step(const Domain<Dim>& domain, const Fluids& fluids) {
   return std::sqrt(density_at_surface(fluids) * h * h * h / (4 * pi * liquid.surface_tension));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template SurfaceTension<D> surface_tension<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const Tampering&, \
-                                                const StepGeometry<D>&, const CellField<D>&, const CellField<D>&,    \
-                                                double, double);                                                     \
+#define SEICHE_INSTANTIATE(D)                                                                              \
+  template SurfaceTension<D> surface_tension<D>(const Domain<D>&, const Fluids&, const Solids<D>&,         \
+                                                const OperatorPerturbation&, const StepGeometry<D>&,       \
+                                                const CellField<D>&, const CellField<D>&, double, double); \
   template double capillary_step<D>(const Domain<D>&, const Fluids&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

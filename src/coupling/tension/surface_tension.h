@@ -18,7 +18,7 @@ struct SurfaceTension {
 // (lead <= dt). Collective.
 template <int Dim>
 SurfaceTension<Dim> surface_tension(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                                    const Tampering& tampering, const StepGeometry<Dim>& geometry,
+                                    const OperatorPerturbation& perturbation, const StepGeometry<Dim>& geometry,
                                     const CellField<Dim>& before, const CellField<Dim>& phi, double lead, double dt);
 
 // Longest step for capillary waves, s: sqrt((rho + rho_gas) h^3/(4 pi sigma)) (Brackbill, Kothe, Zemach 1992). Infinite

@@ -16,7 +16,7 @@ using Range = std::pair<double, double>;
 
 // Range of velocity of the valid faces among a face and its neighbours, m/s; first > second if none is valid.
 template <int Dim>
-Range valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
+Range valid_range(const Layout<Dim>& layout, const TimeLevel<Dim>& level, int axis, Site f) {
   Range range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
   constexpr int neighbours = Dim == 2 ? 9 : 27;
   for (int n = 0; n < neighbours; ++n) {
@@ -54,7 +54,7 @@ Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int compone
 // impact changes velocity by an amount independent of dt. So the magnitude is at most |g|, or h/4 in a step if that is
 // more.
 template <int Dim>
-double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const Level<Dim>& level, int axis, Site f,
+double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const TimeLevel<Dim>& level, int axis, Site f,
                        double g, double dt) {
   if (level.valid.at(axis, f) != face_solved) return g;
   const double most = std::max(std::abs(g), 0.25 * domain.layout.h() / (dt * dt));
@@ -65,7 +65,7 @@ double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const Le
 }  // namespace
 
 template <int Dim>
-void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
+void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
@@ -80,11 +80,11 @@ void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const
 // Wanted after the solve is u_in + tau A, with tau the time since the entry and A the acceleration. The solve adds dt
 // (A - g) and the viscous part that is not in `memory`. Hence u* = u_in + dt g - (dt - tau) A + memory.
 template <int Dim>
-void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time, const Tampering& tampering,
-                   const Level<Dim>& level, const FacePaths<Dim>& paths, double t, const FaceField<Dim>& memory,
-                   FaceField<Dim>& u) {
+void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                   const OperatorPerturbation& perturbation, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
+                   double t, const FaceField<Dim>& memory, FaceField<Dim>& u) {
   const double dt = paths.dt;
-  const Vec3 g = tampering.gravity * fluids.gravity.of_step(t + dt, dt);
+  const Vec3 g = perturbation.gravity * fluids.gravity.of_step(t + dt, dt);
   const int reach = int(std::ceil(time.cfl)) + 1;
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
@@ -103,11 +103,12 @@ void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSp
     }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                          \
-                                     const FaceField<D, char>&, FaceField<D>&);                                       \
-  template void let_liquid_in<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const Tampering&, const Level<D>&, \
-                                 const FacePaths<D>&, double, const FaceField<D>&, FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void limit_at_surfaces<D>(const Domain<D>&, const TimeLevel<D>&, const FacePaths<D>&,                \
+                                     const FaceField<D, char>&, FaceField<D>&);                                 \
+  template void let_liquid_in<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const OperatorPerturbation&, \
+                                 const TimeLevel<D>&, const FacePaths<D>&, double, const FaceField<D>&,         \
+                                 FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

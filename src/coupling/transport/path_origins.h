@@ -18,14 +18,14 @@ struct FacePaths {
 // there, the range is that where it ends. Values that come through air are extrapolated. Extrapolated and transported
 // back into the liquid step after step, they would grow without bound along thin films.
 template <int Dim>
-void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
+void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u);
 
 // Sets u before the projection on faces whose path entered through an inflow side during the step from t (s). It is the
 // inflow velocity plus the change since the entry. `memory`: viscous_memory() of transport.cpp, m/s.
 template <int Dim>
-void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time, const Tampering& tampering,
-                   const Level<Dim>& level, const FacePaths<Dim>& paths, double t, const FaceField<Dim>& memory,
-                   FaceField<Dim>& u);
+void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                   const OperatorPerturbation& perturbation, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
+                   double t, const FaceField<Dim>& memory, FaceField<Dim>& u);
 
 }  // namespace seiche

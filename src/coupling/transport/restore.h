@@ -14,9 +14,9 @@ enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 // The flow after a solve.
 template <int Dim>
 struct Restored {
-  Level<Dim> level;  // the liquid's
-  Level<Dim> gas;    // the gas's, if it flows
-  Film<Dim> film;
+  TimeLevel<Dim> level;  // the liquid's
+  TimeLevel<Dim> gas;    // the gas's, if it flows
+  GapFlow<Dim> gap_flow;
   double divergence = 0;  // largest |net flux|/volume of a cell with a row, 1/s
 };
 
@@ -25,7 +25,7 @@ struct Restored {
 // on unknown faces that touch a pressure, and the given velocity on prescribed ones. Then extrapolates u. Collective.
 template <int Dim>
 Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                               const Tampering& tampering, const ProjectionInput<Dim>& in,
+                               const OperatorPerturbation& perturbation, const ProjectionInput<Dim>& in,
                                const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
                                const FaceField<Dim>& u_star, const StepGeometry<Dim>& geometry);
 
@@ -38,6 +38,6 @@ void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const So
 // Extrapolates the level of one fluid. If gas flows, only the faces `near` the fluid stay valid. Collective.
 template <int Dim>
 void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                    const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, Level<Dim>& level);
+                    const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, TimeLevel<Dim>& level);
 
 }  // namespace seiche

@@ -24,7 +24,7 @@ void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids
 // Distance from the surface (cells) within which redistancing takes the nearest point of the surface
 // (RedistanceOptions::settled). Not 0 with surface tension, whose curvature reads these cells, and with gas, where only
 // the surface separates the volumes. Also in prescribed flows.
-double settled_of_surface(const Fluids& fluids);
+double closest_point_band(const Fluids& fluids);
 
 // u before the projection on all faces next to liquid: the transported velocity plus
 //   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.

@@ -9,7 +9,7 @@ namespace seiche {
 // Composite of both fluids: on each face the value of the fluid there, the liquid's if there is no gas. `field`: a
 // member of Level. Collective.
 template <int Dim>
-FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
+FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> TimeLevel<Dim>::*field);
 
 // True if one velocity, interpolated across the surface, transports both fluids and the surface: densities within a
 // factor of 4 and no surface tension. Interpolation then exchanges little momentum between the fluids. Separate flows
@@ -31,7 +31,7 @@ FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, 
 
 // Invalidates all faces of a level but the marked ones, and sets their u and q to 0.
 template <int Dim>
-void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, Level<Dim>& level);
+void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level);
 
 // Liquid share of a box of width h around a point at signed distance phi (m) from a plane surface.
 inline double liquid_share_at(double phi, double h) {

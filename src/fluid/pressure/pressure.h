@@ -4,7 +4,7 @@
 
 #include "fluid/boundary/face_geometry.h"
 #include "fluid/pressure/air_regions.h"
-#include "fluid/pressure/parting.h"
+#include "fluid/pressure/separation.h"
 #include "grid/halo.h"
 #include "grid/loops.h"
 #include "linalg/spd/solve.h"
@@ -19,27 +19,27 @@ struct ProjectionInput {
   const Communicator& ranks;
   const CellField<Dim>& phi;
   const FaceGeometry<Dim>& faces;
-  double density;                         // kg/m^3
-  double dt;                              // s
-  const Parting<Dim>* parting = nullptr;  // separating walls; null: walls exert suction
-  double gas_density = 0;                 // kg/m^3; 0: no gas flow, p = 0 beyond the surface except in enclosed air
+  double density;                               // kg/m^3
+  double dt;                                    // s
+  const Separation<Dim>* separation = nullptr;  // separating walls; null: walls exert suction
+  double gas_density = 0;  // kg/m^3; 0: no gas flow, p = 0 beyond the surface except in enclosed air
   // p_liquid - p_gas at faces whose link the surface crosses, Pa; null: 0 everywhere.
   const FaceField<Dim>* surface_jump = nullptr;
   const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none
 
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
-  bool is_parted(Site cell) const { return parting && parting->parted[cell]; }
+  bool is_separated(Site cell) const { return separation && separation->separated[cell]; }
   // Inflow that fills a cell's gap within the step, per face area, m/s.
-  double missing_flux(Site cell) const { return parting ? parting->gap[cell] * layout.h() / dt : 0; }
+  double missing_flux(Site cell) const { return separation ? separation->gap[cell] * layout.h() / dt : 0; }
 };
 
 // The unknowns: one row per cell of liquid or flowing gas, then one per region of enclosed air. A cell must have a face
 // of unknown velocity and must not be parted.
 template <int Dim>
 struct PressureRows {
-  static constexpr std::int64_t no_row = -1, parted_row = -2;
-  // Global row (of the region for enclosed air), no_row, or parted_row (p = 0). Ghosts filled.
+  static constexpr std::int64_t no_row = -1, separated_row = -2;
+  // Global row (of the region for enclosed air), no_row, or separated_row (p = 0). Ghosts filled.
   CellField<Dim, std::int64_t> row;
   std::vector<Site> cells;    // owned cells with a row of their own, in row order, then one cell per region of air
   std::size_t liquid = 0;     // number of `cells` before those of the regions
@@ -51,10 +51,10 @@ struct PressureRows {
   // Region of enclosed air that contains the cell, or -1.
   std::int64_t region(Site cell) const { return air ? std::max<std::int64_t>(air->label[cell], -1) : -1; }
   bool has_own(Site cell) const { return row[cell] >= 0 && region(cell) < 0; }
-  bool is_parted(Site cell) const { return row[cell] == parted_row; }
+  bool is_separated(Site cell) const { return row[cell] == separated_row; }
   // True if a cell has its own pressure, either an unknown or the zero of a parted cell. Face masses depend on this,
   // and the policy iteration needs one matrix, so it must not depend on the guess of parted cells.
-  bool has_pressure(Site cell) const { return has_own(cell) || is_parted(cell); }
+  bool has_pressure(Site cell) const { return has_own(cell) || is_separated(cell); }
   bool touch_pressure(Site low, Site high) const { return has_pressure(low) || has_pressure(high); }
   bool owns(Row r) const { return r >= first && r < first + Row(cells.size()); }
 };
@@ -83,10 +83,10 @@ double liquid_part(double phi_low, double phi_high);
 // Inverse density ratio rho/rho_f of the link between two cell centres: rho_f = theta rho + (1 - theta) rho_gas, theta
 // the liquid's fraction of the link (Kang, Fedkiw, Liu 2000). Without gas it is 1/theta: the link ends at the surface.
 template <int Dim>
-double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across);
+double inverse_density_ratio_of_link(const ProjectionInput<Dim>& in, Site cell, Site across);
 // Inverse density ratio of a cell: rho/rho_gas in gas, else 1.
 template <int Dim>
-double cell_lightness(const ProjectionInput<Dim>& in, Site cell);
+double inverse_density_ratio_of_cell(const ProjectionInput<Dim>& in, Site cell);
 // Jump p_low - p_high at the surface if it crosses the link of a face's cells, Pa; else 0.
 template <int Dim>
 double jump_over(const ProjectionInput<Dim>& in, int axis, Site face);
@@ -120,8 +120,8 @@ RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 // Sets the pressure of each region of enclosed air, in all its cells. For the liquid's given pressures, its volume
 // balance then holds to round-off. Fills ghosts. Collective.
 template <int Dim>
-void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
-                CellField<Dim>& pressure);
+void equalise_air_pressure(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
+                           CellField<Dim>& pressure);
 
 // Largest residual |net flux + missing flux|/h of the volume balance over the rows of all ranks, 1/s; fluxes per face
 // area. Collective.

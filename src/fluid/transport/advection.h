@@ -28,7 +28,8 @@ enum class Trace { midpoint, third_order };
 
 struct LevelSetTransport {
   Trace trace = Trace::midpoint;
-  bool one_sided_at_kinks = true;  // one-sided interpolation at the medial axis, in the middle of threads and gaps
+  bool one_sided_at_medial_axis =
+      true;  // one-sided interpolation at the medial axis, in the middle of threads and gaps
 };
 
 // moved(x) = phi(departure point), fourth order, at the owned cells with |phi| < band; the others keep phi(x). Ghosts

@@ -14,11 +14,11 @@ struct MatrixEntry {
 
 // Entries of all ranks in rows [first, first + count), ordered by row and column; entries of one position are summed.
 // Collective.
-std::vector<MatrixEntry> bring_home(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
-                                    const Communicator& ranks);
+std::vector<MatrixEntry> send_to_owner(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
+                                       const Communicator& ranks);
 
-// As bring_home(), but drops sums no larger than 1e-12 of the sum of the absolute values (round-off). Collective.
-std::vector<MatrixEntry> bring_home_sums(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
-                                         const Communicator& ranks);
+// As send_to_owner(), but drops sums no larger than 1e-12 of the sum of the absolute values (round-off). Collective.
+std::vector<MatrixEntry> send_sums_to_owner(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
+                                            const Communicator& ranks);
 
 }  // namespace seiche

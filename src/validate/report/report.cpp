@@ -140,7 +140,7 @@ std::string format_report(const Report& report) {
                                  {"level", report.level},
                                  {"ranks", report.ranks},
                                  {"machine", report.machine},
-                                 {"broken_on_purpose", report.tampering.empty() ? JsonValue() : report.tampering},
+                                 {"broken_on_purpose", report.perturbation.empty() ? JsonValue() : report.perturbation},
                                  {"complete", complete},
                                  {"passed", passed},
                                  {"cases", json_cases(report)}});

@@ -12,15 +12,15 @@ constexpr double least_open = 0.2;
 
 // Open fractions with the velocity `solved` on faces less open than least_open and `continued` on all others.
 template <int Dim>
-Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                       const FaceField<Dim>& continued);
+GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+                              const FaceField<Dim>& continued);
 
 // On faces of slits that have widened,
 //   u = film.u sqrt(film.open/open) + dt g.
 // The velocity extrapolated from beside a slit misses the motion of the liquid within it, which has most of the inertia
 // of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
 template <int Dim>
-void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film,
-                       const Vec3& gravity, double dt, FaceField<Dim>& u);
+void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
+                      const Vec3& gravity, double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "linalg/core/sparse_vector.h"
-#include "linalg/precond/stiff_regions.h"
+#include "linalg/precond/viscous_regions.h"
 
 namespace seiche {
 
@@ -14,16 +14,16 @@ struct FacePlaces {
   const std::vector<std::array<double, 3>>& position;
 };
 
-struct StiffMotion {
+struct NearNullVector {
   SparseVector z;
   int region, slab;  // slabs of one region more than two apart share no row and have no coupling
   bool whole;        // the whole region, no slab
 };
 
-// Translations and rotations of the regions of find_stiff_regions(). A slender region gives those of overlapping slabs
-// along its longest axis, weighted by hat functions that sum to one. Only motions of small Rayleigh quotient z'F z /
-// z'D z, D = diag(F), are kept. Collective.
-std::vector<StiffMotion> find_stiff_motions(const LinearSystem& F, const FacePlaces& places, int dimension);
+// Translations and rotations of the regions of find_viscous_regions(). A slender region gives those of overlapping
+// slabs along its longest axis, weighted by hat functions that sum to one. Only motions of small Rayleigh quotient z'F
+// z / z'D z, D = diag(F), are kept. Collective.
+std::vector<NearNullVector> find_near_null_space(const LinearSystem& F, const FacePlaces& places, int dimension);
 
 // Product F x for sparse vectors; visits only the rows that x reaches and rows at rank boundaries.
 class SparseProduct {

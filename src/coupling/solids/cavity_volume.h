@@ -26,7 +26,7 @@ struct BodyEntries {
 // The columns of J of the walls' nodes add up to -(dV/du)/A_f at u + H w_0/2, w_0 the velocities before the solve. The
 // remainder is `flux`, equal out of each cell that the walls touch (missing_flux).
 template <int Dim>
-struct SweptCavity {
+struct CavityConstraint {
   CavityWalls<Dim> walls;
   std::vector<int> first;                    // first unknown of the body in the coupling, one a wall
   std::vector<Eigen::VectorXd> u, gradient;  // one a wall: at the start of the interval; dV/du as above
@@ -45,12 +45,12 @@ struct SweptCavity {
 // Finds the cavities, and adds corrections of minimum norm to the entries of the elastic bodies. Columns of J then add
 // up to -(dV/du)/A_f. On closed walls the force of a uniform pressure gradient is unchanged. Collective.
 template <int Dim>
-std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step, const ElasticMotions& motions,
-                                                   std::vector<BodyEntries>& bodies);
+std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Dim>& step, const ElasticMotions& motions,
+                                                            std::vector<BodyEntries>& bodies);
 
-// Sets SweptCavity::prescribed to the prescribed fluxes in the geometry. Collective.
+// Sets CavityConstraint::prescribed to the prescribed fluxes in the geometry. Collective.
 template <int Dim>
 void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                            std::vector<SweptCavity<Dim>>& cavities);
+                            std::vector<CavityConstraint<Dim>>& cavities);
 
 }  // namespace seiche

@@ -1,7 +1,7 @@
 #pragma once
 // LSC (BFBt) preconditioner of the Schur complement S = D F^-1 D' of viscous flow, for variable viscosity.
 #include "linalg/precond/hypre_adapter.h"
-#include "linalg/precond/loose_faces.h"
+#include "linalg/precond/pressure_free_faces.h"
 #include "linalg/saddle/system.h"
 
 namespace seiche {
@@ -12,10 +12,10 @@ namespace seiche {
 // L^-1 is one multigrid cycle. Symmetric, and positive up to the null space. F is the Schur complement after
 // elimination of the pressure-free faces. C is the diagonal of F with a larger viscous part near walls, where F does
 // not commute with the gradient (Elman, Tuminaro 2009).
-class Commutator : public Preconditioner {
+class LscPreconditioner : public Preconditioner {
  public:
   // Keeps references to K and *loose; `loose` may be null. Collective.
-  Commutator(const SaddleOperator& K, const LooseRows* loose, const AmgSettings& settings);
+  LscPreconditioner(const SaddleOperator& K, const PressureFreeRows* pressure_free, const AmgSettings& settings);
   void apply(const Vector& r, Vector& z) override;
 
  private:
@@ -25,7 +25,7 @@ class Commutator : public Preconditioner {
   void follow_stress(Vector& w, Vector& Fw) const;
 
   const SaddleOperator& K_;
-  const LooseRows* loose_;
+  const PressureFreeRows* pressure_free_;
   Vector weight_;  // C^-1
   DistributedMatrix matrix_;
   std::unique_ptr<LinearSystem> L_;

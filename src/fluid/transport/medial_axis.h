@@ -9,6 +9,6 @@ namespace seiche {
 // least two cells from its zero; else one-sided (docs/decisions/0023-kinks.md). Equivariant under rotations of the
 // grid.
 template <int Dim>
-double interpolate_across_kinks(const Layout<Dim>& layout, const double* phi, const Vec<Dim>& g);
+double interpolate_beside_medial_axis(const Layout<Dim>& layout, const double* phi, const Vec<Dim>& g);
 
 }  // namespace seiche

@@ -8,10 +8,10 @@ namespace seiche {
 
 // Exact solves with F on the pressure-free faces. Chains within a rank are factored by that rank. Chains across ranks
 // are gathered and factored on every rank, so that results do not depend on the partition.
-class LooseRows {
+class PressureFreeRows {
  public:
   // `loose`: one flag a row of F. Keeps no reference to F. Collective.
-  LooseRows(const LinearSystem& F, const std::vector<char>& loose);
+  PressureFreeRows(const LinearSystem& F, const std::vector<char>& pressure_free);
   // True if the factorizations succeeded on all ranks.
   bool good() const { return good_; }
   // z_L += F_LL^-1 r_L. Collective.
@@ -29,16 +29,16 @@ class LooseRows {
 
 // Face multigrid B with exact solves on the pressure-free faces before and after. Symmetric; positive if B is and B F
 // <= 2.
-class LooseFaces : public Preconditioner {
+class PressureFreeFaces : public Preconditioner {
  public:
   // Keeps references to F and `loose`.
-  LooseFaces(const LinearSystem& F, const LooseRows& loose, std::unique_ptr<Preconditioner> B)
-      : F_(F), loose_(loose), B_(std::move(B)) {}
+  PressureFreeFaces(const LinearSystem& F, const PressureFreeRows& pressure_free, std::unique_ptr<Preconditioner> B)
+      : F_(F), pressure_free_(pressure_free), B_(std::move(B)) {}
   void apply(const Vector& r, Vector& z) override;
 
  private:
   const LinearSystem& F_;
-  const LooseRows& loose_;
+  const PressureFreeRows& pressure_free_;
   std::unique_ptr<Preconditioner> B_;
 };
 

@@ -19,13 +19,13 @@ namespace seiche {
 //
 // True if the scene may have leapfrog steps. It may not with elastic and thin solids, two fluids, enclosed air that
 // keeps its volume, prescribed flows and first order. The same holds for rigid solids beside prescribed ones.
-bool may_go_by_halves(const Features& features);
+bool may_leapfrog(const Features& features);
 
 // True if this step is a leapfrog step. If solids may meet within two steps, they move the whole step before the solve
 // and contact is solved there. The same holds if a source opens or closes in the step. Collective.
 template <int Dim>
-bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
-                    const State<Dim>& state, double dt);
+bool is_leapfrog_step(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
+                      const State<Dim>& state, double dt);
 
 // True if the velocities after the solve can be used for the second half step. They must cross no more cells than
 // redistancing and the solids permit, and no solids may meet. Else those before the step are used. Collective.
@@ -46,6 +46,6 @@ bool any_moves(const Solids<Dim>& solids) {
 
 // The geometry of the solve with the distances psi and the poses of the end of the step.
 template <int Dim>
-StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved);
+StepGeometry<Dim> placed_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved);
 
 }  // namespace seiche

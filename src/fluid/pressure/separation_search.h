@@ -1,6 +1,6 @@
 #pragma once
 // Search for the set of parted cells: 0 <= p complementary to 0 <= net flux + missing flux.
-#include "fluid/pressure/parting.h"
+#include "fluid/pressure/separation.h"
 
 namespace seiche {
 
@@ -9,15 +9,15 @@ namespace seiche {
 // terminates for positive definite matrices). It flips all again once there are fewer wrong ones than ever before. At
 // most 50 rounds.
 template <int Dim>
-class PartingSearch {
+class SeparationSearch {
  public:
   // Starts from the cells with an open gap. Keeps references. Collective.
-  PartingSearch(const ProjectionInput<Dim>& in, double tolerance, Parting<Dim>& parting);
+  SeparationSearch(const ProjectionInput<Dim>& in, double tolerance, Separation<Dim>& separation);
 
   // Compares the current guess with its solution. Returns true if the guess is right or was the last one. Otherwise
   // writes the next guess to `parting`; after the last round, this is the guess with the smallest error. Collective.
-  bool is_settled_by(const PressureRows<Dim>& rows, const std::vector<int>& closed_component,
-                     const CellField<Dim>& pressure, const FaceField<Dim>& u_star);
+  bool has_converged_with(const PressureRows<Dim>& rows, const std::vector<int>& closed_component,
+                          const CellField<Dim>& pressure, const FaceField<Dim>& u_star);
 
   // Error of the last checked guess (WrongGuesses::worst); 0 if it is right.
   double error() const { return error_; }
@@ -29,7 +29,7 @@ class PartingSearch {
 
   const ProjectionInput<Dim>& in_;
   double tolerance_;
-  Parting<Dim>& parting_;
+  Separation<Dim>& separation_;
   CellField<Dim, char> eligible_, best_;
   double least_ = 1e300;             // error of the best guess
   std::int64_t fewest_ = INT64_MAX;  // smallest number of wrong guesses so far

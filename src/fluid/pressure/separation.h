@@ -1,6 +1,6 @@
 #pragma once
 // Separating walls (unilateral pressure): in cells at walls and solids p >= 0, and a cell may gain volume if p = 0
-// (Batty, Bertails, Bridson 2007). Solved by policy iteration (fluid/pressure/parting_search.h).
+// (Batty, Bertails, Bridson 2007). Solved by policy iteration (fluid/pressure/separation_search.h).
 #include "grid/fields.h"
 #include "grid/halo.h"
 
@@ -12,17 +12,17 @@ template <int Dim>
 struct ProjectionInput;
 
 template <int Dim>
-struct Parting {
-  CellField<Dim, char> parted;  // 1: the cell has p = 0 and a free net flux; filled one cell around
-  CellField<Dim> gap;           // fraction of a cell's volume that has opened so far and must close before p > 0
+struct Separation {
+  CellField<Dim, char> separated;  // 1: the cell has p = 0 and a free net flux; filled one cell around
+  CellField<Dim> gap;              // fraction of a cell's volume that has opened so far and must close before p > 0
 
-  Parting() = default;
-  explicit Parting(const Layout<Dim>& layout) : parted(layout), gap(layout) {}
+  Separation() = default;
+  explicit Separation(const Layout<Dim>& layout) : separated(layout), gap(layout) {}
 };
 
 // First guess of the parted cells: the liquid cells with an open gap. Collective.
 template <int Dim>
-void start_parting(const ProjectionInput<Dim>& in, Parting<Dim>& parting);
+void start_separation(const ProjectionInput<Dim>& in, Separation<Dim>& separation);
 
 // Cells whose guess contradicts the solution: cells with a row and p < 0 (suction), and parted cells whose inflow
 // exceeds their gap (overfill).
@@ -37,7 +37,8 @@ struct WrongGuesses {
 template <int Dim>
 WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                 const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                                const CellField<Dim, char>& eligible, double tolerance, const Parting<Dim>& parting);
+                                const CellField<Dim, char>& eligible, double tolerance,
+                                const Separation<Dim>& separation);
 
 // The cells that may part: parted ones, and those that touch a wall or a solid and are not in a closed component.
 template <int Dim>
@@ -47,6 +48,6 @@ CellField<Dim, char> cells_that_may_part(const ProjectionInput<Dim>& in, const P
 // Gaps after the step: those of parted cells grow by the net flux (at least to 0), the others are zero.
 template <int Dim>
 void advance_gaps(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                  const FaceField<Dim>& u_star, Parting<Dim>& parting);
+                  const FaceField<Dim>& u_star, Separation<Dim>& separation);
 
 }  // namespace seiche

@@ -10,7 +10,7 @@ class Simulation;
 struct Scene;
 
 // Factor on each operator; 1 leaves every bit as it is.
-struct Tampering {
+struct OperatorPerturbation {
   double pressure_gradient = 1;   // in u = u* - dt grad p/rho
   double divergence = 1;          // of u*, the right-hand side of the pressure
   double gravity = 1;             // on the fluids
@@ -29,9 +29,10 @@ struct Tampering {
 
 // Parses "viscosity:0.9" or, to flip a sign, "viscosity:-1"; "" perturbs nothing. Throws Error(bad_input) with the
 // names of the operators.
-Tampering parse_tampering(const std::string& text);
+OperatorPerturbation parse_perturbation(const std::string& text);
 
 // Like make_simulation(scene, ranks), with perturbed operators.
-std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering);
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks,
+                                            const OperatorPerturbation& perturbation);
 
 }  // namespace seiche

@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-struct StiffRegion {
+struct ViscousRegion {
   Row first;             // its lowest row, over all ranks
   std::int64_t size;     // over all ranks
   std::vector<int> row;  // local rows, ascending
@@ -15,6 +15,6 @@ struct StiffRegion {
 // Finds sets of rows that are connected by entries comparable to their diagonals, at several levels below the largest
 // diagonal. Regions are nested or disjoint. Returns at most `most` regions, the largest of those with at least `fewest`
 // rows. The result is the same on any number of ranks. Collective.
-std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, std::size_t most);
+std::vector<ViscousRegion> find_viscous_regions(const LinearSystem& F, int fewest, std::size_t most);
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-#include "linalg/precond/rigid_motions.h"
+#include "linalg/precond/rigid_motion_deflation.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -8,7 +8,7 @@ namespace seiche {
 namespace {
 
 // True if two motions may touch the same rows or coupled rows.
-bool meet(const StiffMotion& a, const StiffMotion& b) {
+bool meet(const NearNullVector& a, const NearNullVector& b) {
   return a.region != b.region || std::abs(a.slab - b.slab) <= 2;
 }
 
@@ -39,24 +39,24 @@ struct Relaxation {
 
 }  // namespace
 
-RigidMotions::RigidMotions(const LinearSystem& F, const FacePlaces& places, int dimension,
-                           std::unique_ptr<Preconditioner> B)
-    : F_(F), B_(std::move(B)), Z_(find_stiff_motions(F, places, dimension)) {
+RigidMotionDeflation::RigidMotionDeflation(const LinearSystem& F, const FacePlaces& places, int dimension,
+                                           std::unique_ptr<Preconditioner> B)
+    : F_(F), B_(std::move(B)), Z_(find_near_null_space(F, places, dimension)) {
   extend();
   SparseProduct multiply(F);
-  for (const StiffMotion& m : Z_) FZ_.push_back(multiply(m.z));
+  for (const NearNullVector& m : Z_) FZ_.push_back(multiply(m.z));
   invert_energies(energies());
 }
 
 // Extends the motion of a whole region into the surrounding liquid by approximately solving F there. With the
 // surrounding liquid at rest, the energy of a region of n cells would be too large by a factor of about n. Only the
 // first `most` motions are extended, since extended ones are no longer sparse; small entries are dropped.
-void RigidMotions::extend() {
+void RigidMotionDeflation::extend() {
   constexpr int most = 24, steps = 12;
   constexpr double enough = 0.05, next_to_nothing = 0.01;
   Vector z(std::size_t(F_.rows())), x(z.size()), b(z.size());
   int extended = 0;
-  for (StiffMotion& m : Z_) {
+  for (NearNullVector& m : Z_) {
     if (!m.whole || ++extended > most) continue;
     const RowsAround around(F_, m.z);
     std::fill(z.begin(), z.end(), 0.0);
@@ -71,7 +71,7 @@ void RigidMotions::extend() {
 }
 
 // Z'F Z
-Eigen::MatrixXd RigidMotions::energies() const {
+Eigen::MatrixXd RigidMotionDeflation::energies() const {
   const auto n = Eigen::Index(Z_.size());
   Eigen::MatrixXd E = Eigen::MatrixXd::Zero(n, n);
   Vector Fz(std::size_t(F_.rows()));
@@ -88,7 +88,7 @@ Eigen::MatrixXd RigidMotions::energies() const {
 
 // Pseudo-inverse of the scaled Z'F Z. Motions of nested regions may agree up to round-off, so small eigenvalues are
 // dropped.
-void RigidMotions::invert_energies(Eigen::MatrixXd E) {
+void RigidMotionDeflation::invert_energies(Eigen::MatrixXd E) {
   constexpr double next_to_nothing = 1e-6;
   inverse_.setZero(E.rows(), E.cols());
   if (E.size() == 0) return;
@@ -102,12 +102,12 @@ void RigidMotions::invert_energies(Eigen::MatrixXd E) {
   }
 }
 
-Eigen::VectorXd RigidMotions::summed(Eigen::VectorXd y) const {
+Eigen::VectorXd RigidMotionDeflation::summed(Eigen::VectorXd y) const {
   F_.ranks().global_sum(std::span<double>(y.data(), std::size_t(y.size())));
   return y;
 }
 
-void RigidMotions::apply(const Vector& r, Vector& z) {
+void RigidMotionDeflation::apply(const Vector& r, Vector& z) {
   if (Z_.empty()) return B_->apply(r, z);
   const auto n = Eigen::Index(Z_.size());
   Eigen::VectorXd pushed(n), left(n);
