@@ -5,6 +5,8 @@ find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(nlohmann_json REQUIRED)
 find_package(Boost REQUIRED COMPONENTS iostreams)
 
 function(seiche_plain_library target header library)

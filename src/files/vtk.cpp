@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
+#include "base/base64.h"
 #include "solid/mesh/shape.h"
 
 namespace seiche::vtk {
@@ -43,7 +45,7 @@ std::string array(const std::string& name, const std::vector<T>& values, int com
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
   return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-                     type_name<T>(), name, components, base64(bytes));
+                     type_name<T>(), name, components, encode_base64(bytes));
 }
 
 // Texts as their bytes, each ended by a zero.
@@ -180,19 +182,6 @@ std::string grid(const Elements& all, const std::string& point_data, const std::
 }
 
 }  // namespace
-
-std::string base64(const std::string& bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t n = 0; n < left; ++n) group |= std::uint32_t(std::uint8_t(bytes[i + n])) << (16 - 8 * n);
-    for (std::size_t n = 0; n < 4; ++n) text += n <= left ? digits[group >> (18 - 6 * n) & 63] : '=';
-  }
-  return text;
-}
 
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", cells[0], cells[1], cells[2]);

@@ -26,6 +26,4 @@ std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<st
 // A .pvd that lists <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate);
 
-std::string base64(const std::string& bytes);
-
 }  // namespace seiche::vtk

@@ -155,6 +155,7 @@ void add_summary(const fs::path& file, Lines& lines) {
   std::ostringstream text;
   text << in.rdbuf();
   const std::string json = text.str();
+  if (!is_json_object(json)) lines.push_back("  summary.json is damaged");
   const std::pair<const char*, const char*> rows[] = {{"ended", "ended"},
                                                       {"exit_code", "exit code"},
                                                       {"version", "version"},

@@ -11,17 +11,10 @@
 namespace seiche {
 namespace {
 
-// JSON has no infinities.
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
-}
-
-std::string phases(const RunState& state) {
-  std::string text;
-  for (const auto& [name, seconds] : state.phase_seconds) {
-    text += fmt::format("{}\n    {}: {}", text.empty() ? "" : ",", json_string(name), json_number(seconds));
-  }
-  return "{" + text + "\n  }";
+JsonMembers phases(const RunState& state) {
+  JsonMembers members;
+  for (const auto& [name, seconds] : state.phase_seconds) members.emplace_back(name, seconds);
+  return members;
 }
 
 }  // namespace
@@ -42,36 +35,30 @@ std::string volume_warning(const RunState& state, double cell) {
 }
 
 std::string format_summary(const RunSummary& s) {
-  const std::pair<const char*, std::string> rows[] = {
-      {"ended", json_string(s.ended)},
-      {"exit_code", std::to_string(int(s.code))},
-      {"version", json_string(version())},
-      {"ranks", std::to_string(s.ranks)},
-      {"threads", std::to_string(s.threads)},
-      {"omp_num_threads", s.omp_num_threads.empty() ? "null" : json_string(s.omp_num_threads)},
-      {"steps", std::to_string(s.state.step)},
-      {"rejected_steps", json_number(s.state.rejected_steps)},
-      {"unsettled_partings", json_number(s.state.unconverged_separations)},
-      {"frames", std::to_string(s.state.frame + 1)},
-      {"time", json_number(s.state.time)},
-      {"end", json_number(s.end)},
-      {"cells", std::to_string(s.cells)},
-      {"cells_liquid", json_number(s.state.cells_liquid)},
-      {"wall_seconds", json_number(s.state.wall_seconds)},
-      {"wall_seconds_by_phase", phases(s.state)},
-      {"peak_memory_bytes", json_number(s.peak_memory)},
-      {"initial_volume", json_number(s.state.initial_volume)},
-      {"liquid_volume", json_number(s.state.liquid_volume)},
-      {"expected_volume", json_number(s.state.expected_volume)},
-      {"volume_drift", json_number(volume_drift(s.state))},
-      {"volume_corrected", json_number(s.state.volume_corrected)},
-      {"worst_residual", json_number(s.state.worst_residual)},
-      {"worst_divergence", json_number(s.state.worst_divergence)}};
-  std::string text;
-  for (const auto& [name, value] : rows) {
-    text += fmt::format("{}\n  {}: {}", text.empty() ? "" : ",", json_string(name), value);
-  }
-  return "{" + text + "\n}\n";
+  return format_json(JsonMembers{{"ended", s.ended},
+                                 {"exit_code", int(s.code)},
+                                 {"version", version()},
+                                 {"ranks", s.ranks},
+                                 {"threads", s.threads},
+                                 {"omp_num_threads", s.omp_num_threads.empty() ? JsonValue() : s.omp_num_threads},
+                                 {"steps", s.state.step},
+                                 {"rejected_steps", s.state.rejected_steps},
+                                 {"unsettled_partings", s.state.unconverged_separations},
+                                 {"frames", s.state.frame + 1},
+                                 {"time", s.state.time},
+                                 {"end", s.end},
+                                 {"cells", s.cells},
+                                 {"cells_liquid", s.state.cells_liquid},
+                                 {"wall_seconds", s.state.wall_seconds},
+                                 {"wall_seconds_by_phase", phases(s.state)},
+                                 {"peak_memory_bytes", s.peak_memory},
+                                 {"initial_volume", s.state.initial_volume},
+                                 {"liquid_volume", s.state.liquid_volume},
+                                 {"expected_volume", s.state.expected_volume},
+                                 {"volume_drift", volume_drift(s.state)},
+                                 {"volume_corrected", s.state.volume_corrected},
+                                 {"worst_residual", s.state.worst_residual},
+                                 {"worst_divergence", s.state.worst_divergence}});
 }
 
 }  // namespace seiche

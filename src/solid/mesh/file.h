@@ -1,5 +1,5 @@
 #pragma once
-// Mesh files: Gmsh (.msh, version 2 and 4, text), VTK (.vtu, text), Medit (.mesh, text, linear).
+// Mesh files: Gmsh (.msh, version 2 and 4, text), VTK (.vtu, uncompressed), Medit (.mesh, text, linear).
 #include <filesystem>
 
 #include "geometry/mesh/formats.h"

@@ -1,41 +1,19 @@
-// VTK's XML format for unstructured grids (VTK file formats); text arrays and one piece only.
-#include <algorithm>
-
+// VTK's XML format for unstructured grids (VTK file formats); one piece only.
 #include "base/error.h"
+#include "geometry/mesh/vtk_document.h"
 #include "solid/mesh/file.h"
 
 namespace seiche::elastic {
 namespace {
 
 using mesh::Source;
-using mesh::Tokens;
+using mesh::VtkArray;
+using mesh::VtkDocument;
 
-size_t line_of(const Source& source, size_t byte) {
-  return 1 + size_t(std::count(source.bytes.begin(), source.bytes.begin() + long(byte), '\n'));
-}
-
-[[noreturn]] void fail_at(const Source& source, size_t byte, const std::string& message) {
-  mesh::fail_at_line(source, line_of(source, std::min(byte, source.bytes.size())), message);
-}
-
-// Position of `text` between two bytes; fails if it is missing.
-size_t find(const Source& source, const std::string& text, size_t from, size_t to) {
-  const size_t at = source.bytes.find(text, from);
-  if (at == std::string::npos || at >= to) fail_at(source, from, text + " is missing");
-  return at;
-}
-
-// Numbers of the DataArray with this attribute ("" for any) between two bytes.
-Tokens array(const Source& source, size_t from, size_t to, const std::string& attribute) {
-  for (size_t tag = find(source, "<DataArray", from, to);; tag = find(source, "<DataArray", tag + 1, to)) {
-    const size_t body = find(source, ">", tag, to) + 1;
-    const std::string head = source.bytes.substr(tag, body - tag);
-    if (head.find(attribute) == std::string::npos) continue;
-    if (head.find("format=\"ascii\"") == std::string::npos)
-      fail_at(source, tag, "the array is not text; save as ASCII");
-    const size_t end = find(source, "</DataArray>", body, to);
-    return Tokens(std::string_view(source.bytes).substr(body, end - body), line_of(source, body));
-  }
+const VtkArray& need(const VtkDocument& document, const std::string& section, const std::string& name) {
+  if (const VtkArray* array = mesh::find_array(document, section, name)) return *array;
+  mesh::fail_in_line_of(document.source, document.piece_byte,
+                        "<" + section + "> has no array" + (name.empty() ? "" : " '" + name + "'"));
 }
 
 CellKind kind_of(long long type) {
@@ -53,36 +31,41 @@ CellKind kind_of(long long type) {
   }
 }
 
-std::vector<long long> integers(const Source& source, Tokens tokens) {
-  std::vector<long long> r;
-  for (auto token = tokens.next(); !token.empty(); token = tokens.next()) {
-    const auto value = mesh::to_integer(token);
-    if (!value) mesh::fail_at_line(source, tokens.line(), "no integer: " + std::string(token.substr(0, 40)));
-    r.push_back(*value);
+std::vector<Vec3> read_points(const VtkDocument& document) {
+  const VtkArray& array = need(document, "Points", "");
+  const std::vector<double> xyz = mesh::read_numbers(document, array);
+  if (xyz.size() % 3 != 0) {
+    mesh::fail_in_line_of(document.source, array.byte, "three numbers a point are wanted");
   }
-  return r;
+  if (xyz.size() / 3 > mesh::max_points) mesh::fail_in_line_of(document.source, array.byte, "has too many points");
+  std::vector<Vec3> points;
+  points.reserve(xyz.size() / 3);
+  for (size_t n = 0; n < xyz.size(); n += 3) points.emplace_back(xyz[n], xyz[n + 1], xyz[n + 2]);
+  return points;
 }
 
 // Adds the cells; the nodes of a cell end at its offset.
-void add_cells(const Source& source, size_t cells, size_t end, RawMesh& r) {
-  const auto nodes = integers(source, array(source, cells, end, "\"connectivity\""));
-  const auto offsets = integers(source, array(source, cells, end, "\"offsets\""));
-  const auto types = integers(source, array(source, cells, end, "\"types\""));
-  if (types.size() != offsets.size()) fail_at(source, cells, "there are not as many types as offsets");
+void add_cells(const VtkDocument& document, RawMesh& r) {
+  const VtkArray& connectivity = need(document, "Cells", "connectivity");
+  const auto fail = [&](const std::string& message) {
+    mesh::fail_in_line_of(document.source, connectivity.byte, message);
+  };
+  const auto nodes = mesh::read_integers(document, connectivity);
+  const auto offsets = mesh::read_integers(document, need(document, "Cells", "offsets"));
+  const auto types = mesh::read_integers(document, need(document, "Cells", "types"));
+  if (types.size() != offsets.size()) fail("there are not as many types as offsets");
   long long first = 0;
   for (size_t c = 0; c < types.size(); first = offsets[c++]) {
     const CellKind kind = kind_of(types[c]);
-    if (offsets[c] < first || offsets[c] > (long long)(nodes.size()))
-      fail_at(source, cells, "an offset is out of range");
+    if (offsets[c] < first || offsets[c] > (long long)(nodes.size())) fail("an offset is out of range");
     if (kind == CellKind::other) {
       ++r.others;
       continue;
     }
-    if (offsets[c] - first != nodes_of(kind))
-      fail_at(source, cells, "cell " + std::to_string(c) + " has not the nodes of its type");
+    if (offsets[c] - first != nodes_of(kind)) fail("cell " + std::to_string(c) + " has not the nodes of its type");
     for (long long n = first; n < offsets[c]; ++n) {
       if (nodes[n] < 0 || nodes[n] >= (long long)(r.points.size())) {
-        fail_at(source, cells, "there is no node " + std::to_string(nodes[n]));
+        fail("there is no node " + std::to_string(nodes[n]));
       }
       r.cells[int(kind)].push_back(int(nodes[n]));
     }
@@ -92,23 +75,10 @@ void add_cells(const Source& source, size_t cells, size_t end, RawMesh& r) {
 }  // namespace
 
 RawMesh parse_vtu(const Source& source) {
+  const VtkDocument document = mesh::parse_vtk(source);
   RawMesh r;
-  const size_t all = source.bytes.size(), piece = find(source, "<Piece", 0, all),
-               end = find(source, "</Piece>", piece, all);
-  if (source.bytes.find("<Piece", end) != std::string::npos) fail_at(source, end, "has several pieces; save as one");
-  const size_t points = find(source, "<Points", piece, end), cells = find(source, "<Cells", piece, end);
-  Tokens tokens = array(source, points, find(source, "</Points>", points, end), "");
-  for (auto token = tokens.next(); !token.empty();) {
-    Vec3 x;
-    for (double& c : x) {
-      const auto value = mesh::to_double(token);
-      if (!value) mesh::fail_at_line(source, tokens.line(), "three numbers a point are wanted");
-      c = *value;
-      token = tokens.next();
-    }
-    r.points.push_back(x);
-  }
-  add_cells(source, cells, find(source, "</Cells>", cells, end), r);
+  r.points = read_points(document);
+  add_cells(document, r);
   return r;
 }
 

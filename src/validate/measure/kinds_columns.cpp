@@ -1,6 +1,5 @@
 // Measures of stats.csv and summary.json.
 #include <algorithm>
-#include <cstdlib>
 
 #include "base/error.h"
 #include "files/checked_file.h"
@@ -112,11 +111,9 @@ Measurement column_fall_time(const MeasureSpec& spec, const RunPaths& run) {
 }
 
 Measurement volume_drift_of_run(const MeasureSpec&, const RunPaths& run) {
-  const std::string text = json_value(read_whole_file(run.summary()), "volume_drift");
-  char* end = nullptr;
-  const double drift = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) throw Error(ExitCode::cannot_continue, "summary.json holds no volume_drift");
-  return {drift, {}, std::abs(drift)};
+  const auto drift = json_number(read_whole_file(run.summary()), "volume_drift");
+  if (!drift) throw Error(ExitCode::cannot_continue, "summary.json holds no volume_drift");
+  return {*drift, {}, std::abs(*drift)};
 }
 
 }  // namespace

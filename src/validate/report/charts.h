@@ -21,6 +21,4 @@ struct Picture {
 };
 Picture last_picture(const std::filesystem::path& run);
 
-std::string base64(const std::string& bytes);
-
 }  // namespace seiche

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "files/checked_file.h"
@@ -70,7 +71,7 @@ std::string picture_of(const std::vector<ReportedResult>& rows) {
   const Picture picture = last_picture(row->result.run);
   if (picture.png.empty()) return fmt::format("<p>No picture: {}.</p>\n", escape_html(picture.reason));
   return fmt::format("<div><img alt='last frame of {} {}' src='data:image/png;base64,{}'></div>\n", row->one.name,
-                     row->resolution.name, base64(picture.png));
+                     row->resolution.name, encode_base64(picture.png));
 }
 
 std::string page_of(const CaseSpec& one) {

@@ -19,78 +19,50 @@ std::string number(const std::optional<double>& value) {
   return value ? number(*value) : "-";
 }
 
-std::string json(double value) {
-  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
-}
-
-std::string json(const std::optional<double>& value) {
-  return value ? json(*value) : "null";
-}
-
-using Members = std::vector<std::pair<std::string, std::string>>;
-
-std::string object(const Members& members, const std::string& indent) {
-  std::string text;
-  for (const auto& [name, value] : members) {
-    text += fmt::format("{}\n{}  {}: {}", text.empty() ? "" : ",", indent, json_string(name), value);
-  }
-  return "{" + text + "\n" + indent + "}";
-}
-
-std::string array(const std::vector<std::string>& items, const std::string& indent) {
-  if (items.empty()) return "[]";
-  return fmt::format("[\n{0}  {1}\n{0}]", indent, fmt::join(items, ",\n" + indent + "  "));
-}
-
-std::string json_result(const ReportedResult& row, const std::string& indent) {
+JsonValue json_result(const ReportedResult& row) {
   const CaseResult& r = row.result;
   const bool measured = is_measured(r);
-  const auto if_measured = [&](double value) { return measured ? json(value) : "null"; };
-  return object({{"resolution", json_string(row.resolution.name)},
-                 {"result", json_string(verdict_name(r.verdict))},
-                 {"cell_size", json(r.cell_size)},
-                 {"unit", json_string(row.unit)},
-                 {"measured", if_measured(r.measured.value)},
-                 {"reference", json(r.measured.reference)},
-                 {"error", if_measured(r.measured.error)},
-                 {"max_error", json(max_error_of(row.one, row.resolution))},
-                 {"order", json(r.order)},
-                 {"fitted_order", json(r.fitted_order)},
-                 {"min_order", json(row.one.min_order)},
-                 {"others", json_string(row.resolution.others)},
-                 {"wall_seconds", json(r.wall_seconds)},
-                 {"cached", r.cached ? "true" : "false"},
-                 {"recorded", r.recorded ? "true" : "false"},
-                 {"build", json_string(r.origin.build)},
-                 {"date", json_string(r.origin.date)},
-                 {"ranks", std::to_string(r.origin.ranks)},
-                 {"threads", r.origin.threads > 0 ? std::to_string(r.origin.threads) : "null"},
-                 {"machine", json_string(r.origin.machine)},
-                 {"run", json_string(r.run.string())},
-                 {"message", json_string(r.message)}},
-                indent);
+  const auto if_measured = [&](double value) { return measured ? JsonValue(value) : JsonValue(); };
+  return JsonMembers{{"resolution", row.resolution.name},
+                     {"result", verdict_name(r.verdict)},
+                     {"cell_size", r.cell_size},
+                     {"unit", row.unit},
+                     {"measured", if_measured(r.measured.value)},
+                     {"reference", r.measured.reference},
+                     {"error", if_measured(r.measured.error)},
+                     {"max_error", max_error_of(row.one, row.resolution)},
+                     {"order", r.order},
+                     {"fitted_order", r.fitted_order},
+                     {"min_order", row.one.min_order},
+                     {"others", row.resolution.others},
+                     {"wall_seconds", r.wall_seconds},
+                     {"cached", r.cached},
+                     {"recorded", r.recorded},
+                     {"build", r.origin.build},
+                     {"date", r.origin.date},
+                     {"ranks", r.origin.ranks},
+                     {"threads", r.origin.threads > 0 ? JsonValue(r.origin.threads) : JsonValue()},
+                     {"machine", r.origin.machine},
+                     {"run", r.run.string()},
+                     {"message", r.message}};
 }
 
-std::string json_case(const CaseSpec& one, const std::vector<std::string>& results) {
-  std::vector<std::string> tags;
-  for (const std::string& tag : one.tags) tags.push_back(json_string(tag));
-  return object({{"name", json_string(one.name)},
-                 {"title", json_string(one.title)},
-                 {"tags", fmt::format("[{}]", fmt::join(tags, ", "))},
-                 {"measure", json_string(one.measure.kind)},
-                 {"others", json_string(one.others)},
-                 {"known", json_string(one.known)},
-                 {"results", array(results, "      ")}},
-                "    ");
+JsonValue json_case(const std::vector<ReportedResult>& rows) {
+  const CaseSpec& one = rows[0].one;
+  JsonItems results;
+  for (const ReportedResult& row : rows) results.push_back(json_result(row));
+  return JsonMembers{{"name", one.name},
+                     {"title", one.title},
+                     {"tags", JsonItems(one.tags.begin(), one.tags.end())},
+                     {"measure", one.measure.kind},
+                     {"others", one.others},
+                     {"known", one.known},
+                     {"results", std::move(results)}};
 }
 
-std::vector<std::string> json_cases(const Report& report) {
-  std::vector<std::string> cases;
-  for (const auto& rows : by_case(report)) {
-    std::vector<std::string> results;
-    for (const ReportedResult& row : rows) results.push_back(json_result(row, "        "));
-    cases.push_back(json_case(rows[0].one, results));
-  }
+JsonItems json_cases(const Report& report) {
+  JsonItems cases;
+  for (const auto& rows : by_case(report)) cases.push_back(json_case(rows));
   return cases;
 }
 
@@ -163,17 +135,15 @@ std::string table_summary(const Report& report) {
 std::string format_report(const Report& report) {
   const bool complete = report.results.size() == report.planned;
   const bool passed = count(report, Verdict::passed) == std::ptrdiff_t(report.planned);
-  return object({{"version", json_string(version())},
-                 {"build", json_string(build_digest())},
-                 {"level", json_string(report.level)},
-                 {"ranks", std::to_string(report.ranks)},
-                 {"machine", json_string(report.machine)},
-                 {"broken_on_purpose", report.perturbation.empty() ? "null" : json_string(report.perturbation)},
-                 {"complete", complete ? "true" : "false"},
-                 {"passed", passed ? "true" : "false"},
-                 {"cases", array(json_cases(report), "  ")}},
-                "") +
-         "\n";
+  return format_json(JsonMembers{{"version", version()},
+                                 {"build", build_digest()},
+                                 {"level", report.level},
+                                 {"ranks", report.ranks},
+                                 {"machine", report.machine},
+                                 {"broken_on_purpose", report.perturbation.empty() ? JsonValue() : report.perturbation},
+                                 {"complete", complete},
+                                 {"passed", passed},
+                                 {"cases", json_cases(report)}});
 }
 
 }  // namespace seiche

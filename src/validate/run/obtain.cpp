@@ -151,10 +151,7 @@ Found obtain_run(const Planned& run, Validation& v) {
 // Number in the summary.json of a finished run; empty if it is unreadable.
 std::optional<double> number_in_summary(const fs::path& run, const char* key) {
   try {
-    const std::string text = json_value(read_whole_file(RunPaths{run}.summary()), key);
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    return end == text.c_str() ? std::nullopt : std::optional(value);
+    return json_number(read_whole_file(RunPaths{run}.summary()), key);
   } catch (const Error&) {
     return std::nullopt;
   }

@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "files/checked_file.h"
-#include "files/json.h"
 #include "files/vtk.h"
 #include "files/vtu_reader.h"
 #include "info/info.h"
@@ -183,12 +182,4 @@ TEST_CASE("info tells a frame's fields, time and liquid volume") {
   for (const std::string& line : describe_path(scratch.folder)) text += line + "\n";
   CHECK_THAT(text, Catch::Contains("1 frame, 2 to 2") && Catch::Contains("no checkpoints"));
   CHECK(code_of([&] { describe_path(scratch.folder / "nothing"); }) == ExitCode::bad_input);
-}
-
-TEST_CASE("values of a JSON object are found at its top level only") {
-  const std::string json =
-      "{\n  \"a\": {\"b\": 1, \"c\": [2, 3]},\n  \"b\": 4.5e-3,\n  \"c\": \"say \\\"b\\\": 7, ok\"\n}\n";
-  CHECK(json_value(json, "b") == "4.5e-3");
-  CHECK(json_value(json, "c") == "say \"b\": 7, ok");
-  CHECK(json_value(json, "d").empty());
 }

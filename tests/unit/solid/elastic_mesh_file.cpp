@@ -156,7 +156,8 @@ TEST_CASE("Mesh files that lie are refused", "[elastic]") {
   expect_refused(folder, "x.mesh", "Dimension 2\nVertices 1\n0 0 0\nTriangles 1\n1 1 -2 0\nEnd\n",
                  ":5: there is no vertex -2");
   expect_refused(folder, "x.mesh", "Dimension 2\nVertices -1\n", "-1 vertices");
-  expect_refused(folder, "x.vtu", "<VTKFile><Piece></Piece>", "<Points is missing");
+  expect_refused(folder, "x.vtu", "<VTKFile><Piece></Piece>", ":1: is not XML, or is cut short");
+  expect_refused(folder, "x.vtu", "<VTKFile type=\"UnstructuredGrid\">\n</VTKFile>", ":1: <Piece> is missing");
   const auto solid = medit(sample<3>(1));
   expect_refused(folder, "x.mesh", solid, "no triangles");
 }
