@@ -41,7 +41,7 @@ struct FirstStep {
 FirstStep first_step(const Scene& scene, Route route = Route::factor) {
   test::FirstSolve f(scene);
   const NullSpace closed = find_closed_components(f.in, f.rows);
-  KktSolver kkt({f.A, f.grid, closed, f.coupling.J, f.c1, f.c2, 3}, {.tolerance = 1e-8}, f.s.ranks);
+  KktSolver kkt({f.A, f.grid, closed, f.coupling.J, f.c1, f.c2, 3}, {.tolerance = 1e-8}, f.s.domain.ranks);
   if (route == Route::together) f.problem.solve_together(kkt);
   const int n = f.coupling.size();
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);

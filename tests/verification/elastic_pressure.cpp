@@ -69,15 +69,16 @@ template <int Dim>
 double error_of(const Projection<Dim>& p, const LinearPressure& linear) {
   Vector pressure;
   for (const Site c : p.rows.cells)
-    pressure.push_back(linear.constant + linear.slope.dot(extend<Dim>(
-                                             p.setup.layout.position(p.setup.layout.index(c), cell_offset<Dim>()))));
-  const double area = p.setup.layout.geometry().face_area();
-  const Eigen::VectorXd found = area * multiply_transposed(p.coupling.J, pressure, p.setup.ranks);
+    pressure.push_back(linear.constant + linear.slope.dot(extend<Dim>(p.setup.domain.layout.position(
+                                             p.setup.domain.layout.index(c), cell_offset<Dim>()))));
+  const double area = p.setup.domain.layout.geometry().face_area();
+  const Eigen::VectorXd found = area * multiply_transposed(p.coupling.J, pressure, p.setup.domain.ranks);
   double worst = 0;
   for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
     const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
     const Eigen::VectorXd& u = elastic_motions(p.state.solids)[std::size_t(k)]->state.u;
-    const Eigen::VectorXd exact = load_by_elements(p.setup.bodies[std::size_t(k)].elastic().body.mesh, u, linear);
+    const Eigen::VectorXd exact =
+        load_by_elements(p.setup.solids.bodies[std::size_t(k)].elastic().body.mesh, u, linear);
     Eigen::VectorXd mine = found.segment(first, n);
     if (!linear.slope.isZero()) mine += p.coupling.buoyancy_correction.segment(first, n);
     worst = std::max(worst, (mine - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff());
@@ -110,7 +111,7 @@ TEST_CASE("a constant pressure loads each node of an elastic body as its own sur
 TEST_CASE("liquid at rest loads each node of an elastic body as its own surface does", "[elastic][pressure]") {
   double worst = 0;
   for_bodies_in_full_box([&](const auto& p) {
-    worst = std::max(worst, error_of(p, {1e4, p.setup.density() * p.setup.gravity.at(0)}));
+    worst = std::max(worst, error_of(p, {1e4, p.setup.fluids.density() * p.setup.fluids.gravity.at(0)}));
   });
   WARN("largest error over the largest load: " << worst << ", bar 1e-12");
   CHECK(worst <= 1e-12);

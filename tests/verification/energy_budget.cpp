@@ -33,7 +33,7 @@ Scene drifting_pool(int dim) {
 template <int Dim>
 StepStats measured(const Setup<Dim>& setup, const State<Dim>& state, const NodeField<Dim>& psi) {
   StepStats stats;
-  measure_fluids(setup, state, psi, stats);
+  measure_fluids(setup.domain, setup.fluids, state, psi, stats);
   return stats;
 }
 
@@ -42,7 +42,7 @@ template <int Dim>
 void check_blown_up() {
   const Setup<Dim> setup(drifting_pool(Dim), Communicator());
   const State<Dim> start = initial_state(setup);
-  const NodeField<Dim> psi = setup.solids.measure(place_bodies(start), 0).psi;
+  const NodeField<Dim> psi = setup.solids.geometry.measure(place_bodies(start), 0).psi;
   Phases phases;
   Attempt<Dim> a = attempt_step(setup, start, 0.05, phases);
   REQUIRE(a.failure.empty());

@@ -43,23 +43,23 @@ struct Projection {
 
   // `deform` may first change the state of the elastic bodies. Without elastic bodies there is no contact.
   Projection(const Scene& scene, Filling filling, int seed, const std::function<void(ElasticState&)>& deform = {})
-      : setup(scene, Communicator()), u_star(setup.layout) {
-    if (!setup.plans_steps()) setup.contact.reset();
+      : setup(scene, Communicator()), u_star(setup.domain.layout) {
+    if (!setup.solids.plans_steps()) setup.solids.contact.reset();
     Dice dice{std::mt19937(unsigned(seed + 1000))};
-    state.phi = CellField<Dim>(setup.layout, -1);
-    state.pressure = CellField<Dim>(setup.layout);
-    for_each_index_in_order(setup.layout, setup.layout.padded(), [&](Site c, const IVec<Dim>& i) {
-      const Vec<Dim> x = setup.layout.position(i, cell_offset<Dim>());
+    state.phi = CellField<Dim>(setup.domain.layout, -1);
+    state.pressure = CellField<Dim>(setup.domain.layout);
+    for_each_index_in_order(setup.domain.layout, setup.domain.layout.padded(), [&](Site c, const IVec<Dim>& i) {
+      const Vec<Dim> x = setup.domain.layout.position(i, cell_offset<Dim>());
       if (filling == Filling::surface) state.phi[c] = x[1] - 0.71 + 0.1 * std::sin(7 * x[0]);
     });
-    state.solids = setup.at_start;
+    state.solids = setup.solids.at_start;
     for (std::size_t k = 0; k < state.solids.size(); ++k)
       if (ElasticMotion* motion = elastic_motion(state.solids[k])) deform(motion->state);
     before = state.solids;
-    geometry = setup.solids.measure(place_bodies(state), 0);
+    geometry = setup.solids.geometry.measure(place_bodies(state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
-    auto level = std::make_shared<TimeLevel<Dim>>(empty_level(setup));
+    auto level = std::make_shared<TimeLevel<Dim>>(empty_level(setup.domain.layout, setup.fluids.is_viscous()));
     level->u = u_star;
     state.now = level;
     rows = number_rows(input());
@@ -67,12 +67,18 @@ struct Projection {
   }
 
   ProjectionInput<Dim> input() const {
-    return {setup.layout, setup.halo, setup.ranks, state.phi, geometry.faces, setup.density(), dt};
+    return {setup.domain.layout,
+            setup.domain.halo,
+            setup.domain.ranks,
+            state.phi,
+            geometry.faces,
+            setup.fluids.density(),
+            dt};
   }
 
   void solve() {
-    const CellField<Dim> guess(setup.layout);
-    const FaceField<Dim> slope(setup.layout);
+    const CellField<Dim> guess(setup.domain.layout);
+    const FaceField<Dim> slope(setup.domain.layout);
     const auto solution = solve_coupled(CoupledInput<Dim>{setup, input(), geometry, state, guess, slope, u_star, u_star,
                                                           dt, nullptr, PhaseFault::none});
     INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.failed_attempts, "; ")));
@@ -91,7 +97,7 @@ struct Projection {
 
   // Liquid fraction of the link between the centres on both sides of a face.
   double theta(int axis, Site f) const {
-    const Site low = f - setup.layout.stride(axis);
+    const Site low = f - setup.domain.layout.stride(axis);
     if (geometry.faces.kind_at(axis, f) == FaceKind::outflow) return 0.5;
     if (rows.row[low] >= 0 && rows.row[f] >= 0) return 1;
     return rows.row[low] >= 0 ? surface_distance(state.phi[low], state.phi[f])
@@ -101,12 +107,13 @@ struct Projection {
   // Calls visit(axis, face, position, mass rho w theta h^Dim) for the faces whose velocity the projection changes.
   template <class Visit>
   void for_each_unknown(const Visit& visit) const {
-    const Layout<Dim>& l = setup.layout;
+    const Layout<Dim>& l = setup.domain.layout;
     for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(l, l.faces(a), [&](Site f, const IVec<Dim>& i) {
         const bool wet = rows.row[f] >= 0 || rows.row[f - l.stride(a)] >= 0;
         if (!wet || !geometry.faces.is_unknown(a, f)) return;
-        const double mass = setup.density() * l.geometry().cell_volume() * geometry.faces.open.at(a, f) * theta(a, f);
+        const double mass =
+            setup.fluids.density() * l.geometry().cell_volume() * geometry.faces.open.at(a, f) * theta(a, f);
         visit(a, f, extend<Dim>(l.position(i, face_offset<Dim>(a))), mass);
       });
   }
@@ -141,15 +148,15 @@ struct Balance {
   Momentum change, gravity, correction, solids, sides;
 
   explicit Balance(const Projection<Dim>& p) {
-    const Vec3 g = p.setup.gravity.at(0);
+    const Vec3 g = p.setup.fluids.gravity.at(0);
     p.for_each_unknown([&](int a, Site f, const Vec3& x, double m) {
       change.add(x, along(a, m * (p.velocity(a, f) - (p.u_star.at(a, f) - dt * g[a]))));
       gravity.add(x, along(a, m * dt * g[a]));
     });
     for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
       const int k = p.coupling.bodies[b];
-      const double m = p.setup.bodies[k].mass().mass;
-      if (p.setup.bodies[k].elements()) {
+      const double m = p.setup.solids.bodies[k].mass().mass;
+      if (p.setup.solids.bodies[k].elements()) {
         add_elastic(p, k, p.coupling.first[b]);
         continue;
       }
@@ -162,7 +169,7 @@ struct Balance {
       correction.add(now.center, dt * extra.linear);
       correction.angular += dt * extra.angular;
     }
-    const auto solids_now = measure_solids(p.setup, p.state, p.geometry);
+    const auto solids_now = measure_solids(p.setup.domain, p.setup.solids, p.setup.scene.time, p.state, p.geometry);
     for (std::size_t k = 0; k < solids_now.size(); ++k) {
       if (p.state.solids[k].unknowns() > 0) continue;
       solids.add(solids_now[k].position, -dt * solids_now[k].force);
@@ -174,7 +181,7 @@ struct Balance {
   // Linear momentum only: pressure acts at face centres, and the elastic forces balance in the configuration of the
   // solve.
   void add_elastic(const Projection<Dim>& p, int k, int first) {
-    const ElasticBody<Dim>& body = p.setup.bodies[k].elastic().body;
+    const ElasticBody<Dim>& body = p.setup.solids.bodies[k].elastic().body;
     const Eigen::VectorXd w = p.state.solids[std::size_t(k)].velocity();
     const Eigen::VectorXd dv = w - elastic_motions(p.before)[std::size_t(k)]->state.v, momentum = body.mass * dv;
     for (int n = 0; n < int(momentum.size()); ++n) change.linear[n % Dim] += momentum[n];
@@ -182,11 +189,11 @@ struct Balance {
       change.linear[n % Dim] += p.coupling.mass_beside[first + n] * w[n] - p.coupling.momentum_beside[first + n];
       correction.linear[n % Dim] += dt * p.coupling.buoyancy_correction[first + n];
     }
-    gravity.linear += dt * p.setup.bodies[k].mass().mass * p.setup.gravity.at(0);
+    gravity.linear += dt * p.setup.solids.bodies[k].mass().mass * p.setup.fluids.gravity.at(0);
   }
 
   void add_sides(const Projection<Dim>& p) {
-    const Layout<Dim>& l = p.setup.layout;
+    const Layout<Dim>& l = p.setup.domain.layout;
     for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(l, l.faces(a), [&](Site f, const IVec<Dim>& i) {
         if (i[a] != 0 && i[a] != l.geometry().cells[a]) return;
@@ -218,22 +225,22 @@ double adjointness_error(Projection<Dim>& p) {
   for (double& x : v) x = dice(-1, 1);
   Vector pressure(p.rows.cells.size());
   for (double& x : pressure) x = dice(-1, 1);
-  const double forces = v.dot(multiply_transposed(p.coupling.J, pressure, p.setup.ranks));
+  const double forces = v.dot(multiply_transposed(p.coupling.J, pressure, p.setup.domain.ranks));
   for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
     const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
-    if (p.setup.bodies[k].elements()) {
+    if (p.setup.solids.bodies[k].elements()) {
       p.geometry.cell_fluxes[std::size_t(k)] = p.coupling.cell_fluxes[b];
-      set_node_velocity(p.setup.layout, k, v.segment(first, n), p.geometry);
+      set_node_velocity(p.setup.domain.layout, k, v.segment(first, n), p.geometry);
       continue;
     }
-    set_twist(p.setup.layout, k, Twist{}, p.geometry);
-    set_twist(p.setup.layout, k, unstacked<Dim>(v, first, rigid_state(p.state.solids[std::size_t(k)])->center),
+    set_twist(p.setup.domain.layout, k, Twist{}, p.geometry);
+    set_twist(p.setup.domain.layout, k, unstacked<Dim>(v, first, rigid_state(p.state.solids[std::size_t(k)])->center),
               p.geometry);
   }
   double fluxes = 0, size = 0;
   for (std::size_t n = 0; n < pressure.size(); ++n) {
     fluxes += pressure[n] * p.geometry.faces.cell_flux[p.rows.cells[n]];
-    for_each_face_of(p.setup.layout, p.rows.cells[n], [&](int a, Site f, int sign, Site) {
+    for_each_face_of(p.setup.domain.layout, p.rows.cells[n], [&](int a, Site f, int sign, Site) {
       fluxes += sign * pressure[n] * p.geometry.faces.closed_flux.at(a, f);
       size += std::abs(pressure[n] * p.geometry.faces.closed_flux.at(a, f));
     });

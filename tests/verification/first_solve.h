@@ -14,18 +14,18 @@ struct FirstSolve {
   static constexpr double dt = 1e-3;
   Setup<Dim> s;
   State<Dim> state = initial_state(s);
-  StepGeometry<Dim> g = s.solids.measure(place_bodies(state), 0);
-  ProjectionInput<Dim> in{s.layout, s.halo, s.ranks, state.phi, g.faces, s.density(), dt};
+  StepGeometry<Dim> g = s.solids.geometry.measure(place_bodies(state), 0);
+  ProjectionInput<Dim> in{s.domain.layout, s.domain.halo, s.domain.ranks, state.phi, g.faces, s.fluids.density(), dt};
   PressureRows<Dim> rows = number_rows(in);
   NullSpace closed = find_closed_components(in, rows);
   SolidCoupling<Dim> coupling = couple_solids(s, g, rows, closed, state, dt, dt);
-  double c1 = s.density() * s.layout.h() / dt, c2 = dt * s.layout.geometry().face_area();
+  double c1 = s.fluids.density() * s.domain.layout.h() / dt, c2 = dt * s.domain.layout.geometry().face_area();
   DistributedMatrix A = assemble_pressure_matrix(in, rows);
   RowGrid grid = row_grid(in, rows);
-  SpdSolver solver{A, grid, closed, coupling.J, c1* c2, {.tolerance = 1e-8}, s.ranks};
+  SpdSolver solver{A, grid, closed, coupling.J, c1* c2, {.tolerance = 1e-8}, s.domain.ranks};
   Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt, {}, g));
   Vector p = Vector(b.size());
-  LiquidProblem<Dim> problem{coupling, solver, closed, b, p, c1, c2, s.ranks};
+  LiquidProblem<Dim> problem{coupling, solver, closed, b, p, c1, c2, s.domain.ranks};
 
   explicit FirstSolve(const Scene& scene) : s(scene, Communicator()) {}
   FirstSolve(const FirstSolve&) = delete;

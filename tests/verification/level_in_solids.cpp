@@ -23,16 +23,16 @@ void check_sides() {
   scene.solids.push_back(elastic_box("wall", {0.3, -0.2, -0.2}, {0.7, 1.2, 1.2}, 1000, {1e5, 0.4}, 0.2));
   const Setup<Dim> setup(scene, Communicator());
   const double h = scene.domain.cell_size;
-  CellField<Dim> phi(setup.layout);
-  const auto place = [&](const IVec<Dim>& i) { return setup.layout.position(i, cell_offset<Dim>())[0]; };
-  for_each_index_in_order(setup.layout, setup.layout.padded(),
+  CellField<Dim> phi(setup.domain.layout);
+  const auto place = [&](const IVec<Dim>& i) { return setup.domain.layout.position(i, cell_offset<Dim>())[0]; };
+  for_each_index_in_order(setup.domain.layout, setup.domain.layout.padded(),
                           [&](Site c, const IVec<Dim>& i) { phi[c] = place(i) - 0.6; });
   const CellField<Dim> before = phi;
   State<Dim> state;
-  state.solids = setup.at_start;
-  keep_sides_of_walls(setup, setup.solids.measure(place_bodies(state), 0), phi);
+  state.solids = setup.solids.at_start;
+  keep_sides_of_walls(setup.domain, setup.solids.geometry.measure(place_bodies(state), 0), phi);
   int wrong = 0, touched = 0;
-  for_each_index_in_order(setup.layout, setup.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+  for_each_index_in_order(setup.domain.layout, setup.domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     wrong += (place(i) < 0.5) != (phi[c] < 0);
     touched += std::abs(place(i) - 0.5) > 0.2 - h && phi[c] != before[c];
   });
@@ -52,19 +52,21 @@ void check_continuation() {
   scene.solids.push_back(slab);
   const Setup<Dim> setup(scene, Communicator());
   State<Dim> state;
-  state.solids = setup.at_start;
-  const auto closed = closed_cells(setup, setup.solids.measure(place_bodies(state), 0));
-  CellField<Dim> phi(setup.layout);
+  state.solids = setup.solids.at_start;
+  const auto closed = closed_cells(setup.domain, setup.solids, setup.solids.geometry.measure(place_bodies(state), 0));
+  CellField<Dim> phi(setup.domain.layout);
   const auto plane = [&](const IVec<Dim>& i) {
-    return std::clamp(setup.layout.position(i, cell_offset<Dim>())[1] - 0.47, -setup.band(), setup.band());
+    return std::clamp(setup.domain.layout.position(i, cell_offset<Dim>())[1] - 0.47, -setup.domain.band(),
+                      setup.domain.band());
   };
-  for_each_index_in_order(setup.layout, setup.layout.padded(),
+  for_each_index_in_order(setup.domain.layout, setup.domain.layout.padded(),
                           [&](Site c, const IVec<Dim>& i) { phi[c] = closed[c] ? 0.3 : plane(i); });
-  continue_level_set(setup, closed, phi);
+  continue_level_set(setup.domain, setup.solids, closed, phi);
   double worst = 0;
   int count = 0;
-  for_each_index_in_order(setup.layout, setup.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (std::abs(plane(i)) < setup.band() - 2 * setup.layout.h()) worst = std::max(worst, std::abs(phi[c] - plane(i)));
+  for_each_index_in_order(setup.domain.layout, setup.domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (std::abs(plane(i)) < setup.domain.band() - 2 * setup.domain.layout.h())
+      worst = std::max(worst, std::abs(phi[c] - plane(i)));
     count += closed[c];
   });
   CHECK(count > 60);

@@ -34,9 +34,9 @@ template <int Dim>
 double largest_difference(const Setup<Dim>& s, const FaceGeometry<Dim>& faces) {
   double most = 0;
   for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(s.layout, s.layout.cells(), [&](Site f, const IVec<Dim>& i) {
+    for_each_index_in_order(s.domain.layout, s.domain.layout.cells(), [&](Site f, const IVec<Dim>& i) {
       if (i[a] != 0) return;
-      const Site other = f + s.layout.geometry().cells[a] * s.layout.stride(a);
+      const Site other = f + s.domain.layout.geometry().cells[a] * s.domain.layout.stride(a);
       most = std::max(most, std::abs(faces.open.at(a, f) - faces.open.at(a, other)));
       most = std::max(most, double(faces.kind_at(a, f) != faces.kind_at(a, other)));
     });
@@ -47,9 +47,10 @@ template <int Dim>
 void check_sides(SolidKind kind) {
   const Setup<Dim> s(beside_sides(Dim, kind), Communicator(), {});
   const State<Dim> state = initial_state(s);
-  const StepGeometry<Dim> g = s.solids.measure(place_bodies(state), 0);
+  const StepGeometry<Dim> g = s.solids.geometry.measure(place_bodies(state), 0);
   double least = 1;
-  for_each_site(s.layout, s.layout.cells(), [&](Site f) { least = std::min(least, g.faces.open.at(1, f)); });
+  for_each_site(s.domain.layout, s.domain.layout.cells(),
+                [&](Site f) { least = std::min(least, g.faces.open.at(1, f)); });
   CHECK(least == 0);
   CHECK(largest_difference(s, g.faces) <= 1e-12);
 }
@@ -65,7 +66,7 @@ TEST_CASE("faces on periodic sides are as open at either place") {
 
 TEST_CASE("solids that reach a periodic side are named") {
   const Setup<2> s(beside_sides(2, SolidKind::rigid), Communicator(), {});
-  const std::string names = solids_at_periodic_sides(s, initial_state(s));
+  const std::string names = solids_at_periodic_sides(s.domain, s.solids, initial_state(s));
   CHECK(names == "'box' and the periodic side y_upper, which no solid can pass");
 }
 

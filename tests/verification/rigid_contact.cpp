@@ -163,7 +163,7 @@ TEST_CASE("a body that spins about its middle axis keeps energy and angular mome
   s.solids.push_back(test::rigid_box("box", {0.2, 0.3, 0.4}, {0.5, 0.5, 0.5}, 700));
   s.solids[0].rigid.angular_velocity = {0.01, 2 * test::pi, 0.02};
   const Setup<3> setup(s, Communicator());
-  const PrincipalInertia inertia = principal_inertia(setup.bodies[0].mass().inertia);
+  const PrincipalInertia inertia = principal_inertia(setup.solids.bodies[0].mass().inertia);
   const auto energy = [&](const RigidState& r) {
     return 0.5 * r.angular_momentum.dot(angular_velocity(inertia, r.rotation, r.angular_momentum));
   };

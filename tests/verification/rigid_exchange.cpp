@@ -56,7 +56,7 @@ double kinetic_energy(const Projection<Dim>& p, const Eigen::VectorXd& v, const 
 template <int Dim>
 Eigen::VectorXd saddle_pressures(const Projection<Dim>& p) {
   const ProjectionInput<Dim> in = p.input();
-  const double h = p.setup.layout.h(), c1 = p.setup.density() * h / dt, c2 = dt * std::pow(h, Dim - 1);
+  const double h = p.setup.domain.layout.h(), c1 = p.setup.fluids.density() * h / dt, c2 = dt * std::pow(h, Dim - 1);
   const DistributedMatrix A = assemble_pressure_matrix(in, p.rows);
   const Vector b = pressure_right_side(in, p.rows, p.u_star);
   const int n = A.rows(), m = int(p.coupling.target.size());

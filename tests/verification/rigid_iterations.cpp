@@ -56,7 +56,7 @@ Effort measure(const Scene& scene) {
   REQUIRE(f.problem.minimise(SparseMatrix(0, 0), Eigen::VectorXd::Zero(f.problem.size())).failure.empty());
   Effort e{f.problem.report().iterations, 0, f.solver.setup_applications()};
   Vector still(f.b.size());
-  const SolveReport fixed = f.solver.solve(BodyMatrix(f.s.ranks), f.b, still);
+  const SolveReport fixed = f.solver.solve(BodyMatrix(f.s.domain.ranks), f.b, still);
   REQUIRE(fixed.converged);
   e.fixed = fixed.iterations;
   return e;

@@ -42,7 +42,7 @@ TEST_CASE("nothing is told of a scene in which nothing is switched off") {
   Scene floating = basin();
   floating.solids.push_back(box(SolidKind::rigid, {0.3, 0.3, 0}, {0.7, 0.7, 1}));
   CHECK(told(floating).empty());
-  CHECK(may_leapfrog(Setup<2>(floating, Communicator())));
+  CHECK(may_leapfrog(Setup<2>(floating, Communicator()).features));
 }
 
 TEST_CASE("what switches the leapfrog off is told, and is what the step looks at") {
@@ -51,7 +51,7 @@ TEST_CASE("what switches the leapfrog off is told, and is what the step looks at
   REQUIRE(told(scene).size() == 1);
   CHECK_THAT(told(scene)[0],
              Contains("off: leapfrog of surface and velocity (because of: solids thinner than a cell)"));
-  CHECK_FALSE(may_leapfrog(Setup<2>(scene, Communicator())));
+  CHECK_FALSE(may_leapfrog(Setup<2>(scene, Communicator()).features));
   scene.time.scheme = TimeScheme::first_order;  // as requested
   CHECK(told(scene).empty());
 }
