@@ -44,8 +44,12 @@ std::vector<std::string> split(const Pieces& p) {
 MpiSession::MpiSession(int& argc, char**& argv) {
   // Waiting ranks yield their core. Otherwise, on a busy machine, they would block the ranks that they wait for.
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-  // Without mpirun, Open MPI starts a daemon for the single process, which can fail if many processes start at once.
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Without mpirun, Open MPI starts a daemon for the single process and makes a folder that all such processes share:
+  // both can fail if one process starts while another ends. A single process needs neither.
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  }
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
 }
