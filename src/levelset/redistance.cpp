@@ -1,5 +1,7 @@
 #include "levelset/redistance.h"
 
+#include <algorithm>
+
 #include "grid/ghosts.h"
 #include "grid/loops.h"
 #include "grid/parallel_range.h"
@@ -95,23 +97,65 @@ class Relaxation {
   void run(int iterations) {
     std::vector<double> before(cells_.size());
     for (int n = 0; n < iterations; ++n) {
-      for (std::size_t k = 0; k < cells_.size(); ++k) before[k] = phi_[cells_[k].site];
+      for_each_cell([&](std::size_t k, double& p) { before[k] = p; });
       forward_step();
       forward_step();
-      for (std::size_t k = 0; k < cells_.size(); ++k) {
-        double& p = phi_[cells_[k].site];
-        p = 0.5 * (before[k] + p);
-      }
-      fill_ghosts(layout_, halo_, 1.0, phi_);
+      for_each_cell([&](std::size_t k, double& p) { p = 0.5 * (before[k] + p); });
+      fill_ghosts_of_cells();
     }
+    fill_ghosts(layout_, halo_, 1.0, phi_);
   }
 
  private:
+  // A line of cells from the outermost one inward.
+  struct Line {
+    Site outermost, inward;
+    friend auto operator<=>(const Line&, const Line&) = default;
+  };
+
   void collect(const CellField<Dim, char>& fixed) {
-    for_each_index_in_order(layout_, layout_.cells(), [&](Site s, const IVec<Dim>&) {
-      if (start_[s] != 0 && !fixed[s] && near_band(s)) cells_.push_back(describe(s));
+    for_each_index_in_order(layout_, layout_.cells(), [&](Site s, const IVec<Dim>& i) {
+      if (start_[s] == 0 || fixed[s] || !near_band(s)) return;
+      cells_.push_back(describe(s));
+      collect_lines(s, i);
     });
     change_.resize(cells_.size());
+    std::sort(lines_.begin(), lines_.end());
+    lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
+  }
+
+  // Differences reach two cells along each axis: beyond the sides that are less than two cells from s.
+  void collect_lines(Site s, const IVec<Dim>& i) {
+    const Geometry<Dim>& g = layout_.geometry();
+    for (int a = 0; a < Dim; ++a)
+      for (const int side : {0, 1}) {
+        if (g.periodic[a]) continue;
+        const int steps = side == 0 ? i[a] : g.cells[a] - 1 - i[a];
+        const Site inward = side == 0 ? layout_.stride(a) : -layout_.stride(a);
+        if (steps < differences) lines_.push_back({s - steps * inward, inward});
+      }
+  }
+
+  template <class Body>
+  void for_each_cell(const Body& body) {
+    parallel_range_in_tasks(cells_.size(), 4096, [&](std::size_t k) { body(k, phi_[cells_[k].site]); });
+  }
+
+  // Ghosts that the slopes of the cells read, as fill_ghosts() has them; it would visit all of the domain's surface.
+  void fill_ghosts_of_cells() {
+    halo_.fill_ghosts(phi_);
+    parallel_range_in_tasks(lines_.size(), 4096, [&](std::size_t n) {
+      double* f = phi_.data() + lines_[n].outermost;
+      const Site in = lines_[n].inward;
+      const double rise = layout_.geometry().cells[axis_of(in)] > 1 ? std::clamp(f[0] - f[in], -1.0, 1.0) : 0;
+      for (int k = 1; k <= differences; ++k) f[-k * in] = f[0] + k * rise;
+    });
+  }
+
+  int axis_of(Site stride) const {
+    int axis = 0;
+    while (layout_.stride(axis) != std::abs(stride)) ++axis;
+    return axis;
   }
 
   // True if s is in the band or at most entering_ cells from it.
@@ -180,12 +224,11 @@ class Relaxation {
   void forward_step() {
     parallel_range_in_tasks(cells_.size(), 1024,
                             [&](std::size_t k) { change_[k] = cells_[k].step * cells_[k].sign * rate(cells_[k]); });
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      double& p = phi_[cells_[k].site];
-      p = std::clamp(p + change_[k], -limit_, limit_);
-    }
-    fill_ghosts(layout_, halo_, 1.0, phi_);
+    for_each_cell([&](std::size_t k, double& p) { p = std::clamp(p + change_[k], -limit_, limit_); });
+    fill_ghosts_of_cells();
   }
+
+  static constexpr int differences = 2;  // cells that second differences reach
 
   const Layout<Dim>& layout_;
   const Halo<Dim>& halo_;
@@ -194,6 +237,7 @@ class Relaxation {
   CellField<Dim>& phi_;
   CellField<Dim> start_;
   std::vector<BandCell<Dim>> cells_;
+  std::vector<Line> lines_;  // to the sides that the cells' differences reach
   std::vector<double> change_;
 };
 

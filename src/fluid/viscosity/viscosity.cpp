@@ -305,7 +305,7 @@ void assemble_divergence(const ViscousInput<Dim>& in, const FaceField<Dim>& drag
   r.D.first_row = in.rows.first, r.D.global_rows = in.rows.global;
   Entries entries;
   r.q = net_over_rows(
-      in.layout, in.ranks, in.rows, [](Site) { return 0.0; },
+      in.layout, in.ranks, in.rows, [&](Site c) { return in.faces.cell_flux[c]; },
       [&](int a, Site f) {
         const bool given = in.faces.kind_at(a, f) == FaceKind::prescribed;
         return in.faces.closed_flux.at(a, f) + (given ? in.faces.open.at(a, f) * in.faces.prescribed.at(a, f) : 0);

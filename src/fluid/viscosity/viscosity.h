@@ -81,7 +81,7 @@ struct ViscousSystem {
   Eigen::VectorXd g;                // terms of known motions, equal on all ranks
   DistributedMatrix D;              // +- w h^(Dim-1): pressure rows by faces; columns ascend
   DistributedMatrix Dt;             // transpose of D
-  std::vector<double> q;            // -(closed + prescribed + missing flux) h^(Dim-1), m^Dim/s; without cell_flux
+  std::vector<double> q;            // -(closed + prescribed + cell + missing flux) h^(Dim-1), m^Dim/s
   std::vector<double> schur_mass;   // about dt mu/h^Dim for each pressure row (Cahouet, Chabard 1988)
   std::shared_ptr<const ViscousSamples<Dim>> samples;
 };
