@@ -5,21 +5,6 @@
 namespace seiche {
 namespace {
 
-// Value k steps beyond a side. at(n) is the value n steps inside (0: the outermost one inside or on the side), n <
-// `inside`.
-template <class At>
-double beyond(Extension rule, double on_side, double steepest, int k, int inside, const At& at) {
-  switch (rule) {
-    case Extension::constant:
-      return at(0);
-    case Extension::linear:
-      return inside > 1 ? at(0) + k * std::clamp(at(0) - at(1), -steepest, steepest) : at(0);
-    case Extension::mirror:
-      return on_side == 0 ? 2 * at(0) - at(std::min(k, inside - 1)) : at(std::min(k - 1, inside - 1));
-  }
-  return 0;
-}
-
 // The stored sites beyond a side. May be empty.
 template <int Dim>
 Box<Dim> box_beyond(const Layout<Dim>& layout, int axis, int side, double offset) {
@@ -31,19 +16,48 @@ Box<Dim> box_beyond(const Layout<Dim>& layout, int axis, int side, double offset
   return box;
 }
 
+// The sites on one side of the domain or next to it, from which those beyond are filled.
+struct Side {
+  Site inward;     // step
+  int beyond;      // sites to fill
+  int inside;      // sites from there to the other side
+  double on_side;  // 0: values lie on the side, else half a cell from it
+};
+
+// Fills the sites beyond p, the outermost one inside or on the side. Values inside are p[0], p[inward], ...
+void extend_constant(double* p, const Side& side) {
+  for (int k = 1; k <= side.beyond; ++k) p[-k * side.inward] = p[0];
+}
+
+void extend_linear(double* p, const Side& side, double steepest) {
+  const double rise = side.inside > 1 ? std::clamp(p[0] - p[side.inward], -steepest, steepest) : 0;
+  for (int k = 1; k <= side.beyond; ++k) p[-k * side.inward] = p[0] + k * rise;
+}
+
+void extend_mirrored(double* p, const Side& side) {
+  const int last = side.inside - 1;
+  for (int k = 1; k <= side.beyond; ++k)
+    p[-k * side.inward] =
+        side.on_side == 0 ? 2 * p[0] - p[std::min(k, last) * side.inward] : p[std::min(k - 1, last) * side.inward];
+}
+
 template <int Dim>
 void extend_one_side(const Layout<Dim>& layout, double* f, int axis, int side, double offset, double steepest,
                      Extension rule) {
-  const int n = layout.geometry().cells[axis];
-  const int last = offset == 0 ? n : n - 1;  // highest index inside or on the side
-  const int edge = side == 0 ? 0 : last;
-  const Box<Dim> box = box_beyond(layout, axis, side, offset);
+  Box<Dim> box = box_beyond(layout, axis, side, offset);
   if (box.empty()) return;
-  const Site inward = side == 0 ? layout.stride(axis) : -layout.stride(axis);
-  for_each_index(layout, box, [&](Site s, const IVec<Dim>& i) {
-    const int k = std::abs(i[axis] - edge);
-    f[s] = beyond(rule, offset, steepest, k, last + 1, [&](int m) { return f[s + (k + m) * inward]; });
-  });
+  const int n = layout.geometry().cells[axis], last = offset == 0 ? n : n - 1, edge = side == 0 ? 0 : last;
+  const Side at{side == 0 ? layout.stride(axis) : -layout.stride(axis), box.upper[axis] - box.lower[axis], last + 1,
+                offset};
+  box.lower[axis] = edge, box.upper[axis] = edge + 1;
+  switch (rule) {
+    case Extension::constant:
+      return for_each_site(layout, box, [&](Site s) { extend_constant(f + s, at); });
+    case Extension::linear:
+      return for_each_site(layout, box, [&](Site s) { extend_linear(f + s, at, steepest); });
+    case Extension::mirror:
+      return for_each_site(layout, box, [&](Site s) { extend_mirrored(f + s, at); });
+  }
 }
 
 // Steps from the nearest site inside to index i. 0 along periodic axes and along axes where i is inside.

@@ -99,13 +99,15 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const Setup<Dim>& s = task.s;
   const PhaseFault fault = task.phases.enter("solve");
   const auto timed = task.phases.timers.measure("solve");
-  const FaceField<Dim> slope = of_both(s.domain, task.before, &TimeLevel<Dim>::q),
-                       flow = of_both(s.domain, task.before, &TimeLevel<Dim>::u);
+  const State<Dim>& before = task.before;
+  std::optional<FaceField<Dim>> slope, flow;  // of liquid and gas in one
+  if (before.gas.now)
+    slope = of_both(s.domain, before, &TimeLevel<Dim>::q), flow = of_both(s.domain, before, &TimeLevel<Dim>::u);
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
-  CoupledSolution<Dim> solution =
-      solve_coupled(CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, slope, flow, task.predicted.u_star,
-                                      out.state.horizon, viscosity, fault});
+  CoupledSolution<Dim> solution = solve_coupled(
+      CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, slope ? *slope : before.now->q,
+                        flow ? *flow : before.now->u, task.predicted.u_star, out.state.horizon, viscosity, fault});
   out.solve = solution.report;
   out.solve.iterations += earlier.iterations;
   out.newton_iterations = solution.newton_iterations;

@@ -94,15 +94,15 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
                    Moved<Dim>& moved) {
   const PhaseFault fault = phases.enter("transport");
   const auto timed = phases.timers.measure("surface");
-  const FaceField<Dim> u = s.fluids.has_prescribed_flow()
-                               ? prescribed_flow(s.domain, s.fluids, before.phi, times.start + 0.5 * times.dt)
-                               : flow_at_surface(s.domain, s.fluids, before);
+  FaceField<Dim> u = s.fluids.has_prescribed_flow()
+                         ? prescribed_flow(s.domain, s.fluids, before.phi, times.start + 0.5 * times.dt)
+                         : flow_at_surface(s.domain, s.fluids, before);
   CellField<Dim>& phi = moved.state.phi;
   const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene.time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
-  moved.state.expected_volume += transport_surface(s, before, u, times.start, times.lead, phi);
+  moved.state.expected_volume += transport_surface(s, before, std::move(u), times.start, times.lead, phi);
   make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
   inject(s.domain, fault, phi.data());
 }
@@ -163,9 +163,9 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   State<Dim>& next = solved.state;
   const bool can = can_go_on(s.domain, s.solids, s.scene.time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
-  const FaceField<Dim> u = flow_at_surface(s.domain, s.fluids, leading);
+  FaceField<Dim> u = flow_at_surface(s.domain, s.fluids, leading);
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
-  next.expected_volume += transport_surface(s, next, u, times.start + times.lead, times.lead, next.phi);
+  next.expected_volume += transport_surface(s, next, std::move(u), times.start + times.lead, times.lead, next.phi);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
   const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);

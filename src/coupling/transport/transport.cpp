@@ -286,7 +286,7 @@ double liquid_volume(const Domain<Dim>& domain, const CellField<Dim>& phi, const
 }
 
 template <int Dim>
-double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const FaceField<Dim>& u, double t, double dt,
+double transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
                          CellField<Dim>& phi) {
   check_forces_of_step(s.domain, s.fluids, s.sources, t, t + dt);
   CellField<Dim> joined = phi;
@@ -295,7 +295,6 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   LevelSetTransport how;
   if (s.fluids.has_prescribed_flow()) how.trace = Trace::third_order;  // transport is the only error there
   how.one_sided_at_medial_axis = s.features.has(Feature::one_sided_at_medial_axis);  // docs/decisions/0023-kinks.md
-  FaceField<Dim> path = u;
   if (!s.fluids.has_prescribed_flow()) {
     continue_beyond_inflows(s.domain.layout, s.domain.sides, t, path);
     let_air_follow(s.domain.layout, s.domain.sides, t, state.now->valid, path);
@@ -369,16 +368,15 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
   return liquid_volume(domain, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                 \
-  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);               \
-  template double transport_surface<D>(const Setup<D>&, const State<D>&, const FaceField<D>&, double, double, \
-                                       CellField<D>&);                                                        \
-  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,          \
-                                 const CellField<D, char>&, CellField<D>&);                                   \
-  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                    \
-  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                       \
-  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,  \
-                                              const ViscousPlan&, const StepGeometry<D>&);                    \
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                        \
+  template double transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double, CellField<D>&); \
+  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,                   \
+                                 const CellField<D, char>&, CellField<D>&);                                            \
+  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                             \
+  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                                \
+  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,           \
+                                              const ViscousPlan&, const StepGeometry<D>&);                             \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -8,11 +8,11 @@
 
 namespace seiche {
 
-// Transports phi from time t to t + dt (s) with u (m/s), and joins it with inflow and sources. `state` gives the
+// Transports phi from time t to t + dt (s) with the velocity `path` (m/s), and joins it with inflow and sources. `state` gives the
 // positions of the solids. Returns the volume that sources brought, m^Dim. Throws as check_forces_of_step() does. Fills
 // ghosts. Collective.
 template <int Dim>
-double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, const FaceField<Dim>& u, double t, double dt,
+double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
                          CellField<Dim>& phi);
 
 // Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells. `closed`: see
