@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "linalg/precond/geometric_multigrid.h"
 #include "linalg/precond/hypre_adapter.h"
 
 namespace seiche {
@@ -34,6 +35,9 @@ PreconditionerOrFailure boomeramg(const LinearSystem& system) {
   const bool on_grid = box_of_rows(system).cells() > 0;
   return on_grid ? make_boomeramg(system) : make_boomeramg(system, {.aggressive_levels = 0});
 }
+PreconditionerOrFailure geometric(const LinearSystem& system) {
+  return make_geometric_multigrid(system);
+}
 PreconditionerOrFailure multigrid(const LinearSystem& system) {
   return make_pfmg(system);
 }
@@ -41,6 +45,7 @@ PreconditionerOrFailure multigrid(const LinearSystem& system) {
 constexpr PreconditionerEntry table[] = {
     {"none", "each row scaled by its diagonal", diagonal_scaling},
     {"boomeramg", "algebraic multigrid (hypre BoomerAMG): any liquid shape", boomeramg},
+    {"geometric", "geometric multigrid of our own on the box around the liquid", geometric},
     {"multigrid", "geometric multigrid (hypre PFMG) on the box around the liquid: fast where that is well filled",
      multigrid},
 };

@@ -1,0 +1,172 @@
+#include "linalg/precond/multigrid_coarsen.h"
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+using Cell = std::array<int, 3>;
+
+// A link joins two cells if it is this share of the smaller diagonal.
+constexpr float strong = 0.02f;
+
+CellBox coarse_box(const CellBox& fine) {
+  CellBox box;
+  if (fine.cells() == 0) return {{0, 0, 0}, {0, 0, 0}};
+  for (int a = 0; a < 3; ++a) {
+    box.lower[a] = fine.lower[a] >> 1;
+    box.upper[a] = (fine.upper[a] + 1) >> 1;
+  }
+  return box;
+}
+
+// The cells of `fine` within a coarse cell.
+template <int Dim>
+CellBox children_of(const Cell& coarse, const CellBox& fine) {
+  CellBox box = fine;
+  for (int a = 0; a < Dim; ++a) {
+    box.lower[a] = std::max(box.lower[a], 2 * coarse[a]);
+    box.upper[a] = std::min(box.upper[a], 2 * coarse[a] + 2);
+  }
+  return box;
+}
+
+// The parts of a coarse cell that links within it hold together.
+template <int Dim>
+class Parts {
+ public:
+  Parts(const MultigridLevel<Dim>& fine, const Cell& coarse) : fine_(fine), lower_(2 * coarse[0]) {
+    for_each_cell(children_of<Dim>(coarse, fine.rows.cells), [&](const Cell& c) {
+      unsigned child = 0;
+      for (int a = 0; a < Dim; ++a) child |= unsigned(c[a] & 1) << a;
+      place_[child] = fine.rows.at(c);
+      if (fine.inverse[place_[child]] > 0) active_ |= 1u << child;
+    });
+  }
+
+  // Children outside of the part that has most to do with cells around.
+  unsigned outsiders() const {
+    unsigned best = part_of_first(active_), left = active_ & ~best;
+    float most = left ? outward(best) : 0;
+    while (left) {
+      const unsigned part = part_of_first(left);
+      left &= ~part;
+      if (const float weight = outward(part); weight > most) best = part, most = weight;
+    }
+    return active_ & ~best;
+  }
+  std::size_t place(unsigned child) const { return place_[child]; }
+
+ private:
+  bool joined(unsigned child, unsigned axis) const {
+    const std::size_t low = place_[child & ~(1u << axis)], high = place_[child | (1u << axis)];
+    return fine_.face[axis][low] * std::max(fine_.inverse[low], fine_.inverse[high]) >= strong;
+  }
+  // The part of `among` that its first child belongs to.
+  unsigned part_of_first(unsigned among) const {
+    unsigned part = among & (~among + 1), before = 0;
+    while (part != before) {
+      before = part;
+      for (unsigned child = 0; child < 1u << Dim; ++child)
+        for (unsigned axis = 0; axis < Dim && (part >> child & 1u); ++axis) {
+          const unsigned other = child ^ (1u << axis);
+          if ((among >> other & 1u) && joined(child, axis)) part |= 1u << other;
+        }
+    }
+    return part;
+  }
+  // Sum over the cells of a part of the share of links that leave the coarse cell.
+  float outward(unsigned part) const {
+    float sum = 0;
+    for (unsigned child = 0; child < 1u << Dim; ++child)
+      for (int axis = 0; axis < Dim && (part >> child & 1u); ++axis) {
+        const int step = (child >> axis & 1u) ? 1 : -1, i = lower_ + int(child & 1u);
+        const std::size_t at = place_[child], low = step > 0 ? at : fine_.rows.neighbour(at, i, axis, -1);
+        sum += fine_.face[axis][low] * fine_.inverse[at];
+      }
+    return sum;
+  }
+
+  const MultigridLevel<Dim>& fine_;
+  int lower_;
+  std::array<std::size_t, 1 << Dim> place_{};
+  unsigned active_ = 0;
+};
+
+// 1 where a cell belongs to the coarse cell around it, else 0; lists the red ones of the latter.
+template <int Dim>
+std::vector<float> find_outsiders(MultigridLevel<Dim>& fine, const SplitRows<Dim>& coarse) {
+  std::vector<float> belongs(fine.rows.size(), 1.0f);
+  std::vector<std::vector<Outsider>> of_row(std::size_t(coarse.own_rows()));
+  for_own_rows(coarse, [&](std::size_t n, int J, int K) {
+    for (int I = coarse.cells.lower[0]; I < coarse.cells.upper[0]; ++I) {
+      const Parts<Dim> parts(fine, {I, J, K});
+      for (unsigned out = parts.outsiders(), child = 0; out; ++child, out >>= 1) {
+        if (!(out & 1u)) continue;
+        belongs[parts.place(child)] = 0;
+        const bool red = ((child ^ child >> 1 ^ child >> 2) & 1u) == 0;
+        if (red) of_row[n].push_back({parts.place(child), coarse.at({I, J, K}), int(child & 1u)});
+      }
+    }
+  });
+  for (const auto& row : of_row) fine.outsiders.insert(fine.outsiders.end(), row.begin(), row.end());
+  return belongs;
+}
+
+// A surface at the distance theta beyond a cell gives e = c / theta; seen from the coarse cell, half a cell further
+// off, c / (theta + 1/2) = e / (1 + e / 2c).
+template <int Dim>
+float coarse_excess(const MultigridLevel<Dim>& fine, float e, std::size_t cell, int i) {
+  if (e == 0) return 0;
+  float c = 0;
+  for (int a = 0; a < Dim; ++a)
+    c = std::max({c, fine.face[a][cell], fine.face[a][fine.rows.neighbour(cell, i, a, -1)]});
+  return c > 0 ? e / (1 + e / (2 * c)) : e / 2;
+}
+
+// c of a coarse face = half the sum over its fine faces: the distance is doubled.
+template <int Dim>
+void fill_coefficients(const MultigridLevel<Dim>& fine, const std::vector<float>& belongs,
+                       const std::vector<float>& excess, MultigridLevel<Dim>& coarse, std::vector<float>& coarse_e) {
+  for_own_rows(coarse.rows, [&](std::size_t, int J, int K) {
+    for (int I = coarse.rows.cells.lower[0]; I < coarse.rows.cells.upper[0]; ++I) {
+      const std::size_t to = coarse.rows.at({I, J, K});
+      for_each_cell(children_of<Dim>({I, J, K}, fine.rows.cells), [&](const Cell& c) {
+        const std::size_t cell = fine.rows.at(c);
+        coarse_e[to] += belongs[cell] * coarse_excess(fine, excess[cell], cell, c[0]);
+        for (int a = 0; a < Dim; ++a) {
+          const bool wraps = fine.periodic[a] > 0 && c[a] + 1 == fine.periodic[a];
+          if (!(c[a] & 1) && !wraps) continue;
+          if (wraps && coarse.periodic[a] == 0) continue;
+          const float both = belongs[cell] * belongs[fine.rows.neighbour(cell, c[0], a, 1)];
+          coarse.face[a][to] += 0.5f * both * fine.face[a][cell];
+        }
+      });
+    }
+  });
+}
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<MultigridLevel<Dim>> coarsen(MultigridLevel<Dim>& fine, std::vector<float>& excess) {
+  std::vector<CellBox> blocks;
+  for (const CellBox& block : fine.blocks) blocks.push_back(coarse_box(block));
+  std::array<int, 3> periodic{0, 0, 0};
+  for (int a = 0; a < Dim; ++a)
+    if (fine.periodic[a] > 2) periodic[a] = (fine.periodic[a] + 1) / 2;
+  auto coarse = std::make_unique<MultigridLevel<Dim>>(std::move(blocks), periodic, fine.ranks);
+  std::vector<float> belongs = find_outsiders(fine, coarse->rows);
+  fine.fill_ghosts(belongs);
+  std::vector<float> coarse_e(coarse->rows.size(), 0.0f);
+  fill_coefficients(fine, belongs, excess, *coarse, coarse_e);
+  for (auto& field : coarse->face) coarse->fill_ghosts(field);
+  coarse->finish(coarse_e);
+  excess = std::move(coarse_e);
+  return coarse;
+}
+
+template std::unique_ptr<MultigridLevel<2>> coarsen(MultigridLevel<2>&, std::vector<float>&);
+template std::unique_ptr<MultigridLevel<3>> coarsen(MultigridLevel<3>&, std::vector<float>&);
+
+}  // namespace seiche
