@@ -1,5 +1,5 @@
 // Our multigrid against hypre's on pressure systems: set-up and conjugate gradients from a cold start, on one core.
-//   solvers [--only NAME] [--repeat N] cells a side ..
+//   solvers [--only SOLVER] [--problem NAME] [--repeat N] cells a side ..
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -54,7 +54,7 @@ constexpr Candidate candidates[] = {
 };
 
 struct Options {
-  std::string only;
+  std::string only, problem;  // names, or all
   int repeat = 2;
   std::vector<int> sizes;
 };
@@ -109,6 +109,8 @@ Options parse(int argc, char** argv) {
     const std::string word = argv[i];
     if (word == "--only")
       o.only = argv[++i];
+    else if (word == "--problem")
+      o.problem = argv[++i];
     else if (word == "--repeat")
       o.repeat = std::atoi(argv[++i]);
     else
@@ -131,7 +133,7 @@ int main(int argc, char** argv) {
     for (const Problem& p : {sloping_surface(cube), with_balls(sloping_surface(cube), 20, 0.08), drop_in_gas(cube),
                              with_balls(drop_in_gas(cube), 20, 0.08), with_balls(full_box(cube), 20, 0.1),
                              with_pores(full_box(cube)), with_balls(full_box({n, n, 1}), 200, 0.02)})
-      run(p, options);
+      if (options.problem.empty() || options.problem == p.name) run(p, options);
   }
   return 0;
 }

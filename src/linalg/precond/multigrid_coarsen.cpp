@@ -113,18 +113,44 @@ std::vector<float> find_outsiders(MultigridLevel<Dim>& fine, const SplitRows<Dim
   return belongs;
 }
 
-// A surface at the distance theta beyond a cell gives e = c / theta; seen from the coarse cell, half a cell further
-// off, c / (theta + 1/2) = e / (1 + e / 2c).
+// c between a child and the one beside it in the same coarse cell.
 template <int Dim>
-float coarse_excess(const MultigridLevel<Dim>& fine, float e, std::size_t cell, int i) {
-  if (e == 0) return 0;
-  float c = 0;
-  for (int a = 0; a < Dim; ++a)
-    c = std::max({c, fine.face[a][cell], fine.face[a][fine.rows.neighbour(cell, i, a, -1)]});
-  return c > 0 ? e / (1 + e / (2 * c)) : e / 2;
+float inner_link(const MultigridLevel<Dim>& fine, std::size_t cell, const Cell& at, int axis) {
+  return fine.face[axis][at[axis] & 1 ? fine.rows.neighbour(cell, at[0], axis, -1) : cell];
 }
 
-// c of a coarse face = half the sum over its fine faces: the distance is doubled.
+// The surface that holds e lies where links are missing. Towards the outside of the coarse cell it is half a cell
+// further from the middle than from the child, so in series with half a link: 1 / (1 / e + 1 / 2c). Between children
+// the middle is the child's own. The mean over the missing links is taken.
+template <int Dim>
+float coarse_excess(const MultigridLevel<Dim>& fine, float e, std::size_t cell, const Cell& at) {
+  if (e == 0) return 0;
+  float sum = 0, most = 0;
+  int missing = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (const int step : {-1, 1}) {
+      const float c = fine.face[a][step > 0 ? cell : fine.rows.neighbour(cell, at[0], a, -1)];
+      most = std::max(most, c);
+      if (c > 0) continue;
+      const bool outward = (at[a] & 1) == (step > 0);
+      const float inner = outward ? inner_link(fine, cell, at, a) : 0;
+      sum += inner > 0 ? e / (1 + e / (2 * inner)) : e;
+      ++missing;
+    }
+  return missing > 0 ? sum / float(missing) : e / (1 + e / (2 * most));
+}
+
+// c of a coarse face from one of its fine faces: the distance between the middles is that of the children and half a
+// cell more on each side where a child has another one behind it.
+template <int Dim>
+float coarse_link(const MultigridLevel<Dim>& fine, const std::vector<float>& belongs, std::size_t cell, const Cell& at,
+                  int axis) {
+  const std::size_t beyond = fine.rows.neighbour(cell, at[0], axis, 1);
+  const float link = belongs[cell] * belongs[beyond] * fine.face[axis][cell];
+  const bool behind = (at[axis] & 1) && inner_link(fine, cell, at, axis) > 0, ahead = fine.face[axis][beyond] > 0;
+  return link / (1 + 0.5f * float(behind) + 0.5f * float(ahead));
+}
+
 template <int Dim>
 void fill_coefficients(const MultigridLevel<Dim>& fine, const std::vector<float>& belongs,
                        const std::vector<float>& excess, MultigridLevel<Dim>& coarse, std::vector<float>& coarse_e) {
@@ -133,13 +159,11 @@ void fill_coefficients(const MultigridLevel<Dim>& fine, const std::vector<float>
       const std::size_t to = coarse.rows.at({I, J, K});
       for_each_cell(children_of<Dim>({I, J, K}, fine.rows.cells), [&](const Cell& c) {
         const std::size_t cell = fine.rows.at(c);
-        coarse_e[to] += belongs[cell] * coarse_excess(fine, excess[cell], cell, c[0]);
+        coarse_e[to] += belongs[cell] * coarse_excess(fine, excess[cell], cell, c);
         for (int a = 0; a < Dim; ++a) {
           const bool wraps = fine.periodic[a] > 0 && c[a] + 1 == fine.periodic[a];
-          if (!(c[a] & 1) && !wraps) continue;
-          if (wraps && coarse.periodic[a] == 0) continue;
-          const float both = belongs[cell] * belongs[fine.rows.neighbour(cell, c[0], a, 1)];
-          coarse.face[a][to] += 0.5f * both * fine.face[a][cell];
+          if (!((c[a] & 1) || wraps) || (wraps && coarse.periodic[a] == 0)) continue;
+          coarse.face[a][to] += coarse_link(fine, belongs, cell, c, a);
         }
       });
     }
