@@ -28,10 +28,40 @@ struct MultigridLevel<Dim>::HalfRow {
     for (int n = 0; n < others; ++n) sum += face[n][m] * neighbour[n][m];
     return sum;
   }
-  // b - A x; a_ii = 1 / inverse. 0 without an equation.
-  float residual(int m) const {
+  // b + c sum of x_j
+  float gathered_evenly(int m) const {
+    float sum = neighbour[0][m];
+    for (int n = 1; n < others; ++n) sum += neighbour[n][m];
+    return b[m] + span.c * sum;
+  }
+  // x_i = (b_i + sum of c_f x_j) / a_ii
+  void relax() const {
+    relax_unevenly(span.begin, span.even_begin);
+    const float even_inverse = 1 / (float(others) * span.c);
+#pragma GCC ivdep
+    for (int m = span.even_begin; m < span.even_end; ++m) x[m] = even_inverse * gathered_evenly(m);
+    relax_unevenly(span.even_end, span.end);
+  }
+  // to[m - first] += b - A x from entry `first` on; 0 without an equation.
+  void add_residual(int first, int count, float* to) const {
+    const auto cut = [=](int m) { return std::clamp(m, first, first + count); };
+    add_uneven_residual(cut(span.begin), cut(span.even_begin), to - first);
+    const float diagonal = float(others) * span.c;
+    const int end = cut(span.even_end);
+#pragma GCC ivdep
+    for (int m = cut(span.even_begin); m < end; ++m) to[m - first] += gathered_evenly(m) - diagonal * x[m];
+    add_uneven_residual(cut(span.even_end), cut(span.end), to - first);
+  }
+
+ private:
+  void relax_unevenly(int begin, int end) const {
+#pragma GCC ivdep
+    for (int m = begin; m < end; ++m) x[m] = inverse[m] * gathered(m);
+  }
+  void add_uneven_residual(int begin, int end, float* to) const {
     constexpr float tiny = 1e-36f;
-    return (inverse[m] * gathered(m) - x[m]) / (inverse[m] + tiny);
+#pragma GCC ivdep
+    for (int m = begin; m < end; ++m) to[m] += (inverse[m] * gathered(m) - x[m]) / (inverse[m] + tiny);
   }
 };
 
@@ -70,7 +100,35 @@ void MultigridLevel<Dim>::finish(const std::vector<float>& excess) {
       if (span.end == 0) span.begin = m;
       span.end = m + 1;
     }
+    find_even_part(span, j, k);
   });
+}
+
+// c if all faces of a cell have it and e is 0, else 0.
+template <int Dim>
+float MultigridLevel<Dim>::even_coefficient(std::size_t cell, int i) const {
+  const float c = face[0][cell];
+  bool even = c > 0 && inverse[cell] == 1 / (2 * Dim * c);
+  for (int a = 0; a < Dim; ++a) even = even && face[a][cell] == c && face[a][rows.neighbour(cell, i, a, -1)] == c;
+  return even ? c : 0;
+}
+
+// The longest run of pairs of cells with one coefficient.
+template <int Dim>
+void MultigridLevel<Dim>::find_even_part(Span& span, int j, int k) const {
+  span.even_begin = span.even_end = span.begin;
+  int begin = span.begin;
+  float c = 0;
+  for (int m = span.begin; m < span.end; ++m) {
+    const int i = rows.base + 2 * m;
+    const std::size_t cell = rows.row_begin(j, k) + std::size_t(m);
+    const float low = even_coefficient(cell, i),
+                high = low > 0 ? even_coefficient(cell + std::size_t(rows.half), i + 1) : 0;
+    const float both = low == high ? low : 0;
+    if (both != c) begin = m, c = both;
+    if (c == 0 || m + 1 - begin <= span.even_end - span.even_begin) continue;
+    span.even_begin = begin, span.even_end = m + 1, span.c = c;
+  }
 }
 
 template <int Dim>
@@ -93,14 +151,9 @@ typename MultigridLevel<Dim>::HalfRow MultigridLevel<Dim>::half_row(std::size_t 
   return h;
 }
 
-// x_i = (b_i + sum of c_f x_j) / a_ii
 template <int Dim>
 void MultigridLevel<Dim>::relax(Color color) {
-  for_own_rows(rows, [&](std::size_t row, int j, int k) {
-    const HalfRow h = half_row(row, j, k, color);
-#pragma GCC ivdep
-    for (int m = h.span.begin; m < h.span.end; ++m) h.x[m] = h.inverse[m] * h.gathered(m);
-  });
+  for_own_rows(rows, [&](std::size_t row, int j, int k) { half_row(row, j, k, color).relax(); });
   (color == Color::red ? red_ : black_).run(x.data(), x.data());
 }
 
@@ -166,10 +219,7 @@ void MultigridLevel<Dim>::restrict_residual(MultigridLevel& coarse) const {
     for (int first = all.begin; first < all.end; first += chunk) {
       float sum[chunk] = {};
       for_fine_rows(rows, J, K, [&](std::size_t row, int j, int k) {
-        const HalfRow h = half_row(row, j, k, Color::red);
-        const int begin = std::max(first, h.span.begin), end = std::min(first + chunk, h.span.end);
-#pragma GCC ivdep
-        for (int m = begin; m < end; ++m) sum[m - first] += h.residual(m);
+        half_row(row, j, k, Color::red).add_residual(first, chunk, sum);
       });
       const int count = (std::min(first + chunk, all.end) - first + 1) / 2, to = (first + shift) / 2;
       for (int n = 0; n < count; ++n) {

@@ -46,9 +46,13 @@ class MultigridLevel {
   std::vector<Outsider> outsiders;
 
  private:
+  // Entries of both half rows. From `even_begin` to `even_end` all c_f are c and e is 0: they need not be read.
   struct Span {
-    int begin = 0, end = 0;  // entries of both half rows
+    int begin = 0, end = 0, even_begin = 0, even_end = 0;
+    float c = 0;
   };
+  float even_coefficient(std::size_t cell, int i) const;
+  void find_even_part(Span& span, int j, int k) const;
   struct HalfRow;
   HalfRow half_row(std::size_t row, int j, int k, Color color) const;
   float residual(const Outsider& o) const;

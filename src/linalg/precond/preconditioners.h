@@ -33,6 +33,9 @@ std::span<const PreconditionerEntry> preconditioner_table();
 // The names a scene may ask for: "auto" and those of the table.
 std::vector<std::string> preconditioner_names();
 
+// Whether a preconditioner needs rows that couple neighbouring cells alone.
+bool keeps_to_grid(const std::string& name);
+
 // What "auto" stands for on this system; any other name stands for itself. Collective.
 std::string choose_preconditioner(const std::string& name, const LinearSystem& system);
 

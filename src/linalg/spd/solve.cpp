@@ -98,7 +98,7 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
   const int limit = options_.max_iterations, patience = std::max(2000, 10 * limit);  // the latter without a hierarchy
   const int start_limit = chosen == "none" ? patience : limit;
   std::vector<Rung> ladder;
-  if (options_.preconditioner == "auto" && chosen == "multigrid") {
+  if (options_.preconditioner == "auto" && keeps_to_grid(chosen)) {
     const double digits = -std::log10(options_.tolerance);
     ladder.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
     ladder.push_back({cg, "boomeramg", Start::warm, limit});
@@ -116,7 +116,7 @@ std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) c
 // Preconditioners that need not keep to the grid's stencil know of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
   const LinearSystem* system = &liquid_;
-  const bool filled = J_.any_deforms() && system_.is_coupled() && name != "multigrid";
+  const bool filled = J_.any_deforms() && system_.is_coupled() && !keeps_to_grid(name);
   if (filled) {
     built.matrix =
         std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
@@ -191,7 +191,7 @@ SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vect
 // any the columns of J seen through a hierarchy are a model of their added mass, seen through a diagonal they are not.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || J_.any_deforms()));
+  const bool poor = chosen == "none" || (keeps_to_grid(chosen) && (J_.blocks.size() > few_bodies || J_.any_deforms()));
   return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
 }
 
