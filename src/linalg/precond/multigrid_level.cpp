@@ -141,6 +141,11 @@ typename MultigridLevel<Dim>::HalfRow MultigridLevel<Dim>::half_row(std::size_t 
   h.b = b.data() + own;
   h.inverse = inverse.data() + own;
   h.span = span_[row];
+  // The other cell of the first and of the last pair may be a ghost.
+  h.span.begin = std::max(h.span.begin, (rows.cells.lower[0] - rows.base - odd + 1) >> 1);
+  h.span.end = std::min(h.span.end, (rows.cells.upper[0] - rows.base - odd + 1) >> 1);
+  h.span.even_begin = std::max(h.span.even_begin, h.span.begin);
+  h.span.even_end = std::max(h.span.even_end, h.span.even_begin);
   const float *before = x.data() + other + odd - 1, *after = x.data() + other + odd;
   h.neighbour[0] = before, h.face[0] = face[0].data() + other + odd - 1;
   h.neighbour[1] = after, h.face[1] = face[0].data() + own;
@@ -169,6 +174,9 @@ void MultigridLevel<Dim>::scale_red() {
 
 template <int Dim>
 void MultigridLevel<Dim>::relax_from_zero(int sweeps) {
+  // Across an odd period cells of one color meet: black ones then see what is left of black ghosts.
+  const bool odd = std::any_of(periodic.begin(), periodic.end(), [](int n) { return n & 1; });
+  if (odd) std::fill(x.begin(), x.end(), 0.0f);
   for (int s = 0; s < sweeps; ++s) {
     s == 0 ? scale_red() : relax(Color::red);
     relax(Color::black);

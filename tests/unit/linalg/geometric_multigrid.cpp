@@ -138,6 +138,7 @@ TEST_CASE("Geometric multigrid takes boxes of any size, closed, open and periodi
   const std::array<int, 3> periodic = GENERATE(std::array{0, 0, 0}, std::array{1, 0, 0}, std::array{0, 1, 1});
   cases::Poisson p = box(3, size, outside);
   p.periodic = periodic;
+  CAPTURE(size, periodic, outside == Kind::air);
   CHECK(solve(cases::build(p, Communicator())).iterations <= 12);
   p.dimension = 2;
   p.size[2] = 1;
