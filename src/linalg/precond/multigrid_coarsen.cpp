@@ -35,7 +35,7 @@ CellBox children_of(const Cell& coarse, const CellBox& fine) {
 template <int Dim>
 class Parts {
  public:
-  Parts(const MultigridLevel<Dim>& fine, const Cell& coarse) : fine_(fine), lower_(2 * coarse[0]) {
+  Parts(const MultigridLevel<Dim>& fine, const Cell& coarse) : fine_(fine) {
     for_each_cell(children_of<Dim>(coarse, fine.rows.cells), [&](const Cell& c) {
       unsigned child = 0;
       for (int a = 0; a < Dim; ++a) child |= unsigned(c[a] & 1) << a;
@@ -44,8 +44,8 @@ class Parts {
     });
   }
 
-  // Children outside of the part that has most to do with cells around.
-  unsigned outsiders() const {
+  // The part that has most to do with cells around.
+  unsigned main() const {
     unsigned best = part_of_first(active_), left = active_ & ~best;
     float most = left ? outward(best) : 0;
     while (left) {
@@ -53,15 +53,11 @@ class Parts {
       left &= ~part;
       if (const float weight = outward(part); weight > most) best = part, most = weight;
     }
-    return active_ & ~best;
+    return best;
   }
+  unsigned active() const { return active_; }
   std::size_t place(unsigned child) const { return place_[child]; }
 
- private:
-  bool joined(unsigned child, unsigned axis) const {
-    const std::size_t low = place_[child & ~(1u << axis)], high = place_[child | (1u << axis)];
-    return fine_.face[axis][low] * std::max(fine_.inverse[low], fine_.inverse[high]) >= strong;
-  }
   // The part of `among` that its first child belongs to.
   unsigned part_of_first(unsigned among) const {
     unsigned part = among & (~among + 1), before = 0;
@@ -75,42 +71,91 @@ class Parts {
     }
     return part;
   }
+  // visit(axis, step, cell across, c) for the links of a child that leave the coarse cell.
+  template <class Visit>
+  void for_outward(unsigned child, Visit visit) const {
+    for (int axis = 0; axis < Dim; ++axis) {
+      const int step = (child >> axis & 1u) ? 1 : -1;
+      const std::size_t at = place_[child], across = fine_.rows.neighbour(at, int(child & 1u), axis, step);
+      visit(axis, step, across, fine_.face[axis][step > 0 ? at : across]);
+    }
+  }
+
+ private:
+  bool joined(unsigned child, unsigned axis) const {
+    const std::size_t low = place_[child & ~(1u << axis)], high = place_[child | (1u << axis)];
+    return fine_.face[axis][low] * std::max(fine_.inverse[low], fine_.inverse[high]) >= strong;
+  }
   // Sum over the cells of a part of the share of links that leave the coarse cell.
   float outward(unsigned part) const {
     float sum = 0;
     for (unsigned child = 0; child < 1u << Dim; ++child)
-      for (int axis = 0; axis < Dim && (part >> child & 1u); ++axis) {
-        const int step = (child >> axis & 1u) ? 1 : -1, i = lower_ + int(child & 1u);
-        const std::size_t at = place_[child], low = step > 0 ? at : fine_.rows.neighbour(at, i, axis, -1);
-        sum += fine_.face[axis][low] * fine_.inverse[at];
-      }
+      if (part >> child & 1u)
+        for_outward(child, [&](int, int, std::size_t, float c) { sum += c * fine_.inverse[place_[child]]; });
     return sum;
   }
 
   const MultigridLevel<Dim>& fine_;
-  int lower_;
   std::array<std::size_t, 1 << Dim> place_{};
   unsigned active_ = 0;
 };
 
-// 1 where a cell belongs to the coarse cell around it, else 0; lists the red ones of the latter.
+// 1 where a cell belongs to the coarse cell around it, else 0. Notes the coarse cells that have such cells.
 template <int Dim>
-std::vector<float> find_outsiders(MultigridLevel<Dim>& fine, const SplitRows<Dim>& coarse) {
+std::vector<float> find_outsiders(const MultigridLevel<Dim>& fine, const SplitRows<Dim>& coarse,
+                                  std::vector<Cell>& divided) {
   std::vector<float> belongs(fine.rows.size(), 1.0f);
-  std::vector<std::vector<Outsider>> of_row(std::size_t(coarse.own_rows()));
+  std::vector<std::vector<Cell>> of_row(std::size_t(coarse.own_rows()));
   for_own_rows(coarse, [&](std::size_t n, int J, int K) {
     for (int I = coarse.cells.lower[0]; I < coarse.cells.upper[0]; ++I) {
       const Parts<Dim> parts(fine, {I, J, K});
-      for (unsigned out = parts.outsiders(), child = 0; out; ++child, out >>= 1) {
-        if (!(out & 1u)) continue;
-        belongs[parts.place(child)] = 0;
-        const bool red = ((child ^ child >> 1 ^ child >> 2) & 1u) == 0;
-        if (red) of_row[n].push_back({parts.place(child), coarse.at({I, J, K}), int(child & 1u)});
-      }
+      const unsigned out = parts.active() & ~parts.main();
+      for (unsigned child = 0; child < 1u << Dim; ++child)
+        if (out >> child & 1u) belongs[parts.place(child)] = 0;
+      if (out) of_row[n].push_back({I, J, K});
     }
   });
-  for (const auto& row : of_row) fine.outsiders.insert(fine.outsiders.end(), row.begin(), row.end());
+  for (const auto& row : of_row) divided.insert(divided.end(), row.begin(), row.end());
   return belongs;
+}
+
+// The neighbouring coarse cell that a part is linked to most strongly, on this rank and through cells that belong to
+// it; 0 if there is none.
+template <int Dim>
+std::size_t find_host(const Parts<Dim>& parts, unsigned part, const Cell& around, const SplitRows<Dim>& coarse,
+                      const std::vector<float>& belongs) {
+  std::size_t host = 0;
+  float most = 0;
+  for (unsigned child = 0; child < 1u << Dim; ++child) {
+    if (!(part >> child & 1u)) continue;
+    parts.for_outward(child, [&](int axis, int step, std::size_t across, float c) {
+      Cell next = around;
+      next[axis] += step;
+      const bool here = next[axis] >= coarse.cells.lower[axis] && next[axis] < coarse.cells.upper[axis];
+      if (here && c * belongs[across] > most) host = coarse.at(next), most = c * belongs[across];
+    });
+  }
+  return host;
+}
+
+// Parts beside the main one join a neighbouring coarse cell, with their e.
+template <int Dim>
+void place_outsiders(MultigridLevel<Dim>& fine, const SplitRows<Dim>& coarse, const std::vector<Cell>& divided,
+                     const std::vector<float>& belongs, const std::vector<float>& excess,
+                     std::vector<float>& coarse_e) {
+  for (const Cell& around : divided) {
+    const Parts<Dim> parts(fine, around);
+    for (unsigned left = parts.active() & ~parts.main(), part = 0; left; left &= ~part) {
+      part = parts.part_of_first(left);
+      const std::size_t host = find_host(parts, part, around, coarse, belongs);
+      for (unsigned child = 0; child < 1u << Dim; ++child) {
+        if (!(part >> child & 1u)) continue;
+        const bool red = ((child ^ child >> 1 ^ child >> 2) & 1u) == 0;
+        if (red) fine.outsiders.push_back({parts.place(child), coarse.at(around), host, int(child & 1u)});
+        if (host > 0) coarse_e[host] += excess[parts.place(child)];
+      }
+    }
+  }
 }
 
 // c between a child and the one beside it in the same coarse cell.
@@ -180,9 +225,11 @@ std::unique_ptr<MultigridLevel<Dim>> coarsen(MultigridLevel<Dim>& fine, std::vec
   for (int a = 0; a < Dim; ++a)
     if (fine.periodic[a] > 2) periodic[a] = (fine.periodic[a] + 1) / 2;
   auto coarse = std::make_unique<MultigridLevel<Dim>>(std::move(blocks), periodic, fine.ranks);
-  std::vector<float> belongs = find_outsiders(fine, coarse->rows);
+  std::vector<Cell> divided;
+  std::vector<float> belongs = find_outsiders(fine, coarse->rows, divided);
   fine.fill_ghosts(belongs);
   std::vector<float> coarse_e(coarse->rows.size(), 0.0f);
+  place_outsiders(fine, coarse->rows, divided, belongs, excess, coarse_e);
   fill_coefficients(fine, belongs, excess, *coarse, coarse_e);
   for (auto& field : coarse->face) coarse->fill_ghosts(field);
   coarse->finish(coarse_e);

@@ -195,7 +195,7 @@ template <int Dim>
 float MultigridLevel<Dim>::residual(const Outsider& o) const {
   float sum = b[o.cell];
   for (int a = 0; a < Dim; ++a) {
-    const std::size_t low = rows.neighbour(o.cell, o.low_half, a, -1), high = rows.neighbour(o.cell, o.low_half, a, 1);
+    const std::size_t low = rows.neighbour(o.cell, o.odd, a, -1), high = rows.neighbour(o.cell, o.odd, a, 1);
     sum += face[a][low] * x[low] + face[a][o.cell] * x[high];
   }
   return sum - x[o.cell] / inverse[o.cell];
@@ -236,7 +236,11 @@ void MultigridLevel<Dim>::restrict_residual(MultigridLevel& coarse) const {
       }
     }
   });
-  for (const Outsider& o : outsiders) coarse.b[o.home] -= residual(o);
+  for (const Outsider& o : outsiders) {
+    const float r = residual(o);
+    coarse.b[o.around] -= r;
+    if (o.host > 0) coarse.b[o.host] += r;
+  }
 }
 
 template <int Dim>
@@ -253,7 +257,7 @@ void MultigridLevel<Dim>::add_correction(const MultigridLevel& coarse) {
       }
     });
   });
-  for (const Outsider& o : outsiders) x[o.cell] -= coarse.x[o.home];
+  for (const Outsider& o : outsiders) x[o.cell] += (o.host > 0 ? coarse.x[o.host] : 0) - coarse.x[o.around];
   red_.run(x.data(), x.data());
 }
 

@@ -9,10 +9,11 @@ namespace seiche {
 
 enum class Color { red, black };
 
-// A red cell that does not belong to the coarse cell around it. Places in storage; `home` is that coarse cell.
+// A red cell that does not belong to the coarse cell around it, `around`, but to a neighbour of that, `host`, or to
+// none: 0. Places in storage.
 struct Outsider {
-  std::size_t cell, home;
-  int low_half;  // its number along axis 0, for its neighbours
+  std::size_t cell, around, host;
+  int odd;  // 1 for odd numbers along axis 0
 };
 
 template <int Dim>
