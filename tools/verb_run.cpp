@@ -17,7 +17,7 @@ void add_session_options(CLI::App& verb, SessionOptions& session) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb.add_option("--inject", session.inject, "Test only: phase:rank:kind[:nth]")->group("");
-  verb.add_option("--break", session.tampering, "Test only: operator:factor")->group("");
+  verb.add_option("--break", session.perturbation, "Test only: operator:factor")->group("");
   verb.add_flag_callback(
       "--quiet", [&session] { session.verbosity = Verbosity::quiet; }, "Print warnings and errors only");
 }

@@ -48,7 +48,8 @@ double smooth_norm(const Layout<Dim>& layout, const double* f) {
 // phi <- phi + w (d - phi), d the distance of the nearest point of the zero, w from 0 to 1 as phi or its slope there is
 // off, but for fixed cells; marks the cells that relaxation is to leave alone. phi in cells, ghosts filled.
 template <int Dim>
-void settle_near_zero(const Layout<Dim>& layout, double reach, CellField<Dim>& phi, CellField<Dim, char>& fixed) {
+void correct_by_closest_points(const Layout<Dim>& layout, double reach, CellField<Dim>& phi,
+                               CellField<Dim, char>& fixed) {
   constexpr double none = 0.02, all = 0.1;
   const CellField<Dim> start = phi;
   for_each_index(layout, layout.cells(), [&](Site s, const IVec<Dim>& i) {
@@ -210,8 +211,8 @@ void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const Redistan
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
   CellField<Dim, char> fixed = kept ? *kept : CellField<Dim, char>(layout, 0);
-  if (options.settled > 0) {
-    settle_near_zero(layout, options.settled, phi, fixed);
+  if (options.closest_point_cells > 0) {
+    correct_by_closest_points(layout, options.closest_point_cells, phi, fixed);
     fill_ghosts(layout, halo, 1.0, phi);
   }
   Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);

@@ -9,7 +9,7 @@ struct RedistanceOptions {
   int iterations = 8;  // each carries distance 0.45 cells outwards
   int entering = 2;    // layers beyond the band that may enter it: what the interface moved since the last call
   // Cells from the zero within which phi follows from the nearest points of its zero; at most halo - 1.
-  double settled = 0;
+  double closest_point_cells = 0;
 };
 
 // Pseudo-time relaxation of |grad phi| = 1 with second-order ENO differences that stop at the interface (Russo, Smereka

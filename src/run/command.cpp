@@ -6,7 +6,7 @@
 
 #include "base/agree.h"
 #include "base/scene.h"
-#include "coupling/state/tampering.h"
+#include "coupling/state/operator_perturbation.h"
 #include "files/checkpoint.h"
 #include "run/fault.h"
 #include "run/loop.h"
@@ -22,7 +22,7 @@ namespace {
 // Throws Error(bad_input).
 void check_test_options(const SessionOptions& session) {
   parse_injection(session.inject);
-  parse_tampering(session.tampering);
+  parse_perturbation(session.perturbation);
 }
 
 // Reads the scene; the same on all ranks.

@@ -22,7 +22,7 @@ struct SessionOptions {
   std::optional<double> walltime;  // s
   double watchdog = 600;           // s without progress before the run is aborted
   std::string inject;              // see fault.h
-  std::string tampering;           // see coupling/state/tampering.h
+  std::string perturbation;        // see coupling/state/operator_perturbation.h
   Verbosity verbosity = Verbosity::normal;
 };
 

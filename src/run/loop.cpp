@@ -164,7 +164,7 @@ void RunLoop::account(const StepStats& stats) {
   state_.worst_residual = std::max(state_.worst_residual, stats.solver_residual);
   state_.worst_divergence = std::max(state_.worst_divergence, stats.max_divergence);
   state_.rejected_steps += stats.rejected;
-  state_.unsettled_partings += stats.parting_error > 0;
+  state_.unconverged_separations += stats.separation_error > 0;
   state_.cells_liquid = double(stats.cells_liquid);
   state_.wall_seconds = earlier_seconds_ + session_seconds();
   state_.phase_seconds = earlier_phases_;

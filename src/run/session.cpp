@@ -7,7 +7,7 @@
 
 #include "base/agree.h"
 #include "base/scene.h"
-#include "coupling/state/tampering.h"
+#include "coupling/state/operator_perturbation.h"
 #include "fluid/rheology/rheology.h"
 #include "grid/thread_limit.h"
 #include "run/fault.h"
@@ -150,7 +150,7 @@ ExitCode run_session(const Session& session, const Restore& restore) {
     if (stopped_early(around.ranks, session.log)) return ExitCode::stopped;
     watchdog.beat("setting up");
     const std::unique_ptr<Simulation> simulation =
-        make_simulation(session.scene, around.ranks, parse_tampering(session.options.tampering));
+        make_simulation(session.scene, around.ranks, parse_perturbation(session.options.perturbation));
     prepare_files(session);
     watchdog.beat("restoring");
     const RunState start = restore ? restore(*simulation) : RunState{};

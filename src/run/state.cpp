@@ -7,7 +7,7 @@
 namespace seiche {
 namespace {
 
-constexpr const char* unsettled_partings = "run.unsettled_partings";  // missing in older checkpoints: then zero
+constexpr const char* unconverged_separations = "run.unsettled_partings";  // missing in older checkpoints: then zero
 const std::string probe_prefix = "run.probe_due.", phase_prefix = "run.phase.", checksum_prefix = "run.table_checksum.";
 
 // One list for both directions: f(name, number) for every plain number of the state.
@@ -28,7 +28,7 @@ void for_each_number(State& s, F&& f) {
   f("run.worst_divergence", s.worst_divergence);
   f("run.rejected_steps", s.rejected_steps);
   f("run.cells_liquid", s.cells_liquid);
-  f(unsettled_partings, s.unsettled_partings);
+  f(unconverged_separations, s.unconverged_separations);
 }
 
 std::map<std::string, double> with_prefix(const std::map<std::string, double>& all, const std::string& prefix) {
@@ -53,7 +53,7 @@ RunState restore_run_state(const CheckpointData& data) {
   RunState state;
   for_each_number(state, [&](const char* name, auto& value) {
     const auto entry = data.scalars.find(name);
-    if (entry == data.scalars.end() && name == std::string(unsettled_partings)) return;
+    if (entry == data.scalars.end() && name == std::string(unconverged_separations)) return;
     if (entry == data.scalars.end()) {
       throw Error(ExitCode::bad_checkpoint, fmt::format("the checkpoint lacks the entry {}", name));
     }

@@ -21,8 +21,8 @@ struct RunState {
   double initial_volume = 0, liquid_volume = 0, expected_volume = 0, volume_corrected = 0;  // m^3
   double worst_residual = 0, worst_divergence = 0;
   double rejected_steps = 0, cells_liquid = 0;
-  double unsettled_partings = 0;  // steps whose separating-wall iteration did not converge
-  std::string scene_text;         // the normalised scene
+  double unconverged_separations = 0;  // steps whose separating-wall iteration did not converge
+  std::string scene_text;              // the normalised scene
 };
 
 void store(const RunState& state, CheckpointData& data);

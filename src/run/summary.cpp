@@ -51,7 +51,7 @@ std::string format_summary(const RunSummary& s) {
       {"omp_num_threads", s.omp_num_threads.empty() ? "null" : json_string(s.omp_num_threads)},
       {"steps", std::to_string(s.state.step)},
       {"rejected_steps", json_number(s.state.rejected_steps)},
-      {"unsettled_partings", json_number(s.state.unsettled_partings)},
+      {"unsettled_partings", json_number(s.state.unconverged_separations)},
       {"frames", std::to_string(s.state.frame + 1)},
       {"time", json_number(s.state.time)},
       {"end", json_number(s.end)},

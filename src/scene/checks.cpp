@@ -185,8 +185,8 @@ void check_moving_solids(const Checker& c, const Scene& scene) {
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const SolidSpec& solid = scene.solids[i];
     const bool has_elements = solid.kind.has_elements;
-    const bool is_loose = solid.kind.is_free() && (!has_elements || solid.elastic.pinned.empty());
-    for (int axis = 0; axis < scene.dimension && is_loose; ++axis) {
+    const bool is_pressure_free = solid.kind.is_free() && (!has_elements || solid.elastic.pinned.empty());
+    for (int axis = 0; axis < scene.dimension && is_pressure_free; ++axis) {
       if (scene.domain.sides[axis][0].type != SideType::periodic || solid.rigid.fixed_position[axis]) continue;
       c.report(fmt::format("solid.{}.kind", i),
                fmt::format("{0} solid \"{1}\" may move along {2}, but the domain is periodic along {2}, where bodies "

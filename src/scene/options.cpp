@@ -8,7 +8,7 @@ namespace seiche {
 namespace {
 
 using T = OptionType;
-using Sides = std::array<std::array<SideSpec, 2>, 3>;
+using DomainBoundary = std::array<std::array<SideSpec, 2>, 3>;
 constexpr double shortest_time = 1e-12;  // s; shorter steps would never finish a run
 
 Section<SideSpec> side_section() {
@@ -52,19 +52,19 @@ TomlNode side_table(const TomlNode& node) {
   return table;
 }
 
-Key<Sides> side_key(int axis, int end) {
+Key<DomainBoundary> side_key(int axis, int end) {
   const std::string name = std::string(1, "xyz"[axis]) + (end == 0 ? "_lower" : "_upper");
   const Section<SideSpec> section = side_section();
   const std::vector<Option> options = own_options(section);
   const Option option{
       .key = name, .type = T::table, .fallback = "\"free_slip\"", .doc = "a type in quotes, or a table as below"};
-  Key<Sides> key{option, {}, {}, [section] { return all_options(section); }};
-  key.read = [=](SceneContext& c, const Place& p, Sides& sides) {
+  Key<DomainBoundary> key{option, {}, {}, [section] { return all_options(section); }};
+  key.read = [=](SceneContext& c, const Place& p, DomainBoundary& sides) {
     const TomlNode table = side_table(*p.node);
     const Place place{&table, p.path};
     if (check_is_table(c, place, option)) read_section(c, place, section, options, sides[axis][end]);
   };
-  key.write = [=](const Sides& sides, int dimension, const std::string& path, SceneLines& lines) {
+  key.write = [=](const DomainBoundary& sides, int dimension, const std::string& path, SceneLines& lines) {
     if (axis >= dimension) return;
     const SceneLines inner = write_section(section, sides[axis][end], dimension, join_path(path, name));
     lines.push_back({join_path(path, name), name, inner.size() == 1 ? inner[0].text : inline_table(inner)});
@@ -72,12 +72,12 @@ Key<Sides> side_key(int axis, int end) {
   return key;
 }
 
-Section<Sides> boundary_section() {
-  Section<Sides> s;
+Section<DomainBoundary> boundary_section() {
+  Section<DomainBoundary> s;
   for (int axis = 0; axis < 3; ++axis) {
     for (int end = 0; end < 2; ++end) s.keys.push_back(side_key(axis, end));
   }
-  s.finish = [](SceneContext& c, const Place& p, Sides&) {
+  s.finish = [](SceneContext& c, const Place& p, DomainBoundary&) {
     for (const TomlEntry& entry : p.node->entries) {
       const bool beyond = c.dimension == 2 && (entry.key == "z_lower" || entry.key == "z_upper");
       if (beyond)

@@ -46,14 +46,14 @@ FirstStep first_step(const Scene& scene, Route route = Route::factor) {
   const int n = f.coupling.size();
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
   std::vector<Eigen::Triplet<double>> entries;
-  f.coupling.potential->add_terms(Eigen::VectorXd::Zero(n), Curvature::exact, gradient, entries);
+  f.coupling.potential->add_terms(Eigen::VectorXd::Zero(n), HessianProjection::exact, gradient, entries);
   SparseMatrix K(n, n);
   K.setFromTriplets(entries.begin(), entries.end());
   const InertiaResponse response = f.problem.minimise(K, -gradient);
   INFO(response.failure);
   REQUIRE(response.failure.empty());
   REQUIRE(response.shape == Shape::convex);
-  CHECK(f.problem.report().ladder.empty());
+  CHECK(f.problem.report().failed_attempts.empty());
   return {f.problem.report().iterations, response.velocity};
 }
 

@@ -133,7 +133,7 @@ FaceField<Dim> projected(const ProjectionInput<Dim>& in, const PressureRows<Dim>
               .converged);
   CellField<Dim> pressure(in.layout);
   for (std::size_t n = 0; n < p.size(); ++n) pressure[rows.cells[n]] = p[n];
-  settle_air(in, rows, u, pressure);
+  equalise_air_pressure(in, rows, u, pressure);
   FaceField<Dim> restored(in.layout);
   for (int a = 0; a < Dim; ++a)
     for_each_site(in.layout, in.layout.faces(a), [&](Site f) {
@@ -153,7 +153,7 @@ void check_balance() {
   const Layout<Dim> layout(geometry, geometry.box(), 4);
   const Halo<Dim> halo(layout, {geometry.box()}, ranks);
   Scene scene = pool_scene(Dim, 24);
-  const Sides<Dim> sides(scene.domain);
+  const DomainBoundary<Dim> sides(scene.domain);
   const std::vector<Body<Dim>> bodies;
   const StepGeometry<Dim> g = SolidGeometry<Dim>(layout, sides, bodies).measure({}, 0);
   CellField<Dim> phi(layout);

@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "coupling/report/measures.h"
-#include "coupling/state/tampering.h"
+#include "coupling/state/operator_perturbation.h"
 #include "scenes.h"
 #include "unit/coupling/end.h"
 
@@ -51,16 +51,16 @@ void check_blown_up() {
     return fault_of_energy(setup, start, measured(setup, start, psi), psi, a);
   };
   CHECK(fault().empty());
-  Level<Dim> blown = *a.state.now;
+  TimeLevel<Dim> blown = *a.state.now;
   for (int axis = 0; axis < Dim; ++axis)
     for (double& u : blown.u[axis]) u *= 1000;
-  a.state.now = std::make_shared<Level<Dim>>(blown);
+  a.state.now = std::make_shared<TimeLevel<Dim>>(blown);
   CHECK_THAT(fault(), Contains("kinetic energy grows from") && Contains("it could draw on"));
 }
 
 // A gradient c times too large throws the pool up by (c - 1) g dt.
-std::unique_ptr<Simulation> tampered(int dim, double factor) {
-  Tampering wrong;
+std::unique_ptr<Simulation> perturbed(int dim, double factor) {
+  OperatorPerturbation wrong;
   wrong.pressure_gradient = factor;
   return make_simulation(drifting_pool(dim), Communicator(), wrong);
 }
@@ -78,7 +78,7 @@ TEST_CASE("velocities a thousand times too high in one step are a fault, sound o
 
 TEST_CASE("steps that blow up however short they are end the run with the energies", "[ranks]") {
   const int dim = GENERATE(2, 3);
-  const auto sim = tampered(dim, 1e4);
+  const auto sim = perturbed(dim, 1e4);
   try {
     (void)sim->step(1);
     FAIL("the step was accepted");

@@ -59,7 +59,7 @@ struct Projection {
     geometry = setup.solids.measure(place_bodies(state), 0);
     for (int a = 0; a < Dim; ++a)
       for (double& u : u_star[a]) u = dice(-1, 1);
-    auto level = std::make_shared<Level<Dim>>(empty_level(setup));
+    auto level = std::make_shared<TimeLevel<Dim>>(empty_level(setup));
     level->u = u_star;
     state.now = level;
     rows = number_rows(input());
@@ -75,7 +75,7 @@ struct Projection {
     const FaceField<Dim> slope(setup.layout);
     const auto solution = solve_coupled(CoupledInput<Dim>{setup, input(), geometry, state, guess, slope, u_star, u_star,
                                                           dt, nullptr, PhaseFault::none});
-    INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.ladder, "; ")));
+    INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.failed_attempts, "; ")));
     REQUIRE(solution.failure.empty());
     state.pressure = solution.pressure;
   }

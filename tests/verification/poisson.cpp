@@ -101,7 +101,7 @@ class Problem {
   Scene scene_;
   Layout<Dim> layout_;
   Halo<Dim> halo_;
-  Sides<Dim> sides_;
+  DomainBoundary<Dim> sides_;
   std::vector<Body<Dim>> bodies_;
   SolidGeometry<Dim> solids_;
   StepGeometry<Dim> step_;

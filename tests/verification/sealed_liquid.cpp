@@ -109,23 +109,23 @@ std::pair<double, double> sweeping_errors() {
   Projection<Dim> p(scene, Filling::closed, 1, [&](ElasticState& e) {
     for (double& u : e.u) u = dice(-1e-3, 1e-3);
   });
-  REQUIRE(p.coupling.swept.size() == 1);
+  REQUIRE(p.coupling.cavities.size() == 1);
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(p.coupling.size()), w = sums;
   p.coupling.J.for_each([&](int, int column, double value) { sums[column] += value; });
   for (double& x : w) x = dice(-0.1, 0.1);
   double size = 0, flux_error = 0;
-  for (const auto& cavity : p.coupling.swept) {
+  for (const auto& cavity : p.coupling.cavities) {
     CHECK(cavity.volume < 0);
     const Eigen::VectorXd& gradient = cavity.gradient[0];
     for (Eigen::Index i = 0; i < sums.size(); ++i)
       sums[i] = gradient[i] == 0 ? 0 : sums[i] + gradient[i] / cavity.face_area;
     size = std::max(size, gradient.cwiseAbs().maxCoeff() / cavity.face_area);
     const Eigen::VectorXd& u = cavity.u[0];
-    const double swept = enclosed_volume(cavity.walls, {u + dt * w}) - enclosed_volume(cavity.walls, {u});
+    const double cavities = enclosed_volume(cavity.walls, {u + dt * w}) - enclosed_volume(cavity.walls, {u});
     const Eigen::VectorXd middle = u + 0.5 * dt * w;
     const double linear = dt * enclosed_volume_gradient(cavity.walls, 0, middle).dot(w);
     const double flux = cavity.missing_flux(w) * cavity.row_count * cavity.face_area;
-    flux_error = std::max(flux_error, std::abs(flux - gradient.dot(w) + linear / dt) / std::abs(swept / dt));
+    flux_error = std::max(flux_error, std::abs(flux - gradient.dot(w) + linear / dt) / std::abs(cavities / dt));
   }
   return {sums.cwiseAbs().maxCoeff() / size, flux_error};
 }

@@ -65,7 +65,7 @@ class ViscousCase {
   }
 
   // Keeps a reference.
-  void let_part(const Parting<Dim>& parting) { projection_.parting = &parting; }
+  void let_part(const Separation<Dim>& separation) { projection_.separation = &separation; }
 
   void assemble() {
     rows = number_rows(projection_);
@@ -218,7 +218,7 @@ class ViscousCase {
   Scene scene_;
   Layout<Dim> layout_;
   Halo<Dim> halo_;
-  Sides<Dim> sides_;
+  DomainBoundary<Dim> sides_;
   std::vector<Body<Dim>> bodies_;
   SolidGeometry<Dim> solids_;
 

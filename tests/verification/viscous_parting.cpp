@@ -1,7 +1,7 @@
 // Liquid that may part from solids: the viscous operator beside it, and the search for where it does.
 #include <catch2/catch.hpp>
 
-#include "fluid/pressure/parting_search.h"
+#include "fluid/pressure/separation_search.h"
 #include "viscous_case.h"
 
 using namespace seiche;
@@ -17,18 +17,18 @@ double tilted_surface(const Vec<Dim>& x) {
 
 // The operator with no cell parted and with many: no slip, cut cells, a surface.
 template <int Dim>
-void check_guess_of_parting() {
+void check_guess_of_separation() {
   Vec3 center = Vec3::Zero();
   center.head<Dim>().setConstant(0.51);
   ViscousCase<Dim> p({.cells = 8, .viscosity = 0.3, .solids = {viscous_ball(center, 0.2)}, .phi = tilted_surface<Dim>});
-  Parting<Dim> parting(p.layout());
-  p.let_part(parting);
+  Separation<Dim> separation(p.layout());
+  p.let_part(separation);
   p.assemble();
   const Eigen::MatrixXd none = p.dense(true);
   const std::size_t cells = p.rows.cells.size();
   for_each_index_in_order(p.layout(), p.layout().cells(), [&](Site c, const IVec<Dim>& i) {
     const bool at_side = (i.array() == 0).any() || (i.array() == 7).any();
-    parting.parted[c] = p.rows.has_own(c) && (at_side || c % 3 == 0);
+    separation.separated[c] = p.rows.has_own(c) && (at_side || c % 3 == 0);
   });
   p.assemble();
   CHECK(p.rows.cells.size() < cells);
@@ -40,20 +40,20 @@ void check_guess_of_parting() {
 }  // namespace
 
 TEST_CASE("masses and stresses do not depend on the guess of which cells part") {
-  check_guess_of_parting<2>();
-  check_guess_of_parting<3>();
+  check_guess_of_separation<2>();
+  check_guess_of_separation<3>();
 }
 
 TEST_CASE("a search for the cells that part which no guess satisfies ends, and says how wrong it is") {
   ViscousCase<2> p({.cells = 8, .solids = {}, .phi = tilted_surface<2>});
-  Parting<2> parting(p.layout());
-  p.let_part(parting);
+  Separation<2> separation(p.layout());
+  p.let_part(separation);
   p.assemble();
   p.pressure.fill(-1);  // pulls where it has not parted,
   p.set(p.u_star, [](int a, const Vec<2>& x) { return -10 * (a == 0 ? x[0] : x[1]); });  // is squeezed where it has
-  PartingSearch<2> search(p.projection(), 1e-7, parting);
+  SeparationSearch<2> search(p.projection(), 1e-7, separation);
   int rounds = 0;
-  while (!search.is_settled_by(p.rows, {}, p.pressure, p.u_star) && rounds < 1000) ++rounds;
+  while (!search.has_converged_with(p.rows, {}, p.pressure, p.u_star) && rounds < 1000) ++rounds;
   CHECK(rounds == 50);
   CHECK(search.error() >= 1);
 }

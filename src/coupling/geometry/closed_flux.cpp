@@ -16,9 +16,9 @@ void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeom
 }
 
 template <int Dim>
-double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity) {
+double velocity_at(const SurfaceWeights& weights, int axis, const Eigen::VectorXd& node_velocity) {
   double v = 0;
-  for (const auto& [node, weight] : hung) v += weight * node_velocity[Dim * node + axis];
+  for (const auto& [node, weight] : weights) v += weight * node_velocity[Dim * node + axis];
   return v;
 }
 
@@ -28,9 +28,9 @@ void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velo
   const FaceShares& shares = *g.shares[body];
   for (std::size_t n = 0; n < shares.size(); ++n) {
     const int axis = shares[n].axis;
-    const SurfaceWeights& hung = (*g.attached[body])[n];
+    const SurfaceWeights& weights = (*g.face_weights[body])[n];
     g.faces.closed_flux.at(axis, shares[n].face) +=
-        shares[n].closed * (velocity_at<Dim>(hung, axis, velocity) - velocity_at<Dim>(hung, axis, present));
+        shares[n].closed * (velocity_at<Dim>(weights, axis, velocity) - velocity_at<Dim>(weights, axis, present));
   }
   if (g.cell_fluxes[body])
     for (const CellFlux& c : *g.cell_fluxes[body])

@@ -87,7 +87,7 @@ class DeformedSolid : public PlacedSolid<Dim> {
     return x - position(near, points_) + position(near, static_cast<const DeformedSolid&>(other).points_);
   }
   bool deforms() const override { return true; }
-  SurfaceWeights attach(const Vec<Dim>& x) const override {
+  SurfaceWeights weights_at(const Vec<Dim>& x) const override {
     SurfaceWeights weights = body_.is_thin() ? surface_.mean_around(x, spread * h_) : surface_.nearest_weights(x);
     for (auto& [node, weight] : weights) node = body_.elastic().surface.nodes[std::size_t(node)];
     return weights;

@@ -22,7 +22,7 @@ class PlacedSolid {
 
   // Nodes whose velocities its surface has near x; no list at all where it moves as its pose does.
   virtual bool deforms() const { return false; }
-  virtual SurfaceWeights attach(const Vec<Dim>&) const { return {}; }
+  virtual SurfaceWeights weights_at(const Vec<Dim>&) const { return {}; }
   // Whether it closes faces altogether or not at all. What a thin solid stretches by over a cell could leave it
   // through a sliver beside sealed faces.
   virtual bool closes_whole_faces() const { return false; }

@@ -100,7 +100,7 @@ void add_share(FaceShares& shares, const FaceShare& s) {
 }  // namespace
 
 template <int Dim>
-SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides,
+SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides,
                                   const std::vector<Body<Dim>>& bodies)
     : layout_(layout), sides_(sides), bodies_(bodies) {
   still_.psi = NodeField<Dim>(layout, far_away);
@@ -184,10 +184,11 @@ FaceShares SolidGeometry<Dim>::measure_moving(int k, const Placement& placed, No
   const Box<Dim> box = solid->fill(scratch);
   FaceShares shares = take_in(k, *solid, box, scratch, g);
   if (!solid->deforms()) return shares;
-  Attachments attached;
+  FaceWeights face_weights;
   for (const FaceShare& share : shares)
-    attached.push_back(solid->attach(layout_.position(layout_.index(share.face), face_offset<Dim>(share.axis))));
-  g.attached[k] = std::make_shared<const Attachments>(std::move(attached));
+    face_weights.push_back(
+        solid->weights_at(layout_.position(layout_.index(share.face), face_offset<Dim>(share.axis))));
+  g.face_weights[k] = std::make_shared<const FaceWeights>(std::move(face_weights));
   return shares;
 }
 
@@ -261,7 +262,7 @@ template <int Dim>
 StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& placed, double t) const {
   StepGeometry<Dim> g = still_;
   g.placed = placed;
-  g.attached.resize(bodies_.size());
+  g.face_weights.resize(bodies_.size());
   g.cell_fluxes.resize(bodies_.size());
   for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
   NodeField<Dim> scratch(layout_, far_away);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "coupling/geometry/joints.h"
+#include "fluid/boundary/domain_boundary.h"
 #include "fluid/boundary/face_geometry.h"
-#include "fluid/boundary/sides.h"
 #include "levelset/surface_distance.h"
 #include "solid/rigid/state.h"
 
@@ -21,7 +21,7 @@ using FaceShares = std::vector<FaceShare>;
 
 // What each face share of an elastic body hangs on: nodes of its mesh with their weights. Of a thick body the nearest
 // point of the surface, of a thin one the mean of the surface within some cells; none where there is none near.
-using Attachments = std::vector<SurfaceWeights>;
+using FaceWeights = std::vector<SurfaceWeights>;
 
 // What the velocity of a body's unknown takes out of a cell besides what the body's faces show, per face area.
 struct CellFlux {
@@ -49,16 +49,16 @@ struct StepGeometry {
   NodeField<Dim> psi;                 // distance to the nearest solid, m, negative inside
   NodeField<Dim, std::int16_t> body;  // index of that solid, -1 without solids
   FaceGeometry<Dim> faces;
-  std::vector<std::shared_ptr<const FaceShares>> shares;       // of each body, on the owned faces and two layers around
-  std::vector<std::shared_ptr<const Attachments>> attached;    // of each body that deforms; else null
-  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // likewise, once they are coupled; else null
-  std::vector<SealedFace> sealed;                              // likewise
+  std::vector<std::shared_ptr<const FaceShares>> shares;  // of each body, on the owned faces and two layers around
+  std::vector<std::shared_ptr<const FaceWeights>> face_weights;  // of each body that deforms; else null
+  std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;    // likewise, once they are coupled; else null
+  std::vector<SealedFace> sealed;                                // likewise
   // Of each body as the solve finds it; after a step by halves poses and psi are those of its end, while shares, faces
   // and the velocities of twists are those of its middle.
   std::vector<Placement> placed;
   std::vector<Vec3> pivots;  // reference points as the solve finds them
 
-  bool deforms(int k) const { return attached[std::size_t(k)] != nullptr; }
+  bool deforms(int k) const { return face_weights[std::size_t(k)] != nullptr; }
 };
 
 // Lets a body move with a twist and, if it deforms, the velocities of its nodes: its share of each face pushes volume
@@ -73,12 +73,12 @@ void set_node_velocity(const Layout<Dim>& layout, int body, const Eigen::VectorX
 
 // The velocity along an axis of what a share hangs on.
 template <int Dim>
-double velocity_at(const SurfaceWeights& hung, int axis, const Eigen::VectorXd& node_velocity);
+double velocity_at(const SurfaceWeights& weights, int axis, const Eigen::VectorXd& node_velocity);
 
 template <int Dim>
 class SolidGeometry {
  public:
-  SolidGeometry(const Layout<Dim>& layout, const Sides<Dim>& sides, const std::vector<Body<Dim>>& bodies);
+  SolidGeometry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, const std::vector<Body<Dim>>& bodies);
 
   // The solids as placed, at time t.
   StepGeometry<Dim> measure(const std::vector<Placement>& placed, double t) const;
@@ -98,7 +98,7 @@ class SolidGeometry {
   bool is_leaving(const Placement& placed, double radius) const;
 
   const Layout<Dim>& layout_;
-  const Sides<Dim>& sides_;
+  const DomainBoundary<Dim>& sides_;
   const std::vector<Body<Dim>>& bodies_;
   StepGeometry<Dim> still_;  // of the static bodies
   std::vector<JoinedFacet<Dim>> joints_;

@@ -60,7 +60,7 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
   if (name == "surface")
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
   else if (name == "vel")
-    fill(FrameField::Kind::staggered_vector, [&, u = of_both(domain, state, &Level<Dim>::u)](Site c) {
+    fill(FrameField::Kind::staggered_vector, [&, u = of_both(domain, state, &TimeLevel<Dim>::u)](Site c) {
       for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(u.at(std::min(a, Dim - 1), c)) : 0.0f);
     });
   else if (name == "pressure")
@@ -69,7 +69,7 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
     fill(FrameField::Kind::scalar,
          [&, mu = viscosity(domain, fluids, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
-    fill(FrameField::Kind::scalar, [&, u = of_both(domain, state, &Level<Dim>::u)](Site c) {
+    fill(FrameField::Kind::scalar, [&, u = of_both(domain, state, &TimeLevel<Dim>::u)](Site c) {
       out.values.push_back(float(vorticity(domain, fluids, state, u, c)));
     });
   else

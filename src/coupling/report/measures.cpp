@@ -21,7 +21,7 @@ struct FacePair {
 };
 
 template <int Dim>
-FacePair solved_faces(const Domain<Dim>& domain, const Level<Dim>& l, int axis, Site cell) {
+FacePair solved_faces(const Domain<Dim>& domain, const TimeLevel<Dim>& l, int axis, Site cell) {
   const Site up = cell + domain.layout.stride(axis);
   const bool low = l.valid.at(axis, cell), high = l.valid.at(axis, up);
   return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
@@ -29,7 +29,7 @@ FacePair solved_faces(const Domain<Dim>& domain, const Level<Dim>& l, int axis, 
 
 // The larger speed of a cell's faces along an axis that the fluid touches.
 template <int Dim>
-double fastest_solved(const Domain<Dim>& domain, const Level<Dim>& l, int axis, Site cell) {
+double fastest_solved(const Domain<Dim>& domain, const TimeLevel<Dim>& l, int axis, Site cell) {
   double fastest = 0;
   for (const Site f : {cell, cell + domain.layout.stride(axis)})
     if (l.valid.at(axis, f)) fastest = std::max(fastest, std::abs(l.u.at(axis, f)));
@@ -45,7 +45,7 @@ struct FluidSums {
 // E_kin = sum_cells rho V sum_a (u_low^2 + u_high^2)/4, momentum = sum rho V (u_low + u_high)/2, E_pot = -sum rho V
 // g.x with gravity at that time; the fluid is where phi < 0.
 template <int Dim>
-FluidSums sum_fluid(const Domain<Dim>& domain, const Level<Dim>& level, const CellField<Dim>& phi,
+FluidSums sum_fluid(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const CellField<Dim>& phi,
                     const NodeField<Dim>& psi, double density, const Vec<Dim>& g) {
   FluidSums r;
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {

@@ -152,7 +152,7 @@ std::map<std::string, MaterialPoint> find_followed_points(const std::vector<Prob
 // Zero where nothing flows.
 template <int Dim>
 Vec3 velocity_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
-  const FaceField<Dim> u = of_both(domain, state, &Level<Dim>::u);
+  const FaceField<Dim> u = of_both(domain, state, &TimeLevel<Dim>::u);
   Vec3 v = Vec3::Zero();
   if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, u, x));
   domain.ranks.global_sum(std::span<double>(v.data(), 3));

@@ -13,7 +13,7 @@ class Cavities : public Interaction<Dim> {
   explicit Cavities(const std::vector<Body<Dim>>& bodies) : bodies_(bodies) {}
 
   void couple(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) const override {
-    parts.coupling.swept = correct_swept_volume(step, elastic_motions(step.state.solids), parts.entries);
+    parts.coupling.cavities = constrain_cavity_volumes(step, elastic_motions(step.state.solids), parts.entries);
   }
 
   void keep_over(const State<Dim>& state, double dt, std::vector<Eigen::VectorXd>& velocities) const override {
@@ -21,11 +21,11 @@ class Cavities : public Interaction<Dim> {
   }
 
   void take(const SolidCoupling<Dim>& c, State<Dim>& state) const override {
-    for (std::size_t n = 0; n < c.swept.size(); ++n)
-      for (const WallPatch<Dim>& wall : c.swept[n].walls) {
+    for (std::size_t n = 0; n < c.cavities.size(); ++n)
+      for (const WallPatch<Dim>& wall : c.cavities[n].walls) {
         ElasticMotion& motion = *elastic_motion(state.solids[std::size_t(wall.body)]);
         motion.cavity[wall.patch] = double(n);
-        motion.kept_volume[wall.patch] = c.swept[n].volume;
+        motion.kept_volume[wall.patch] = c.cavities[n].volume;
       }
   }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Which patches of elastic bodies are the walls of liquid without a given pressure.
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/solids/link_graph.h"
-#include "coupling/solids/swept_volume.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"
 

@@ -8,9 +8,9 @@
 #include "base/domain_spec.h"
 #include "base/error.h"
 #include "coupling/solids/solid_coupling.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
@@ -39,7 +39,8 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
 }  // namespace
 
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering) {
+ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids,
+                                     const OperatorPerturbation& perturbation) {
   std::vector<ContactBody> contact;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const Body<Dim>& body = solids[k].body();
@@ -47,7 +48,7 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>
     c.surface = body.contact_surface();
     solids[k].describe_contact(c);
     c.friction = body.spec().friction;
-    if (c.friction) *c.friction *= tampering.friction;
+    if (c.friction) *c.friction *= perturbation.friction;
     c.name = body.spec().name;
   }
   return {contact, closed_sides<Dim>(scene.domain)};
@@ -72,7 +73,7 @@ ContactOptions contact_options(const Setup<Dim>& s) {
                g = weight > 0 ? weight : length * rate * rate;
   ContactOptions o;
   o.reach = reach * h;
-  o.acceleration = s.tampering.contact * g;
+  o.acceleration = s.perturbation.contact * g;
   o.usual_speed = std::sqrt(g * h);
   o.creep_speed = 1e-4 * o.usual_speed;
   o.speed_tolerance = 0.01 * o.creep_speed;
@@ -227,13 +228,13 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
   return largest_safe_fraction(*solids.contact, contact_motions(state, dt), dt, velocities_over(solids, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const Tampering&);         \
-  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);          \
-  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&); \
-  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);       \
-  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                \
-  template ContactOptions contact_options<D>(const Setup<D>&);                                                    \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const OperatorPerturbation&); \
+  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);             \
+  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);    \
+  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);          \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                   \
+  template ContactOptions contact_options<D>(const Setup<D>&);                                                       \
   template double safe_share<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

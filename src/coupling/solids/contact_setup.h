@@ -1,17 +1,18 @@
 #pragma once
 // The solids and the walls of the domain as the contact solve sees them.
 #include "base/domain_spec.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // All solids of the scene, and every closed side of the domain as a wall.
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids, const Tampering& tampering);
+ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids,
+                                     const OperatorPerturbation& perturbation);
 
 // Refuses bodies with unknowns that touch or overlap something at the start, and elastic ones that reach beyond a
 // periodic side: Error(bad_input) naming the pairs and depths.

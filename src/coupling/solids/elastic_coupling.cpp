@@ -9,7 +9,7 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/thin/thin_weight.h"
+#include "coupling/thin/liquid_beside.h"
 #include "fluid/boundary/domain.h"
 #include "linalg/core/matrix_entries.h"
 #include "solid/elastic/potential.h"
@@ -19,17 +19,18 @@ namespace seiche {
 namespace {
 
 template <int Dim>
-void add_entries(int row, double value, int axis, const SurfaceWeights& hung, std::vector<FluxEntry>& entries) {
-  for (const auto& [node, weight] : hung) entries.push_back({row, Dim * node + axis, value * weight});
+void add_entries(int row, double value, int axis, const SurfaceWeights& weights, std::vector<FluxEntry>& entries) {
+  for (const auto& [node, weight] : weights) entries.push_back({row, Dim * node + axis, value * weight});
 }
 
 // Shares spread to the nodes that they hang on.
 template <int Dim>
-std::vector<FluxEntry> spread_shares(const Domain<Dim>& domain, const FaceShares& shares, const Attachments& attached,
-                                     const PressureRows<Dim>& rows) {
+std::vector<FluxEntry> spread_shares(const Domain<Dim>& domain, const FaceShares& shares,
+                                     const FaceWeights& face_weights, const PressureRows<Dim>& rows) {
   std::vector<FluxEntry> entries;
   for_each_cell_of_shares(domain, shares, rows, [&](Site cell, double sign, std::size_t n) {
-    add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, attached[n], entries);
+    add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, face_weights[n],
+                     entries);
   });
   return entries;
 }
@@ -44,7 +45,7 @@ struct CellShares {
 // facets between the sides stays.
 template <int Dim>
 void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, const FaceShares& shares,
-                      const Attachments& attached, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
+                      const FaceWeights& face_weights, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
   if (solid.patches.size() == 1) return;
   const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
@@ -52,10 +53,10 @@ void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
   const auto patch = [&](std::size_t n) {
     int of = -1;
-    for (const auto& [node, weight] : attached[n]) of = std::max(of, patch_of_node[std::size_t(node)]);
+    for (const auto& [node, weight] : face_weights[n]) of = std::max(of, patch_of_node[std::size_t(node)]);
     return of;
   };
-  const auto hangs = [&](std::size_t n) { return !attached[n].empty() && patch(n) >= 0; };
+  const auto hangs = [&](std::size_t n) { return !face_weights[n].empty() && patch(n) >= 0; };
   const auto center = [&](std::size_t n) {
     return domain.layout.position(domain.layout.index(shares[n].face), face_offset<Dim>(shares[n].axis));
   };
@@ -73,8 +74,8 @@ void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
         if (!hangs(m) || patch(m) != own) continue;
         if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
       }
-      add_entries<Dim>(row, -sign * shares[n].closed, shares[n].axis, attached[n], entries);
-      add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, attached[best], entries);
+      add_entries<Dim>(row, -sign * shares[n].closed, shares[n].axis, face_weights[n], entries);
+      add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, face_weights[best], entries);
     }
   }
 }
@@ -97,7 +98,7 @@ void hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, cons
   if (!parts.open) parts.open = open_cells(s.domain, g.faces);
   const FacetFluxes<Dim> fluxes = facet_fluxes(s.domain, s.solids, g, *parts.open, body.body, u);
   for (FluxEntry e :
-       spread_shares(s.domain, *g.shares[std::size_t(body.body)], *g.attached[std::size_t(body.body)], rows)) {
+       spread_shares(s.domain, *g.shares[std::size_t(body.body)], *g.face_weights[std::size_t(body.body)], rows)) {
     e.value = -e.value;
     body.entries.push_back(e);
   }
@@ -217,7 +218,7 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   const ElasticState& e = motion.state;
   const int first = c.first[std::size_t(block)];
   const FaceShares& shares = *g.shares[std::size_t(k)];
-  const Attachments& attached = *g.attached[std::size_t(k)];
+  const FaceWeights& face_weights = *g.face_weights[std::size_t(k)];
   const Vec<Dim> gravity = truncate<Dim>(s.fluids.gravity.of_step(state.time, dt));
   const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
   hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
@@ -226,20 +227,20 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   add_inertia(p, e.u, dt, horizon, first, parts);
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
   if (body.is_thin()) add_liquid_beside(liquid_beside(s, g, rows, state, dt, k), g_nodes, dt, first, parts);
-  BodyEntries mine{k, first, spread_shares(s, shares, attached, rows)};
-  bring_home_air(s, rows, 0, mine.entries);
+  BodyEntries mine{k, first, spread_shares(s, shares, face_weights, rows)};
+  send_air_rows_to_owner(s, rows, 0, mine.entries);
   mine.shown = mine.entries.size();
   if (body.is_thin() || is_divided(solid))
-    keep_to_own_side(s, solid, shares, attached, rows, mine.entries);
+    keep_to_own_side(s, solid, shares, face_weights, rows, mine.entries);
   else
     hang_on_facets(step, e.u, gravity, mine, parts);
-  bring_home_air(s, rows, mine.shown, mine.entries);
+  send_air_rows_to_owner(s, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));
   c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
   const double most = highest_pressure_beside(s, shares, rows, state.pressure);
   const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)};
-  parts.potentials.push_back(
-      std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(), s.tampering.elastic_forces * dt, horizon));
+  parts.potentials.push_back(std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(),
+                                                                     s.perturbation.elastic_forces * dt, horizon));
 }
 
 template <int Dim>

@@ -8,15 +8,15 @@
 namespace seiche {
 
 template <int Dim>
-void bring_home_air(const Domain<Dim>& domain, const PressureRows<Dim>& rows, std::size_t known,
-                    std::vector<FluxEntry>& entries) {
+void send_air_rows_to_owner(const Domain<Dim>& domain, const PressureRows<Dim>& rows, std::size_t known,
+                            std::vector<FluxEntry>& entries) {
   if (!rows.air) return;
   const auto of_air = [&](const FluxEntry& e) { return e.row < 0 || e.row >= int(rows.liquid); };
   std::vector<MatrixEntry> moved;
   for (std::size_t n = known; n < entries.size(); ++n)
     if (of_air(entries[n])) moved.push_back({rows.first + entries[n].row, entries[n].column, entries[n].value});
   entries.erase(std::remove_if(entries.begin() + std::ptrdiff_t(known), entries.end(), of_air), entries.end());
-  for (const MatrixEntry& e : bring_home_sums(moved, rows.first, rows.cells.size(), domain.ranks))
+  for (const MatrixEntry& e : send_sums_to_owner(moved, rows.first, rows.cells.size(), domain.ranks))
     entries.push_back({int(e.row - rows.first), int(e.column), e.value});
 }
 
@@ -47,13 +47,14 @@ ColumnBlock translation_columns(const CoupledStep<Dim>& step, int k, const std::
   for_each_cell_of_shares(step.setup.domain, shares, step.rows, [&](Site cell, double sign, std::size_t n) {
     entries.push_back({int(step.rows.row[cell] - step.rows.first), shares[n].axis, sign * shares[n].closed});
   });
-  bring_home_air(step.setup.domain, step.rows, 0, entries);
+  send_air_rows_to_owner(step.setup.domain, step.rows, 0, entries);
   sort_by_rows(entries);
   return make_block(entries, freedom, Freedom::free, first, Dim);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                      \
-  template void bring_home_air<D>(const Domain<D>&, const PressureRows<D>&, std::size_t, std::vector<FluxEntry>&); \
+#define SEICHE_INSTANTIATE(D)                                                                    \
+  template void send_air_rows_to_owner<D>(const Domain<D>&, const PressureRows<D>&, std::size_t, \
+                                          std::vector<FluxEntry>&);                              \
   template ColumnBlock translation_columns<D>(const CoupledStep<D>&, int, const std::vector<Freedom>&, int);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,6 +1,6 @@
 #pragma once
 // Columns of J from the faces that a body closes.
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
@@ -23,8 +23,8 @@ void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares
 // Entries from `known` on that belong to regions of air, which may be rows of other ranks, go where their rows are, one
 // a row and column. Collective.
 template <int Dim>
-void bring_home_air(const Domain<Dim>& domain, const PressureRows<Dim>& rows, std::size_t known,
-                    std::vector<FluxEntry>& entries);
+void send_air_rows_to_owner(const Domain<Dim>& domain, const PressureRows<Dim>& rows, std::size_t known,
+                            std::vector<FluxEntry>& entries);
 
 void sort_by_rows(std::vector<FluxEntry>& entries);
 

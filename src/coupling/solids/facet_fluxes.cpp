@@ -73,7 +73,7 @@ struct Lacking {
 // the other side, so that cells with pieces of their own keep to them.
 template <int Dim>
 void add_links_of_shares(const Domain<Dim>& domain, const CellField<Dim, char>& open, const FaceShares& shares,
-                         const Attachments& attached, Lacking<Dim>& lacking) {
+                         const FaceWeights& face_weights, Lacking<Dim>& lacking) {
   constexpr double rounding = 1e-12;
   const std::set<Link> own = lacking.links;
   const auto has_pieces = [&](std::int64_t number) {
@@ -87,7 +87,7 @@ void add_links_of_shares(const Domain<Dim>& domain, const CellField<Dim, char>& 
       if (!domain.layout.cells().contains(i) || !open[c]) continue;
       const std::int64_t number = number_of(domain, i);
       if (has_pieces(number) || lacking.of(domain, c).norm() <= rounding) continue;
-      for (const auto& [hung, weight] : attached[n]) lacking.links.insert({number, hung});
+      for (const auto& [weights, weight] : face_weights[n]) lacking.links.insert({number, weights});
     }
 }
 
@@ -109,7 +109,7 @@ Lacking<Dim> find_lacking(const Domain<Dim>& domain, const StepGeometry<Dim>& g,
       if (!domain.layout.cells().contains(i) || !open[c]) continue;
       lacking.of(domain, c)[shares[n].axis] += (side == 0 ? -1 : 1) * shares[n].closed;
     }
-  add_links_of_shares(domain, open, shares, *g.attached[std::size_t(k)], lacking);
+  add_links_of_shares(domain, open, shares, *g.face_weights[std::size_t(k)], lacking);
   return lacking;
 }
 
@@ -131,7 +131,7 @@ CellFluxes balance_translations(const Domain<Dim>& domain, const ElasticSolid<Di
   if (graph.links().empty()) return {};
   graph.number();
   const std::vector<char> held = held_nodes(solid, graph);
-  const BalancedFlux least(graph, held);
+  const BalancedMinimumNormFlux least(graph, held);
   CellFluxes balance;
   for (int axis = 0; axis < Dim; ++axis) {
     std::vector<double> wanted(std::size_t(graph.rows()));

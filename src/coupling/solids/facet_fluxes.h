@@ -1,6 +1,6 @@
 #pragma once
 // How the pressure of each cell acts on the facets of an elastic body that lie in it.
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"

@@ -9,7 +9,7 @@
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
-#include "coupling/thin/thin_weight.h"
+#include "coupling/thin/liquid_beside.h"
 #include "solid/elastic/output.h"
 
 namespace seiche {
@@ -30,12 +30,12 @@ auto surface_weights(const StepGeometry<Dim>& g, int body) {
   auto place = std::make_shared<std::array<std::unordered_map<Site, std::size_t>, Dim>>();
   const FaceShares& shares = *g.shares[std::size_t(body)];
   for (std::size_t n = 0; n < shares.size(); ++n) (*place)[std::size_t(shares[n].axis)][shares[n].face] = n;
-  const auto attached = g.attached[std::size_t(body)];
-  return [place, attached](int axis, Site face, std::vector<std::pair<int, double>>& weights) {
+  const auto face_weights = g.face_weights[std::size_t(body)];
+  return [place, face_weights](int axis, Site face, std::vector<std::pair<int, double>>& weights) {
     weights.clear();
     const auto found = (*place)[std::size_t(axis)].find(face);
     if (found == (*place)[std::size_t(axis)].end()) return;
-    for (const auto& [node, weight] : (*attached)[found->second])
+    for (const auto& [node, weight] : (*face_weights)[found->second])
       if (weight != 0) weights.emplace_back(Dim * node + axis, weight);
   };
 }

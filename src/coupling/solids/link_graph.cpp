@@ -55,7 +55,7 @@ void LinkGraph::join_pieces() {
 }
 
 // y_c eliminated: (D_n - B' D_c^-1 B) z = wanted - B' (row sum/D_c), a Laplacian of the nodes, one of them tied.
-LeastFlux::LeastFlux(const LinkGraph& graph) : graph_(graph), of_row_(graph.rows(), graph.nodes()) {
+MinimumNormFlux::MinimumNormFlux(const LinkGraph& graph) : graph_(graph), of_row_(graph.rows(), graph.nodes()) {
   std::vector<Eigen::Triplet<double>> ones;
   for (const Link& l : graph.links()) ones.emplace_back(graph.row(l), graph.node(l), 1.0);
   of_row_.setFromTriplets(ones.begin(), ones.end());
@@ -66,7 +66,7 @@ LeastFlux::LeastFlux(const LinkGraph& graph) : graph_(graph), of_row_(graph.rows
   factor_.compute(L);
 }
 
-std::vector<double> LeastFlux::solve(const Eigen::VectorXd& wanted) const {
+std::vector<double> MinimumNormFlux::solve(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd row_sum = Eigen::VectorXd::Constant(graph_.rows(), wanted.sum() / graph_.rows());
   const Eigen::VectorXd right = wanted - of_row_.transpose() * row_sum.cwiseQuotient(row_degree_);
   const Eigen::VectorXd z = factor_.solve(right), y = (row_sum - of_row_ * z).cwiseQuotient(row_degree_);
@@ -76,7 +76,7 @@ std::vector<double> LeastFlux::solve(const Eigen::VectorXd& wanted) const {
 }
 
 // y_c eliminated as above, without the columns of held nodes; one node of each piece without held ones is tied.
-BalancedFlux::BalancedFlux(const LinkGraph& graph, const std::vector<char>& held)
+BalancedMinimumNormFlux::BalancedMinimumNormFlux(const LinkGraph& graph, const std::vector<char>& held)
     : graph_(graph),
       held_(held),
       piece_(graph.pieces()),
@@ -103,7 +103,7 @@ BalancedFlux::BalancedFlux(const LinkGraph& graph, const std::vector<char>& held
 }
 
 // What the rows of each piece add up to, shared out among its nodes.
-Eigen::VectorXd BalancedFlux::rests(const Eigen::VectorXd& wanted) const {
+Eigen::VectorXd BalancedMinimumNormFlux::rests(const Eigen::VectorXd& wanted) const {
   std::vector<double> sum(piece_.size());
   for (int c = 0; c < graph_.rows(); ++c) sum[std::size_t(piece_[std::size_t(c)])] += wanted[c];
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(graph_.nodes());
@@ -114,7 +114,7 @@ Eigen::VectorXd BalancedFlux::rests(const Eigen::VectorXd& wanted) const {
   return rest;
 }
 
-std::vector<double> BalancedFlux::solve(const Eigen::VectorXd& wanted) const {
+std::vector<double> BalancedMinimumNormFlux::solve(const Eigen::VectorXd& wanted) const {
   const Eigen::VectorXd right = rests(wanted) - of_row_.transpose() * wanted.cwiseQuotient(row_degree_);
   const Eigen::VectorXd z = factor_.solve(right), y = (wanted - of_row_ * z).cwiseQuotient(row_degree_);
   std::vector<double> d;

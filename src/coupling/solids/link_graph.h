@@ -51,9 +51,9 @@ class LinkGraph {
 
 // d_cn, one a link, least in the sum of squares, with sum_c d_cn = wanted_n, and sum_n d_cn the same for all c (zero
 // where sum_n wanted_n = 0): d_cn = y_c + z_n.
-class LeastFlux {
+class MinimumNormFlux {
  public:
-  explicit LeastFlux(const LinkGraph& graph);  // keeps a reference; the graph is complete
+  explicit MinimumNormFlux(const LinkGraph& graph);  // keeps a reference; the graph is complete
   std::vector<double> solve(const Eigen::VectorXd& wanted) const;
 
  private:
@@ -66,9 +66,9 @@ class LeastFlux {
 // d_cn, one a link, least in the sum of squares, with sum_n d_cn = wanted_c for all rows and sum_c d_cn = 0 for all
 // nodes that are not held: d_cn = y_c + z_n, z_n = 0 for held nodes. In a connected piece without held nodes that is
 // possible only if sum_c wanted_c = 0; what is left of that sum goes to its nodes in equal parts.
-class BalancedFlux {
+class BalancedMinimumNormFlux {
  public:
-  BalancedFlux(const LinkGraph& graph, const std::vector<char>& held);  // keeps both; the graph is numbered
+  BalancedMinimumNormFlux(const LinkGraph& graph, const std::vector<char>& held);  // keeps both; the graph is numbered
   std::vector<double> solve(const Eigen::VectorXd& wanted) const;
 
  private:

@@ -14,7 +14,7 @@ void PotentialSum::add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradi
   for (const auto& part : parts_) part->add_gradient(v, gradient);
 }
 
-void PotentialSum::add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+void PotentialSum::add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
                              std::vector<Eigen::Triplet<double>>& hessian) const {
   for (const auto& part : parts_) part->add_terms(v, curvature, gradient, hessian);
 }

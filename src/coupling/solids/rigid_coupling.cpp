@@ -92,7 +92,7 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
         of_air.push_back({rows.row[cell], k, mask[k] * mode[k]});
   }
   if (rows.air)
-    for (const MatrixEntry& e : bring_home_sums(of_air, rows.first, rows.cells.size(), domain.ranks))
+    for (const MatrixEntry& e : send_sums_to_owner(of_air, rows.first, rows.cells.size(), domain.ranks))
       block.add(int(e.row - rows.first), int(e.column), e.value);
   return block;
 }
@@ -189,7 +189,7 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
   c.J.blocks[std::size_t(block)] = make_block(s.domain, s.fluids, step.state.phi, step.rows, mask, sums);
   append(sums, parts.sums);
-  add_mass<Dim>(s.tampering.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, first,
+  add_mass<Dim>(s.perturbation.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, first,
                 parts.mass);
   const Twist v = free_twist(body, r, s.fluids.gravity.of_step(step.state.time, step.dt), step.dt, step.horizon);
   c.free.template segment<n>(first) = stacked<Dim>(v.linear, v.angular);

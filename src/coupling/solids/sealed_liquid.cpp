@@ -94,10 +94,10 @@ void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State
 
 template <int Dim>
 void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const PressureRows<Dim>& rows,
-                 const std::vector<SweptCavity<Dim>>& cavities, State<Dim>& state) {
+                 const std::vector<CavityConstraint<Dim>>& cavities, State<Dim>& state) {
   if (!solids.may_seal()) return;
   state.sealed = CellField<Dim, char>(domain.layout);
-  for (const SweptCavity<Dim>& cavity : cavities)
+  for (const CavityConstraint<Dim>& cavity : cavities)
     for (const int n : cavity.cells) state.sealed[rows.cells[std::size_t(n)]] = 1;
   domain.halo.fill_ghosts({state.sealed.data()});
 }
@@ -106,7 +106,7 @@ void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Pre
   template void keep_sealed_full<D>(const Setup<D>&, const State<D>&, const State<D>&, const StepGeometry<D>&, \
                                     CellField<D>&);                                                            \
   template void mark_sealed<D>(const Domain<D>&, const Solids<D>&, const PressureRows<D>&,                     \
-                               const std::vector<SweptCavity<D>>&, State<D>&);
+                               const std::vector<CavityConstraint<D>>&, State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,6 +1,6 @@
 #pragma once
 // Cavities of elastic bodies that are full of liquid stay full.
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -17,6 +17,6 @@ void keep_sealed_full(const Setup<Dim>& setup, const State<Dim>& before, const S
 // Takes note of the liquid in cavities that elastic bodies and others seal together (State::sealed). Collective.
 template <int Dim>
 void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const PressureRows<Dim>& rows,
-                 const std::vector<SweptCavity<Dim>>& cavities, State<Dim>& state);
+                 const std::vector<CavityConstraint<Dim>>& cavities, State<Dim>& state);
 
 }  // namespace seiche

@@ -68,7 +68,7 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g
   gather({s, g, rows, closed, state, dt, horizon}, parts);
   for (BlockColumns* J : {&c.J, &c.J_held})
     for (ColumnBlock& block : J->blocks)
-      for (double& flux : block.value) flux *= s.tampering.solid_flux;
+      for (double& flux : block.value) flux *= s.perturbation.solid_flux;
   c.mass.resize(c.size(), c.size());
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
   make_identical(c.buoyancy_correction, s.domain.ranks);

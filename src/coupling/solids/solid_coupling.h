@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -38,7 +38,7 @@ struct SolidCoupling {
   std::vector<Freedom> freedom;
   Eigen::VectorXd held;                                // velocities of what is held
   std::shared_ptr<const VelocityPotential> potential;  // null: none
-  std::vector<SweptCavity<Dim>> swept;
+  std::vector<CavityConstraint<Dim>> cavities;
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // of each block: flux that its faces do not show
 
   int size() const { return first.back(); }

@@ -44,13 +44,13 @@ bool CoupledProblem<Dim>::holds(const Eigen::VectorXd& v) const {
 
 template <int Dim>
 void CoupledProblem<Dim>::linearise_at(const Eigen::VectorXd& v) {
-  for (std::size_t n = 0; n < missing_.size(); ++n) missing_[n] = coupling_.swept[n].missing_flux(v);
+  for (std::size_t n = 0; n < missing_.size(); ++n) missing_[n] = coupling_.cavities[n].missing_flux(v);
 }
 
 template <int Dim>
 Vector CoupledProblem<Dim>::with_missing_fluxes(Vector b, double by) const {
   for (std::size_t n = 0; n < missing_.size(); ++n)
-    for (const int row : coupling_.swept[n].rows) b[std::size_t(row)] += by * missing_[n];
+    for (const int row : coupling_.cavities[n].rows) b[std::size_t(row)] += by * missing_[n];
   return b;
 }
 

@@ -11,7 +11,8 @@ SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatri
 template <int Dim>
 class CoupledProblem : public InertiaProblem {
  public:
-  explicit CoupledProblem(const SolidCoupling<Dim>& coupling) : coupling_(coupling), missing_(coupling.swept.size()) {}
+  explicit CoupledProblem(const SolidCoupling<Dim>& coupling)
+      : coupling_(coupling), missing_(coupling.cavities.size()) {}
   int size() const override { return coupling_.size(); }
   bool holds(const Eigen::VectorXd& v) const override;
   void linearise_at(const Eigen::VectorXd& v) override;

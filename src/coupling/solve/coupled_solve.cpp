@@ -8,7 +8,7 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "fluid/pressure/parting_search.h"
+#include "fluid/pressure/separation_search.h"
 
 namespace seiche {
 namespace {
@@ -42,7 +42,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.domain.ranks);
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
-  for (double& flux : b) flux *= s.tampering.divergence;
+  for (double& flux : b) flux *= s.perturbation.divergence;
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.domain.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
@@ -66,7 +66,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
   set_held_velocities(s.domain, coupling, input.geometry);
-  take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.swept);
+  take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
   const ViscousRoute route = input.viscosity ? choose_route(s, *input.viscosity, input.liquid.dt) : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
@@ -77,7 +77,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   if (r.failure.empty()) {
     set_velocities(s.domain, s.solids, coupling, r.solids, input.horizon, input.geometry, input.state);
     set_reactions(coupling, r.reactions, input.state);
-    mark_sealed(s.domain, s.solids, r.rows, coupling.swept, input.state);
+    mark_sealed(s.domain, s.solids, r.rows, coupling.cavities, input.state);
   }
   return r;
 }
@@ -97,9 +97,9 @@ void add_up(SolveReport& all, const SolveReport& one) {
 template <int Dim>
 CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   const ProjectionInput<Dim>& in = input.liquid;
-  if (!in.parting) return solve_once(input);
+  if (!in.separation) return solve_once(input);
   State<Dim>& state = input.state;
-  PartingSearch<Dim> search(in, pull * input.setup.scene.solver.tolerance, state.parting);
+  SeparationSearch<Dim> search(in, pull * input.setup.scene.solver.tolerance, state.separation);
   const StepGeometry<Dim> still = input.geometry;
   const Participants<Dim> solids = state.solids;
   CoupledSolution<Dim> r;
@@ -115,8 +115,8 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
     r = std::move(trial);
     if (!r.failure.empty()) return r;
     from = r.pressure;
-  } while (!search.is_settled_by(r.rows, r.closed_component, r.pressure, r.u_star));
-  r.parting_error = search.error();
+  } while (!search.has_converged_with(r.rows, r.closed_component, r.pressure, r.u_star));
+  r.separation_error = search.error();
   return r;
 }
 

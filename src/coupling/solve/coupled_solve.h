@@ -33,7 +33,7 @@ struct CoupledSolution {
   Eigen::VectorXd reactions;               // N: the forces that hold them, zero where they are free
   std::vector<ViscousLoad> viscous_loads;  // of each solid; empty where the liquid is inviscid
   double dissipation = 0;                  // by viscosity, W
-  double parting_error = 0;                // PartingSearch::error
+  double separation_error = 0;             // SeparationSearch::error
   std::string failure;                     // empty: accepted
 };
 

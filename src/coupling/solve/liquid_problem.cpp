@@ -40,7 +40,7 @@ void LiquidProblem<Dim>::add_up(const SolveReport& r) {
   report_.mismatch = r.mismatch;
   report_.used = r.used;
   report_.identity_rows = r.identity_rows;
-  report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
+  report_.failed_attempts.insert(report_.failed_attempts.end(), r.failed_attempts.begin(), r.failed_attempts.end());
 }
 
 // A p + c1 J v = b,  H v - c2 J'p = M v* + r. Columns of J of what is held are zero.
@@ -55,7 +55,7 @@ InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eig
           .iterations = r.solve.iterations,
           .residual = r.solve.residual,
           .used = r.solve.used,
-          .ladder = r.solve.ladder,
+          .failed_attempts = r.solve.failed_attempts,
           .identity_rows = report_.identity_rows,
           .mismatch = r.solve.mismatch});
   if (!r.solve.converged)

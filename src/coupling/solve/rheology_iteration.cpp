@@ -8,16 +8,16 @@
 namespace seiche {
 
 template <int Dim>
-RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const CellField<Dim>& phi, const Level<Dim>& flow,
+RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const CellField<Dim>& phi, const TimeLevel<Dim>& flow,
                                           double t)
     : setup_(s),
       phi_(phi),
       time_(t),
       last_(flow.u),
-      viscosity_(measure_viscosity(s.domain, s.fluids, s.tampering, phi, flow, t)) {}
+      viscosity_(measure_viscosity(s.domain, s.fluids, s.perturbation, phi, flow, t)) {}
 
 template <int Dim>
-bool RheologyIteration<Dim>::is_unsettled_by(const Level<Dim>& flow) {
+bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
   if (setup_.fluids.liquid.rheology.model.empty()) return false;
   ++count_;
   const FaceField<Dim, char> near = faces_near_liquid(setup_.domain, phi_);
@@ -34,7 +34,7 @@ bool RheologyIteration<Dim>::is_unsettled_by(const Level<Dim>& flow) {
   last_ = u;
   if (change_ <= setup_.scene.solver.rheology_tolerance || count_ >= setup_.scene.solver.rheology_iterations)
     return false;
-  viscosity_ = measure_viscosity(setup_.domain, setup_.fluids, setup_.tampering, phi_, flow, time_);
+  viscosity_ = measure_viscosity(setup_.domain, setup_.fluids, setup_.perturbation, phi_, flow, time_);
   return true;
 }
 

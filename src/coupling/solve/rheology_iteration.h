@@ -10,7 +10,7 @@ template <int Dim>
 class RheologyIteration {
  public:
   // Begins with the viscosity of the velocities of `flow`. Keeps a reference to the setup.
-  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const Level<Dim>& flow, double t);
+  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const TimeLevel<Dim>& flow, double t);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
   int count() const { return count_; }  // of solves; 0 in Newtonian liquid
   double change() const { return change_; }
@@ -18,7 +18,7 @@ class RheologyIteration {
   // Takes the velocities that the last solve gave. Whether another solve is due: they differ from those before by more
   // than solver.rheology_tolerance of the fastest, and solver.rheology_iterations are not used up. Never in Newtonian
   // liquid. Collective.
-  bool is_unsettled_by(const Level<Dim>& flow);
+  bool differs_from(const TimeLevel<Dim>& flow);
 
  private:
   const Setup<Dim>& setup_;

@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/liquid_viscosity.h"
 #include "coupling/transport/two_fluids.h"
@@ -57,7 +57,7 @@ EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu
 
 // `largest` is meant for the liquid's density: gas counts by its kinematic viscosity.
 template <int Dim>
-void take_in_gas(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
+void add_gas(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
   const double gas = fluids.gas.viscosity;
   mu.largest = std::max(mu.largest, gas * fluids.density() / fluids.gas_density());
   mu.uniform = mu.uniform && mu.value[domain.layout.site(domain.layout.cells().lower)] == gas;
@@ -78,13 +78,14 @@ bool sticks_to_what_it_moves(const Solids<Dim>& solids) {
 }  // namespace
 
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Tampering& tampering,
-                                      const CellField<Dim>& phi, const Level<Dim>& flow, double t) {
+ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids,
+                                      const OperatorPerturbation& perturbation, const CellField<Dim>& phi,
+                                      const TimeLevel<Dim>& flow, double t) {
   ViscosityField<Dim> mu{CellField<Dim>(domain.layout), 0, false};
   const std::string fault =
       first_text(domain.ranks, set_liquid_viscosity(domain, fluids, flow.u, flow.valid, t, mu.value));
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
-  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { mu.value[c] *= tampering.viscosity; });
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { mu.value[c] *= perturbation.viscosity; });
   const LiquidSpec& liquid = fluids.liquid;
   mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
   const double largest =
@@ -94,7 +95,7 @@ ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& f
     mu.edge.emplace(domain.layout);
     set_edge_viscosity(domain.layout, fluids.rheology, flow.u, flow.valid, *mu.edge);
   }
-  if (fluids.has_gas()) take_in_gas(domain, fluids, phi, mu);
+  if (fluids.has_gas()) add_gas(domain, fluids, phi, mu);
   return mu;
 }
 
@@ -206,10 +207,10 @@ double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::Vecto
   return viscous_dissipation(input_, system_, u, v);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                        \
-  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const Tampering&, \
-                                                  const CellField<D>&, const Level<D>&, double);     \
-  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);          \
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const OperatorPerturbation&, \
+                                                  const CellField<D>&, const TimeLevel<D>&, double);            \
+  template ViscousRoute choose_route<D>(const Setup<D>&, const ViscosityField<D>&, double);                     \
   template class ViscousStep<D>;
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

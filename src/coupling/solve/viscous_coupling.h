@@ -2,10 +2,10 @@
 // What viscosity adds to the one solve of a step.
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/viscosity/viscosity.h"
 
@@ -23,8 +23,9 @@ struct ViscosityField {
 // As the scene gives it at time t, of shear-dependent liquid for the velocities of `flow`. Collective. Throws
 // Error(cannot_continue) where a formula is not a number or negative.
 template <int Dim>
-ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Tampering& tampering,
-                                      const CellField<Dim>& phi, const Level<Dim>& flow, double t);
+ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids,
+                                      const OperatorPerturbation& perturbation, const CellField<Dim>& phi,
+                                      const TimeLevel<Dim>& flow, double t);
 
 // split: viscosity acts first, pressure then; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };

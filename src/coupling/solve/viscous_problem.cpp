@@ -28,7 +28,7 @@ std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H
   report_.residual = std::max(report_.residual, r.residual);
   if (H.size() > 0) report_.mismatch = r.mismatch;  // what held bodies do not balance says nothing
   report_.used = r.used;
-  report_.ladder.insert(report_.ladder.end(), r.ladder.begin(), r.ladder.end());
+  report_.failed_attempts.insert(report_.failed_attempts.end(), r.failed_attempts.begin(), r.failed_attempts.end());
   if (r.converged) return {};
   return fmt::format("the solve of pressure and viscosity stopped at residual {:.2e} after {} iterations", r.residual,
                      r.iterations);

@@ -54,7 +54,7 @@ FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, dou
 
 template <int Dim>
 ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometry<Dim>& faces) {
-  return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.parting, p.gas_density, nullptr, p.air};
+  return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.separation, p.gas_density, nullptr, p.air};
 }
 
 template <int Dim>
@@ -89,7 +89,7 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
   }
   const SaddleReport report = solver.solve_viscous(H, system.f, push, u, v);
   r.report.iterations = report.iterations;
-  r.report.ladder = report.ladder;
+  r.report.failed_attempts = report.failed_attempts;
   if (!report.converged) {
     r.failure = fmt::format("the solve of viscosity stopped at residual {:.2e} after {} iterations", report.residual,
                             report.iterations);

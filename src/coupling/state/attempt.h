@@ -19,7 +19,7 @@ struct Attempt {
   int newton_iterations = 0, contacts = 0;
   double dissipation = 0;       // by viscosity, W
   int rheology_iterations = 0;  // solves until viscosity and flow agreed
-  double parting_error = 0;     // PartingSearch::error
+  double separation_error = 0;  // SeparationSearch::error
 };
 
 // The phases of a step, timed and open to fault injection.

@@ -57,16 +57,16 @@ void for_each_level_field(const Fluids& fluids, const std::string& level, const 
 }
 
 // visit(name, field, axis) of a film's components.
-template <int Dim, class AnyFilm, class Visit>
-void for_each_film_field(AnyFilm& film, const Visit& visit) {
+template <int Dim, class AnyGapFlow, class Visit>
+void for_each_gap_flow_field(AnyGapFlow& gap_flow, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {
-    visit(std::string("film.open[") + "xyz"[a] + "]", film.open[a], a);
-    visit(std::string("film.u[") + "xyz"[a] + "]", film.u[a], a);
+    visit(std::string("film.open[") + "xyz"[a] + "]", gap_flow.open[a], a);
+    visit(std::string("film.u[") + "xyz"[a] + "]", gap_flow.u[a], a);
   }
 }
 
 template <int Dim>
-void save_level(const Domain<Dim>& domain, const Fluids& fluids, const std::string& name, const Level<Dim>& level,
+void save_level(const Domain<Dim>& domain, const Fluids& fluids, const std::string& name, const TimeLevel<Dim>& level,
                 CheckpointData& data) {
   for_each_level_field<Dim>(fluids, name, [&](const std::string& field, char which, int a) {
     const Box<Dim> box = domain.layout.faces(a);
@@ -78,9 +78,9 @@ void save_level(const Domain<Dim>& domain, const Fluids& fluids, const std::stri
 }
 
 template <int Dim>
-std::shared_ptr<const Level<Dim>> load_level(const Domain<Dim>& domain, const Fluids& fluids, const std::string& name,
-                                             const CheckpointData& data) {
-  auto level = std::make_shared<Level<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
+std::shared_ptr<const TimeLevel<Dim>> load_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                 const std::string& name, const CheckpointData& data) {
+  auto level = std::make_shared<TimeLevel<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
   for_each_level_field<Dim>(fluids, name, [&](const std::string& field, char which, int a) {
     const Box<Dim> box = domain.layout.faces(a);
     if (which == 'u') restore<Dim>(domain, data, field, box, level->u[a]);
@@ -96,7 +96,7 @@ std::shared_ptr<const Level<Dim>> load_level(const Domain<Dim>& domain, const Fl
 // Levels that there are not are saved as `none`.
 template <int Dim>
 void save_flow(const Domain<Dim>& domain, const Fluids& fluids, const LevelNames& names, const Flow<Dim>& flow,
-               const Level<Dim>& none, CheckpointData& data) {
+               const TimeLevel<Dim>& none, CheckpointData& data) {
   save_level(domain, fluids, names[0], *flow.now, data);
   save_level(domain, fluids, names[1], flow.before ? *flow.before : none, data);
   save_level(domain, fluids, names[2], flow.earlier ? *flow.earlier : none, data);
@@ -196,8 +196,8 @@ template <int Dim>
 void load_marks(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const CheckpointData& data,
                 State<Dim>& state) {
   if (fluids.liquid.separates) {
-    state.parting = Parting<Dim>(domain.layout);
-    restore<Dim>(domain, data, "gap", domain.layout.cells(), state.parting.gap);
+    state.separation = Separation<Dim>(domain.layout);
+    restore<Dim>(domain, data, "gap", domain.layout.cells(), state.separation.gap);
   }
   if (solids.may_seal()) {
     state.sealed = CellField<Dim, char>(domain.layout);
@@ -229,13 +229,13 @@ CheckpointData save_state(const Domain<Dim>& domain, const Fluids& fluids, const
   data.fields.push_back(record<Dim>(domain, "phi", domain.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(domain, "pressure", domain.layout.cells(), state.pressure));
   if (fluids.liquid.separates)
-    data.fields.push_back(record<Dim>(domain, "gap", domain.layout.cells(), state.parting.gap));
+    data.fields.push_back(record<Dim>(domain, "gap", domain.layout.cells(), state.separation.gap));
   if (solids.may_seal()) data.fields.push_back(record<Dim>(domain, "sealed", domain.layout.cells(), state.sealed));
   if (fluids.keeps_air()) save_air(domain, state, data);
-  for_each_film_field<Dim>(state.film, [&](const std::string& name, const auto& f, int a) {
+  for_each_gap_flow_field<Dim>(state.gap_flow, [&](const std::string& name, const auto& f, int a) {
     data.fields.push_back(record<Dim>(domain, name, domain.layout.faces(a), f));
   });
-  const Level<Dim> none = empty_level(domain.layout, fluids.is_viscous());
+  const TimeLevel<Dim> none = empty_level(domain.layout, fluids.is_viscous());
   save_flow(domain, fluids, level_names, liquid_flow(state), none, data);
   if (fluids.has_gas()) save_flow(domain, fluids, gas_level_names, state.gas, none, data);
   return data;
@@ -267,8 +267,8 @@ State<Dim> load_state(const Domain<Dim>& domain, const Fluids& fluids, const Sol
   restore<Dim>(domain, data, "phi", domain.layout.cells(), state.phi);
   restore<Dim>(domain, data, "pressure", domain.layout.cells(), state.pressure);
   load_marks(domain, fluids, solids, data, state);
-  state.film = {FaceField<Dim>(domain.layout), FaceField<Dim>(domain.layout)};
-  for_each_film_field<Dim>(state.film, [&](const std::string& name, auto& f, int a) {
+  state.gap_flow = {FaceField<Dim>(domain.layout), FaceField<Dim>(domain.layout)};
+  for_each_gap_flow_field<Dim>(state.gap_flow, [&](const std::string& name, auto& f, int a) {
     restore<Dim>(domain, data, name, domain.layout.faces(a), f);
   });
   fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
@@ -287,8 +287,8 @@ std::vector<FieldRecord> state_boxes(const Domain<Dim>& domain, const Fluids& fl
   if (fluids.liquid.separates) boxes.push_back(empty_record<Dim>("gap", domain.layout.cells()));
   if (solids.may_seal()) boxes.push_back(empty_record<Dim>("sealed", domain.layout.cells()));
   if (fluids.keeps_air()) boxes.push_back(empty_record<Dim>("air", domain.layout.cells()));
-  const Film<Dim> film;
-  for_each_film_field<Dim>(film, [&](const std::string& name, const auto&, int a) {
+  const GapFlow<Dim> gap_flow;
+  for_each_gap_flow_field<Dim>(gap_flow, [&](const std::string& name, const auto&, int a) {
     boxes.push_back(empty_record<Dim>(name, domain.layout.faces(a)));
   });
   const auto add_levels = [&](const LevelNames& names) {

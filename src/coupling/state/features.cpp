@@ -47,7 +47,7 @@ template <int Dim>
 const std::vector<FeatureText<Dim>>& feature_texts() {
   using S = const Setup<Dim>&;
   static const std::vector<FeatureText<Dim>> table{
-      {F::steps_by_halves, "steps by halves",
+      {F::leapfrog, "steps by halves",
        "surface and bodies move at once, before the solve; positions are of first order in the step where its length "
        "changes",
        [](S s) { return is_second_order(s.fluids, s.scene.time); }},
@@ -57,7 +57,7 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
       {F::shear_jump, "jump of shear across the surface between fluids",
        "shear beside the surface is smeared over a cell",
        [](S s) { return s.fluids.has_gas() && s.fluids.is_viscous(); }},
-      {F::kinks, "one-sided interpolation at the medial axis of the surface's distance",
+      {F::one_sided_at_medial_axis, "one-sided interpolation at the medial axis of the surface's distance",
        "the surface is interpolated across its medial axis, and thin films are transported less sharply",
        [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
@@ -94,15 +94,14 @@ const std::vector<Exclusion<Dim>>& exclusions() {
   using S = const Setup<Dim>&;
   using B = const Body<Dim>&;
   static const std::vector<Exclusion<Dim>> table{
-      {F::steps_by_halves, "scheme = \"first_order\"",
-       [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
-      {F::steps_by_halves, "a prescribed flow", [](S s) { return s.fluids.has_prescribed_flow(); }},
-      {F::steps_by_halves, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
-      {F::steps_by_halves, "enclosed air that keeps its volume", [](S s) { return s.fluids.keeps_air(); }},
-      {F::steps_by_halves, "rigid beside kinematic solids",
+      {F::leapfrog, "scheme = \"first_order\"", [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
+      {F::leapfrog, "a prescribed flow", [](S s) { return s.fluids.has_prescribed_flow(); }},
+      {F::leapfrog, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::leapfrog, "enclosed air that keeps its volume", [](S s) { return s.fluids.keeps_air(); }},
+      {F::leapfrog, "rigid beside kinematic solids",
        [](S s) { return s.solids.has_unknowns() && !has_elements(s.solids) && has_kinematic(s.solids); }},
-      {F::steps_by_halves, "elastic solids", [](S s) { return s.solids.plans_steps(); }},
-      {F::steps_by_halves, "solids thinner than a cell",
+      {F::leapfrog, "elastic solids", [](S s) { return s.solids.plans_steps(); }},
+      {F::leapfrog, "solids thinner than a cell",
        [](S s) { return any_body<Dim>(s.solids, [](B b) { return b.is_thin(); }); }},
       {F::shared_viscosity, "scheme = \"first_order\"",
        [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
@@ -110,7 +109,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::shared_viscosity, "solids", [](S s) { return !s.solids.bodies.empty(); }},
       {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return has_formula_of_viscosity(s.fluids); }},
       {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s.fluids); }},
-      {F::kinks, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::one_sided_at_medial_axis, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::multigrid, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }}};
   return table;

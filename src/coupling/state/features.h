@@ -9,7 +9,7 @@ namespace seiche {
 template <int Dim>
 struct Setup;
 
-enum class Feature { steps_by_halves, shared_viscosity, shear_jump, kinks, sealed_cavities, multigrid };
+enum class Feature { leapfrog, shared_viscosity, shear_jump, one_sided_at_medial_axis, sealed_cavities, multigrid };
 
 // The features that nothing in the scene switches off.
 class Features {

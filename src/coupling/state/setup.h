@@ -6,9 +6,9 @@
 #include "base/scene.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
-#include "coupling/state/tampering.h"
 #include "fluid/boundary/domain.h"
 #include "solid/mesh/point.h"
 
@@ -18,7 +18,7 @@ namespace seiche {
 template <int Dim>
 struct Setup {
   Scene scene;
-  Tampering tampering;
+  OperatorPerturbation perturbation;
   std::vector<std::string> notes;  // of reading the shapes, for the log
   Fluids fluids;
   Domain<Dim> domain;
@@ -27,7 +27,7 @@ struct Setup {
   std::map<std::string, MaterialPoint> followed;  // by displacement probes, by their names
   Features features;
 
-  Setup(const Scene& scene, const Communicator& ranks, const Tampering& tampering = {});
+  Setup(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation = {});
 };
 
 }  // namespace seiche

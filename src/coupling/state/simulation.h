@@ -37,7 +37,7 @@ struct StepStats {
   int rheology_iterations = 0;     // solves with viscosities of the last one's shear rate; 0 for Newtonian liquid
   // Pull or squeeze, over the largest pressure, of cells that part or not against the rule; 0: all parted as they
   // should.
-  double parting_error = 0;
+  double separation_error = 0;
 };
 
 // One row of solids.csv.

@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "coupling/state/interaction.h"
-#include "coupling/state/tampering.h"
+#include "coupling/state/operator_perturbation.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 struct Scene;
-struct Tampering;
+struct OperatorPerturbation;
 
 // Keeps references to its own members: neither copied nor moved.
 template <int Dim>
@@ -21,7 +21,8 @@ struct Solids {
   std::optional<ContactScene<Dim>> contact;  // set if any solid has unknowns
 
   // Appends notes of reading the shapes, for the log. The domain must outlive the solids.
-  Solids(const Scene& scene, const Domain<Dim>& domain, const Tampering& tampering, std::vector<std::string>& notes);
+  Solids(const Scene& scene, const Domain<Dim>& domain, const OperatorPerturbation& perturbation,
+         std::vector<std::string>& notes);
   Solids(const Solids&) = delete;
 
   bool has_unknowns() const;

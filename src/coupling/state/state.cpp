@@ -8,7 +8,7 @@ namespace {
 
 // Inflow moves the surface in the air before it, too.
 template <int Dim>
-double fastest_inflow(const Domain<Dim>& domain, const Level<Dim>& level) {
+double fastest_inflow(const Domain<Dim>& domain, const TimeLevel<Dim>& level) {
   double fastest = 0;
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
@@ -21,7 +21,7 @@ double fastest_inflow(const Domain<Dim>& domain, const Level<Dim>& level) {
 }
 
 template <int Dim>
-double speed_at(const Level<Dim>& level, int axis, Site f) {
+double speed_at(const TimeLevel<Dim>& level, int axis, Site f) {
   return level.valid.at(axis, f) ? std::abs(level.u.at(axis, f)) : 0.0;
 }
 

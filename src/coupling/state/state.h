@@ -12,7 +12,7 @@ namespace seiche {
 
 // One time level of the flow.
 template <int Dim>
-struct Level {
+struct TimeLevel {
   FaceField<Dim> u;            // m/s, continued beyond the liquid, ghosts filled
   FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
   FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
@@ -22,19 +22,19 @@ struct Level {
 // The time levels of one fluid's flow, continued beyond its own region; null where there is none.
 template <int Dim>
 struct Flow {
-  std::shared_ptr<const Level<Dim>> now, before, earlier;
+  std::shared_ptr<const TimeLevel<Dim>> now, before, earlier;
 };
 
 // At rest, valid nowhere.
 template <int Dim>
-Level<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {
+TimeLevel<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {
   return {FaceField<Dim>(layout), FaceField<Dim, char>(layout), FaceField<Dim>(layout),
           viscous ? FaceField<Dim>(layout) : FaceField<Dim>()};
 }
 
 // The open part of the faces and their velocities, those of slits as they were solved for (films.h).
 template <int Dim>
-struct Film {
+struct GapFlow {
   FaceField<Dim> open, u;
 };
 
@@ -42,17 +42,17 @@ template <int Dim>
 struct State {
   double time = 0;
   std::int64_t step = 0;
-  std::shared_ptr<const Level<Dim>> now, before, earlier;  // before and earlier are null at the start
-  double dt_now = 0, dt_before = 0;                        // steps that led to `now` and to `before`
-  Flow<Dim> gas;                                           // where gas flows; now, before, earlier are the liquid's
-  Film<Dim> film;                                          // now
-  CellField<Dim> phi;                                      // m, ghosts filled
-  CellField<Dim> pressure;                                 // Pa, 0 where the cell has no row
-  double expected_volume = 0;                              // initial + sources + net inflow, m^Dim
-  double corrected_volume = 0;                             // restored by the volume control so far
+  std::shared_ptr<const TimeLevel<Dim>> now, before, earlier;  // before and earlier are null at the start
+  double dt_now = 0, dt_before = 0;                            // steps that led to `now` and to `before`
+  Flow<Dim> gas;                                               // where gas flows; now, before, earlier are the liquid's
+  GapFlow<Dim> gap_flow;                                       // now
+  CellField<Dim> phi;                                          // m, ghosts filled
+  CellField<Dim> pressure;                                     // Pa, 0 where the cell has no row
+  double expected_volume = 0;                                  // initial + sources + net inflow, m^Dim
+  double corrected_volume = 0;                                 // restored by the volume control so far
   Participants<Dim> solids;
   double horizon = 0;           // s ahead that the solids' velocities were solved for
-  Parting<Dim> parting;         // where the scene lets liquid part from solids
+  Separation<Dim> separation;   // where the scene lets liquid part from solids
   double viscous_rate = 0;      // mu/(rho h^2) of the last solve at its largest, 1/s
   AirRegions<Dim> air;          // where enclosed air keeps its volume
   double lost_air = 0;          // of regions too small for the grid that vanished, m^Dim

@@ -11,13 +11,13 @@
 #include "coupling/state/checkpoint_state.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "coupling/step/initial_state.h"
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
-#include "coupling/thin/thin_weight.h"
+#include "coupling/thin/liquid_beside.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
 
@@ -44,8 +44,8 @@ std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, 
 template <int Dim>
 class FlowSimulation : public Simulation {
  public:
-  FlowSimulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering)
-      : setup_(scene, ranks, tampering), state_(initial_state(setup_)) {
+  FlowSimulation(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation)
+      : setup_(scene, ranks, perturbation), state_(initial_state(setup_)) {
     geometry_ = measure_geometry();
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_.notes;
@@ -87,7 +87,7 @@ class FlowSimulation : public Simulation {
       }
       failures = fmt::format("step {} of {:.6g} s at time {:.6g} s: {}", state_.step + 1, dt, state_.time, a.failure);
       phases_.warnings.push_back(failures + "; trying half the step");
-      for (const std::string& line : a.solve.ladder)
+      for (const std::string& line : a.solve.failed_attempts)
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
     const std::string close = nearest_solids(setup_.domain, setup_.solids, setup_.scene.domain, state_);
@@ -164,9 +164,9 @@ class FlowSimulation : public Simulation {
     return state;
   }
 
-  static std::pair<std::shared_ptr<Level<Dim>>, std::shared_ptr<Level<Dim>>> inform(const Level<Dim>& start,
-                                                                                    const Level<Dim>& trial) {
-    auto now = std::make_shared<Level<Dim>>(start), before = std::make_shared<Level<Dim>>(start);
+  static std::pair<std::shared_ptr<TimeLevel<Dim>>, std::shared_ptr<TimeLevel<Dim>>> inform(
+      const TimeLevel<Dim>& start, const TimeLevel<Dim>& trial) {
+    auto now = std::make_shared<TimeLevel<Dim>>(start), before = std::make_shared<TimeLevel<Dim>>(start);
     now->q = before->q = trial.q;
     now->n = before->n = trial.n;
     for (int a = 0; a < Dim; ++a)
@@ -183,9 +183,9 @@ class FlowSimulation : public Simulation {
     contacts_ = a.contacts;
     dissipation_ = a.dissipation;
     rheology_iterations_ = a.rheology_iterations;
-    parting_error_ = a.parting_error;
-    warn_of_parting();
-    for (const std::string& line : a.solve.ladder)
+    separation_error_ = a.separation_error;
+    warn_of_separation();
+    for (const std::string& line : a.solve.failed_attempts)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh(a.stats);
   }
@@ -205,12 +205,12 @@ class FlowSimulation : public Simulation {
   }
 
   // Once.
-  void warn_of_parting() {
-    if (parting_error_ == 0 || std::exchange(told_of_parting_, true)) return;
+  void warn_of_separation() {
+    if (separation_error_ == 0 || std::exchange(told_of_separation_, true)) return;
     phases_.warnings.push_back(
         fmt::format("step {}: which cells part from the solids was not found; going on with the set that is wrong by "
                     "the least, {:.1e} of the largest pressure (later ones are counted in summary.json)",
-                    state_.step, parting_error_));
+                    state_.step, separation_error_));
   }
 
   // Volumes, energies, momentum and speed of a state.
@@ -234,7 +234,7 @@ class FlowSimulation : public Simulation {
     stats_.contacts = contacts_;
     stats_.viscous_dissipation = dissipation_;
     stats_.rheology_iterations = rheology_iterations_;
-    stats_.parting_error = parting_error_;
+    stats_.separation_error = separation_error_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
     solids_ = measure_solids(setup_.domain, setup_.solids, setup_.scene.time, state_, geometry_);
@@ -256,8 +256,8 @@ class FlowSimulation : public Simulation {
   SolveReport solve_;
   double divergence_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
-  double dissipation_ = 0, parting_error_ = 0;
-  bool told_of_parting_ = false;
+  double dissipation_ = 0, separation_error_ = 0;
+  bool told_of_separation_ = false;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };
@@ -268,9 +268,10 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicat
   return make_simulation(scene, ranks, {});
 }
 
-std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering) {
-  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, tampering);
-  return std::make_unique<FlowSimulation<3>>(scene, ranks, tampering);
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks,
+                                            const OperatorPerturbation& perturbation) {
+  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, perturbation);
+  return std::make_unique<FlowSimulation<3>>(scene, ranks, perturbation);
 }
 
 // Bytes a cell: some 12 cell or node fields and 20 face fields of doubles alive at the peak of a step, and, where there

@@ -9,16 +9,16 @@
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "coupling/step/initial_state.h"
 #include "coupling/step/step_size.h"
-#include "coupling/thin/films.h"
+#include "coupling/thin/gap_flow.h"
+#include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
-#include "coupling/thin/thin_weight.h"
 #include "coupling/transport/air_volume.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/initial_surface.h"
@@ -141,10 +141,10 @@ FaceField<Dim> initial_gas_velocity(const Domain<Dim>& domain, const Fluids& flu
 
 // A fluid's level at the start, with the velocity u on the faces near it.
 template <int Dim>
-std::shared_ptr<const Level<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
-                                                const Solids<Dim>& solids, const StepGeometry<Dim>& g,
-                                                const FaceField<Dim, char>& near, FaceField<Dim> u) {
-  Level<Dim> level = empty_level(domain.layout, fluids.is_viscous());
+std::shared_ptr<const TimeLevel<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                    const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+                                                    const FaceField<Dim, char>& near, FaceField<Dim> u) {
+  TimeLevel<Dim> level = empty_level(domain.layout, fluids.is_viscous());
   level.valid = near;
   level.u = std::move(u);
   for (int a = 0; a < Dim; ++a)
@@ -153,19 +153,19 @@ std::shared_ptr<const Level<Dim>> initial_level(const Domain<Dim>& domain, const
       if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
     });
   continue_level(domain, fluids, solids, g, near, level);
-  return std::make_shared<Level<Dim>>(std::move(level));
+  return std::make_shared<TimeLevel<Dim>>(std::move(level));
 }
 
 }  // namespace
 
 template <int Dim>
-Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const Tampering& tampering,
+Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const OperatorPerturbation& perturbation,
                     std::vector<std::string>& notes)
     : bodies(make_bodies<Dim>(scene, notes)),
       geometry(domain.layout, domain.sides, bodies),
       at_start(make_participants(bodies)),
       interactions(make_interactions(bodies)) {
-  if (has_unknowns()) contact.emplace(make_contact_scene(scene, at_start, tampering));
+  if (has_unknowns()) contact.emplace(make_contact_scene(scene, at_start, perturbation));
 }
 
 template <int Dim>
@@ -184,16 +184,16 @@ bool Solids<Dim>::may_seal() const {
 }
 
 template <int Dim>
-Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const Tampering& operators)
+Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPerturbation& operators)
     : scene(from),
-      tampering(operators),
+      perturbation(operators),
       fluids(from),
       domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
              ranks),
-      solids(from, domain, tampering, notes),
+      solids(from, domain, perturbation, notes),
       sources(make_sources<Dim>(from, notes)),
       followed(find_followed_points(from.probes, solids)) {
-  fluids.rheology.yield_stress *= tampering.yield_stress;
+  fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
 }
 
@@ -227,7 +227,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
     shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.domain.layout.h(), nullptr}));
   State<Dim> state;
   state.pressure = CellField<Dim>(s.domain.layout);
-  if (s.fluids.liquid.separates) state.parting = Parting<Dim>(s.domain.layout);
+  if (s.fluids.liquid.separates) state.separation = Separation<Dim>(s.domain.layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(s.domain.layout);
   state.solids = s.solids.at_start;
   refuse_overlaps(s.domain, s.solids, s.scene.domain, state);
@@ -248,7 +248,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   check_formulas_at_start(s, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
-  state.film = measure_film(s.domain, g.faces, state.now->u, state.now->u);
+  state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u, state.now->u);
   check_fixed_step(s, state);
   return state;
 }

@@ -8,13 +8,13 @@
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
-#include "coupling/step/half_steps.h"
+#include "coupling/step/leapfrog.h"
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
 #include "coupling/tension/surface_tension.h"
-#include "coupling/thin/films.h"
+#include "coupling/thin/gap_flow.h"
+#include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
-#include "coupling/thin/thin_weight.h"
 #include "coupling/transport/air_volume.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
@@ -87,10 +87,10 @@ double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const C
 
 // Empty volume that phi still counts as liquid, m^Dim.
 template <int Dim>
-double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Parting<Dim>& parting) {
+double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Separation<Dim>& separation) {
   if (!fluids.liquid.separates) return 0;
   const double cells =
-      local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return parting.gap[c]; });
+      local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return separation.gap[c]; });
   return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
 }
 
@@ -98,9 +98,9 @@ double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Parting
 template <int Dim>
 void open_gaps(const Domain<Dim>& domain, State<Dim>& state) {
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
-    if (state.parting.gap[c] < 0.5) return;
-    state.phi[c] = std::max(state.phi[c], (state.parting.gap[c] - 0.5) * domain.layout.h());
-    state.parting.gap[c] = 0;
+    if (state.separation.gap[c] < 0.5) return;
+    state.phi[c] = std::max(state.phi[c], (state.separation.gap[c] - 0.5) * domain.layout.h());
+    state.separation.gap[c] = 0;
   });
   fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
 }
@@ -133,7 +133,7 @@ struct StepInProgress {
         before(state),
         dt(step),
         phases(p),
-        by_halves(goes_by_halves(setup.solids, setup.sources, setup.features, state, step)),
+        by_halves(is_leapfrog_step(setup.solids, setup.sources, setup.features, state, step)),
         lead(by_halves ? step / 2 : step) {
     State<Dim>& next = out.state = state;
     next.time = state.time + dt;
@@ -170,7 +170,7 @@ struct StepInProgress {
     CellField<Dim>& phi = out.state.phi;
     const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, out.geometry, phi);
     // Redistancing at the end of the transport takes in ceil(cfl) + 1 cells: above two a half before is too much.
-    if (!by_halves && may_go_by_halves(s.features) && s.scene.time.cfl > 2) make_distance(s, closed, phi);
+    if (!by_halves && may_leapfrog(s.features) && s.scene.time.cfl > 2) make_distance(s, closed, phi);
     out.state.expected_volume += seiche::transport_surface(s, before, u, before.time, lead, phi);
     make_distance(s, closed, phi);
     inject(s.domain, fault, out.state.phi.data());
@@ -182,8 +182,8 @@ struct StepInProgress {
     keep_sides_of_walls(s.domain, out.geometry, out.state.phi);
     keep_sealed_full(s, before, out.state, out.geometry, out.state.phi);
     if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, before, out.geometry, out.state.phi);
-    const double uncounted =
-        gap_volume(s.domain, s.fluids, before.parting) + volume_beyond(s.domain, s.solids, out.geometry, out.state.phi);
+    const double uncounted = gap_volume(s.domain, s.fluids, before.separation) +
+                             volume_beyond(s.domain, s.solids, out.geometry, out.state.phi);
     const double expected = out.state.expected_volume + uncounted, limit = volume_shift();
     if (s.fluids.keeps_air())
       control_liquid_and_air(expected, limit);
@@ -213,15 +213,15 @@ struct StepInProgress {
     const auto timed = phases.timers.measure("velocity");
     plan = plan_viscosity(s, before, out.state.phi, dt);
     u_star = seiche::transport_velocity(s, before, out.state.phi, dt, plan, out.geometry);
-    set_film_velocity(s.domain, out.geometry.faces, before.film, s.fluids.gravity.of_step(out.state.time, dt), dt,
-                      u_star);
+    set_gap_velocity(s.domain, out.geometry.faces, before.gap_flow, s.fluids.gravity.of_step(out.state.time, dt), dt,
+                     u_star);
     fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, u_star);
     out.failure = verify(s.domain, out.state.phi, u_star);
     return out.failure.empty();
   }
 
   ProjectionInput<Dim> input() const {
-    const Parting<Dim>* parting = s.fluids.liquid.separates ? &out.state.parting : nullptr;
+    const Separation<Dim>* separation = s.fluids.liquid.separates ? &out.state.separation : nullptr;
     const AirRegions<Dim>* air = s.fluids.keeps_air() ? &out.state.air : nullptr;
     const FaceField<Dim>* jump = tension ? &tension->jump : nullptr;
     return {s.domain.layout,
@@ -231,8 +231,8 @@ struct StepInProgress {
             out.geometry.faces,
             s.fluids.density(),
             dt,
-            parting,
-            s.tampering.gas_density * s.fluids.gas_density(),
+            separation,
+            s.perturbation.gas_density * s.fluids.gas_density(),
             jump,
             air};
   }
@@ -241,15 +241,15 @@ struct StepInProgress {
     const PhaseFault fault = phases.enter("solve");
     const auto timed = phases.timers.measure("solve");
     const int earlier = out.solve.iterations;
-    const FaceField<Dim> slope = of_both(s.domain, before, &Level<Dim>::q),
-                         flow = of_both(s.domain, before, &Level<Dim>::u);
+    const FaceField<Dim> slope = of_both(s.domain, before, &TimeLevel<Dim>::q),
+                         flow = of_both(s.domain, before, &TimeLevel<Dim>::u);
     solution = solve_coupled(CoupledInput<Dim>{s, input(), out.geometry, out.state, guess ? *guess : out.state.pressure,
                                                slope, flow, u_star, out.state.horizon, viscosity, fault});
     out.solve = solution.report;
     out.solve.iterations += earlier;
     out.newton_iterations = solution.newton_iterations;
     out.contacts = solution.contacts;
-    out.parting_error = solution.parting_error;
+    out.separation_error = solution.separation_error;
     out.failure = solution.failure;
     out.state.pressure = solution.pressure;
     return out.failure.empty();
@@ -258,19 +258,19 @@ struct StepInProgress {
   void restore() {
     const PhaseFault fault = phases.enter("restore");
     const auto timed = phases.timers.measure("restore");
-    settle_air(input(), solution.rows, solution.u_star, out.state.pressure);
+    equalise_air_pressure(input(), solution.rows, solution.u_star, out.state.pressure);
     Restored<Dim> restored =
         restore_velocity(s, input(), solution.rows, out.state.pressure, solution.u_star, out.geometry);
     set_viscous_acceleration(restored.level);
-    auto level = std::make_shared<Level<Dim>>(std::move(restored.level));
+    auto level = std::make_shared<TimeLevel<Dim>>(std::move(restored.level));
     if (s.fluids.has_gas()) {
       set_viscous_acceleration(restored.gas);
-      out.state.gas.now = std::make_shared<Level<Dim>>(std::move(restored.gas));
+      out.state.gas.now = std::make_shared<TimeLevel<Dim>>(std::move(restored.gas));
     }
-    out.state.film = std::move(restored.film);
+    out.state.gap_flow = std::move(restored.gap_flow);
     out.divergence = restored.divergence;
     if (s.fluids.liquid.separates) {
-      advance_gaps(input(), solution.rows, out.state.pressure, solution.u_star, out.state.parting);
+      advance_gaps(input(), solution.rows, out.state.pressure, solution.u_star, out.state.separation);
       open_gaps(s.domain, out.state);
     }
     inject(s.domain, fault, level->u[0].data());
@@ -281,7 +281,7 @@ struct StepInProgress {
   }
 
   // What viscosity added to u*.
-  void set_viscous_acceleration(Level<Dim>& level) const {
+  void set_viscous_acceleration(TimeLevel<Dim>& level) const {
     for (int a = 0; a < Dim && s.fluids.is_viscous(); ++a)
       for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
         if (level.valid.at(a, f) == face_solved)
@@ -313,7 +313,7 @@ struct StepInProgress {
       if (!solve(implicit_part(rheology.viscosity()))) return;
       restore();
       if (!out.failure.empty()) return;
-    } while (rheology.is_unsettled_by(*out.state.now));
+    } while (rheology.differs_from(*out.state.now));
     out.rheology_iterations = rheology.count();
     out.state.viscous_rate =
         rheology.viscosity().largest / (s.fluids.density() * s.domain.layout.h() * s.domain.layout.h());
@@ -357,8 +357,8 @@ struct StepInProgress {
     next.expected_volume += lead * net_inflow(s.domain, out.geometry, next.phi, leading.now->u);
     next.expected_volume += seiche::transport_surface(s, next, u, before.time + lead, lead, next.phi);
     for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], lead);
-    if (any_moves(s.solids)) out.geometry = stand_at_end(s.solids, next, std::move(out.geometry));
-    const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.parting);
+    if (any_moves(s.solids)) out.geometry = placed_at_end(s.solids, next, std::move(out.geometry));
+    const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);
     next.corrected_volume += control_volume(s.domain, out.geometry.psi, expected, volume_shift(), next.phi);
   }
 

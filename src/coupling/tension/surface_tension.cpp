@@ -116,7 +116,7 @@ SurfaceTension<Dim> surface_tension(const Setup<Dim>& s, const StepGeometry<Dim>
   agree_in_slivers(s.domain, s.fluids, phi, crossed, r.jump);
   filter_for_step(s.domain, s.fluids, phi, crossed, dt, r.jump);
   balance_closed_pieces(s.domain, g.faces, phi, crossed, r.jump);
-  const double sigma = s.tampering.surface_tension * s.fluids.liquid.surface_tension;
+  const double sigma = s.perturbation.surface_tension * s.fluids.liquid.surface_tension;
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) { r.jump.at(a, f) *= sigma; });
   s.domain.halo.fill_ghosts(r.jump);

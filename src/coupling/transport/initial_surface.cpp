@@ -122,7 +122,7 @@ CellField<Dim> initial_surface(const Domain<Dim>& domain, const Fluids& fluids, 
   if (std::any_of(regions.begin(), regions.end(), [](const auto& r) { return needs_redistancing(r.shape); })) {
     if (misplaces_zero(domain, distance, closed, phi)) place_zero(domain, distance, closed, phi);
     const RedistanceOptions options{domain.band() / domain.layout.h(), 40, domain.layout.halo(),
-                                    settled_of_surface(fluids)};
+                                    closest_point_band(fluids)};
     redistance_beside_solids(domain, solids, closed, options, 20, phi);
   }
   return phi;

@@ -127,7 +127,8 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
 
 template <int Dim>
 void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (std::none_of(g.attached.begin(), g.attached.end(), [](const auto& list) { return list != nullptr; })) return;
+  if (std::none_of(g.face_weights.begin(), g.face_weights.end(), [](const auto& list) { return list != nullptr; }))
+    return;
   std::vector<char> known = cells_near_outside(domain, g);
   std::vector<double> outside(phi.data(), phi.data() + domain.layout.size());
   extrapolate(domain.layout, domain.halo, domain.layout.cells(), {layers, 0}, outside, known);

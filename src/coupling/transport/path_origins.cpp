@@ -16,7 +16,7 @@ using Range = std::pair<double, double>;
 
 // Least and largest velocity of the valid faces among a face and its neighbours; empty if none is valid.
 template <int Dim>
-Range valid_range(const Layout<Dim>& layout, const Level<Dim>& level, int axis, Site f) {
+Range valid_range(const Layout<Dim>& layout, const TimeLevel<Dim>& level, int axis, Site f) {
   Range range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
   constexpr int neighbours = Dim == 2 ? 9 : 27;
   for (int n = 0; n < neighbours; ++n) {
@@ -53,7 +53,7 @@ Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int compone
 // Acceleration by gravity, pressure and viscosity as the last step left it. Impacts change velocity at once whatever dt
 // is, so that it is at most that of gravity or h/4 in a step. Free fall where nothing was solved for.
 template <int Dim>
-double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const Level<Dim>& level, int axis, Site f,
+double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const TimeLevel<Dim>& level, int axis, Site f,
                        double g, double dt) {
   if (level.valid.at(axis, f) != face_solved) return g;
   const double most = std::max(std::abs(g), 0.25 * domain.layout.h() / (dt * dt));
@@ -64,7 +64,7 @@ double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const Le
 }  // namespace
 
 template <int Dim>
-void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
+void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
@@ -79,10 +79,10 @@ void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const
 // With tau the time since the entry, A the acceleration, u_in + tau A is wanted. The solve adds dt (A - g) and the
 // viscous share that memory leaves: u* = u_in + dt g - (dt - tau) A + memory.
 template <int Dim>
-void let_liquid_in(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
+void let_liquid_in(const Setup<Dim>& s, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths, double t,
                    const FaceField<Dim>& memory, FaceField<Dim>& u) {
   const double dt = paths.dt;
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(t + dt, dt);
+  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(t + dt, dt);
   const int reach = int(std::ceil(s.scene.time.cfl)) + 1;
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
@@ -102,11 +102,11 @@ void let_liquid_in(const Setup<Dim>& s, const Level<Dim>& level, const FacePaths
     }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template void limit_at_surfaces<D>(const Domain<D>&, const Level<D>&, const FacePaths<D>&,                         \
-                                     const FaceField<D, char>&, FaceField<D>&);                                      \
-  template void let_liquid_in<D>(const Setup<D>&, const Level<D>&, const FacePaths<D>&, double, const FaceField<D>&, \
-                                 FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                       \
+  template void limit_at_surfaces<D>(const Domain<D>&, const TimeLevel<D>&, const FacePaths<D>&,    \
+                                     const FaceField<D, char>&, FaceField<D>&);                     \
+  template void let_liquid_in<D>(const Setup<D>&, const TimeLevel<D>&, const FacePaths<D>&, double, \
+                                 const FaceField<D>&, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

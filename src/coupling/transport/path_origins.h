@@ -18,13 +18,13 @@ struct FacePaths {
 // grows along a thin film without bound. Off the interior it keeps to the range of the valid faces where the path
 // begins, or, where none is there, where it ends.
 template <int Dim>
-void limit_at_surfaces(const Domain<Dim>& domain, const Level<Dim>& level, const FacePaths<Dim>& paths,
+void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u);
 
 // u before the projection where liquid came in through a side during the step from t on: its velocity there, plus what
 // the time since then has added. `memory` is the viscous one of transport.
 template <int Dim>
-void let_liquid_in(const Setup<Dim>& setup, const Level<Dim>& level, const FacePaths<Dim>& paths, double t,
+void let_liquid_in(const Setup<Dim>& setup, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths, double t,
                    const FaceField<Dim>& memory, FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -75,12 +75,12 @@ FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, 
 }
 
 template <int Dim>
-std::shared_ptr<const Level<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
-                                                   const CellField<Dim>& phi, double t) {
+std::shared_ptr<const TimeLevel<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                       const CellField<Dim>& phi, double t) {
   Mask<Dim> wet(domain.layout);
   for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { wet[c] = phi[c] < domain.band(); });
   grow(domain.layout, 1, wet);
-  auto level = std::make_shared<Level<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
+  auto level = std::make_shared<TimeLevel<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
   level->u = evaluate(domain, fluids, wet, t);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
@@ -143,8 +143,8 @@ double largest_divergence(const Domain<Dim>& domain, const CellField<Dim>& phi, 
 
 #define SEICHE_INSTANTIATE(D)                                                                                        \
   template FaceField<D> prescribed_flow<D>(const Domain<D>&, const Fluids&, const CellField<D>&, double);            \
-  template std::shared_ptr<const Level<D>> prescribed_level<D>(const Domain<D>&, const Fluids&, const CellField<D>&, \
-                                                               double);                                              \
+  template std::shared_ptr<const TimeLevel<D>> prescribed_level<D>(const Domain<D>&, const Fluids&,                  \
+                                                                   const CellField<D>&, double);                     \
   template double fastest_prescribed<D>(const Domain<D>&, const Fluids&, const CellField<D>&, double);               \
   template double limit_of_prescribed<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const State<D>&, double); \
   template std::string fault_of_prescribed<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const State<D>&,     \

@@ -14,8 +14,8 @@ FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, 
 
 // The same where liquid is and within the band around it, as a time level; no pressure.
 template <int Dim>
-std::shared_ptr<const Level<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
-                                                   const CellField<Dim>& phi, double t);
+std::shared_ptr<const TimeLevel<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                       const CellField<Dim>& phi, double t);
 
 // Largest |u_a| around the surface `phi` at time t, m/s. Collective.
 template <int Dim>

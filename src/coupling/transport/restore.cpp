@@ -6,7 +6,7 @@
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
-#include "coupling/thin/films.h"
+#include "coupling/thin/gap_flow.h"
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
@@ -72,10 +72,10 @@ class SolidVelocities {
     const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
     const auto found = faces.find(face);
     if (found == faces.end()) return {};
-    const SurfaceWeights& hung = (*g_.attached[std::size_t(body)])[found->second];
-    if (hung.empty()) return {};
+    const SurfaceWeights& weights = (*g_.face_weights[std::size_t(body)])[found->second];
+    if (weights.empty()) return {};
     Vec<Dim> v;
-    for (int b = 0; b < Dim; ++b) v[b] = velocity_at<Dim>(hung, b, g_.placed[std::size_t(body)].velocity);
+    for (int b = 0; b < Dim; ++b) v[b] = velocity_at<Dim>(weights, b, g_.placed[std::size_t(body)].velocity);
     return v;
   }
 
@@ -156,7 +156,7 @@ void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const So
 
 template <int Dim>
 void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                    const StepGeometry<Dim>& g, const FaceField<Dim, char>& near, Level<Dim>& level) {
+                    const StepGeometry<Dim>& g, const FaceField<Dim, char>& near, TimeLevel<Dim>& level) {
   if (fluids.has_gas()) keep_faces(domain.layout, near, level);
   continue_velocity(domain, fluids, solids, g, level.valid, level.u);
   domain.halo.fill_ghosts(level.valid);
@@ -166,7 +166,7 @@ template <int Dim>
 Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
                                const StepGeometry<Dim>& g) {
-  Level<Dim> next = empty_level(s.domain.layout, s.fluids.is_viscous());
+  TimeLevel<Dim> next = empty_level(s.domain.layout, s.fluids.is_viscous());
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
       const Site low = f - s.domain.layout.stride(a);
@@ -180,7 +180,7 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
       if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(s.fluids, s.solids, g.body[f]))
         next.valid.at(a, f) = face_solved;
       next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
-      next.u.at(a, f) = u_star.at(a, f) - s.tampering.pressure_gradient * in.dt * next.q.at(a, f);
+      next.u.at(a, f) = u_star.at(a, f) - s.perturbation.pressure_gradient * in.dt * next.q.at(a, f);
     });
   s.domain.halo.fill_ghosts(next.u);
   Restored<Dim> restored;
@@ -191,14 +191,14 @@ Restored<Dim> restore_velocity(const Setup<Dim>& s, const ProjectionInput<Dim>& 
     continue_level(s.domain, s.fluids, s.solids, g, faces_near_gas(s.domain, in.phi), restored.gas);
   }
   continue_level(s.domain, s.fluids, s.solids, g, faces_near_liquid(s.domain, in.phi), next);
-  restored.film = measure_film(s.domain, in.faces, solved, next.u);
+  restored.gap_flow = measure_gap_flow(s.domain, in.faces, solved, next.u);
   restored.level = std::move(next);
   return restored;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \
   template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
-                                  const FaceField<D, char>&, Level<D>&);                                        \
+                                  const FaceField<D, char>&, TimeLevel<D>&);                                    \
   template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&, \
                                      const FaceField<D, char>&, FaceField<D>&);                                 \
   template Restored<D> restore_velocity<D>(const Setup<D>&, const ProjectionInput<D>&, const PressureRows<D>&,  \

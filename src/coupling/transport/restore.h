@@ -14,9 +14,9 @@ enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 // The flow after a solve.
 template <int Dim>
 struct Restored {
-  Level<Dim> level;  // the liquid's
-  Level<Dim> gas;    // where gas flows
-  Film<Dim> film;
+  TimeLevel<Dim> level;  // the liquid's
+  TimeLevel<Dim> gas;    // where gas flows
+  GapFlow<Dim> gap_flow;
   double divergence = 0;  // the largest |net flux|/volume of a cell with a row, 1/s
 };
 
@@ -34,6 +34,6 @@ void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const So
 // Continues a fluid's level from the faces near it, its only valid ones where there is another fluid.
 template <int Dim>
 void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                    const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, Level<Dim>& level);
+                    const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, TimeLevel<Dim>& level);
 
 }  // namespace seiche

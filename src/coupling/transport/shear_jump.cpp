@@ -15,13 +15,13 @@ template <int Dim>
 struct OneFluid {
   double density = 0, viscosity = 0;
   FaceField<Dim> n;  // m/s^2, halo filled
-  const Level<Dim>& level;
+  const TimeLevel<Dim>& level;
 
   bool knows(int axis, Site f) const { return level.valid.at(axis, f) == face_solved; }
 };
 
 template <int Dim>
-OneFluid<Dim> make_fluid(const Domain<Dim>& domain, const Level<Dim>& level, double density, double viscosity) {
+OneFluid<Dim> make_fluid(const Domain<Dim>& domain, const TimeLevel<Dim>& level, double density, double viscosity) {
   OneFluid<Dim> fluid{density, viscosity, level.n, level};
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, fluid.n);
   return fluid;

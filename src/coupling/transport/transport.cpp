@@ -3,10 +3,10 @@
 #include "base/time_spec.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/state/tampering.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/path_origins.h"
@@ -63,7 +63,7 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   if (dt > 2 * state.dt_now) return w;  // weights grow with the ratio of steps, noise with them
   const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
   const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
-  const Level<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
+  const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (interior.at(a, f) && l1.valid.at(a, f) && l2.valid.at(a, f))
@@ -99,7 +99,7 @@ FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, c
   if (!flow.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
   const double courant = fastest_component(domain, state) * dt / domain.layout.h();
   if (courant > 2) return trend;
-  const Level<Dim>&l0 = *flow.now, &l1 = *flow.before;
+  const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before;
   const double ratio = (dt + state.dt_now) / (state.dt_now + state.dt_before);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
@@ -119,8 +119,8 @@ FaceField<Dim> acceleration(const Setup<Dim>& s, const State<Dim>& state, const 
   FaceField<Dim> acc(s.domain.layout);
   if (state.dt_now == 0 || s.scene.time.scheme == TimeScheme::first_order) return acc;
   const FaceField<Dim> trend = slope_trend(s.domain, state, flow, dt);
-  const Level<Dim>& level = *flow.now;
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
+  const TimeLevel<Dim>& level = *flow.now;
+  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
   const double limit = 0.25 * s.domain.layout.h() / (dt * dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
@@ -161,7 +161,7 @@ FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, c
   if (trust == 0) return memory;
   const double earlier = (plan.implicit == 1 ? trust : 2 * plan.implicit - 1) * dt / (2 * state.dt_now),
                present = 1 - plan.implicit - earlier;
-  const Level<Dim>& now = *flow.now;
+  const TimeLevel<Dim>& now = *flow.now;
   FaceField<Dim> last = flow.before->n, carried(domain.layout);
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, last);
   advect_faces(domain.layout, now.u, state.dt_now, interior, interior, last, last, carried);
@@ -184,14 +184,14 @@ struct Carried {
 // u(x) <- u(x) + d + the excess of the mean of d over the face, d = I[v](x_d) - v(x), v the velocities at points: what
 // flows are means, what paths begin and end at are points.
 template <int Dim>
-void advect_means(const Domain<Dim>& domain, const Tampering& tampering, const State<Dim>& state,
+void advect_means(const Domain<Dim>& domain, const OperatorPerturbation& perturbation, const State<Dim>& state,
                   const Carried<Dim>& carried, FaceField<Dim> path, const FaceField<Dim, char>& near,
                   const FaceField<Dim, char>& interior, const FaceField<Dim, char>& whole, double dt,
                   FaceField<Dim>& u) {
   path = points_of_means(domain, whole, path, state.time + dt / 2);
   const FaceField<Dim> v = points_of_means(domain, whole, carried.inner, state.time);
   FaceField<Dim> d(domain.layout);
-  advect_faces(domain.layout, path, tampering.velocity_advection * dt, near, interior, v, carried.outer, u,
+  advect_faces(domain.layout, path, perturbation.velocity_advection * dt, near, interior, v, carried.outer, u,
                Interpolation::six_points);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
@@ -241,14 +241,14 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   // Faces beside those near liquid follow the viscous stress.
   FaceField<Dim> u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
   if (plan.full)
-    advect_means(s.domain, s.tampering, state, carried, path, near, interior, known.whole, dt, u);
+    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, known.whole, dt, u);
   else
-    advect_faces(s.domain.layout, path, s.tampering.velocity_advection * dt, near, interior, carried.inner,
+    advect_faces(s.domain.layout, path, s.perturbation.velocity_advection * dt, near, interior, carried.inner,
                  carried.outer, u);
-  const FacePaths<Dim> paths{path, near, s.tampering.velocity_advection * dt};
+  const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
   limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
   if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, known.whole, carried.outer, dt, u);
-  const Vec3 g = s.tampering.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
+  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
       if (near.at(a, f) || s.fluids.is_viscous())
@@ -273,7 +273,7 @@ void join(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>&
 
 }  // namespace
 
-double settled_of_surface(const Fluids& fluids) {
+double closest_point_band(const Fluids& fluids) {
   return fluids.liquid.surface_tension > 0 || fluids.has_gas() || fluids.has_prescribed_flow() ? 3 : 0;
 }
 
@@ -290,14 +290,14 @@ double transport_surface(const Setup<Dim>& s, const State<Dim>& state, const Fac
   if (s.domain.sides.any_inflow())
     join_inflow(s.domain.layout, s.domain.halo, s.domain.ranks, s.domain.sides, t, joined);
   LevelSetTransport how;
-  if (s.fluids.has_prescribed_flow()) how.trace = Trace::third_order;  // nothing else errs there
-  how.one_sided_at_kinks = s.features.has(Feature::kinks);             // docs/decisions/0023-kinks.md
+  if (s.fluids.has_prescribed_flow()) how.trace = Trace::third_order;                // nothing else errs there
+  how.one_sided_at_medial_axis = s.features.has(Feature::one_sided_at_medial_axis);  // docs/decisions/0023-kinks.md
   FaceField<Dim> path = u;
   if (!s.fluids.has_prescribed_flow()) {
     continue_beyond_inflows(s.domain.layout, s.domain.sides, t, path);
     let_air_follow(s.domain.layout, s.domain.sides, t, state.now->valid, path);
   }
-  advect_level_set(s.domain.layout, path, s.tampering.surface_advection * dt, s.domain.band(), joined, phi, how);
+  advect_level_set(s.domain.layout, path, s.perturbation.surface_advection * dt, s.domain.band(), joined, phi, how);
   fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
   return add_sources(s.domain, s.solids, s.sources, state, t, t + dt, phi);
 }
@@ -306,7 +306,7 @@ template <int Dim>
 void make_distance(const Setup<Dim>& s, const CellField<Dim, char>& closed, CellField<Dim>& phi) {
   const int moved = int(std::ceil(s.scene.time.cfl)) + 1;
   redistance_beside_solids(s.domain, s.solids, closed,
-                           {s.domain.band() / s.domain.layout.h(), 6 + 2 * moved, moved, settled_of_surface(s.fluids)},
+                           {s.domain.band() / s.domain.layout.h(), 6 + 2 * moved, moved, closest_point_band(s.fluids)},
                            1, phi);
 }
 

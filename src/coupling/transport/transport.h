@@ -20,7 +20,7 @@ void make_distance(const Setup<Dim>& setup, const CellField<Dim, char>& closed, 
 
 // Cells from the surface that are taken to their distance from it by its nearest points (levelset/redistance.h).
 // Curvature reads them, and where two fluids flow nothing tells their volumes apart but the surface.
-double settled_of_surface(const Fluids& fluids);
+double closest_point_band(const Fluids& fluids);
 
 // u before the projection on all faces next to liquid: transported velocity plus dt f plus dt/2 (A(x_d) - A(x)), A = f
 // - q. Where gas flows, each fluid is brought by its own flow, continued beyond the surface, so that neither takes up

@@ -10,16 +10,16 @@ namespace {
 
 // Whether a face belongs to the gas: by where it was solved for, else by the surface.
 template <int Dim>
-bool is_gas_face(const Level<Dim>& liquid, const Level<Dim>& gas, const CellField<Dim>& phi, Site stride, int axis,
-                 Site f) {
+bool is_gas_face(const TimeLevel<Dim>& liquid, const TimeLevel<Dim>& gas, const CellField<Dim>& phi, Site stride,
+                 int axis, Site f) {
   if (liquid.valid.at(axis, f)) return false;
   return gas.valid.at(axis, f) || phi[f] + phi[f - stride] >= 0;
 }
 
 // On each face `field` of the fluid that is there.
 template <int Dim>
-FaceField<Dim> of_levels(const Domain<Dim>& domain, const CellField<Dim>& phi, const Level<Dim>& liquid,
-                         const Level<Dim>& gas, FaceField<Dim> Level<Dim>::*field) {
+FaceField<Dim> of_levels(const Domain<Dim>& domain, const CellField<Dim>& phi, const TimeLevel<Dim>& liquid,
+                         const TimeLevel<Dim>& gas, FaceField<Dim> TimeLevel<Dim>::*field) {
   FaceField<Dim> r = liquid.*field;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
@@ -31,15 +31,15 @@ FaceField<Dim> of_levels(const Domain<Dim>& domain, const CellField<Dim>& phi, c
 
 // Valid where either is; null without both.
 template <int Dim>
-std::shared_ptr<const Level<Dim>> level_of_both(const Domain<Dim>& domain, const Fluids& fluids,
-                                                const CellField<Dim>& phi,
-                                                const std::shared_ptr<const Level<Dim>>& liquid,
-                                                const std::shared_ptr<const Level<Dim>>& gas) {
+std::shared_ptr<const TimeLevel<Dim>> level_of_both(const Domain<Dim>& domain, const Fluids& fluids,
+                                                    const CellField<Dim>& phi,
+                                                    const std::shared_ptr<const TimeLevel<Dim>>& liquid,
+                                                    const std::shared_ptr<const TimeLevel<Dim>>& gas) {
   if (!liquid || !gas) return {};
-  auto r = std::make_shared<Level<Dim>>(*liquid);
-  r->u = of_levels(domain, phi, *liquid, *gas, &Level<Dim>::u);
-  r->q = of_levels(domain, phi, *liquid, *gas, &Level<Dim>::q);
-  if (fluids.is_viscous()) r->n = of_levels(domain, phi, *liquid, *gas, &Level<Dim>::n);
+  auto r = std::make_shared<TimeLevel<Dim>>(*liquid);
+  r->u = of_levels(domain, phi, *liquid, *gas, &TimeLevel<Dim>::u);
+  r->q = of_levels(domain, phi, *liquid, *gas, &TimeLevel<Dim>::q);
+  if (fluids.is_viscous()) r->n = of_levels(domain, phi, *liquid, *gas, &TimeLevel<Dim>::n);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.padded(), [&](Site f) {
       if (!r->valid.at(a, f)) r->valid.at(a, f) = gas->valid.at(a, f);
@@ -66,7 +66,7 @@ double reynolds_number_of_cell(const Domain<Dim>& domain, const Fluids& fluids, 
 }  // namespace
 
 template <int Dim>
-FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field) {
+FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> TimeLevel<Dim>::*field) {
   return state.gas.now ? of_levels(domain, state.phi, *state.now, *state.gas.now, field) : (*state.now).*field;
 }
 
@@ -86,7 +86,7 @@ Flow<Dim> flow_of_both(const Domain<Dim>& domain, const Fluids& fluids, const St
 
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
-  if (flow_as_one(fluids)) return of_both(domain, state, &Level<Dim>::u);
+  if (flow_as_one(fluids)) return of_both(domain, state, &TimeLevel<Dim>::u);
   FaceField<Dim> u = state.now->u;
   if (!fluids.has_gas()) return u;
   constexpr double resolved = 10;
@@ -100,7 +100,7 @@ FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, 
 }
 
 template <int Dim>
-void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, Level<Dim>& level) {
+void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level) {
   for (int a = 0; a < Dim; ++a)
     for_each_site(layout, layout.faces(a), [&](Site f) {
       if (marked.at(a, f)) return;
@@ -130,8 +130,8 @@ void mix_gas_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Ce
 #define SEICHE_INSTANTIATE(D)                                                                             \
   template FaceField<D> flow_at_surface<D>(const Domain<D>&, const Fluids&, const State<D>&);             \
   template Flow<D> flow_of_both<D>(const Domain<D>&, const Fluids&, const State<D>&);                     \
-  template FaceField<D> of_both<D>(const Domain<D>&, const State<D>&, FaceField<D> Level<D>::*);          \
-  template void keep_faces<D>(const Layout<D>&, const FaceField<D, char>&, Level<D>&);                    \
+  template FaceField<D> of_both<D>(const Domain<D>&, const State<D>&, FaceField<D> TimeLevel<D>::*);      \
+  template void keep_faces<D>(const Layout<D>&, const FaceField<D, char>&, TimeLevel<D>&);                \
   template void mix_gas_viscosity<D>(const Domain<D>&, const Fluids&, const CellField<D>&, CellField<D>&, \
                                      EdgeField<D>&);
 SEICHE_INSTANTIATE(2)

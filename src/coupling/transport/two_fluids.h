@@ -8,7 +8,7 @@ namespace seiche {
 
 // On each face the field of the fluid that is there, of the liquid where there is no other. `field` is one of Level's.
 template <int Dim>
-FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> Level<Dim>::*field);
+FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> TimeLevel<Dim>::*field);
 
 // Whether both fluids, and the surface with them, are carried by one velocity that is read across the surface. Where
 // their densities are alike (within 4) and no tension holds the surface: what light fluid and heavy exchange by
@@ -30,7 +30,7 @@ FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, 
 
 // Forgets all but the marked faces of a level.
 template <int Dim>
-void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, Level<Dim>& level);
+void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level);
 
 // Liquid's share of the box of a cell's size around a point of distance phi, by a plane across it.
 inline double liquid_share_at(double phi, double h) {

@@ -1,7 +1,7 @@
 #pragma once
 // The domain on this rank: its grid, its sides, and the exchange with other ranks.
 #include "base/communicator.h"
-#include "fluid/boundary/sides.h"
+#include "fluid/boundary/domain_boundary.h"
 #include "grid/halo.h"
 
 namespace seiche {
@@ -12,7 +12,7 @@ struct Domain {
   Communicator ranks;
   Layout<Dim> layout;
   Halo<Dim> halo;
-  Sides<Dim> sides;
+  DomainBoundary<Dim> sides;
 
   // A step carries values across at most `reach` cells.
   Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& ranks);

@@ -9,7 +9,7 @@ namespace {
 // Where liquid that seems to enter at x came in: at x, at the centre of its face where the formula ends within that,
 // else at that of the nearest face next to it. Empty where none of these lets liquid in.
 template <int Dim>
-std::optional<Vec<Dim>> nearest_inflow(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side,
+std::optional<Vec<Dim>> nearest_inflow(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, int side,
                                        const Vec<Dim>& x, double t) {
   constexpr int neighbours = Dim == 2 ? 3 : 9;
   const Vec<Dim> own = center_of_face(layout, axis, x);
@@ -28,7 +28,7 @@ std::optional<Vec<Dim>> nearest_inflow(const Layout<Dim>& layout, const Sides<Di
 // Velocity of a component at a face (index i) brought to the side, from the faces of the side that it touches and that
 // let liquid in: one across the side, two along it. Empty where none does.
 template <int Dim>
-std::optional<double> inflow_beside(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side,
+std::optional<double> inflow_beside(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, int side,
                                     int component, const IVec<Dim>& i, double t) {
   const Geometry<Dim>& g = layout.geometry();
   double sum = 0;
@@ -52,8 +52,8 @@ std::optional<double> inflow_beside(const Layout<Dim>& layout, const Sides<Dim>&
 
 // The layers beyond a side of one component. The k-th is 2 u_side - that of the k-th inside.
 template <int Dim>
-void continue_component(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, int component,
-                        FaceField<Dim>& u) {
+void continue_component(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, int side, double t,
+                        int component, FaceField<Dim>& u) {
   constexpr int odd_layers = 2;
   const int n = layout.geometry().cells[axis], on_side = component == axis ? 0 : 1;
   const int edge = side == 0 ? 0 : n - on_side;
@@ -75,7 +75,7 @@ void continue_component(const Layout<Dim>& layout, const Sides<Dim>& sides, int 
 
 // The path is at x = to + r (from - to) the time r dt before its end.
 template <int Dim>
-std::optional<Entry<Dim>> find_entry(const Layout<Dim>& layout, const Sides<Dim>& sides, const Vec<Dim>& from,
+std::optional<Entry<Dim>> find_entry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, const Vec<Dim>& from,
                                      const Vec<Dim>& to, double t, double dt) {
   std::optional<Entry<Dim>> last;
   for (int a = 0; a < Dim; ++a)
@@ -95,7 +95,7 @@ std::optional<Entry<Dim>> find_entry(const Layout<Dim>& layout, const Sides<Dim>
 }
 
 template <int Dim>
-Vec<Dim> velocity_of(const Sides<Dim>& sides, const Entry<Dim>& e) {
+Vec<Dim> velocity_of(const DomainBoundary<Dim>& sides, const Entry<Dim>& e) {
   Vec<Dim> v;
   for (int a = 0; a < Dim; ++a) v[a] = sides.velocity(e.axis, e.side, a, e.x, e.time);
   return v;
@@ -103,8 +103,8 @@ Vec<Dim> velocity_of(const Sides<Dim>& sides, const Entry<Dim>& e) {
 
 // Faces across the side alone: those along it lie within the stream or the air.
 template <int Dim>
-void let_air_follow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, const FaceField<Dim, char>& valid,
-                    FaceField<Dim>& u) {
+void let_air_follow(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t,
+                    const FaceField<Dim, char>& valid, FaceField<Dim>& u) {
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
       if (sides.type(axis, side) != SideType::inflow) continue;
@@ -124,7 +124,7 @@ void let_air_follow(const Layout<Dim>& layout, const Sides<Dim>& sides, double t
 }
 
 template <int Dim>
-void continue_beyond_inflows(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, FaceField<Dim>& u) {
+void continue_beyond_inflows(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t, FaceField<Dim>& u) {
   for (int axis = 0; axis < Dim; ++axis)
     for (int side = 0; side < 2; ++side) {
       if (sides.type(axis, side) != SideType::inflow) continue;
@@ -133,12 +133,13 @@ void continue_beyond_inflows(const Layout<Dim>& layout, const Sides<Dim>& sides,
     }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template std::optional<Entry<D>> find_entry<D>(const Layout<D>&, const Sides<D>&, const Vec<D>&, const Vec<D>&, \
-                                                 double, double);                                                 \
-  template Vec<D> velocity_of<D>(const Sides<D>&, const Entry<D>&);                                               \
-  template void continue_beyond_inflows<D>(const Layout<D>&, const Sides<D>&, double, FaceField<D>&);             \
-  template void let_air_follow<D>(const Layout<D>&, const Sides<D>&, double, const FaceField<D, char>&, FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                    \
+  template std::optional<Entry<D>> find_entry<D>(const Layout<D>&, const DomainBoundary<D>&, const Vec<D>&,      \
+                                                 const Vec<D>&, double, double);                                 \
+  template Vec<D> velocity_of<D>(const DomainBoundary<D>&, const Entry<D>&);                                     \
+  template void continue_beyond_inflows<D>(const Layout<D>&, const DomainBoundary<D>&, double, FaceField<D>&);   \
+  template void let_air_follow<D>(const Layout<D>&, const DomainBoundary<D>&, double, const FaceField<D, char>&, \
+                                  FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

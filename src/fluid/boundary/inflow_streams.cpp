@@ -41,7 +41,7 @@ FaceNumbers gather(const Communicator& ranks, const std::vector<std::int64_t>& m
 template <int Dim>
 class Streams {
  public:
-  Streams(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t)
+  Streams(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, int side, double t)
       : axis_(axis), reach_(layout.halo()), box_(layout.padded().grown(2 * layout.halo())) {
     if (layout.cells().empty()) box_ = layout.cells();
     box_.lower[axis] = 0, box_.upper[axis] = 1;
@@ -93,7 +93,7 @@ class Streams {
  private:
   using Drift = std::optional<Vec<Dim>>;
 
-  Drift drift_at(const Sides<Dim>& sides, int side, const Vec<Dim>& x, double t) const {
+  Drift drift_at(const DomainBoundary<Dim>& sides, int side, const Vec<Dim>& x, double t) const {
     const double inward = sides.inward_speed(axis_, side, x, t);
     if (inward <= 0) return {};
     Vec<Dim> r;
@@ -210,8 +210,8 @@ void join_streams(const Layout<Dim>& layout, const Streams<Dim>& streams, int ax
 
 // Ghosts take what the ranks found that own the cells: only these know all that a stream's distance hangs on.
 template <int Dim>
-void join_inflow(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks, const Sides<Dim>& sides,
-                 double t, CellField<Dim>& phi) {
+void join_inflow(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
+                 const DomainBoundary<Dim>& sides, double t, CellField<Dim>& phi) {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       if (sides.type(a, side) != SideType::inflow) continue;
@@ -223,9 +223,9 @@ void join_inflow(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communi
   halo.fill_ghosts(phi);
 }
 
-template void join_inflow<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const Sides<2>&, double,
+template void join_inflow<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const DomainBoundary<2>&, double,
                              CellField<2>&);
-template void join_inflow<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const Sides<3>&, double,
+template void join_inflow<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const DomainBoundary<3>&, double,
                              CellField<3>&);
 
 }  // namespace seiche

@@ -14,13 +14,13 @@ double liquid_part(double phi_low, double phi_high) {
 }
 
 template <int Dim>
-double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across) {
+double inverse_density_ratio_of_link(const ProjectionInput<Dim>& in, Site cell, Site across) {
   const double theta = liquid_part(in.phi[cell], in.phi[across]);
   return 1 / (theta + (1 - theta) * in.gas_density / in.density);
 }
 
 template <int Dim>
-double cell_lightness(const ProjectionInput<Dim>& in, Site cell) {
+double inverse_density_ratio_of_cell(const ProjectionInput<Dim>& in, Site cell) {
   return in.has_gas() && !in.is_liquid(cell) ? in.density / in.gas_density : 1;
 }
 
@@ -51,8 +51,9 @@ template <int Dim>
 Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, int axis, Site face, Site cell,
                  Site across) {
   const double w = in.faces.open.at(axis, face);
-  if (in.faces.kind_at(axis, face) == FaceKind::outflow) return {w / 0.5 * cell_lightness(in, cell), 0, true};
-  return {w * link_lightness(in, cell, across), (cell == face ? -1 : 1) * jump_over(in, axis, face),
+  if (in.faces.kind_at(axis, face) == FaceKind::outflow)
+    return {w / 0.5 * inverse_density_ratio_of_cell(in, cell), 0, true};
+  return {w * inverse_density_ratio_of_link(in, cell, across), (cell == face ? -1 : 1) * jump_over(in, axis, face),
           rows.row[across] < 0};
 }
 
@@ -91,8 +92,8 @@ PressureRows<Dim> number_rows(const ProjectionInput<Dim>& in) {
   std::int64_t isolated = 0;
   for_each_index_in_order(in.layout, in.layout.cells(), [&](Site s, const IVec<Dim>&) {
     if (!(in.is_liquid(s) || in.has_gas())) return;
-    if (in.is_parted(s))
-      rows.row[s] = PressureRows<Dim>::parted_row;
+    if (in.is_separated(s))
+      rows.row[s] = PressureRows<Dim>::separated_row;
     else if (touches_unknown(in, s))
       rows.cells.push_back(s);
     else if (in.is_liquid(s))
@@ -165,7 +166,7 @@ DistributedMatrix assemble_pressure_matrix(const ProjectionInput<Dim>& in, const
     });
     m.row_start.push_back(int(m.value.size()));
   }
-  if (rows.air) append_air_rows(rows, bring_home(of_air, rows.first, rows.cells.size(), in.ranks), m);
+  if (rows.air) append_air_rows(rows, send_to_owner(of_air, rows.first, rows.cells.size(), in.ranks), m);
   return m;
 }
 
@@ -202,16 +203,16 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
   const double p_low = has_low ? pressure[low] : 0, p_high = has_high ? pressure[high] : 0;
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) {
     const double beyond = in.faces.side_pressure.at(axis, face), over = scale / 0.5;
-    return rows.has_pressure(low) ? over * cell_lightness(in, low) * (beyond - p_low)
-                                  : over * cell_lightness(in, high) * (p_high - beyond);
+    return rows.has_pressure(low) ? over * inverse_density_ratio_of_cell(in, low) * (beyond - p_low)
+                                  : over * inverse_density_ratio_of_cell(in, high) * (p_high - beyond);
   }
-  return scale * link_lightness(in, low, high) * (p_high - p_low + jump_over(in, axis, face));
+  return scale * inverse_density_ratio_of_link(in, low, high) * (p_high - p_low + jump_over(in, axis, face));
 }
 
 // One Jacobi step on the rows of the air: sum of weights p_air = sum of weights (p + jump) + its right-hand side.
 template <int Dim>
-void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
-                CellField<Dim>& pressure) {
+void equalise_air_pressure(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
+                           CellField<Dim>& pressure) {
   if (!rows.air) return;
   const std::size_t count = rows.air_row.size();
   const Vector b = pressure_right_side(in, rows, u_star);
@@ -297,8 +298,8 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
-  template double link_lightness<D>(const ProjectionInput<D>&, Site, Site);                                           \
-  template double cell_lightness<D>(const ProjectionInput<D>&, Site);                                                 \
+  template double inverse_density_ratio_of_link<D>(const ProjectionInput<D>&, Site, Site);                            \
+  template double inverse_density_ratio_of_cell<D>(const ProjectionInput<D>&, Site);                                  \
   template double jump_over<D>(const ProjectionInput<D>&, int, Site);                                                 \
   template PressureRows<D> number_rows<D>(const ProjectionInput<D>&);                                                 \
   template DistributedMatrix assemble_pressure_matrix<D>(const ProjectionInput<D>&, const PressureRows<D>&);          \
@@ -306,7 +307,8 @@ VolumeMismatch worst_mismatch(const ProjectionInput<Dim>& in, const PressureRows
                                                       const FaceField<D>&);                                           \
   template double face_pressure_slope<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, int, \
                                          Site);                                                                       \
-  template void settle_air<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&, CellField<D>&); \
+  template void equalise_air_pressure<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&,      \
+                                         CellField<D>&);                                                              \
   template RowGrid row_grid<D>(const ProjectionInput<D>&, const PressureRows<D>&);                                    \
   template double max_divergence<D>(const ProjectionInput<D>&, const PressureRows<D>&, const FaceField<D>&);          \
   template VolumeMismatch worst_mismatch<D>(const ProjectionInput<D>&, const PressureRows<D>&, const NullSpace&);

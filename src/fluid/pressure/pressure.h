@@ -4,7 +4,7 @@
 
 #include "fluid/boundary/face_geometry.h"
 #include "fluid/pressure/air_regions.h"
-#include "fluid/pressure/parting.h"
+#include "fluid/pressure/separation.h"
 #include "grid/halo.h"
 #include "grid/loops.h"
 #include "linalg/spd/solve.h"
@@ -19,26 +19,26 @@ struct ProjectionInput {
   const Communicator& ranks;
   const CellField<Dim>& phi;
   const FaceGeometry<Dim>& faces;
-  double density;                         // kg/m^3
-  double dt;                              // s
-  const Parting<Dim>* parting = nullptr;  // where liquid may part from solids
-  double gas_density = 0;                 // kg/m^3; 0: beyond the surface there is no more than a pressure of 0
+  double density;                               // kg/m^3
+  double dt;                                    // s
+  const Separation<Dim>* separation = nullptr;  // where liquid may part from solids
+  double gas_density = 0;                       // kg/m^3; 0: beyond the surface there is no more than a pressure of 0
   // p_liquid - p_gas where the surface crosses the link of a face's two cells, Pa; null: 0 everywhere.
   const FaceField<Dim>* surface_jump = nullptr;
   const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none does
 
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
-  bool is_parted(Site cell) const { return parting && parting->parted[cell]; }
+  bool is_separated(Site cell) const { return separation && separation->separated[cell]; }
   // Flux that a cell must take in before it is full, per face area, m/s.
-  double missing_flux(Site cell) const { return parting ? parting->gap[cell] * layout.h() / dt : 0; }
+  double missing_flux(Site cell) const { return separation ? separation->gap[cell] * layout.h() / dt : 0; }
 };
 
 // The unknowns: one row a cell of liquid, or gas that flows, that an open face touches and that has not parted.
 template <int Dim>
 struct PressureRows {
-  static constexpr std::int64_t no_row = -1, parted_row = -2;
-  // Global row, no_row or parted_row (p = 0), filled one cell around; of enclosed air that of its region.
+  static constexpr std::int64_t no_row = -1, separated_row = -2;
+  // Global row, no_row or separated_row (p = 0), filled one cell around; of enclosed air that of its region.
   CellField<Dim, std::int64_t> row;
   std::vector<Site> cells;  // owned cells with a row, in row order, and then one cell a region of air
   std::size_t liquid = 0;   // so many of them are no region's
@@ -50,10 +50,10 @@ struct PressureRows {
   // Region of enclosed air a cell belongs to, or -1.
   std::int64_t region(Site cell) const { return air ? std::max<std::int64_t>(air->label[cell], -1) : -1; }
   bool has_own(Site cell) const { return row[cell] >= 0 && region(cell) < 0; }
-  bool is_parted(Site cell) const { return row[cell] == parted_row; }
+  bool is_separated(Site cell) const { return row[cell] == separated_row; }
   // Whether a cell has a pressure of its own, be it solved for or, where the cell has parted, zero. It does not depend
   // on the guess of which cells part: masses of faces hang on it, and the policy iteration needs one matrix.
-  bool has_pressure(Site cell) const { return has_own(cell) || is_parted(cell); }
+  bool has_pressure(Site cell) const { return has_own(cell) || is_separated(cell); }
   bool touch_pressure(Site low, Site high) const { return has_pressure(low) || has_pressure(high); }
   bool owns(Row r) const { return r >= first && r < first + Row(cells.size()); }
 };
@@ -82,10 +82,10 @@ double liquid_part(double phi_low, double phi_high);
 // rho/rho_f: the liquid's density over that of the link between the centres of two cells, theta rho + (1 - theta)
 // rho_gas with the liquid's part theta of it (Kang, Fedkiw, Liu 2000). Without gas 1/theta: the surface ends the link.
 template <int Dim>
-double link_lightness(const ProjectionInput<Dim>& in, Site cell, Site across);
+double inverse_density_ratio_of_link(const ProjectionInput<Dim>& in, Site cell, Site across);
 // rho over the density of a cell.
 template <int Dim>
-double cell_lightness(const ProjectionInput<Dim>& in, Site cell);
+double inverse_density_ratio_of_cell(const ProjectionInput<Dim>& in, Site cell);
 // p_low - p_high at the surface where it crosses the link of a face's cells, Pa; else 0.
 template <int Dim>
 double jump_over(const ProjectionInput<Dim>& in, int axis, Site face);
@@ -117,8 +117,8 @@ RowGrid row_grid(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 // Gives each region of enclosed air the pressure at which just as much flows in as out, to rounding, and all its cells
 // that pressure. Ghosts filled. Collective.
 template <int Dim>
-void settle_air(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
-                CellField<Dim>& pressure);
+void equalise_air_pressure(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& u_star,
+                           CellField<Dim>& pressure);
 
 // Largest |net flux|/cell volume over the rows, 1/s, over all ranks.
 template <int Dim>

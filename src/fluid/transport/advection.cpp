@@ -1,6 +1,6 @@
 #include "fluid/transport/advection.h"
 
-#include "fluid/transport/kinks.h"
+#include "fluid/transport/medial_axis.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 
@@ -69,8 +69,8 @@ void advect_level_set(const Layout<Dim>& layout, const FaceField<Dim>& u, double
     const Vec<Dim> from = how.trace == Trace::midpoint ? trace_midpoint<Dim>(layout, u, at_x, x, dt)
                                                        : trace_third_order<Dim>(layout, u, at_x, x, dt);
     const Vec<Dim> g = index_coordinates<Dim>(layout, from, cell_offset<Dim>());
-    moved[s] = how.one_sided_at_kinks ? interpolate_across_kinks<Dim>(layout, phi.data(), g)
-                                      : interpolate_cubic<Dim>(layout, phi.data(), g);
+    moved[s] = how.one_sided_at_medial_axis ? interpolate_beside_medial_axis<Dim>(layout, phi.data(), g)
+                                            : interpolate_cubic<Dim>(layout, phi.data(), g);
   });
 }
 

@@ -28,7 +28,7 @@ enum class Trace { midpoint, third_order };
 
 struct LevelSetTransport {
   Trace trace = Trace::midpoint;
-  bool one_sided_at_kinks = true;  // where phi has a kink, in the middle of threads and gaps
+  bool one_sided_at_medial_axis = true;  // where phi has a kink, in the middle of threads and gaps
 };
 
 // phi(x) <- phi(departure point), of fourth order, at the owned cells with |phi| < band; the others keep their value.

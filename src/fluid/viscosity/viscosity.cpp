@@ -150,8 +150,8 @@ double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   const double w = in.faces.open.at(axis, f);
   if (!in.faces.is_unknown(axis, f) || w == 0 || !in.rows.touch_pressure(low, f)) return follower * full;
   if (in.faces.kind_at(axis, f) == FaceKind::outflow)
-    return 0.5 * w * full / cell_lightness(in.projection, has_low ? low : f);
-  return w * full / link_lightness(in.projection, low, f);
+    return 0.5 * w * full / inverse_density_ratio_of_cell(in.projection, has_low ? low : f);
+  return w * full / inverse_density_ratio_of_link(in.projection, low, f);
 }
 
 // -+ dt w h^(Dim-1) p beyond outflow sides, from a row on their upper or lower side, and -dt w h^(Dim-1) (p_low -
@@ -283,7 +283,7 @@ void append_row(Entries& entries, DistributedMatrix& m) {
 template <int Dim>
 void append_air_rows(const ViscousInput<Dim>& in, const std::vector<MatrixEntry>& entries,
                      std::vector<double>& mobility, ViscousSystem<Dim>& r) {
-  const auto home = bring_home(entries, in.rows.first, in.rows.cells.size(), in.ranks);
+  const auto home = send_to_owner(entries, in.rows.first, in.rows.cells.size(), in.ranks);
   in.ranks.global_sum(mobility);
   auto next = home.begin();
   for (std::size_t n = in.rows.liquid; n < in.rows.cells.size(); ++n) {

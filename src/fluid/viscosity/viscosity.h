@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
-#include "fluid/boundary/sides.h"
+#include "fluid/boundary/domain_boundary.h"
 #include "fluid/pressure/pressure.h"
 #include "linalg/core/block_columns.h"
 
@@ -40,7 +40,7 @@ struct ViscousInput {
   const Layout<Dim>& layout;
   const Halo<Dim>& halo;
   const Communicator& ranks;
-  const Sides<Dim>& sides;
+  const DomainBoundary<Dim>& sides;
   const CellField<Dim>& phi;
   const FaceGeometry<Dim>& faces;
   const NodeField<Dim>& psi;                 // distance to the nearest solid, m

@@ -119,16 +119,16 @@ bool ViscousTerms<Dim>::of_edge(int plane, Site e, ViscousTerm<Dim>& t) const {
   if (!settle(t)) return false;
   std::array<double, 2> weight{1, 1};
   if (!weigh_by_sides(plane, e, weight)) return false;
-  std::array<bool, 2> parted{};
+  std::array<bool, 2> separated{};
   for (int n = 0; n < 2; ++n) {
     const int p = 2 * n, q = 2 - 2 * n;
-    parted[n] = kind(t.slot[p]) == SampleKind::unknown && kind(t.slot[p + 1]) == SampleKind::unknown &&
-                kind(t.slot[q]) == SampleKind::solid && kind(t.slot[q + 1]) == SampleKind::solid;
+    separated[n] = kind(t.slot[p]) == SampleKind::unknown && kind(t.slot[p + 1]) == SampleKind::unknown &&
+                   kind(t.slot[q]) == SampleKind::solid && kind(t.slot[q + 1]) == SampleKind::solid;
   }
   const bool linked = s_.plain || (weight[0] > 0 && weight[1] > 0);
-  if (!parted[0] && !parted[1] && linked) t.add_product(1, 0, 3, 2, c);
+  if (!separated[0] && !separated[1] && linked) t.add_product(1, 0, 3, 2, c);
   for (int n = 0; n < 2; ++n) {
-    if (parted[n])
+    if (separated[n])
       link_both_sides(t, 2 * n, 2 * n + 1, c);
     else if (weight[n] > 0)
       t.add_square(2 * n, 2 * n + 1, c * weight[n] * link_weight(t.slot[2 * n], t.slot[2 * n + 1]));

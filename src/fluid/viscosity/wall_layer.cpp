@@ -37,8 +37,8 @@ void continue_across(const Layout<Dim>& layout, int axis, int side, FaceField<Di
 // Farther out than the first layer b counts for no more than the odd part: where few cells resolve the flow at the wall
 // it would grow with k^2.
 template <int Dim>
-void continue_along(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, int side, double t, int component,
-                    FaceValues values, FaceField<Dim>& u) {
+void continue_along(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, int side, double t,
+                    int component, FaceValues values, FaceField<Dim>& u) {
   const int n = layout.geometry().cells[axis], edge = side == 0 ? 0 : n - 1;
   const double middle = values == FaceValues::means ? 1.0 / 3 : 0.25;
   const Site inward = (side == 0 ? 1 : -1) * layout.stride(axis);
@@ -62,7 +62,7 @@ int wall_beside(const Layout<Dim>& layout, int component, int axis, const IVec<D
 }
 
 template <int Dim>
-bool is_near_opening(const Layout<Dim>& layout, const Sides<Dim>& sides, int axis, const IVec<Dim>& i) {
+bool is_near_opening(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, int axis, const IVec<Dim>& i) {
   const int n = layout.geometry().cells[axis];
   const auto opens = [&](int side) {
     return sides.type(axis, side) == SideType::inflow || sides.type(axis, side) == SideType::outflow;
@@ -84,7 +84,7 @@ char least_along(const Layout<Dim>& layout, const std::vector<char>& mask, int c
 }
 
 template <int Dim>
-void continue_beyond_walls(const Layout<Dim>& layout, const Sides<Dim>& sides, double t, FaceValues values,
+void continue_beyond_walls(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t, FaceValues values,
                            FaceField<Dim>& u) {
   for (int b = 0; b < Dim; ++b)
     for (int side = 0; side < 2; ++side) {
@@ -96,7 +96,7 @@ void continue_beyond_walls(const Layout<Dim>& layout, const Sides<Dim>& sides, d
 }
 
 template <int Dim>
-FaceField<Dim, char> whole_faces(const Layout<Dim>& layout, const Sides<Dim>& sides,
+FaceField<Dim, char> whole_faces(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides,
                                  const FaceField<Dim, char>& valid) {
   FaceField<Dim, char> whole(layout);
   for (int a = 0; a < Dim; ++a)
@@ -119,8 +119,8 @@ double excess_of_mean(const Layout<Dim>& layout, const FaceField<Dim>& u, int ax
 
 // Next to the wall 2 b h^2 - ((u1 - u0) - 2 (u0 - u_wall)), u_wall = (ghost + 5/2 u0 - 1/2 u1)/3.
 template <int Dim>
-double missing_laplacian(const Layout<Dim>& layout, const Sides<Dim>& sides, const FaceField<Dim>& u, int axis, Site f,
-                         const IVec<Dim>& i) {
+double missing_laplacian(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, const FaceField<Dim>& u, int axis,
+                         Site f, const IVec<Dim>& i) {
   double sum = 0;
   const double* v = &u.at(axis, f);
   for (int b = 0; b < Dim; ++b) {
@@ -137,12 +137,13 @@ double missing_laplacian(const Layout<Dim>& layout, const Sides<Dim>& sides, con
   return sum;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                    \
-  template char least_along<D>(const Layout<D>&, const std::vector<char>&, int, int, int, Site, const IVec<D>&); \
-  template void continue_beyond_walls<D>(const Layout<D>&, const Sides<D>&, double, FaceValues, FaceField<D>&);  \
-  template FaceField<D, char> whole_faces<D>(const Layout<D>&, const Sides<D>&, const FaceField<D, char>&);      \
-  template double excess_of_mean<D>(const Layout<D>&, const FaceField<D>&, int, Site);                           \
-  template double missing_laplacian<D>(const Layout<D>&, const Sides<D>&, const FaceField<D>&, int, Site,        \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template char least_along<D>(const Layout<D>&, const std::vector<char>&, int, int, int, Site, const IVec<D>&);     \
+  template void continue_beyond_walls<D>(const Layout<D>&, const DomainBoundary<D>&, double, FaceValues,             \
+                                         FaceField<D>&);                                                             \
+  template FaceField<D, char> whole_faces<D>(const Layout<D>&, const DomainBoundary<D>&, const FaceField<D, char>&); \
+  template double excess_of_mean<D>(const Layout<D>&, const FaceField<D>&, int, Site);                               \
+  template double missing_laplacian<D>(const Layout<D>&, const DomainBoundary<D>&, const FaceField<D>&, int, Site,   \
                                        const IVec<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

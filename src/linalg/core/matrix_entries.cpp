@@ -6,8 +6,8 @@
 
 namespace seiche {
 
-std::vector<MatrixEntry> bring_home(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
-                                    const Communicator& ranks) {
+std::vector<MatrixEntry> send_to_owner(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
+                                       const Communicator& ranks) {
   const auto is_home = [&](const MatrixEntry& e) { return e.row >= first && e.row < first + Row(count); };
   std::vector<MatrixEntry> home, away;
   for (const MatrixEntry& e : mine) (is_home(e) ? home : away).push_back(e);
@@ -29,13 +29,13 @@ std::vector<MatrixEntry> bring_home(const std::vector<MatrixEntry>& mine, Row fi
   return merged;
 }
 
-std::vector<MatrixEntry> bring_home_sums(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
-                                         const Communicator& ranks) {
+std::vector<MatrixEntry> send_sums_to_owner(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
+                                            const Communicator& ranks) {
   constexpr double rounding = 1e-12;  // of up to 1e4 terms
   std::vector<MatrixEntry> sizes = mine;
   for (MatrixEntry& e : sizes) e.value = std::abs(e.value);
-  sizes = bring_home(sizes, first, count, ranks);
-  const std::vector<MatrixEntry> sums = bring_home(mine, first, count, ranks);
+  sizes = send_to_owner(sizes, first, count, ranks);
+  const std::vector<MatrixEntry> sums = send_to_owner(mine, first, count, ranks);
   std::vector<MatrixEntry> kept;
   for (std::size_t n = 0; n < sums.size(); ++n)
     if (std::abs(sums[n].value) > rounding * sizes[n].value) kept.push_back(sums[n]);

@@ -14,11 +14,11 @@ struct MatrixEntry {
 
 // Those of all ranks whose row is one of [first, first + count), ordered by row and column, those of one place added
 // up. Collective.
-std::vector<MatrixEntry> bring_home(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
-                                    const Communicator& ranks);
+std::vector<MatrixEntry> send_to_owner(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
+                                       const Communicator& ranks);
 
 // The same, but for sums that are no more than the rounding of what was added up.
-std::vector<MatrixEntry> bring_home_sums(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
-                                         const Communicator& ranks);
+std::vector<MatrixEntry> send_sums_to_owner(const std::vector<MatrixEntry>& mine, Row first, std::size_t count,
+                                            const Communicator& ranks);
 
 }  // namespace seiche

@@ -53,7 +53,7 @@ KktSolver::Residual KktSolver::measure(const Problem& problem, const Vector& x) 
   return {weighed(momentum) / (scale > 0 ? scale : 1), norm(flux, ranks_) / problem.scale};
 }
 
-std::string KktSolver::climb(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report) {
+std::string KktSolver::attempt(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report) {
   KktPreconditioner B(*K_, bodies_, settings_of(strength));
   if (!B.failure().empty()) return B.failure();
   double target = -1;
@@ -96,7 +96,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
     return all;
   }
   if (!all_finite(b, ranks_) || !all_finite(A_.values(), ranks_) || ranks_.any(!g.allFinite())) {
-    report.ladder.push_back("the matrix or the right-hand side is not finite");
+    report.failed_attempts.push_back("the matrix or the right-hand side is not finite");
     return all;
   }
   bodies_.keep(H);
@@ -107,7 +107,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
   Vector x = K_->pack(p, v);
   for (const char* strength : {"standard", "strong"}) {
     if (!all_finite(x, ranks_) || strength == std::string("strong")) std::fill(x.begin(), x.end(), 0.0);
-    const std::string failure = climb(strength, problem, x, report);
+    const std::string failure = attempt(strength, problem, x, report);
     all.indefinite = K_->met_indefinite();
     if (all.indefinite) break;
     const Residual residual = measure(problem, x);
@@ -115,9 +115,9 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
     report.used = fmt::format("MINRES with {} multigrid", strength);
     report.converged = report.residual <= options_.tolerance;
     if (report.converged) break;
-    report.ladder.push_back(fmt::format("{}: momentum {:.2e}, continuity {:.2e} after {} iterations{}{}", report.used,
-                                        residual.momentum, residual.continuity, report.iterations,
-                                        failure.empty() ? "" : ", ", failure));
+    report.failed_attempts.push_back(fmt::format("{}: momentum {:.2e}, continuity {:.2e} after {} iterations{}{}",
+                                                 report.used, residual.momentum, residual.continuity, report.iterations,
+                                                 failure.empty() ? "" : ", ", failure));
   }
   K_->unpack(x, p, v);
   coupled_.project(p);

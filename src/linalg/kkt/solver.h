@@ -45,7 +45,7 @@ class KktSolver {
   };
   Problem pose(const Vector& b, const Eigen::VectorXd& g, double scale, SaddleReport& report) const;
   Residual measure(const Problem& problem, const Vector& x) const;
-  std::string climb(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report);
+  std::string attempt(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report);
 
   KktSystem system_;
   SaddleOptions options_;

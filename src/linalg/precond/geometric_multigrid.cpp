@@ -25,7 +25,7 @@ class GeometricMultigrid : public Preconditioner {
   void apply(const Vector& r, Vector& z) override;
 
  private:
-  using Level = MultigridLevel<Dim>;
+  using TimeLevel = MultigridLevel<Dim>;
   void add_first_level(const CellBox& box, StencilRows<Dim>& stencil);
   void add_coarse_level();
   void add_whole_level();
@@ -110,7 +110,7 @@ void GeometricMultigrid<Dim>::add_first_level(const CellBox& box, StencilRows<Di
   const bool whole = distributed == 0;
   const std::vector<CellBox> homes = gather_blocks(stencil.rows.cells, ranks_);
   const std::vector<CellBox> blocks = whole ? std::vector{box} : aligned(homes, box, 1 << distributed);
-  auto level = std::make_unique<Level>(blocks, periodic_, whole ? alone() : ranks_);
+  auto level = std::make_unique<TimeLevel>(blocks, periodic_, whole ? alone() : ranks_);
   if (ranks_.size() == 1) {
     level->face = std::move(stencil.face);
   } else {
@@ -146,7 +146,7 @@ void GeometricMultigrid<Dim>::add_coarse_level() {
 template <int Dim>
 void GeometricMultigrid<Dim>::add_whole_level() {
   Stage<Dim>& last = stages_.back();
-  const Level& part = *last.level;
+  const TimeLevel& part = *last.level;
   CellBox box = part.blocks.front();
   for (const CellBox& b : part.blocks)
     for (int a = 0; a < 3 && b.cells() > 0; ++a) {
@@ -154,7 +154,7 @@ void GeometricMultigrid<Dim>::add_whole_level() {
       box.lower[a] = std::min(box.lower[a], b.lower[a]);
       box.upper[a] = std::max(box.upper[a], b.upper[a]);
     }
-  auto level = std::make_unique<Level>(std::vector{box}, part.periodic, alone());
+  auto level = std::make_unique<TimeLevel>(std::vector{box}, part.periodic, alone());
   last.gathers = true;
   last.gather = copies(all_take(part.blocks, box), part.rows, level->rows, ranks_);
   last.scatter = own_part(part.blocks, level->rows, part.rows, ranks_);
@@ -169,9 +169,9 @@ void GeometricMultigrid<Dim>::add_whole_level() {
 
 template <int Dim>
 void GeometricMultigrid<Dim>::cycle(std::size_t n) {
-  Level& level = *stages_[n].level;
+  TimeLevel& level = *stages_[n].level;
   if (n + 1 == stages_.size()) return coarsest_.apply(level);
-  Level& next = *stages_[n + 1].level;
+  TimeLevel& next = *stages_[n + 1].level;
   if (stages_[n].gathers) {
     stages_[n].gather.run(level.b.data(), next.b.data());
     cycle(n + 1);
@@ -186,7 +186,7 @@ void GeometricMultigrid<Dim>::cycle(std::size_t n) {
 
 template <int Dim>
 void GeometricMultigrid<Dim>::apply(const Vector& r, Vector& z) {
-  Level& first = *stages_.front().level;
+  TimeLevel& first = *stages_.front().level;
   const bool shared = ranks_.size() > 1;
   std::vector<float>&b = shared ? home_b_ : first.b, &x = shared ? home_x_ : first.x;
   for (std::size_t row = 0; row < r.size(); ++row)

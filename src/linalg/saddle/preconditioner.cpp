@@ -1,6 +1,6 @@
 #include "linalg/saddle/preconditioner.h"
 
-#include "linalg/saddle/commutator.h"
+#include "linalg/saddle/lsc_preconditioner.h"
 
 namespace seiche {
 namespace {
@@ -36,7 +36,7 @@ void SaddlePreconditioner::make_pressure() {
   pressure_ =
       std::make_unique<SchurPreconditioner>(K_.liquid(), K_.system().J, 1 / scale, std::move(mass), name_, settings_);
   if (name_ == "auto" && !K_.system().J.any_deforms() && (velocity_->is_multigrid() || viscosity_prevails(K_)))
-    pressure_->set_liquid(std::make_unique<Commutator>(K_, velocity_->loose_rows(), settings_));
+    pressure_->set_liquid(std::make_unique<LscPreconditioner>(K_, velocity_->pressure_free_rows(), settings_));
   std::vector<Vector> Jd;
   for (const Direction& d : velocity_->directions()) {
     Vector w(std::size_t(K_.velocities()), 0.0);

@@ -40,7 +40,7 @@ Vector multiplied(const Vector& a, Vector b) {
 
 }  // namespace
 
-struct SaddleSolver::Rung {
+struct SaddleSolver::Fallback {
   Method method;
   std::string pressure, strength;
   Start start;
@@ -181,7 +181,7 @@ struct WeightedPreconditioner {
 }  // namespace
 
 // The norm that MINRES watches is not the one that counts: it goes on until that is there as well.
-SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
+SaddleSolver::Outcome SaddleSolver::minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {
     if (target >= 0 && estimate > target) return false;
@@ -194,7 +194,7 @@ SaddleSolver::Climb SaddleSolver::minimise(SaddlePreconditioner& B, const Proble
   return {result.iterations, result.failure};
 }
 
-SaddleSolver::Climb SaddleSolver::reduce_residual(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
+SaddleSolver::Outcome SaddleSolver::reduce_residual(SaddlePreconditioner& B, const Problem& problem, Vector& x) {
   constexpr int restart = 60;  // viscosities that jump by 1e5 take up to 45, and twice as many if cut short
   const WeightedOperator A{K_, coupled_, problem.weight};
   WeightedPreconditioner P{B, problem.weight};
@@ -205,39 +205,39 @@ SaddleSolver::Climb SaddleSolver::reduce_residual(SaddlePreconditioner& B, const
 
 // GMRES with the triangular preconditioner takes half the iterations of MINRES with the diagonal one, which needs a few
 // vectors where GMRES keeps one an iteration.
-std::vector<SaddleSolver::Rung> SaddleSolver::make_ladder() const {
+std::vector<SaddleSolver::Fallback> SaddleSolver::make_fallback_chain() const {
   return {{Method::gmres, options_.preconditioner, "standard", Start::warm},
           {Method::minres, "boomeramg", "strong", Start::cold},
           {Method::gmres, "boomeramg", "strong", Start::cold}};
 }
 
-SaddleSolver::Climb SaddleSolver::climb(const Rung& rung, const Problem& problem, Vector& x) {
-  if (rung.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
-  SaddlePreconditioner& B = build(rung.pressure, rung.strength);
+SaddleSolver::Outcome SaddleSolver::attempt(const Fallback& fallback, const Problem& problem, Vector& x) {
+  if (fallback.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
+  SaddlePreconditioner& B = build(fallback.pressure, fallback.strength);
   if (std::string failure = B.refresh(); !failure.empty()) return {0, failure};
-  return rung.method == Method::minres ? minimise(B, problem, x) : reduce_residual(B, problem, x);
+  return fallback.method == Method::minres ? minimise(B, problem, x) : reduce_residual(B, problem, x);
 }
 
 // x keeps the best vector met.
-void SaddleSolver::climb_ladder(const Problem& problem, Vector& x, SaddleReport& report) {
+void SaddleSolver::try_fallback_chain(const Problem& problem, Vector& x, SaddleReport& report) {
   Vector y = x;
   int index = 0;
-  for (const Rung& rung : make_ladder()) {
-    const Climb result = climb(rung, problem, y);
-    if (index++ < options_.fail_rungs) std::fill(y.begin(), y.end(), index % 2 ? 0.0 : NAN);
+  for (const Fallback& fallback : make_fallback_chain()) {
+    const Outcome result = attempt(fallback, problem, y);
+    if (index++ < options_.fail_first) std::fill(y.begin(), y.end(), index % 2 ? 0.0 : NAN);
     project_pressure(y);
     const Residual residual = measure(problem, y);
     report.iterations += result.iterations;
-    report.used = rung.label();
+    report.used = fallback.label();
     report.converged = residual.larger() <= options_.tolerance;
     if (report.converged || residual.larger() < report.residual) {
       x = y;
       report.set(residual.momentum, residual.continuity);
     }
     if (report.converged) return;
-    report.ladder.push_back(fmt::format("{}: momentum {:.2e}, continuity {:.2e} after {} iterations{}{}", rung.label(),
-                                        residual.momentum, residual.continuity, result.iterations,
-                                        result.failure.empty() ? "" : ", ", result.failure));
+    report.failed_attempts.push_back(fmt::format(
+        "{}: momentum {:.2e}, continuity {:.2e} after {} iterations{}{}", fallback.label(), residual.momentum,
+        residual.continuity, result.iterations, result.failure.empty() ? "" : ", ", result.failure));
     if (!all_finite(y, K_.ranks())) y = x;
   }
 }
@@ -271,7 +271,7 @@ SaddleReport SaddleSolver::solve(const BodyMatrix& H, const Vector& f, const Eig
   set_bodies(H);
   if (const std::string bad = find_bad(f, g, q); !bad.empty()) {
     report.set(INFINITY, INFINITY);
-    report.ladder.push_back(bad);
+    report.failed_attempts.push_back(bad);
     return report;
   }
   Vector reachable = q;
@@ -282,8 +282,8 @@ SaddleReport SaddleSolver::solve(const BodyMatrix& H, const Vector& f, const Eig
   project_pressure(x);
   const Residual start = measure(problem, x);
   report.set(start.momentum, start.continuity);
-  report.converged = start.larger() <= options_.tolerance && options_.fail_rungs == 0;
-  if (!report.converged) climb_ladder(problem, x, report);
+  report.converged = start.larger() <= options_.tolerance && options_.fail_first == 0;
+  if (!report.converged) try_fallback_chain(problem, x, report);
   K_.unpack(x, u, v, p);
   return report;
 }

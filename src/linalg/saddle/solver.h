@@ -15,17 +15,17 @@ struct SaddleOptions {
   double tolerance = 1e-8;
   int max_iterations = 400;             // of a rung of the ladder
   std::string preconditioner = "auto";  // of the pressure
-  int fail_rungs = 0;                   // for tests: the first rungs return a wrong x and claim success
+  int fail_first = 0;                   // for tests: the first rungs return a wrong x and claim success
 };
 
 struct SaddleReport {
   bool converged = false;
-  int iterations = 0;                   // over all rungs tried
-  double momentum = 0, continuity = 0;  // recomputed, relative
-  double residual = 0;                  // the larger of the two
-  double mismatch = 0;                  // |part of q no velocity can reach| / |q|
-  std::string used;                     // the last rung
-  std::vector<std::string> ladder;      // one line a rung that failed
+  int iterations = 0;                        // over all rungs tried
+  double momentum = 0, continuity = 0;       // recomputed, relative
+  double residual = 0;                       // the larger of the two
+  double mismatch = 0;                       // |part of q no velocity can reach| / |q|
+  std::string used;                          // the last rung
+  std::vector<std::string> failed_attempts;  // one line a rung that failed
 
   void set(double of_momentum, double of_continuity);
 };
@@ -53,9 +53,9 @@ class SaddleSolver {
 
  private:
   struct Problem;
-  struct Rung;
+  struct Fallback;
   struct Residual;
-  struct Climb {
+  struct Outcome {
     int iterations = 0;
     std::string failure;
   };
@@ -68,12 +68,12 @@ class SaddleSolver {
   double rounding_of_divergence(const Vector& u) const;
   Problem pose(const Vector& f, const Eigen::VectorXd& g, const Vector& q, double flux_scale);
   Residual measure(const Problem& problem, const Vector& x) const;
-  std::vector<Rung> make_ladder() const;
-  Climb climb(const Rung& rung, const Problem& problem, Vector& x);
-  Climb minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x);
-  Climb reduce_residual(SaddlePreconditioner& B, const Problem& problem, Vector& x);
-  Climb iterate_viscous(SaddlePreconditioner& B, const Vector& w, const Vector& b, Vector& x, SaddleReport& report);
-  void climb_ladder(const Problem& problem, Vector& x, SaddleReport& report);
+  std::vector<Fallback> make_fallback_chain() const;
+  Outcome attempt(const Fallback& fallback, const Problem& problem, Vector& x);
+  Outcome minimise(SaddlePreconditioner& B, const Problem& problem, Vector& x);
+  Outcome reduce_residual(SaddlePreconditioner& B, const Problem& problem, Vector& x);
+  Outcome iterate_viscous(SaddlePreconditioner& B, const Vector& w, const Vector& b, Vector& x, SaddleReport& report);
+  void try_fallback_chain(const Problem& problem, Vector& x, SaddleReport& report);
 
   SaddleSystem system_;
   SaddleOptions options_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "linalg/krylov/krylov.h"
-#include "linalg/precond/rigid_motions.h"
+#include "linalg/precond/rigid_motion_deflation.h"
 
 namespace seiche {
 namespace {
@@ -67,11 +67,11 @@ VelocityPreconditioner::VelocityPreconditioner(const SaddleOperator& K, const Am
   } else if (steps <= most_steps) {
     interval_ = interval;
     B_ = std::make_unique<Chebyshev>(K.faces(), interval, steps);
-    mend_loose_faces();
+    correct_pressure_free_faces();
   } else {
     make_multigrid(settings);
-    mend_loose_faces();
-    mend_stiff_parts();
+    correct_pressure_free_faces();
+    deflate_viscous_regions();
   }
   if (K.unknowns() > 0) find_directions();
 }
@@ -83,22 +83,22 @@ void VelocityPreconditioner::make_multigrid(AmgSettings settings) {
   B_ = make_boomeramg(K_.faces(), settings).preconditioner;
 }
 
-void VelocityPreconditioner::mend_loose_faces() {
-  std::vector<char> loose(std::size_t(K_.velocities()));
+void VelocityPreconditioner::correct_pressure_free_faces() {
+  std::vector<char> pressure_free(std::size_t(K_.velocities()));
   const std::vector<int>& start = K_.system().Dt.row_start;
-  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = start[i] == start[i + 1];
-  if (!K_.ranks().any(std::find(loose.begin(), loose.end(), 1) != loose.end())) return;
-  loose_ = std::make_unique<LooseRows>(K_.faces(), loose);
-  good_ = loose_->good();
-  B_ = std::make_unique<LooseFaces>(K_.faces(), *loose_, std::move(B_));
+  for (std::size_t i = 0; i < pressure_free.size(); ++i) pressure_free[i] = start[i] == start[i + 1];
+  if (!K_.ranks().any(std::find(pressure_free.begin(), pressure_free.end(), 1) != pressure_free.end())) return;
+  pressure_free_ = std::make_unique<PressureFreeRows>(K_.faces(), pressure_free);
+  good_ = pressure_free_->good();
+  B_ = std::make_unique<PressureFreeFaces>(K_.faces(), *pressure_free_, std::move(B_));
 }
 
-void VelocityPreconditioner::mend_stiff_parts() {
+void VelocityPreconditioner::deflate_viscous_regions() {
   const SaddleSystem& s = K_.system();
   if (K_.ranks().any(s.position.size() != s.axis.size())) return;
   const int dimension = count_axes(s.axis, K_.ranks());
   if (dimension < 2) return;  // a domain one cell thick
-  B_ = std::make_unique<RigidMotions>(K_.faces(), FacePlaces{s.axis, s.position}, dimension, std::move(B_));
+  B_ = std::make_unique<RigidMotionDeflation>(K_.faces(), FacePlaces{s.axis, s.position}, dimension, std::move(B_));
 }
 
 void VelocityPreconditioner::find_directions() {

@@ -4,7 +4,7 @@
 
 #include "linalg/precond/chebyshev.h"
 #include "linalg/precond/hypre_adapter.h"
-#include "linalg/precond/loose_faces.h"
+#include "linalg/precond/pressure_free_faces.h"
 #include "linalg/saddle/system.h"
 
 namespace seiche {
@@ -33,15 +33,15 @@ class VelocityPreconditioner {
   // Whether viscosity counts for so much that B is a multigrid cycle.
   bool is_multigrid() const { return !mass_prevails_ && !interval_; }
   // Faces without a pressure; null where there are none.
-  const LooseRows* loose_rows() const { return loose_.get(); }
+  const PressureFreeRows* pressure_free_rows() const { return pressure_free_.get(); }
   const std::vector<Direction>& directions() const { return directions_; }
   // T of the rigid directions, E of the others, as one matrix.
   const Eigen::MatrixXd& direction_energies() const { return energies_; }
 
  private:
   void make_multigrid(AmgSettings settings);
-  void mend_loose_faces();
-  void mend_stiff_parts();
+  void correct_pressure_free_faces();
+  void deflate_viscous_regions();
   void find_directions();
   std::vector<SparseVector> extend(const std::vector<Vector>& GM) const;
   void multiply_out(const std::vector<Vector>& GM);
@@ -50,7 +50,7 @@ class VelocityPreconditioner {
   const SaddleOperator& K_;
   bool mass_prevails_, good_ = true;
   std::optional<SpectralInterval> interval_;  // where a polynomial stands for multigrid
-  std::unique_ptr<LooseRows> loose_;
+  std::unique_ptr<PressureFreeRows> pressure_free_;
   std::unique_ptr<Preconditioner> B_;
   std::vector<Direction> directions_;  // rigid ones first
   std::size_t rigid_ = 0;

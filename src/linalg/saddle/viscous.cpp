@@ -52,24 +52,24 @@ struct ScaledPreconditioner {
 }  // namespace
 
 // The residual that the loop updates drifts from the true one: it starts again while that is not there.
-SaddleSolver::Climb SaddleSolver::iterate_viscous(SaddlePreconditioner& B, const Vector& w, const Vector& b, Vector& x,
-                                                  SaddleReport& report) {
+SaddleSolver::Outcome SaddleSolver::iterate_viscous(SaddlePreconditioner& B, const Vector& w, const Vector& b,
+                                                    Vector& x, SaddleReport& report) {
   const ScaledViscous A(K_, w);
   ScaledPreconditioner P{B, w};
   const double scale = norm(b, K_.ranks());
   Vector r(b.size());
-  Climb climb{0, B.refresh_velocity()};
-  for (int restart = 0; restart < 4 && climb.failure.empty(); ++restart) {
-    const KrylovLimits limits{0.95 * options_.tolerance * scale, options_.max_iterations - climb.iterations};
+  Outcome attempt{0, B.refresh_velocity()};
+  for (int restart = 0; restart < 4 && attempt.failure.empty(); ++restart) {
+    const KrylovLimits limits{0.95 * options_.tolerance * scale, options_.max_iterations - attempt.iterations};
     const KrylovResult part = conjugate_gradients(A, P, b, x, limits, K_.ranks());
-    climb = {climb.iterations + part.iterations, part.failure};
+    attempt = {attempt.iterations + part.iterations, part.failure};
     A.residual(b, x, r);
     report.set(scale > 0 ? norm(r, K_.ranks()) / scale : 0, 0);
     report.converged = report.residual <= options_.tolerance;
     if (report.converged) break;
   }
-  report.iterations += climb.iterations;
-  return climb;
+  report.iterations += attempt.iterations;
+  return attempt;
 }
 
 SaddleReport SaddleSolver::solve_viscous(const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g, Vector& u,
@@ -78,7 +78,7 @@ SaddleReport SaddleSolver::solve_viscous(const BodyMatrix& H, const Vector& f, c
   set_bodies(H);
   if (const std::string bad = find_bad(f, g, {}); !bad.empty()) {
     report.set(INFINITY, 0);
-    report.ladder.push_back(bad);
+    report.failed_attempts.push_back(bad);
     return report;
   }
   const Vector w = momentum_weight();
@@ -88,10 +88,10 @@ SaddleReport SaddleSolver::solve_viscous(const BodyMatrix& H, const Vector& f, c
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = cold ? 0 : x[i] / w[i];
   for (const char* strength : {"standard", "strong"}) {
     report.used = fmt::format("conjugate gradients with {} boomeramg", strength);
-    const Climb result = iterate_viscous(build(options_.preconditioner, strength), w, b, x, report);
+    const Outcome result = iterate_viscous(build(options_.preconditioner, strength), w, b, x, report);
     if (report.converged) break;
-    report.ladder.push_back(fmt::format("{}: residual {:.2e} after {} iterations, {}", report.used, report.residual,
-                                        result.iterations, result.failure));
+    report.failed_attempts.push_back(fmt::format("{}: residual {:.2e} after {} iterations, {}", report.used,
+                                                 report.residual, result.iterations, result.failure));
     if (strength == std::string("standard")) std::fill(x.begin(), x.end(), 0.0);
   }
   weigh(w, x);

@@ -36,8 +36,8 @@ const char* name(Method method) {
 constexpr double iterations_per_digit = 4;
 
 // What a solver that claims success wrongly leaves behind.
-void spoil(Vector& x, int rung) {
-  const double wrong = rung % 2 == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+void spoil(Vector& x, int fallback) {
+  const double wrong = fallback % 2 == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   std::fill(x.begin(), x.end(), wrong);
 }
 
@@ -51,7 +51,7 @@ const DistributedMatrix& checked_size(const DistributedMatrix& A) {
 
 }  // namespace
 
-struct SpdSolver::Rung {
+struct SpdSolver::Fallback {
   Method method;
   std::string preconditioner;
   Start start;
@@ -93,24 +93,24 @@ int SpdSolver::setup_applications() const {
   return sum;
 }
 
-std::vector<SpdSolver::Rung> SpdSolver::make_ladder(const std::string& chosen) const {
+std::vector<SpdSolver::Fallback> SpdSolver::make_fallback_chain(const std::string& chosen) const {
   constexpr auto cg = Method::conjugate_gradients;
   const int limit = options_.max_iterations, patience = std::max(2000, 10 * limit);  // the latter without a hierarchy
   const int start_limit = chosen == "none" ? patience : limit;
-  std::vector<Rung> ladder;
+  std::vector<Fallback> failed_attempts;
   if (options_.preconditioner == "auto" && keeps_to_grid(chosen)) {
     const double digits = -std::log10(options_.tolerance);
-    ladder.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
-    ladder.push_back({cg, "boomeramg", Start::warm, limit});
+    failed_attempts.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
+    failed_attempts.push_back({cg, "boomeramg", Start::warm, limit});
   } else {
-    ladder.push_back({cg, chosen, Start::warm, start_limit});
+    failed_attempts.push_back({cg, chosen, Start::warm, start_limit});
   }
-  if (chosen != "boomeramg") ladder.push_back({cg, chosen, Start::cold, start_limit});
-  ladder.push_back({cg, "boomeramg", Start::cold, limit});
-  if (chosen != "none") ladder.push_back({cg, "none", Start::cold, patience});
-  ladder.push_back({Method::flexible_gmres, "boomeramg", Start::cold, limit});
-  ladder.push_back({Method::direct, "direct", Start::cold, 0});
-  return ladder;
+  if (chosen != "boomeramg") failed_attempts.push_back({cg, chosen, Start::cold, start_limit});
+  failed_attempts.push_back({cg, "boomeramg", Start::cold, limit});
+  if (chosen != "none") failed_attempts.push_back({cg, "none", Start::cold, patience});
+  failed_attempts.push_back({Method::flexible_gmres, "boomeramg", Start::cold, limit});
+  failed_attempts.push_back({Method::direct, "direct", Start::cold, 0});
+  return failed_attempts;
 }
 
 // Preconditioners that need not keep to the grid's stencil know of deformable bodies.
@@ -159,18 +159,18 @@ double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
 }
 
 // Iterates, and starts again from where it stands while the true residual is not there yet.
-SpdSolver::Climb SpdSolver::iterate(const Rung& rung, const Problem& problem, Vector& x) {
-  Built& built = build(rung.preconditioner);
+SpdSolver::Outcome SpdSolver::iterate(const Fallback& fallback, const Problem& problem, Vector& x) {
+  Built& built = build(fallback.preconditioner);
   if (!built.made.preconditioner) return {0, built.made.failure};
   Deflation& B = *built.deflation;
   if (!B.refresh()) return {0, "the bodies' part of the preconditioner could not be factored"};
   // A little less than the tolerance: the residual that the loops update drifts from the true one.
   const double target = 0.95 * problem.tolerance * problem.norm;
-  Climb total;
+  Outcome total;
   for (int restart = 0; restart < 4; ++restart) {
-    const KrylovLimits limits{target, rung.iterations - total.iterations};
+    const KrylovLimits limits{target, fallback.iterations - total.iterations};
     B.prepare(problem.b, x);
-    const KrylovResult part = rung.method == Method::flexible_gmres
+    const KrylovResult part = fallback.method == Method::flexible_gmres
                                   ? flexible_gmres(system_, B, problem.b, x, limits, system_.ranks())
                                   : conjugate_gradients(system_, B, problem.b, x, limits, system_.ranks());
     total = {total.iterations + part.iterations, part.failure};
@@ -181,10 +181,10 @@ SpdSolver::Climb SpdSolver::iterate(const Rung& rung, const Problem& problem, Ve
   return total;
 }
 
-SpdSolver::Climb SpdSolver::climb(const Rung& rung, const Problem& problem, Vector& x) {
-  if (rung.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
-  if (rung.method == Method::direct) return {0, solve_directly(system_, problem.b, x)};
-  return iterate(rung, problem, x);
+SpdSolver::Outcome SpdSolver::attempt(const Fallback& fallback, const Problem& problem, Vector& x) {
+  if (fallback.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
+  if (fallback.method == Method::direct) return {0, solve_directly(system_, problem.b, x)};
+  return iterate(fallback, problem, x);
 }
 
 // Among many bodies multigrid needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md), and with
@@ -201,26 +201,27 @@ Eigen::MatrixXd SpdSolver::added_mass_estimate() const {
 }
 
 // x keeps the best finite vector met.
-void SpdSolver::climb_ladder(const Problem& problem, Vector& x, SolveReport& report) {
+void SpdSolver::try_fallback_chain(const Problem& problem, Vector& x, SolveReport& report) {
   const std::string chosen = choose();
   Vector y = x;
   int index = 0;
-  for (const Rung& rung : make_ladder(chosen)) {
-    const Climb result = climb(rung, problem, y);
-    if (index < options_.fail_rungs) spoil(y, index);
+  for (const Fallback& fallback : make_fallback_chain(chosen)) {
+    const Outcome result = attempt(fallback, problem, y);
+    if (index < options_.fail_first) spoil(y, index);
     ++index;
     system_.project(y);
     const double residual = true_residual(problem, y);
     report.iterations += result.iterations;
-    report.used = rung.method == Method::direct ? "direct" : rung.preconditioner;
+    report.used = fallback.method == Method::direct ? "direct" : fallback.preconditioner;
     report.converged = residual <= problem.tolerance && all_finite(y, system_.ranks());
     if (report.converged || residual < report.residual) {
       x = y;
       report.residual = residual;
     }
     if (report.converged) return;
-    report.ladder.push_back(fmt::format("{}: residual {:.2e} after {} iterations{}{}", rung.label(), residual,
-                                        result.iterations, result.failure.empty() ? "" : ", ", result.failure));
+    report.failed_attempts.push_back(fmt::format("{}: residual {:.2e} after {} iterations{}{}", fallback.label(),
+                                                 residual, result.iterations, result.failure.empty() ? "" : ", ",
+                                                 result.failure));
   }
 }
 
@@ -244,7 +245,7 @@ SolveReport SpdSolver::solve(const BodyMatrix& H, const Vector& b, Vector& x, do
   system_.set_bodies(H);
   if (!all_finite(liquid_.values(), ranks) || !all_finite(b, ranks)) {
     report.residual = std::numeric_limits<double>::infinity();
-    report.ladder.push_back("the matrix or the right-hand side is not finite");
+    report.failed_attempts.push_back("the matrix or the right-hand side is not finite");
     return report;
   }
   Problem problem{b, norm(b, ranks), options_.tolerance};
@@ -256,8 +257,8 @@ SolveReport SpdSolver::solve(const BodyMatrix& H, const Vector& b, Vector& x, do
   report.converged = problem.norm <= rounding;
   if (report.converged) return report;
   report.residual = true_residual(problem, x);
-  report.converged = report.residual <= problem.tolerance && options_.fail_rungs == 0;
-  if (!report.converged) climb_ladder(problem, x, report);
+  report.converged = report.residual <= problem.tolerance && options_.fail_first == 0;
+  if (!report.converged) try_fallback_chain(problem, x, report);
   return report;
 }
 

@@ -17,17 +17,17 @@ struct SolveOptions {
   int max_iterations = 400;  // of a rung with a hierarchy; rungs with "none" get ten times as many
   std::string preconditioner = "auto";
   bool jumps = false;  // coefficients differ by orders of magnitude, as those of liquid and gas do
-  int fail_rungs = 0;  // for tests: the first rungs of the ladder return a wrong x and claim success
+  int fail_first = 0;  // for tests: the first rungs of the ladder return a wrong x and claim success
 };
 
 struct SolveReport {
   bool converged = false;
-  int iterations = 0;               // over all rungs tried
-  double residual = 0;              // recomputed |b - A x| / |b|
-  std::string used;                 // preconditioner of the last rung
-  std::vector<std::string> ladder;  // one line a rung that failed
-  std::int64_t identity_rows = 0;   // rows with a zero diagonal (cells with no open face): x = 0 there
-  double mismatch = 0;              // |part of b no x can reach| / |b|: net inflow of closed components, for instance
+  int iterations = 0;                        // over all rungs tried
+  double residual = 0;                       // recomputed |b - A x| / |b|
+  std::string used;                          // preconditioner of the last rung
+  std::vector<std::string> failed_attempts;  // one line a rung that failed
+  std::int64_t identity_rows = 0;            // rows with a zero diagonal (cells with no open face): x = 0 there
+  double mismatch = 0;  // |part of b no x can reach| / |b|: net inflow of closed components, for instance
 };
 
 class Deflation;
@@ -57,21 +57,21 @@ class SpdSolver {
  private:
   struct Built;  // a preconditioner, or why there is none
   struct Problem;
-  struct Rung;
+  struct Fallback;
   void make(const std::string& name, Built& built) const;
   Built& build(const std::string& name);
   bool is_outdated(const Built& built) const;
   double true_residual(const Problem& problem, const Vector& x) const;
   double make_compatible(Vector& b) const;
   std::string choose() const;
-  std::vector<Rung> make_ladder(const std::string& chosen) const;
-  struct Climb {
+  std::vector<Fallback> make_fallback_chain(const std::string& chosen) const;
+  struct Outcome {
     int iterations = 0;
     std::string failure;
   };
-  Climb climb(const Rung& rung, const Problem& problem, Vector& x);
-  Climb iterate(const Rung& rung, const Problem& problem, Vector& x);
-  void climb_ladder(const Problem& problem, Vector& x, SolveReport& report);
+  Outcome attempt(const Fallback& fallback, const Problem& problem, Vector& x);
+  Outcome iterate(const Fallback& fallback, const Problem& problem, Vector& x);
+  void try_fallback_chain(const Problem& problem, Vector& x, SolveReport& report);
 
   SolveOptions options_;
   BlockColumns J_;

@@ -172,7 +172,7 @@ class Solver {
   // Minimum of e plus the quadratic model of C and P at the present iterate. If the exact model is indefinite, the
   // projected Hessian is used.
   Outcome aim(InertiaResponse& goal) {
-    for (Curvature curvature : {Curvature::exact, Curvature::convex}) {
+    for (HessianProjection curvature : {HessianProjection::exact, HessianProjection::convex}) {
       terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, curvature);
       if (potential_) add_potential(curvature);
       const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
@@ -183,7 +183,7 @@ class Solver {
     return fail("contact: the energy of the bodies' inertia is not convex");
   }
 
-  void add_potential(Curvature curvature) {
+  void add_potential(HessianProjection curvature) {
     std::vector<Eigen::Triplet<double>> entries;
     potential_->add_terms(e_.velocity, curvature, terms_.gradient, entries);
     Eigen::SparseMatrix<double> K(e_.velocity.size(), e_.velocity.size());
@@ -252,7 +252,7 @@ class Solver {
   }
 
   bool stiffen() {
-    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, HessianProjection::exact);
     if (terms_.tightest >= tiny_gap * weights_.reach) return false;
     weights_.stiffness *= stiffening;
     return true;
@@ -265,7 +265,7 @@ class Solver {
     report_.residual = e_.gradient + terms_.gradient;  // with the friction forces of the minimisation
     if (potential_) potential_->add_gradient(e_.velocity, report_.residual);
     friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
-    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, Curvature::exact);
+    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_, weights_, HessianProjection::exact);
     report_.velocity = e_.velocity;
     report_.gradient = e_.gradient;
     report_.active = terms_.active;

@@ -29,7 +29,7 @@ template <int Dim>
 class Assembly {
  public:
   static constexpr int n = twist_size<Dim>;
-  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left, Curvature curvature)
+  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left, HessianProjection curvature)
       : scene_(scene), interval_(interval), left_(share_left), curvature_(curvature) {
     gradient_.setZero(scene.size);
     drag_.setZero(scene.size);
@@ -48,7 +48,8 @@ class Assembly {
   // Adds a pair with a deformable side.
   void add(const PairDofs<Dim>& dofs, const typename PairDofs<Dim>::Vector& gradient,
            const typename PairDofs<Dim>::Matrix& exact) {
-    const typename PairDofs<Dim>::Matrix hessian = curvature_ == Curvature::exact ? exact : without_negative(exact);
+    const typename PairDofs<Dim>::Matrix hessian =
+        curvature_ == HessianProjection::exact ? exact : without_negative(exact);
     const typename PairDofs<Dim>::Vector drag = hessian * (left_ * dofs.prescribed);
     for (int i = 0; i < dofs.count; ++i) {
       if (dofs.dof[i] < 0) continue;
@@ -62,7 +63,7 @@ class Assembly {
   void finish(ContactTerms& terms) {
     std::vector<Eigen::Triplet<double>>& entries = entries_;
     for (const auto& [bodies, sum] : hessians_) {
-      const PairMatrix<Dim> hessian = curvature_ == Curvature::exact ? sum : without_negative(sum);
+      const PairMatrix<Dim> hessian = curvature_ == HessianProjection::exact ? sum : without_negative(sum);
       const std::array<int, 2> body{bodies.first, bodies.second};
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) scatter(body[i], body[j], hessian.template block<n, n>(n * i, n * j), entries);
@@ -91,7 +92,7 @@ class Assembly {
   const Scene<Dim>& scene_;
   const Interval<Dim>& interval_;
   double left_;
-  Curvature curvature_;
+  HessianProjection curvature_;
   Eigen::VectorXd gradient_, drag_;
   std::vector<Eigen::Triplet<double>> entries_;
   std::map<std::pair<int, int>, PairMatrix<Dim>> hessians_;
@@ -285,7 +286,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
-                           const Weights& w, Curvature curvature) {
+                           const Weights& w, HessianProjection curvature) {
   ContactTerms terms;
   terms.smallest_gap = terms.tightest = w.reach;
   Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.velocities.twists), curvature);
@@ -363,7 +364,7 @@ std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placeme
                                       const Weights&);                                                            \
   template ContactTerms contact_terms<Dim>(const Scene<Dim>&, const Interval<Dim>&, const Placement<Dim>&,        \
                                            const std::vector<Candidate>&, const std::vector<FrictionPoint<Dim>>&, \
-                                           const Weights&, Curvature);                                            \
+                                           const Weights&, HessianProjection);                                    \
   template std::vector<FrictionPoint<Dim>> friction_points<Dim>(const Scene<Dim>&, const Placement<Dim>&,         \
                                                                 const std::vector<Candidate>&, const Weights&);   \
   template std::vector<BodyImpulse> contact_impulses<Dim>(const Scene<Dim>&, const Placement<Dim>&,               \

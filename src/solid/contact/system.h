@@ -2,7 +2,7 @@
 // Barrier and friction of all pairs as functions of the velocities.
 #include "solid/contact/friction.h"
 #include "solid/contact/search.h"
-#include "solid/energy/curvature.h"
+#include "solid/energy/hessian_projection.h"
 
 namespace seiche::contact {
 
@@ -32,7 +32,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
-                           const Weights& weights, Curvature curvature);
+                           const Weights& weights, HessianProjection curvature);
 
 // Friction points with their bounds for the present normal forces and contact points.
 template <int Dim>

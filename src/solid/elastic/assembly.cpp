@@ -157,7 +157,7 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
 
 // K = integral of B' H B with H = d2Psi/dF2 plus the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2.
 template <int Dim>
-void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K,
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature, SparseMatrix& K,
                    const HeldPressure<Dim>& held) {
   constexpr int most = Dim * (Dim + 1) * (Dim + 2) / 2;
   const Lame& lame = body.properties.lame;
@@ -175,7 +175,7 @@ void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curva
       const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
       if (guard.slope != 0)
         H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
-      if (curvature == Curvature::convex) H = project_positive<Dim>(H);
+      if (curvature == HessianProjection::convex) H = project_positive<Dim>(H);
       const Strain<Dim> B = strain_of<Dim>(p.g);
       const Strain<Dim> HB = p.weight * H * B;
       Ke.noalias() += B.transpose() * HB;
@@ -205,7 +205,7 @@ double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, c
   template Gradient<D> deformation_at<D>(const ElasticBody<D>&, int, const Eigen::VectorXd&);                          \
   template double elastic_energy<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&);            \
   template Eigen::VectorXd elastic_gradient<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&); \
-  template void add_stiffness<D>(const ElasticBody<D>&, const Eigen::VectorXd&, Curvature, SparseMatrix&,              \
+  template void add_stiffness<D>(const ElasticBody<D>&, const Eigen::VectorXd&, HessianProjection, SparseMatrix&,      \
                                  const HeldPressure<D>&);                                                              \
   template double least_volume_ratio<D>(const ElasticBody<D>&, const Eigen::VectorXd&);                                \
   template double inversion_bound<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);

@@ -5,7 +5,7 @@
 
 #include "linalg/core/sparse_cholesky.h"
 #include "solid/elastic/held_pressure.h"
-#include "solid/energy/curvature.h"
+#include "solid/energy/hessian_projection.h"
 #include "solid/material/material.h"
 #include "solid/mesh/mesh.h"
 
@@ -61,7 +61,7 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
 // Adds d2Psi/du2 (N/m) to a matrix of the body's pattern. convex: the Hessian of each quadrature point is projected to
 // positive semi-definite.
 template <int Dim>
-void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, Curvature curvature, SparseMatrix& K,
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature, SparseMatrix& K,
                    const HeldPressure<Dim>& held = {});
 
 // Integral of f . N_a over the body at rest; f in N/m^3 by rest position. Constant f: body_force(...).

@@ -47,14 +47,14 @@ template <int Dim>
 bool newton_step(const Descent<Dim>& s, const Eigen::VectorXd& u, const Eigen::VectorXd& g, Eigen::VectorXd& d) {
   Eigen::VectorXd missing = Eigen::VectorXd::Zero(u.size());
   for (size_t i = 0; i < s.pins.dofs.size(); ++i) missing[s.pins.dofs[i]] = s.pins.targets[i] - u[s.pins.dofs[i]];
-  for (const Curvature curvature : {Curvature::exact, Curvature::convex}) {
+  for (const HessianProjection curvature : {HessianProjection::exact, HessianProjection::convex}) {
     SparseMatrix H = potential_hessian(s.potential, u, curvature);
     Eigen::VectorXd rhs = -g - hold(H, s.pins.dofs, missing);
     for (int i : s.pins.dofs) rhs[i] = missing[i];
     if (!s.workspace.cholesky.factor(H)) continue;
     d = s.workspace.cholesky.solve(rhs);
     if (!d.allFinite()) continue;
-    s.report.projected += curvature == Curvature::convex;
+    s.report.projected += curvature == HessianProjection::convex;
     return true;
   }
   return false;
@@ -158,7 +158,8 @@ Eigen::VectorXd potential_gradient(const IncrementalPotential<Dim>& p, const Eig
 }
 
 template <int Dim>
-SparseMatrix potential_hessian(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, Curvature curvature) {
+SparseMatrix potential_hessian(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u,
+                               HessianProjection curvature) {
   SparseMatrix H = p.body->pattern;
   add_stiffness(*p.body, u, curvature, H);
   const auto add = [&H](const SparseMatrix& A, double scale) {  // all have one sparsity pattern
@@ -222,14 +223,15 @@ MinimizeReport solve_static(const ElasticBody<Dim>& body, const Eigen::VectorXd&
   return total;
 }
 
-#define SEICHE_INSTANTIATE(Dim)                                                                                      \
-  template double potential_value<Dim>(const IncrementalPotential<Dim>&, const Eigen::VectorXd&);                    \
-  template Eigen::VectorXd potential_gradient<Dim>(const IncrementalPotential<Dim>&, const Eigen::VectorXd&);        \
-  template SparseMatrix potential_hessian<Dim>(const IncrementalPotential<Dim>&, const Eigen::VectorXd&, Curvature); \
-  template Pins pin_nodes<Dim>(const std::vector<int>&);                                                             \
-  template MinimizeReport minimize<Dim>(const IncrementalPotential<Dim>&, const Pins&, const MinimizeOptions&,       \
-                                        ElasticWorkspace&, Eigen::VectorXd&);                                        \
-  template MinimizeReport solve_static<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&, const Pins&, int,       \
+#define SEICHE_INSTANTIATE(Dim)                                                                                \
+  template double potential_value<Dim>(const IncrementalPotential<Dim>&, const Eigen::VectorXd&);              \
+  template Eigen::VectorXd potential_gradient<Dim>(const IncrementalPotential<Dim>&, const Eigen::VectorXd&);  \
+  template SparseMatrix potential_hessian<Dim>(const IncrementalPotential<Dim>&, const Eigen::VectorXd&,       \
+                                               HessianProjection);                                             \
+  template Pins pin_nodes<Dim>(const std::vector<int>&);                                                       \
+  template MinimizeReport minimize<Dim>(const IncrementalPotential<Dim>&, const Pins&, const MinimizeOptions&, \
+                                        ElasticWorkspace&, Eigen::VectorXd&);                                  \
+  template MinimizeReport solve_static<Dim>(const ElasticBody<Dim>&, const Eigen::VectorXd&, const Pins&, int, \
                                             const MinimizeOptions&, ElasticWorkspace&, Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -25,7 +25,8 @@ double potential_value(const IncrementalPotential<Dim>& p, const Eigen::VectorXd
 template <int Dim>
 Eigen::VectorXd potential_gradient(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u);
 template <int Dim>
-SparseMatrix potential_hessian(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u, Curvature curvature);
+SparseMatrix potential_hessian(const IncrementalPotential<Dim>& p, const Eigen::VectorXd& u,
+                               HessianProjection curvature);
 
 // Degrees of freedom with prescribed displacements (Dirichlet conditions).
 struct Pins {

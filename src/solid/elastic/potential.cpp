@@ -33,7 +33,7 @@ void ElasticPotential<Dim>::add_gradient(const Eigen::VectorXd& v, Eigen::Vector
 }
 
 template <int Dim>
-void ElasticPotential<Dim>::add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+void ElasticPotential<Dim>::add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
                                       std::vector<Eigen::Triplet<double>>& hessian) const {
   add_gradient(v, gradient);
   for (const auto& share : bodies_) {

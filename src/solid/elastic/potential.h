@@ -24,7 +24,7 @@ class ElasticPotential : public VelocityPotential {
   ElasticPotential(std::vector<ElasticShare<Dim>> bodies, int size, double dt, double horizon);
   double energy(const Eigen::VectorXd& v) const override;
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override;
-  void add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+  void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
                  std::vector<Eigen::Triplet<double>>& hessian) const override;
   double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   double round_off() const override;

@@ -23,7 +23,7 @@ SparseMatrix rayleigh_damping(const ElasticBody<Dim>& body, const Eigen::VectorX
   const auto& [density, lame, alpha, beta] = body.properties;
   if (alpha == 0 && beta == 0) return {};
   SparseMatrix C = body.pattern;
-  if (beta > 0) add_stiffness(body, u, Curvature::convex, C);
+  if (beta > 0) add_stiffness(body, u, HessianProjection::convex, C);
   for (Eigen::Index i = 0; i < C.nonZeros(); ++i) {
     C.valuePtr()[i] = beta * C.valuePtr()[i] + alpha * body.mass.valuePtr()[i];
   }

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
-#include "solid/energy/curvature.h"
+#include "solid/energy/hessian_projection.h"
 
 namespace seiche {
 
@@ -17,7 +17,7 @@ class VelocityPotential {
   // Adds the gradient (N s, of the size of v) at v.
   virtual void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const = 0;
   // Adds the gradient and the entries of the Hessian (kg).
-  virtual void add_terms(const Eigen::VectorXd& v, Curvature curvature, Eigen::VectorXd& gradient,
+  virtual void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
                          std::vector<Eigen::Triplet<double>>& hessian) const = 0;
   // Largest share of the step dv, at most 1, without inversion.
   virtual double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const = 0;

@@ -105,9 +105,9 @@ std::string checksums_of_files(const Scene& scene) {
   return text;
 }
 
-std::string run_identity(const Scene& scene, int ranks, const std::string& tampering) {
+std::string run_identity(const Scene& scene, int ranks, const std::string& perturbation) {
   std::string text = fmt::format("seiche {}, build {}\nranks {}\n", version(), build_digest(), ranks);
-  if (!tampering.empty()) text += fmt::format("broken {}\n", tampering);
+  if (!perturbation.empty()) text += fmt::format("broken {}\n", perturbation);
   return text + checksums_of_files(scene);
 }
 

@@ -30,7 +30,7 @@ std::string checksums_of_files(const Scene& scene);
 
 // Identity of a run besides its scene: version and digest of the build (base/version.h), ranks, operators broken for a
 // test, and checksums of the scene's files. Throws Error(bad_input) if such a file is unreadable.
-std::string run_identity(const Scene& scene, int ranks, const std::string& tampering);
+std::string run_identity(const Scene& scene, int ranks, const std::string& perturbation);
 
 // Machine of a stored run (machine.h); empty if it was not recorded.
 std::string machine_of(const std::filesystem::path& run);

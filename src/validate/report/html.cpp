@@ -113,10 +113,10 @@ std::string format_html(const Report& report) {
   std::string text = head;
   text += fmt::format("<h1>Validation</h1>\n<p>Seiche {}, build {}, level {}, {} rank{}: {}.</p>\n", version(),
                       build_digest(), report.level, report.ranks, report.ranks == 1 ? "" : "s", table_summary(report));
-  if (!report.tampering.empty())
+  if (!report.perturbation.empty())
     text += fmt::format(
         "<p class='miss'>Operators broken on purpose, for a test: {}. No figure here is the program's.</p>\n",
-        escape_html(report.tampering));
+        escape_html(report.perturbation));
   text += fmt::format("<p>This machine: {}.</p>\n", escape_html(report.machine));
   text += contents_of(report);
   for (const auto& rows : by_case(report)) text += section_of(report, rows);

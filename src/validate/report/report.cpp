@@ -168,7 +168,7 @@ std::string format_report(const Report& report) {
                  {"level", json_string(report.level)},
                  {"ranks", std::to_string(report.ranks)},
                  {"machine", json_string(report.machine)},
-                 {"broken_on_purpose", report.tampering.empty() ? "null" : json_string(report.tampering)},
+                 {"broken_on_purpose", report.perturbation.empty() ? "null" : json_string(report.perturbation)},
                  {"complete", complete ? "true" : "false"},
                  {"passed", passed ? "true" : "false"},
                  {"cases", array(json_cases(report), "  ")}},

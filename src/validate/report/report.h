@@ -21,7 +21,7 @@ struct Report {
   int ranks = 1;
   std::size_t planned = 0;              // total number of runs to be made
   std::vector<ReportedResult> results;  // results of one case are adjacent
-  std::string tampering;                // operators broken for a test; empty: none
+  std::string perturbation;             // operators broken for a test; empty: none
   std::string machine;                  // the present one, see validate/record/machine.h
 };
 

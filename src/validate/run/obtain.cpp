@@ -86,7 +86,7 @@ Source source_of(const Planned& run, Validation& v, const std::string& identity,
 Found look_for_run(const Planned& run, Validation& v, std::string& identity) {
   Found found;
   agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
-    identity = run_identity(run.scene, v.around.ranks.size(), v.options.tampering);
+    identity = run_identity(run.scene, v.around.ranks.size(), v.options.perturbation);
     found.run = place_of(run, v);
     found.source = source_of(run, v, identity, found.run);
   });
@@ -99,7 +99,7 @@ Found look_for_run(const Planned& run, Validation& v, std::string& identity) {
 SessionOptions session_of(const ValidateOptions& options) {
   SessionOptions session;
   session.threads = options.threads;
-  session.tampering = options.tampering;
+  session.perturbation = options.perturbation;
   return session;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/agree.h"
-#include "coupling/state/tampering.h"
+#include "coupling/state/operator_perturbation.h"
 #include "files/checked_file.h"
 #include "validate/measure/quantity.h"
 #include "validate/record/files.h"
@@ -40,7 +40,7 @@ ExitCode run_one(const Planned& run, Validation& v, Report& report, const Table&
 }
 
 Report begin_report(const ValidateOptions& options, const Communicator& ranks, std::size_t planned) {
-  return {options.level, ranks.size(), planned, {}, options.tampering, describe_machine()};
+  return {options.level, ranks.size(), planned, {}, options.perturbation, describe_machine()};
 }
 
 // Selected runs and the recorded others, judged together.
@@ -122,8 +122,8 @@ std::vector<std::string> names_of(const std::vector<Planned>& runs) {
 // Checks now what would otherwise fail only after hours of runs. Throws Error(bad_input, output_failed). Collective.
 void check_options(const ValidateOptions& options, const std::vector<Planned>& runs, const Communicator& ranks) {
   agree(ranks, "reading the options", [&] {
-    parse_tampering(options.tampering);
-    if (!options.tampering.empty() && (options.record || options.docs))
+    parse_perturbation(options.perturbation);
+    if (!options.perturbation.empty() && (options.record || options.docs))
       throw Error(ExitCode::bad_input,
                   "--break makes wrong figures on purpose: give it without --record and --write-docs");
   });

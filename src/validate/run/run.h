@@ -24,7 +24,7 @@ struct ValidateOptions {
   Making making = Making::runs;
   std::optional<std::filesystem::path> docs;    // file for the report as Markdown
   std::optional<std::filesystem::path> record;  // figures of other builds and days, see validate/record/record.h
-  std::string tampering;                        // see coupling/state/tampering.h
+  std::string perturbation;                     // see coupling/state/operator_perturbation.h
 };
 
 // Prints one line a case to the console.

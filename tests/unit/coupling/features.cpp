@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "coupling/step/half_steps.h"
+#include "coupling/step/leapfrog.h"
 #include "verification/scenes.h"
 
 using namespace seiche;
@@ -42,7 +42,7 @@ TEST_CASE("nothing is told of a scene in which nothing is switched off") {
   Scene floating = basin();
   floating.solids.push_back(box(SolidKind::rigid, {0.3, 0.3, 0}, {0.7, 0.7, 1}));
   CHECK(told(floating).empty());
-  CHECK(may_go_by_halves(Setup<2>(floating, Communicator())));
+  CHECK(may_leapfrog(Setup<2>(floating, Communicator())));
 }
 
 TEST_CASE("what switches steps by halves off is told, and is what the step looks at") {
@@ -50,7 +50,7 @@ TEST_CASE("what switches steps by halves off is told, and is what the step looks
   scene.solids.push_back(box(SolidKind::fixed, {0.5, 0.1, 0}, {0.52, 0.9, 1}));
   REQUIRE(told(scene).size() == 1);
   CHECK_THAT(told(scene)[0], Contains("off: steps by halves (because of: solids thinner than a cell)"));
-  CHECK_FALSE(may_go_by_halves(Setup<2>(scene, Communicator())));
+  CHECK_FALSE(may_leapfrog(Setup<2>(scene, Communicator())));
   scene.time.scheme = TimeScheme::first_order;  // as asked for
   CHECK(told(scene).empty());
 }

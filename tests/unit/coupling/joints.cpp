@@ -45,7 +45,7 @@ TEST_CASE("joints leave no slit between an elastic solid and what it stands on",
   const Layout<2> layout(g, {IVec<2>::Zero(), g.cells}, 4);
   DomainSpec domain;
   domain.cell_size = 0.1;
-  const Sides<2> sides(domain, WallFlow::slips);
+  const DomainBoundary<2> sides(domain, WallFlow::slips);
   // The face x = 0.5, 0.5 < y < 0.6 runs from within the wall, 0.03 m below its end, into the plate.
   for (const bool joined : {true, false}) {
     const auto bodies = wall_and_plate(5e-4, joined ? "-t" : "-2*t");

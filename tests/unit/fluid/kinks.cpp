@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "fluid/transport/kinks.h"
+#include "fluid/transport/medial_axis.h"
 #include "grid/fields.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
@@ -24,7 +24,7 @@ struct Sampled {
     g.cells = IVec<Dim>::Constant(16);
     return g;
   }
-  double one_sided(const Vec<Dim>& g) const { return interpolate_across_kinks<Dim>(layout, phi.data(), g) / h; }
+  double one_sided(const Vec<Dim>& g) const { return interpolate_beside_medial_axis<Dim>(layout, phi.data(), g) / h; }
   double cubic(const Vec<Dim>& g) const { return interpolate_cubic<Dim>(layout, phi.data(), g) / h; }
   Layout<Dim> layout;
   CellField<Dim> phi;

@@ -29,7 +29,7 @@ struct Box1 {
     return g;
   }
   Layout<Dim> layout{geometry(), geometry().box(), 4};
-  Sides<Dim> sides{walls<Dim>(), WallFlow::sticks};
+  DomainBoundary<Dim> sides{walls<Dim>(), WallFlow::sticks};
 
   template <class F>
   FaceField<Dim> faces(const F& f) const {
@@ -123,7 +123,7 @@ TEST_CASE("means and points of a face differ by what its second differences say;
   DomainSpec channel = walls<2>();
   channel.sides[0][0].type = SideType::inflow;
   const FaceField<2, char> valid(box.layout, 1);
-  const FaceField<2, char> whole = whole_faces(box.layout, Sides<2>(channel, WallFlow::sticks), valid);
+  const FaceField<2, char> whole = whole_faces(box.layout, DomainBoundary<2>(channel, WallFlow::sticks), valid);
   CHECK(whole.at(0, box.layout.site({2, 5})) == 0);
   CHECK(whole.at(0, box.layout.site({3, 5})) == 1);
   CHECK(whole.at(0, box.layout.site({5, 0})) == 1);

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "linalg/saddle/commutator.h"
+#include "linalg/saddle/lsc_preconditioner.h"
 #include "linalg/saddle/wall_distance.h"
 #include "unit/linalg/saddle_cases.h"
 
@@ -29,23 +29,23 @@ Stokes square(int n, double viscosity, double jump, bool surface) {
 }
 
 std::vector<char> without_pressure(const StokesMatrices& m) {
-  std::vector<char> loose(std::size_t(m.Dt.rows()));
-  for (std::size_t i = 0; i < loose.size(); ++i) loose[i] = m.Dt.row_start[i] == m.Dt.row_start[i + 1];
-  return loose;
+  std::vector<char> pressure_free(std::size_t(m.Dt.rows()));
+  for (std::size_t i = 0; i < pressure_free.size(); ++i) pressure_free[i] = m.Dt.row_start[i] == m.Dt.row_start[i + 1];
+  return pressure_free;
 }
 
 struct Parts {
   StokesMatrices m;
   SaddleSystem system;
   SaddleOperator K;
-  LooseRows loose;
-  Commutator B;
+  PressureFreeRows pressure_free;
+  LscPreconditioner B;
   Parts(const Stokes& s, const Communicator& ranks)
       : m(cases::StokesBuilder(s, ranks).make()),
         system(m.system()),
         K(system, ranks),
-        loose(K.faces(), without_pressure(m)),
-        B(K, &loose, [] {
+        pressure_free(K.faces(), without_pressure(m)),
+        B(K, &pressure_free, [] {
           AmgSettings settings;
           settings.aggressive_levels = 0;
           return settings;
@@ -106,14 +106,14 @@ TEST_CASE("commutator: rows are counted from the walls") {
 TEST_CASE("loose faces: solved for exactly wherever ranks cut") {
   const Communicator ranks;
   const Parts p(square(24, 100, 1e3, true), ranks);
-  REQUIRE(p.loose.good());
-  const std::vector<char> loose = without_pressure(p.m);
+  REQUIRE(p.pressure_free.good());
+  const std::vector<char> pressure_free = without_pressure(p.m);
   const Vector r = cases::noise_vector(p.m.F, 1);
   Vector z(r.size(), 0.0), rest(r.size());
-  p.loose.add_solved(r, z);
+  p.pressure_free.add_solved(r, z);
   p.K.faces().residual(r, z, rest);
   for (std::size_t i = 0; i < r.size(); ++i) {
-    if (loose[i]) CHECK(std::abs(rest[i]) <= 1e-10);  // rounding, times the viscosity
-    if (!loose[i]) CHECK(z[i] == 0);
+    if (pressure_free[i]) CHECK(std::abs(rest[i]) <= 1e-10);  // rounding, times the viscosity
+    if (!pressure_free[i]) CHECK(z[i] == 0);
   }
 }

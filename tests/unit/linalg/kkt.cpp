@@ -146,7 +146,7 @@ TEST_CASE("kkt: equal to the bodies factored") {
   CAPTURE(dimension, top == Kind::air, density, stiffness);
   const Case k = make(dimension, dimension == 2 ? 24 : 12, density, stiffness, top, ranks);
   const Found f = solve(k, dimension, 1e-10, ranks);
-  CAPTURE(f.report.solve.ladder, f.report.solve.iterations);
+  CAPTURE(f.report.solve.failed_attempts, f.report.solve.iterations);
   REQUIRE(f.report.solve.converged);
   BodyMatrix H(ranks);
   REQUIRE(H.set(k.H));
@@ -170,13 +170,13 @@ TEST_CASE("kkt: iterations from soft to stiff, light to heavy") {
   for (const int n : {24, 72}) {
     const Found f = solve(make(2, n, density, stiffness, Kind::air, ranks), 2, 1e-8, ranks);
     CHECK(f.report.solve.converged);
-    CHECK(f.report.solve.ladder.empty());
+    CHECK(f.report.solve.failed_attempts.empty());
     counts.push_back(f.report.solve.iterations);
   }
   for (const int n : {12, 20}) {
     const Found f = solve(make(3, n, density, stiffness, Kind::air, ranks), 3, 1e-8, ranks);
     CHECK(f.report.solve.converged);
-    CHECK(f.report.solve.ladder.empty());
+    CHECK(f.report.solve.failed_attempts.empty());
     counts.push_back(f.report.solve.iterations);
   }
   CAPTURE(density, stiffness, counts);

@@ -53,7 +53,7 @@ void check_against_dense(const Stokes& s) {
   const StokesMatrices m = cases::StokesBuilder(s, ranks).make();
   const Problem p = pose(m);
   const Answer a = solve(m, p, ranks, {.tolerance = 1e-11});
-  CAPTURE(a.report.ladder, a.report.momentum, a.report.continuity);
+  CAPTURE(a.report.failed_attempts, a.report.momentum, a.report.continuity);
   CHECK(a.report.converged);
   const Eigen::MatrixXd K = dense(m, ranks);
   CHECK((K - K.transpose()).norm() <= 1e-13 * K.norm());
@@ -146,10 +146,10 @@ TEST_CASE("saddle: a solver that is wrong is found out, and the next one asked")
   add_ball(s, 0.1);
   const StokesMatrices m = cases::StokesBuilder(s, ranks).make();
   SaddleOptions options;
-  options.fail_rungs = GENERATE(1, 2, 3);
+  options.fail_first = GENERATE(1, 2, 3);
   const Answer a = solve(m, pose(m), ranks, options);
-  CHECK(a.report.ladder.size() == std::size_t(options.fail_rungs));
-  CHECK(a.report.converged == (options.fail_rungs < 3));
+  CHECK(a.report.failed_attempts.size() == std::size_t(options.fail_first));
+  CHECK(a.report.converged == (options.fail_first < 3));
   CHECK((a.report.residual <= options.tolerance) == a.report.converged);
 }
 
@@ -179,8 +179,8 @@ TEST_CASE("saddle: right sides that are zero, impossible or not finite") {
     if (!p.f.empty()) p.f[0] = NAN;
     const Answer a = solve(m, p, ranks);
     CHECK_FALSE(a.report.converged);
-    REQUIRE(a.report.ladder.size() == 1);
-    CHECK(a.report.ladder[0] == "the right-hand side is not finite");
+    REQUIRE(a.report.failed_attempts.size() == 1);
+    CHECK(a.report.failed_attempts[0] == "the right-hand side is not finite");
   }
 }
 

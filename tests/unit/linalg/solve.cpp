@@ -48,9 +48,9 @@ void check_solved(const cases::System& s, const std::string& preconditioner, int
   SolveOptions options;
   options.preconditioner = preconditioner;
   const SolveReport report = solve(s, b, x, options, ranks);
-  CAPTURE(preconditioner, report.used, report.iterations, report.ladder);
+  CAPTURE(preconditioner, report.used, report.iterations, report.failed_attempts);
   CHECK(report.converged);
-  CHECK(report.ladder.empty());
+  CHECK(report.failed_attempts.empty());
   CHECK(report.iterations <= most_iterations);
   CHECK(residual_by_hand(s.A, b, x, ranks) <= 1.0001e-8);  // the tolerance, and the rounding of two different sums
 }
@@ -168,7 +168,7 @@ TEST_CASE("the solution is that of an elimination, with mean zero on each closed
   options.preconditioner = GENERATE("none", "boomeramg", "geometric", "multigrid", "auto");
   Vector x = cases::noise_vector(s.A, 4);
   const SolveReport report = solve(s, b, x, options, ranks);
-  CAPTURE(options.preconditioner, report.ladder);
+  CAPTURE(options.preconditioner, report.failed_attempts);
   REQUIRE(report.converged);
   CHECK(report.mismatch > 0.01);
   LinearSystem(s.A, s.grid, s.null_space, ranks).project(b);
@@ -189,9 +189,9 @@ TEST_CASE("cells without any open face are counted, keep zero and do not disturb
   SolveOptions options;
   options.preconditioner = GENERATE("none", "boomeramg", "geometric", "multigrid");
   const SolveReport report = solve(s, b, x, options, ranks);
-  CAPTURE(options.preconditioner, report.ladder);
+  CAPTURE(options.preconditioner, report.failed_attempts);
   CHECK(report.converged);
-  CHECK(report.ladder.empty());
+  CHECK(report.failed_attempts.empty());
   CHECK(report.identity_rows == 3);
   for (int i = 0; i < s.A.rows(); ++i) {
     if (s.A.value[s.A.row_start[i]] == 0) CHECK(x[i] == 0);

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "linalg/precond/rigid_motions.h"
+#include "linalg/precond/rigid_motion_deflation.h"
 #include "unit/linalg/saddle_cases.h"
 
 using namespace seiche;
@@ -52,20 +52,20 @@ class Diagonal : public Preconditioner {
 TEST_CASE("stiff: regions are found whole on any number of ranks") {
   const Communicator ranks;
   const Matrices f(two_squares(), ranks);
-  const std::vector<StiffRegion> regions = find_stiff_regions(f.F, 6, 16);
+  const std::vector<ViscousRegion> regions = find_viscous_regions(f.F, 6, 16);
   REQUIRE(regions.size() == 3);
   CHECK(regions[0].size == f.m.F.global_rows);
   CHECK(regions[1].size == 2 * 9 * 8);  // faces within and around them
   CHECK(regions[2].size == 2 * 5 * 4);
-  for (const StiffRegion& r : regions) CHECK(ranks.global_sum(std::int64_t(r.row.size())) == r.size);
+  for (const ViscousRegion& r : regions) CHECK(ranks.global_sum(std::int64_t(r.row.size())) == r.size);
 }
 
 TEST_CASE("stiff: what moves and turns at no cost, and no more") {
   const Communicator ranks;
   const Matrices f(two_squares(), ranks);
-  const std::vector<StiffMotion> motions = find_stiff_motions(f.F, f.places(), 2);
+  const std::vector<NearNullVector> motions = find_near_null_space(f.F, f.places(), 2);
   REQUIRE(motions.size() == 9);  // those of the box among them: by the squares' diagonals they are soft as well
-  for (const StiffMotion& m : motions) CHECK(m.whole);
+  for (const NearNullVector& m : motions) CHECK(m.whole);
 }
 
 TEST_CASE("stiff: products of few entries") {
@@ -84,7 +84,7 @@ TEST_CASE("stiff: products of few entries") {
 TEST_CASE("stiff: motions are solved for exactly, by a symmetric and positive operator") {
   const Communicator ranks;
   const Matrices f(two_squares(), ranks);
-  RigidMotions B(f.F, f.places(), 2, std::make_unique<Diagonal>(f.F));
+  RigidMotionDeflation B(f.F, f.places(), 2, std::make_unique<Diagonal>(f.F));
   REQUIRE(B.motions().size() == 9);
   const Vector a = cases::noise_vector(f.m.F, 1), b = cases::noise_vector(f.m.F, 2);
   Vector Ba(a.size()), Bb(a.size()), rest(a.size());
@@ -93,7 +93,7 @@ TEST_CASE("stiff: motions are solved for exactly, by a symmetric and positive op
   CHECK(aa > 0);
   CHECK(std::abs(ab - dot(b, Ba, ranks)) <= 1e-10 * std::sqrt(aa * dot(b, Bb, ranks)));
   f.F.residual(a, Ba, rest);
-  for (const StiffMotion& m : B.motions()) {
+  for (const NearNullVector& m : B.motions()) {
     const double left = ranks.global_sum(local_dot(m.z, rest)), before = ranks.global_sum(local_dot(m.z, a));
     CHECK(std::abs(left) <= 1e-6 * (1 + std::abs(before)));  // rounding, times the jump of viscosity
   }

@@ -52,7 +52,7 @@ struct Crowd {
   double energy(const Eigen::VectorXd& u) {
     return contact::contact_energy<Dim>(world.scene().data(), interval, at(u), pairs(u), friction, weights);
   }
-  contact::ContactTerms terms(Curvature curvature) {
+  contact::ContactTerms terms(HessianProjection curvature) {
     return contact::contact_terms<Dim>(world.scene().data(), interval, at(v), pairs(v), friction, weights, curvature);
   }
 };
@@ -63,7 +63,7 @@ TEMPLATE_TEST_CASE_SIG("the gradient of barrier and friction is that of the ener
   Random random;
   for (int sample = 0; sample < 20; ++sample) {
     Crowd<Dim> crowd(random);
-    const contact::ContactTerms terms = crowd.terms(Curvature::exact);
+    const contact::ContactTerms terms = crowd.terms(HessianProjection::exact);
     REQUIRE(terms.active > 4);
     REQUIRE(crowd.friction.size() > 2);
     CHECK(terms.energy == Approx(crowd.energy(crowd.v)).epsilon(1e-12));
@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE_SIG("the gradient of barrier and friction is that of the ener
 TEMPLATE_TEST_CASE_SIG("the Hessian of barrier and friction has no negative eigenvalue", "", ((int Dim), Dim), 2, 3) {
   Random random;
   for (int sample = 0; sample < 20; ++sample) {
-    const Eigen::MatrixXd K = Crowd<Dim>(random).terms(Curvature::convex).K;
+    const Eigen::MatrixXd K = Crowd<Dim>(random).terms(HessianProjection::convex).K;
     CHECK((K - K.transpose()).norm() < 1e-13 * K.norm());
     const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
     CHECK(values.minCoeff() > -1e-13 * values.maxCoeff());

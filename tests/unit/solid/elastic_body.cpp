@@ -40,7 +40,7 @@ void check_differences(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, d
   const Eigen::VectorXd g = elastic_gradient(body, u);
   CHECK(std::abs(slope - g.dot(d)) < 1e-7 * g.norm() * d.norm());
   SparseMatrix K = body.pattern;
-  add_stiffness(body, u, Curvature::exact, K);
+  add_stiffness(body, u, HessianProjection::exact, K);
   const Eigen::VectorXd bend = (elastic_gradient(body, u + h * d) - elastic_gradient(body, u - h * d)) / (2 * h);
   CHECK((K * d - bend).norm() < 1e-7 * bend.norm());
   CHECK(SparseMatrix(K - SparseMatrix(K.transpose())).norm() < 1e-14 * K.norm());

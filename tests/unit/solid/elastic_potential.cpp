@@ -43,12 +43,12 @@ TEMPLATE_TEST_CASE_SIG("the energy of elastic bodies by velocities has the deriv
   const auto gradient = [&](const Eigen::VectorXd& v) {
     Eigen::VectorXd g = Eigen::VectorXd::Zero(v.size());
     std::vector<Eigen::Triplet<double>> unused;
-    potential.add_terms(v, Curvature::exact, g, unused);
+    potential.add_terms(v, HessianProjection::exact, g, unused);
     return g;
   };
   Eigen::VectorXd g = Eigen::VectorXd::Constant(blocks.v.size(), 7);
   std::vector<Eigen::Triplet<double>> entries;
-  potential.add_terms(blocks.v, Curvature::exact, g, entries);
+  potential.add_terms(blocks.v, HessianProjection::exact, g, entries);
   g.array() -= 7;  // what was there stays
   Eigen::SparseMatrix<double> K(g.size(), g.size());
   K.setFromTriplets(entries.begin(), entries.end());

@@ -56,7 +56,7 @@ struct Crowd {
   double energy(const Eigen::VectorXd& u) const {
     return contact::contact_energy<Dim>(scene->data(), interval, at(u), pairs(u), friction, weights);
   }
-  contact::ContactTerms terms(const Eigen::VectorXd& u, Curvature curvature, double share = 0.6) const {
+  contact::ContactTerms terms(const Eigen::VectorXd& u, HessianProjection curvature, double share = 0.6) const {
     return contact::contact_terms<Dim>(scene->data(), interval, at(u, share), pairs(u), friction, weights, curvature);
   }
 };
@@ -66,7 +66,7 @@ struct Crowd {
 TEMPLATE_TEST_CASE_SIG("barrier and friction of deformable bodies have the derivatives they claim", "[soft]",
                        ((int Dim), Dim), 2, 3) {
   const Crowd<Dim> crowd;
-  const auto terms = crowd.terms(crowd.v, Curvature::exact);
+  const auto terms = crowd.terms(crowd.v, HessianProjection::exact);
   REQUIRE(terms.active > 20);
   REQUIRE(crowd.friction.size() > 10);
   CHECK(terms.energy == Approx(crowd.energy(crowd.v)).epsilon(1e-12));
@@ -78,15 +78,17 @@ TEMPLATE_TEST_CASE_SIG("barrier and friction of deformable bodies have the deriv
     const Eigen::VectorXd p = Eigen::VectorXd::NullaryExpr(crowd.v.size(), [&] { return range(random); });
     const auto E = [&](double s) { return crowd.energy(crowd.v + s * h * p); };
     CHECK((8 * (E(1) - E(-1)) - (E(2) - E(-2))) / (12 * h) == Approx(terms.gradient.dot(p)).epsilon(1e-6));
-    const auto slope = [&](double s) { return crowd.terms(crowd.v + s * h * p, Curvature::exact).gradient.dot(p); };
+    const auto slope = [&](double s) {
+      return crowd.terms(crowd.v + s * h * p, HessianProjection::exact).gradient.dot(p);
+    };
     CHECK((slope(1) - slope(-1)) / (2 * h) == Approx(p.dot(K * p)).epsilon(1e-5));
   }
-  const auto gradient_at = [&](double share) { return crowd.terms(crowd.v, Curvature::exact, share).gradient; };
+  const auto gradient_at = [&](double share) { return crowd.terms(crowd.v, HessianProjection::exact, share).gradient; };
   const Eigen::VectorXd differences =
       (8 * (gradient_at(0.6 + h) - gradient_at(0.6 - h)) - (gradient_at(0.6 + 2 * h) - gradient_at(0.6 - 2 * h))) /
       (12 * h);
   CHECK((0.4 * differences - terms.drag).norm() < 1e-5 * terms.drag.norm());
-  const Eigen::MatrixXd convex = crowd.terms(crowd.v, Curvature::convex).K;
+  const Eigen::MatrixXd convex = crowd.terms(crowd.v, HessianProjection::convex).K;
   CHECK((convex - convex.transpose()).norm() < 1e-13 * convex.norm());
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(convex).eigenvalues();
   CHECK(values.minCoeff() > -1e-13 * values.maxCoeff());
@@ -99,8 +101,8 @@ TEMPLATE_TEST_CASE_SIG("impulses on deformable bodies are sums over their nodes"
   const auto& data = crowd.scene->data();
   const auto at = crowd.at(crowd.v, 1);
   const auto pairs = contact::find_candidates<Dim>(data, at.points, at.points, crowd.weights.reach);
-  const auto terms =
-      contact::contact_terms<Dim>(data, crowd.interval, at, pairs, crowd.friction, crowd.weights, Curvature::exact);
+  const auto terms = contact::contact_terms<Dim>(data, crowd.interval, at, pairs, crowd.friction, crowd.weights,
+                                                 HessianProjection::exact);
   const auto impulses = contact::contact_impulses<Dim>(data, at, pairs, crowd.friction, crowd.weights);
   for (int b : {3, 4}) {
     Vec<Dim> sum = Vec<Dim>::Zero();

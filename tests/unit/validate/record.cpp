@@ -116,7 +116,7 @@ TEST_CASE("broken operators leave record and page alone, and their reports say w
   const ScratchFolder folder;
   put_case(folder, "one", case_text("max_speed", 1.5));
   ValidateOptions options;
-  options.tampering = "divergence:0.5";
+  options.perturbation = "divergence:0.5";
   for (const bool record : {true, false}) {
     ValidateOptions both = options;
     (record ? both.record : both.docs) = folder / "kept";

@@ -205,7 +205,7 @@ TEST_CASE("a run that was made is taken, until its scene or the wish changes") {
   fresh.earlier = Earlier::ignore;
   CHECK_FALSE(cached(validate(folder, {"first"}, "quick", fresh)));
   ValidateOptions broken;
-  broken.tampering = "divergence:0.5";
+  broken.perturbation = "divergence:0.5";
   CHECK_FALSE(cached(validate(folder, {"first"}, "quick", broken)));
   CHECK_FALSE(cached(validate(folder, {"first"}, "quick")));  // which the broken run had replaced
   std::string faster = scene_text;

@@ -26,7 +26,7 @@ struct BodyEntries {
 // Columns of J of the patches' nodes add up to -dV/du at u + H w_0/2, w_0 the velocities before. What else is missing
 // is a flux of its own, the same out of each cell that the walls touch.
 template <int Dim>
-struct SweptCavity {
+struct CavityConstraint {
   CavityWalls<Dim> walls;
   std::vector<int> first;                    // of each wall: first unknown of its body in the coupling
   std::vector<Eigen::VectorXd> u, gradient;  // likewise: at the start of the interval; dV/du as above
@@ -46,12 +46,12 @@ struct SweptCavity {
 // least change in the sum of squares; where walls are closed forces of a uniform pressure gradient stay as they were.
 // Collective.
 template <int Dim>
-std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step, const ElasticMotions& motions,
-                                                   std::vector<BodyEntries>& bodies);
+std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Dim>& step, const ElasticMotions& motions,
+                                                            std::vector<BodyEntries>& bodies);
 
 // Takes note of what the geometry has of prescribed fluxes. Collective.
 template <int Dim>
 void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,
-                            std::vector<SweptCavity<Dim>>& cavities);
+                            std::vector<CavityConstraint<Dim>>& cavities);
 
 }  // namespace seiche

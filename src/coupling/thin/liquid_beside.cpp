@@ -1,4 +1,4 @@
-#include "coupling/thin/thin_weight.h"
+#include "coupling/thin/liquid_beside.h"
 
 #include <Eigen/Geometry>
 
@@ -61,12 +61,12 @@ LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, cons
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
-    const SurfaceWeights& hung = (*g.attached[std::size_t(k)])[n];
+    const SurfaceWeights& weights = (*g.face_weights[std::size_t(k)])[n];
     const double area = shares[n].closed * domain.layout.geometry().face_area();
     const Depths depths = wet_depths(domain, g, rows, state.phi, f);
     const double mass = area * fluids.density() * depths.inert, heavy = area * fluids.density() * depths.heavy;
-    const double mean = velocity_at<Dim>(hung, f.axis, w), flow = state.now->u.at(f.axis, f.face);
-    for (const auto& [node, weight] : hung) {
+    const double mean = velocity_at<Dim>(weights, f.axis, w), flow = state.now->u.at(f.axis, f.face);
+    for (const auto& [node, weight] : weights) {
       const auto i = std::size_t(Dim * node + f.axis);
       sums[i] += mass * weight;
       sums[size + i] += heavy * weight;

@@ -8,10 +8,10 @@ namespace seiche {
 
 // Exact solves with F on loose faces: chains within a rank by that rank, those that ranks share on all of them at once,
 // so that results do not depend on where ranks cut.
-class LooseRows {
+class PressureFreeRows {
  public:
   // `loose` by row of F, which it keeps no reference to. Collective.
-  LooseRows(const LinearSystem& F, const std::vector<char>& loose);
+  PressureFreeRows(const LinearSystem& F, const std::vector<char>& pressure_free);
   // Whether their matrix could be factored, on all ranks.
   bool good() const { return good_; }
   // z_L += F_LL^-1 r_L. Collective.
@@ -29,16 +29,16 @@ class LooseRows {
 
 // Multigrid on faces, mended where it fails: z = B r with exact solves on the loose faces before and after. Symmetric,
 // and positive where B is and B F <= 2.
-class LooseFaces : public Preconditioner {
+class PressureFreeFaces : public Preconditioner {
  public:
   // Keeps the references.
-  LooseFaces(const LinearSystem& F, const LooseRows& loose, std::unique_ptr<Preconditioner> B)
-      : F_(F), loose_(loose), B_(std::move(B)) {}
+  PressureFreeFaces(const LinearSystem& F, const PressureFreeRows& pressure_free, std::unique_ptr<Preconditioner> B)
+      : F_(F), pressure_free_(pressure_free), B_(std::move(B)) {}
   void apply(const Vector& r, Vector& z) override;
 
  private:
   const LinearSystem& F_;
-  const LooseRows& loose_;
+  const PressureFreeRows& pressure_free_;
   std::unique_ptr<Preconditioner> B_;
 };
 

@@ -1,4 +1,4 @@
-#include "coupling/solids/swept_volume.h"
+#include "coupling/solids/cavity_volume.h"
 
 #include <algorithm>
 
@@ -36,12 +36,12 @@ Eigen::VectorXd lacking(const Eigen::VectorXd& gradient, double face_area, const
 // Of wall n; returns the rows that it touches.
 template <int Dim>
 std::set<std::int64_t> correct_wall(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
-                                    const std::set<Link>& links, const SweptCavity<Dim>& cavity, std::size_t n,
+                                    const std::set<Link>& links, const CavityConstraint<Dim>& cavity, std::size_t n,
                                     std::vector<FluxEntry>& entries) {
   const Eigen::VectorXd all = lacking(cavity.gradient[n], cavity.face_area, entries, domain.ranks);
   LinkGraph graph(gather_links(links, domain.ranks));
   graph.complete(nodes_of_wall(cavity.walls[n]));
-  const LeastFlux least(graph);
+  const MinimumNormFlux least(graph);
   std::set<std::int64_t> touched;
   for (const auto& [row, number] : graph.row_numbers()) touched.insert(row);
   for (int axis = 0; axis < Dim; ++axis) {
@@ -71,9 +71,10 @@ double volume_to_keep(const CavityWalls<Dim>& walls, const ElasticMotions& motio
 }
 
 template <int Dim>
-SweptCavity<Dim> make_cavity(const Domain<Dim>& domain, const FoundCavity<Dim>& found, const ElasticMotions& motions,
-                             const std::vector<BodyEntries>& bodies, double horizon) {
-  SweptCavity<Dim> cavity;
+CavityConstraint<Dim> make_cavity(const Domain<Dim>& domain, const FoundCavity<Dim>& found,
+                                  const ElasticMotions& motions, const std::vector<BodyEntries>& bodies,
+                                  double horizon) {
+  CavityConstraint<Dim> cavity;
   cavity.walls = found.walls;
   cavity.horizon = horizon;
   cavity.face_area = domain.layout.geometry().face_area();
@@ -97,7 +98,7 @@ bool is_closed(const WallPatch<Dim>& wall) {
 
 // -(dV/du) w + prescribed + flux = -(V(u + H w) - volume)/H
 template <int Dim>
-double SweptCavity<Dim>::missing_flux(const Eigen::VectorXd& w) const {
+double CavityConstraint<Dim>::missing_flux(const Eigen::VectorXd& w) const {
   double linear = 0;
   std::vector<Eigen::VectorXd> end;
   for (std::size_t n = 0; n < walls.size(); ++n) {
@@ -110,15 +111,15 @@ double SweptCavity<Dim>::missing_flux(const Eigen::VectorXd& w) const {
 }
 
 template <int Dim>
-std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step, const ElasticMotions& motions,
-                                                   std::vector<BodyEntries>& bodies) {
+std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Dim>& step, const ElasticMotions& motions,
+                                                            std::vector<BodyEntries>& bodies) {
   const Setup<Dim>& s = step.setup;
   const PressureRows<Dim>& rows = step.rows;
-  std::vector<SweptCavity<Dim>> cavities;
+  std::vector<CavityConstraint<Dim>> cavities;
   const auto kept = kept_cavities(s.solids.bodies, motions);
   for (const FoundCavity<Dim>& found :
        find_cavities(s.domain, s.solids, step.geometry, rows, step.closed, motions, bodies)) {
-    SweptCavity<Dim> cavity = make_cavity(s.domain, found, motions, bodies, step.horizon);
+    CavityConstraint<Dim> cavity = make_cavity(s.domain, found, motions, bodies, step.horizon);
     cavity.volume = volume_to_keep(cavity.walls, motions, kept, cavity.u);
     std::set<std::int64_t> touched;
     for (std::size_t n = 0; n < cavity.walls.size(); ++n)
@@ -137,10 +138,10 @@ std::vector<SweptCavity<Dim>> correct_swept_volume(const CoupledStep<Dim>& step,
 
 template <int Dim>
 void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
-                            std::vector<SweptCavity<Dim>>& cavities) {
+                            std::vector<CavityConstraint<Dim>>& cavities) {
   if (cavities.empty()) return;
   std::vector<double> sums;
-  for (const SweptCavity<Dim>& cavity : cavities) {
+  for (const CavityConstraint<Dim>& cavity : cavities) {
     double& sum = sums.emplace_back(0);
     for (const int n : cavity.cells) {
       const Site c = rows.cells[std::size_t(n)];
@@ -153,12 +154,12 @@ void take_prescribed_fluxes(const Domain<Dim>& domain, const StepGeometry<Dim>& 
   for (std::size_t n = 0; n < cavities.size(); ++n) cavities[n].prescribed = sums[n];
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                \
-  template struct SweptCavity<D>;                                                                            \
-  template std::vector<SweptCavity<D>> correct_swept_volume<D>(const CoupledStep<D>&, const ElasticMotions&, \
-                                                               std::vector<BodyEntries>&);                   \
-  template void take_prescribed_fluxes<D>(const Domain<D>&, const StepGeometry<D>&, const PressureRows<D>&,  \
-                                          std::vector<SweptCavity<D>>&);
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template struct CavityConstraint<D>;                                                                                \
+  template std::vector<CavityConstraint<D>> constrain_cavity_volumes<D>(const CoupledStep<D>&, const ElasticMotions&, \
+                                                                        std::vector<BodyEntries>&);                   \
+  template void take_prescribed_fluxes<D>(const Domain<D>&, const StepGeometry<D>&, const PressureRows<D>&,           \
+                                          std::vector<CavityConstraint<D>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -11,14 +11,14 @@ constexpr double least_open = 0.2;
 
 // The velocity as solved for on faces less open than least_open, else as continued.
 template <int Dim>
-Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                       const FaceField<Dim>& continued);
+GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+                              const FaceField<Dim>& continued);
 
 // On the faces of slits that have grown wider, w the open part, u = film.u sqrt(film.w/w) + dt g: what the velocity
 // continued from beside a slit does not know is that the liquid in it is under way, and its inertia is most of what a
 // body has that lifts off. Liquid pressed out of a narrowing slit leaves as a jet that the grid cannot carry.
 template <int Dim>
-void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film,
-                       const Vec3& gravity, double dt, FaceField<Dim>& u);
+void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
+                      const Vec3& gravity, double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

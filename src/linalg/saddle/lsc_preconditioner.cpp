@@ -1,4 +1,4 @@
-#include "linalg/saddle/commutator.h"
+#include "linalg/saddle/lsc_preconditioner.h"
 
 #include <algorithm>
 #include <cassert>
@@ -23,8 +23,9 @@ void multiply_by(const Vector& weight, Vector& x) {
 
 }  // namespace
 
-Commutator::Commutator(const SaddleOperator& K, const LooseRows* loose, const AmgSettings& settings)
-    : K_(K), loose_(loose) {
+LscPreconditioner::LscPreconditioner(const SaddleOperator& K, const PressureFreeRows* pressure_free,
+                                     const AmgSettings& settings)
+    : K_(K), pressure_free_(pressure_free) {
   set_weights();
   matrix_ = weighted_laplacian();
   L_ = std::make_unique<LinearSystem>(matrix_, K.liquid().grid(), K.liquid().null_space(), K.ranks());
@@ -32,7 +33,7 @@ Commutator::Commutator(const SaddleOperator& K, const LooseRows* loose, const Am
 }
 
 // C = M + (diag F - M) max(1, layer / rows from the wall)
-void Commutator::set_weights() {
+void LscPreconditioner::set_weights() {
   constexpr int layer = 4;
   const SaddleSystem& s = K_.system();
   const std::vector<int> rows = rows_from_walls(K_.faces(), s.axis, s.mass, layer);
@@ -42,7 +43,7 @@ void Commutator::set_weights() {
 }
 
 // D C^-1 D' has the pattern of A.
-DistributedMatrix Commutator::weighted_laplacian() const {
+DistributedMatrix LscPreconditioner::weighted_laplacian() const {
   const DistributedMatrix &A = K_.liquid().pattern(), &Dt = K_.system().Dt;
   DistributedMatrix L{A.first_row, A.global_rows, A.row_start, A.column, Vector(A.column.size(), 0.0)};
   const auto add = [&](const MatrixEntry& e) {
@@ -62,12 +63,12 @@ DistributedMatrix Commutator::weighted_laplacian() const {
         else
           away.push_back(e);
       }
-  for (const MatrixEntry& e : bring_home(away, A.first_row, std::size_t(A.rows()), K_.ranks())) add(e);
+  for (const MatrixEntry& e : send_to_owner(away, A.first_row, std::size_t(A.rows()), K_.ranks())) add(e);
   return L;
 }
 
 // x = L^-1 b; b loses what L cannot reach.
-void Commutator::solve_laplacian(Vector& b, Vector& x) {
+void LscPreconditioner::solve_laplacian(Vector& b, Vector& x) {
   L_->project(b);
   x.resize(b.size());
   B_->apply(b, x);
@@ -75,16 +76,16 @@ void Commutator::solve_laplacian(Vector& b, Vector& x) {
 }
 
 // Fw = F w, the loose faces free to follow: w_L = -F_LL^-1 (F w)_L.
-void Commutator::follow_stress(Vector& w, Vector& Fw) const {
+void LscPreconditioner::follow_stress(Vector& w, Vector& Fw) const {
   K_.faces().multiply(w, Fw);
-  if (!loose_) return;
+  if (!pressure_free_) return;
   Vector x(w.size(), 0.0);
-  loose_->add_solved(Fw, x);
+  pressure_free_->add_solved(Fw, x);
   add_scaled(w, -1, x);
   K_.faces().multiply(w, Fw);
 }
 
-void Commutator::apply(const Vector& r, Vector& z) {
+void LscPreconditioner::apply(const Vector& r, Vector& z) {
   Vector b = r, p, w(weight_.size(), 0.0), Fw(weight_.size()), flux;
   Eigen::VectorXd none = Eigen::VectorXd::Zero(K_.unknowns());
   solve_laplacian(b, p);

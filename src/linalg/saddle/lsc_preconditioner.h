@@ -1,7 +1,7 @@
 #pragma once
 // Preconditioners of the Schur complement of viscous flow, S = D F^-1 D', that see how viscosity varies.
 #include "linalg/precond/hypre_adapter.h"
-#include "linalg/precond/loose_faces.h"
+#include "linalg/precond/pressure_free_faces.h"
 #include "linalg/saddle/system.h"
 
 namespace seiche {
@@ -11,10 +11,10 @@ namespace seiche {
 // L^-1 by a cycle of multigrid. Symmetric, and positive but for the null space. F is what is left of it once the loose
 // faces, which no pressure feels, have been eliminated. C is the diagonal of F, its viscous part larger near walls: the
 // commutator of F and the gradient does not vanish there (Elman, Tuminaro 2009).
-class Commutator : public Preconditioner {
+class LscPreconditioner : public Preconditioner {
  public:
   // Keeps the references; `loose` may be null. Collective.
-  Commutator(const SaddleOperator& K, const LooseRows* loose, const AmgSettings& settings);
+  LscPreconditioner(const SaddleOperator& K, const PressureFreeRows* pressure_free, const AmgSettings& settings);
   void apply(const Vector& r, Vector& z) override;
 
  private:
@@ -24,7 +24,7 @@ class Commutator : public Preconditioner {
   void follow_stress(Vector& w, Vector& Fw) const;
 
   const SaddleOperator& K_;
-  const LooseRows* loose_;
+  const PressureFreeRows* pressure_free_;
   Vector weight_;  // C^-1
   DistributedMatrix matrix_;
   std::unique_ptr<LinearSystem> L_;

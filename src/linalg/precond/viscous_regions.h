@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-struct StiffRegion {
+struct ViscousRegion {
   Row first;             // the lowest of its rows, over all ranks
   std::int64_t size;     // over all ranks
   std::vector<int> row;  // of this rank, ascending
@@ -15,6 +15,6 @@ struct StiffRegion {
 // Rows joined by entries of the size of their diagonals, at several levels below the largest diagonal: regions are
 // nested or apart. At most `most`, the largest of those that have `fewest` rows; the same on any number of ranks.
 // Collective.
-std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, std::size_t most);
+std::vector<ViscousRegion> find_viscous_regions(const LinearSystem& F, int fewest, std::size_t most);
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-#include "fluid/pressure/parting.h"
+#include "fluid/pressure/separation.h"
 
 #include "fluid/pressure/pressure.h"
 #include "grid/loops.h"
@@ -32,15 +32,16 @@ bool touches_solid(const ProjectionInput<Dim>& in, Site cell) {
 }  // namespace
 
 template <int Dim>
-void start_parting(const ProjectionInput<Dim>& in, Parting<Dim>& parting) {
-  for_each_site(in.layout, in.layout.cells(), [&](Site c) { parting.parted[c] = in.phi[c] < 0 && parting.gap[c] > 0; });
-  in.halo.fill_ghosts({parting.parted.data()});
+void start_separation(const ProjectionInput<Dim>& in, Separation<Dim>& separation) {
+  for_each_site(in.layout, in.layout.cells(),
+                [&](Site c) { separation.separated[c] = in.phi[c] < 0 && separation.gap[c] > 0; });
+  in.halo.fill_ghosts({separation.separated.data()});
 }
 
 template <int Dim>
 CellField<Dim, char> cells_that_may_part(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                          const std::vector<int>& closed_component) {
-  CellField<Dim, char> may = in.parting->parted;
+  CellField<Dim, char> may = in.separation->separated;
   for (std::size_t n = 0; n < rows.cells.size(); ++n) {
     const bool closed = !closed_component.empty() && closed_component[n] >= 0;
     may[rows.cells[n]] = !closed && touches_solid(in, rows.cells[n]);
@@ -51,7 +52,8 @@ CellField<Dim, char> cells_that_may_part(const ProjectionInput<Dim>& in, const P
 template <int Dim>
 WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                 const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                                const CellField<Dim, char>& eligible, double tolerance, const Parting<Dim>& parting) {
+                                const CellField<Dim, char>& eligible, double tolerance,
+                                const Separation<Dim>& separation) {
   const Box<Dim>& cells = in.layout.cells();
   const double h = in.layout.h(), stiffness = in.density * h / in.dt;
   const double largest =
@@ -60,7 +62,7 @@ WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRo
   double worst = 0;
   for_each_index_in_order(in.layout, cells, [&](Site c, const IVec<Dim>&) {
     double error = 0;
-    if (parting.parted[c])
+    if (separation.separated[c])
       error = -stiffness * (flux_after(in, rows, pressure, u_star, c) + in.missing_flux(c));
     else if (eligible[c])
       error = -pressure[c];
@@ -75,22 +77,22 @@ WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRo
 
 template <int Dim>
 void advance_gaps(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                  const FaceField<Dim>& u_star, Parting<Dim>& parting) {
+                  const FaceField<Dim>& u_star, Separation<Dim>& separation) {
   for_each_site(in.layout, in.layout.cells(), [&](Site c) {
     const double opened = in.dt / in.layout.h() * flux_after(in, rows, pressure, u_star, c);
-    parting.gap[c] = parting.parted[c] ? std::max(parting.gap[c] + opened, 0.0) : 0;
+    separation.gap[c] = separation.separated[c] ? std::max(separation.gap[c] + opened, 0.0) : 0;
   });
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
-  template void start_parting<D>(const ProjectionInput<D>&, Parting<D>&);                                             \
+  template void start_separation<D>(const ProjectionInput<D>&, Separation<D>&);                                       \
   template WrongGuesses find_wrong_guesses<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&, \
                                               const FaceField<D>&, const CellField<D, char>&, double,                 \
-                                              const Parting<D>&);                                                     \
+                                              const Separation<D>&);                                                  \
   template CellField<D, char> cells_that_may_part<D>(const ProjectionInput<D>&, const PressureRows<D>&,               \
                                                      const std::vector<int>&);                                        \
   template void advance_gaps<D>(const ProjectionInput<D>&, const PressureRows<D>&, const CellField<D>&,               \
-                                const FaceField<D>&, Parting<D>&);
+                                const FaceField<D>&, Separation<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,6 +1,6 @@
 #pragma once
 // Liquid that parts from walls and solids instead of hanging on to them: p >= 0 there, and a cell may gain volume where
-// p = 0 (Batty, Bertails, Bridson 2007; solved by policy iteration, fluid/pressure/parting_search.h).
+// p = 0 (Batty, Bertails, Bridson 2007; solved by policy iteration, fluid/pressure/separation_search.h).
 #include "grid/fields.h"
 #include "grid/halo.h"
 
@@ -12,17 +12,17 @@ template <int Dim>
 struct ProjectionInput;
 
 template <int Dim>
-struct Parting {
-  CellField<Dim, char> parted;  // 1: this cell's pressure is zero and its net flux free; one cell around filled
-  CellField<Dim> gap;           // share of a cell's volume that has opened so far and is to be closed before p > 0
+struct Separation {
+  CellField<Dim, char> separated;  // 1: this cell's pressure is zero and its net flux free; one cell around filled
+  CellField<Dim> gap;              // share of a cell's volume that has opened so far and is to be closed before p > 0
 
-  Parting() = default;
-  explicit Parting(const Layout<Dim>& layout) : parted(layout), gap(layout) {}
+  Separation() = default;
+  explicit Separation(const Layout<Dim>& layout) : separated(layout), gap(layout) {}
 };
 
 // First guess: the cells that were parted already. Collective.
 template <int Dim>
-void start_parting(const ProjectionInput<Dim>& in, Parting<Dim>& parting);
+void start_separation(const ProjectionInput<Dim>& in, Separation<Dim>& separation);
 
 // Cells whose guess a solution contradicts: those that did not part but whose pressure pulls, and those that parted but
 // would be squeezed beyond their gap.
@@ -37,7 +37,8 @@ struct WrongGuesses {
 template <int Dim>
 WrongGuesses find_wrong_guesses(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows,
                                 const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
-                                const CellField<Dim, char>& eligible, double tolerance, const Parting<Dim>& parting);
+                                const CellField<Dim, char>& eligible, double tolerance,
+                                const Separation<Dim>& separation);
 
 // Cells that touch a wall or a solid, those of closed components left out, and those that are parted already.
 template <int Dim>
@@ -47,6 +48,6 @@ CellField<Dim, char> cells_that_may_part(const ProjectionInput<Dim>& in, const P
 // Gaps after the step: parted cells open by their net flux, the others are shut.
 template <int Dim>
 void advance_gaps(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                  const FaceField<Dim>& u_star, Parting<Dim>& parting);
+                  const FaceField<Dim>& u_star, Separation<Dim>& separation);
 
 }  // namespace seiche

@@ -4,19 +4,20 @@
 // stiffness.
 #include <Eigen/Core>
 
+#include "linalg/precond/near_null_space.h"
 #include "linalg/precond/preconditioners.h"
-#include "linalg/precond/stiff_motions.h"
 
 namespace seiche {
 
-// z = Q r + (1 - Q F) B (1 - F Q) r, Q = Z (Z'F Z)^-1 Z' (balancing; Mandel 1993), Z = find_stiff_motions() with
+// z = Q r + (1 - Q F) B (1 - F Q) r, Q = Z (Z'F Z)^-1 Z' (balancing; Mandel 1993), Z = find_near_null_space() with
 // the flow around them: symmetric, and positive where B is.
-class RigidMotions : public Preconditioner {
+class RigidMotionDeflation : public Preconditioner {
  public:
   // Keeps the reference to F; `dimension` is 2 or 3. Collective.
-  RigidMotions(const LinearSystem& F, const FacePlaces& places, int dimension, std::unique_ptr<Preconditioner> B);
+  RigidMotionDeflation(const LinearSystem& F, const FacePlaces& places, int dimension,
+                       std::unique_ptr<Preconditioner> B);
   void apply(const Vector& r, Vector& z) override;
-  const std::vector<StiffMotion>& motions() const { return Z_; }
+  const std::vector<NearNullVector>& motions() const { return Z_; }
 
  private:
   void extend();
@@ -26,7 +27,7 @@ class RigidMotions : public Preconditioner {
 
   const LinearSystem& F_;
   std::unique_ptr<Preconditioner> B_;
-  std::vector<StiffMotion> Z_;
+  std::vector<NearNullVector> Z_;
   std::vector<SparseVector> FZ_;
   Eigen::MatrixXd inverse_;  // of Z'F Z
 };

@@ -122,7 +122,7 @@ TEST_CASE("viscous liquid finds which cells part") {
   const auto sim = make_simulation(block_at_moving_wall("1+0.5*sin(10*x)"), Communicator());
   while (sim->time() < 0.2241) {
     const StepStats s = sim->step(0.2241);
-    CHECK(s.parting_error == 0);
+    CHECK(s.separation_error == 0);
     CHECK(s.rejected == 0);
   }
 }

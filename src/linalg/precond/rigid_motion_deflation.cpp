@@ -1,4 +1,4 @@
-#include "linalg/precond/rigid_motions.h"
+#include "linalg/precond/rigid_motion_deflation.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -8,7 +8,7 @@ namespace seiche {
 namespace {
 
 // Whether motions may touch the same rows or neighbouring ones.
-bool meet(const StiffMotion& a, const StiffMotion& b) {
+bool meet(const NearNullVector& a, const NearNullVector& b) {
   return a.region != b.region || std::abs(a.slab - b.slab) <= 2;
 }
 
@@ -39,23 +39,23 @@ struct Relaxation {
 
 }  // namespace
 
-RigidMotions::RigidMotions(const LinearSystem& F, const FacePlaces& places, int dimension,
-                           std::unique_ptr<Preconditioner> B)
-    : F_(F), B_(std::move(B)), Z_(find_stiff_motions(F, places, dimension)) {
+RigidMotionDeflation::RigidMotionDeflation(const LinearSystem& F, const FacePlaces& places, int dimension,
+                                           std::unique_ptr<Preconditioner> B)
+    : F_(F), B_(std::move(B)), Z_(find_near_null_space(F, places, dimension)) {
   extend();
   SparseProduct multiply(F);
-  for (const StiffMotion& m : Z_) FZ_.push_back(multiply(m.z));
+  for (const NearNullVector& m : Z_) FZ_.push_back(multiply(m.z));
   invert_energies(energies());
 }
 
 // With the liquid around it at rest a part of n cells would cost n times what it does. Of so many motions, for they are
 // no longer sparse; what is next to nothing of them is left out.
-void RigidMotions::extend() {
+void RigidMotionDeflation::extend() {
   constexpr int most = 24, steps = 12;
   constexpr double enough = 0.05, next_to_nothing = 0.01;
   Vector z(std::size_t(F_.rows())), x(z.size()), b(z.size());
   int extended = 0;
-  for (StiffMotion& m : Z_) {
+  for (NearNullVector& m : Z_) {
     if (!m.whole || ++extended > most) continue;
     const RowsAround around(F_, m.z);
     std::fill(z.begin(), z.end(), 0.0);
@@ -70,7 +70,7 @@ void RigidMotions::extend() {
 }
 
 // Z'F Z
-Eigen::MatrixXd RigidMotions::energies() const {
+Eigen::MatrixXd RigidMotionDeflation::energies() const {
   const auto n = Eigen::Index(Z_.size());
   Eigen::MatrixXd E = Eigen::MatrixXd::Zero(n, n);
   Vector Fz(std::size_t(F_.rows()));
@@ -86,7 +86,7 @@ Eigen::MatrixXd RigidMotions::energies() const {
 }
 
 // Motions of nested regions may be the same but for rounding: what is next to nothing of a combination is left out.
-void RigidMotions::invert_energies(Eigen::MatrixXd E) {
+void RigidMotionDeflation::invert_energies(Eigen::MatrixXd E) {
   constexpr double next_to_nothing = 1e-6;
   inverse_.setZero(E.rows(), E.cols());
   if (E.size() == 0) return;
@@ -100,12 +100,12 @@ void RigidMotions::invert_energies(Eigen::MatrixXd E) {
   }
 }
 
-Eigen::VectorXd RigidMotions::summed(Eigen::VectorXd y) const {
+Eigen::VectorXd RigidMotionDeflation::summed(Eigen::VectorXd y) const {
   F_.ranks().global_sum(std::span<double>(y.data(), std::size_t(y.size())));
   return y;
 }
 
-void RigidMotions::apply(const Vector& r, Vector& z) {
+void RigidMotionDeflation::apply(const Vector& r, Vector& z) {
   if (Z_.empty()) return B_->apply(r, z);
   const auto n = Eigen::Index(Z_.size());
   Eigen::VectorXd pushed(n), left(n);

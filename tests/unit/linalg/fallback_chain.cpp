@@ -42,12 +42,12 @@ TEST_CASE("solvers that claim success wrongly are caught, and the ladder gives t
   Vector reference(s.A.rows(), 0.0);
   REQUIRE(solve_spd(s.A, s.grid, s.null_space, b, reference, options, ranks).converged);
   options.preconditioner = GENERATE("auto", "none", "boomeramg", "geometric", "multigrid");
-  options.fail_rungs = GENERATE(1, 2, 3, 4);
+  options.fail_first = GENERATE(1, 2, 3, 4);
   Vector x(s.A.rows(), 0.0);
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, b, x, options, ranks);
-  CAPTURE(options.preconditioner, report.ladder);
+  CAPTURE(options.preconditioner, report.failed_attempts);
   CHECK(report.converged);
-  CHECK(int(report.ladder.size()) == options.fail_rungs);
+  CHECK(int(report.failed_attempts.size()) == options.fail_first);
   CHECK(report.residual <= options.tolerance);
   CHECK(distance(x, reference, ranks) < 1e-8);  // the condition number, about 1e3, times the tolerance
 }
@@ -58,7 +58,7 @@ TEST_CASE("the last rung eliminates") {
   const Vector b = cases::noise_vector(s.A, 1);
   SolveOptions options;
   options.preconditioner = "boomeramg";
-  options.fail_rungs = 4;
+  options.fail_first = 4;
   Vector x(s.A.rows(), 0.0);
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, b, x, options, ranks);
   CHECK(report.converged);
@@ -71,11 +71,11 @@ TEST_CASE("when every rung fails the report says so and x stays finite") {
   const cases::System s = splash_system(ranks);
   const Vector b = cases::noise_vector(s.A, 1);
   SolveOptions options;
-  options.fail_rungs = 100;
+  options.fail_first = 100;
   Vector x(s.A.rows(), 0.0);
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, b, x, options, ranks);
   CHECK_FALSE(report.converged);
-  CHECK(report.ladder.size() >= 5);
+  CHECK(report.failed_attempts.size() >= 5);
   CHECK(report.residual > options.tolerance);
   CHECK(all_finite(x, ranks));
 }
@@ -104,7 +104,7 @@ TEST_CASE("an error flag left raised in hypre has no effect") {
   hypre_error_handler("test", 1, 1, nullptr);
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, b, y, options, ranks);
   CHECK(report.converged);
-  CHECK(report.ladder.empty());
+  CHECK(report.failed_attempts.empty());
   CHECK(x == y);
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("narrow winding channels, where the grid's multigrid stalls, are solve
   const Vector b = cases::noise_vector(s.A, 1);
   Vector x(s.A.rows(), 0.0);
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, b, x, {}, ranks);
-  CAPTURE(report.ladder);
+  CAPTURE(report.failed_attempts);
   CHECK(report.converged);
   CHECK(report.residual <= 1e-8);
 }
@@ -170,7 +170,7 @@ TEST_CASE("a start that is not finite is replaced by a cold one") {
   Vector x(s.A.rows(), std::numeric_limits<double>::quiet_NaN());
   const SolveReport report = solve_spd(s.A, s.grid, s.null_space, cases::noise_vector(s.A, 1), x, {}, ranks);
   CHECK(report.converged);
-  CHECK(report.ladder.empty());
+  CHECK(report.failed_attempts.empty());
 }
 
 TEST_CASE("more rows than hypre counts are refused in words") {

@@ -1,4 +1,4 @@
-#include "coupling/step/half_steps.h"
+#include "coupling/step/leapfrog.h"
 
 #include "base/time_spec.h"
 #include "coupling/solids/contact_setup.h"
@@ -19,16 +19,16 @@ bool opens_or_closes(const Source<Dim>& source, double t0, double t1) {
 
 }  // namespace
 
-bool may_go_by_halves(const Features& features) {
-  return features.has(Feature::steps_by_halves);
+bool may_leapfrog(const Features& features) {
+  return features.has(Feature::leapfrog);
 }
 
 template <int Dim>
-bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
-                    const State<Dim>& state, double dt) {
+bool is_leapfrog_step(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
+                      const State<Dim>& state, double dt) {
   for (const Source<Dim>& source : sources)
     if (opens_or_closes(source, state.time, state.time + dt)) return false;
-  return may_go_by_halves(features) && (!solids.has_unknowns() || safe_share(solids, state, 2 * dt) >= 1);
+  return may_leapfrog(features) && (!solids.has_unknowns() || safe_share(solids, state, 2 * dt) >= 1);
 }
 
 template <int Dim>
@@ -54,7 +54,7 @@ std::vector<Placement> place_halfway(const State<Dim>& state, double dt) {
 }
 
 template <int Dim>
-StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved) {
+StepGeometry<Dim> placed_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved) {
   const std::vector<Placement> placed = place_bodies(end);
   StepGeometry<Dim> g = solids.geometry.measure(placed, end.time);
   solved.psi = std::move(g.psi);
@@ -65,12 +65,12 @@ StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end,
   return solved;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template bool goes_by_halves<D>(const Solids<D>&, const std::vector<Source<D>>&, const Features&, const State<D>&, \
-                                  double);                                                                           \
-  template bool can_go_on<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&, const State<D>&, double);          \
-  template std::vector<Placement> place_halfway<D>(const State<D>&, double);                                         \
-  template StepGeometry<D> stand_at_end<D>(const Solids<D>&, const State<D>&, StepGeometry<D>);
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template bool is_leapfrog_step<D>(const Solids<D>&, const std::vector<Source<D>>&, const Features&, const State<D>&, \
+                                    double);                                                                           \
+  template bool can_go_on<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&, const State<D>&, double);            \
+  template std::vector<Placement> place_halfway<D>(const State<D>&, double);                                           \
+  template StepGeometry<D> placed_at_end<D>(const Solids<D>&, const State<D>&, StepGeometry<D>);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

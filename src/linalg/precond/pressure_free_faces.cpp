@@ -1,4 +1,4 @@
-#include "linalg/precond/loose_faces.h"
+#include "linalg/precond/pressure_free_faces.h"
 
 #include <algorithm>
 #include <cstring>
@@ -24,7 +24,7 @@ std::vector<char> find_shared(const LinearSystem& F, const Vector& flags) {
   const DistributedMatrix& P = F.pattern();
   std::vector<char> shared(std::size_t(F.rows()), 0);
   std::vector<int> next;
-  const auto for_each_loose = [&](int i, auto visit) {
+  const auto for_each_pressure_free = [&](int i, auto visit) {
     for (int k = P.row_start[i]; k < P.row_start[i + 1]; ++k) {
       const int j = F.halo().local_index(P.column[std::size_t(k)]);
       if (flags[std::size_t(j)] != 0) visit(j);
@@ -35,13 +35,13 @@ std::vector<char> find_shared(const LinearSystem& F, const Vector& flags) {
   };
   for (int i = 0; i < F.rows(); ++i)
     if (flags[std::size_t(i)] != 0)
-      for_each_loose(i, [&](int j) {
+      for_each_pressure_free(i, [&](int j) {
         if (j >= F.rows()) reach(i);
       });
   while (!next.empty()) {
     const int i = next.back();
     next.pop_back();
-    for_each_loose(i, [&](int j) {
+    for_each_pressure_free(i, [&](int j) {
       if (j < F.rows()) reach(j);
     });
   }
@@ -59,7 +59,8 @@ SparseMatrix assemble(const std::vector<MatrixEntry>& entries, const std::vector
 }
 
 // Entries of F in `rows` whose columns are loose.
-std::vector<MatrixEntry> loose_entries(const LinearSystem& F, const std::vector<int>& rows, const Vector& flags) {
+std::vector<MatrixEntry> pressure_free_entries(const LinearSystem& F, const std::vector<int>& rows,
+                                               const Vector& flags) {
   const DistributedMatrix& P = F.pattern();
   std::vector<MatrixEntry> entries;
   for (const int i : rows)
@@ -85,28 +86,29 @@ Eigen::VectorXd taken(const Vector& r, const std::vector<int>& rows) {
 
 }  // namespace
 
-LooseRows::LooseRows(const LinearSystem& F, const std::vector<char>& loose) : ranks_(F.ranks()) {
-  Vector flags(loose.begin(), loose.end());
+PressureFreeRows::PressureFreeRows(const LinearSystem& F, const std::vector<char>& pressure_free) : ranks_(F.ranks()) {
+  Vector flags(pressure_free.begin(), pressure_free.end());
   flags.resize(std::size_t(F.rows() + F.halo().ghosts()), 0.0);
   F.halo().fill_ghosts(flags);
   const std::vector<char> shared = find_shared(F, flags);
   for (int i = 0; i < F.rows(); ++i)
-    if (loose[std::size_t(i)]) (shared[std::size_t(i)] ? shared_ : own_).push_back(i);
+    if (pressure_free[std::size_t(i)]) (shared[std::size_t(i)] ? shared_ : own_).push_back(i);
   if (!own_.empty())
-    good_ = own_factor_.factor(assemble(loose_entries(F, own_, flags), numbered(own_, F.pattern().first_row)));
+    good_ = own_factor_.factor(assemble(pressure_free_entries(F, own_, flags), numbered(own_, F.pattern().first_row)));
   factor_shared(F, flags);
   good_ = !ranks_.any(!good_);
 }
 
-void LooseRows::factor_shared(const LinearSystem& F, const Vector& flags) {
+void PressureFreeRows::factor_shared(const LinearSystem& F, const Vector& flags) {
   const std::vector<Row> rows = of_all_ranks(numbered(shared_, F.pattern().first_row), ranks_);
   shared_rows_ = Eigen::Index(rows.size());
   shared_first_ = std::lower_bound(rows.begin(), rows.end(), F.pattern().first_row) - rows.begin();
   if (rows.empty()) return;
-  good_ = shared_factor_.factor(assemble(of_all_ranks(loose_entries(F, shared_, flags), ranks_), rows)) && good_;
+  good_ =
+      shared_factor_.factor(assemble(of_all_ranks(pressure_free_entries(F, shared_, flags), ranks_), rows)) && good_;
 }
 
-void LooseRows::add_solved(const Vector& r, Vector& z) const {
+void PressureFreeRows::add_solved(const Vector& r, Vector& z) const {
   const auto add = [&](const Eigen::VectorXd& x, Eigen::Index first, const std::vector<int>& rows) {
     for (std::size_t n = 0; n < rows.size(); ++n) z[std::size_t(rows[n])] += x[first + Eigen::Index(n)];
   };
@@ -119,14 +121,14 @@ void LooseRows::add_solved(const Vector& r, Vector& z) const {
 }
 
 // I - z-operator F = (I - S F)(I - B F)(I - S F), S the solve on the loose faces
-void LooseFaces::apply(const Vector& r, Vector& z) {
+void PressureFreeFaces::apply(const Vector& r, Vector& z) {
   Vector first(r.size(), 0.0), rest(r.size());
-  loose_.add_solved(r, first);
+  pressure_free_.add_solved(r, first);
   F_.residual(r, first, rest);
   B_->apply(rest, z);
   add_scaled(z, 1, first);
   F_.residual(r, z, rest);
-  loose_.add_solved(rest, z);
+  pressure_free_.add_solved(rest, z);
 }
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-#include "linalg/precond/stiff_motions.h"
+#include "linalg/precond/near_null_space.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ struct Extent {
   double length(int axis) const { return high[std::size_t(axis)] - low[std::size_t(axis)]; }
 };
 
-Extent measure(const StiffRegion& region, const FacePlaces& places, int dimension, const Communicator& ranks) {
+Extent measure(const ViscousRegion& region, const FacePlaces& places, int dimension, const Communicator& ranks) {
   Extent e;
   for (int a = 0; a < dimension; ++a) {
     double low = INFINITY, high = -INFINITY;
@@ -30,7 +30,7 @@ Extent measure(const StiffRegion& region, const FacePlaces& places, int dimensio
 
 // Slabs about as long as the region is wide: at 0.7, 1.4 and 2.8 times a thread takes 16, 16 and 18 iterations of
 // conjugate gradients, and 34 without (docs/decisions/0017-viscous-speed.md). None where that leaves fewer than two.
-int count_slabs(const StiffRegion& region, const Extent& extent, int dimension) {
+int count_slabs(const ViscousRegion& region, const Extent& extent, int dimension) {
   const double length = extent.length(extent.longest) + 1, cells = double(region.size) / dimension;
   const double width = std::pow(cells / length, 1.0 / (dimension - 1));
   const int slabs = int(std::min<double>(most_slabs, length / width));
@@ -58,7 +58,7 @@ struct Hats {
   double reach() const { return std::max(1.0, slabs > 0 ? spacing() : 0.5 * extent.length(extent.longest)); }
 };
 
-std::vector<SparseVector> weighted_motions(const StiffRegion& region, const FacePlaces& places, int dimension,
+std::vector<SparseVector> weighted_motions(const ViscousRegion& region, const FacePlaces& places, int dimension,
                                            const Hats& hats, int slab) {
   std::vector<SparseVector> motions(dimension == 2 ? 3 : 6);
   const auto set = [&](int motion, int row, double value) {
@@ -98,12 +98,12 @@ double stiffness(const LinearSystem& F, const SparseVector& z, SparseProduct& mu
 }  // namespace
 
 // Of what F resists more multigrid takes care: of motions of the whole, and of slabs that bend against each other.
-std::vector<StiffMotion> find_stiff_motions(const LinearSystem& F, const FacePlaces& places, int dimension) {
+std::vector<NearNullVector> find_near_null_space(const LinearSystem& F, const FacePlaces& places, int dimension) {
   constexpr double soft = 1e-3, soft_slab = 0.1;
   SparseProduct multiply(F);
-  std::vector<StiffMotion> motions;
+  std::vector<NearNullVector> motions;
   int number = 0;
-  for (const StiffRegion& region : find_stiff_regions(F, dimension * (dimension + 1), most_regions)) {
+  for (const ViscousRegion& region : find_viscous_regions(F, dimension * (dimension + 1), most_regions)) {
     const Extent extent = measure(region, places, dimension, F.ranks());
     const Hats hats{extent, count_slabs(region, extent, dimension)};
     for (int slab = 0; slab <= hats.slabs; ++slab)

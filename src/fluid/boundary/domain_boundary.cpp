@@ -1,11 +1,11 @@
-#include "fluid/boundary/sides.h"
+#include "fluid/boundary/domain_boundary.h"
 
 #include "grid/loops.h"
 
 namespace seiche {
 
 template <int Dim>
-Sides<Dim>::Sides(const DomainSpec& domain, WallFlow flow) : flow_(flow) {
+DomainBoundary<Dim>::DomainBoundary(const DomainSpec& domain, WallFlow flow) : flow_(flow) {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
       const SideSpec& spec = domain.sides[a][side];
@@ -16,26 +16,26 @@ Sides<Dim>::Sides(const DomainSpec& domain, WallFlow flow) : flow_(flow) {
 }
 
 template <int Dim>
-double Sides<Dim>::velocity(int axis, int side, int component, const Vec<Dim>& x, double t) const {
+double DomainBoundary<Dim>::velocity(int axis, int side, int component, const Vec<Dim>& x, double t) const {
   const SideType s = types_[axis][side];
   if (s != SideType::inflow && s != SideType::moving_wall) return 0;
   return velocity_[2 * axis + side].component(component, extend<Dim>(x), t);
 }
 
 template <int Dim>
-double Sides<Dim>::pressure(int axis, int side, const Vec<Dim>& x, double t) const {
+double DomainBoundary<Dim>::pressure(int axis, int side, const Vec<Dim>& x, double t) const {
   return pressure_[2 * axis + side](extend<Dim>(x), t);
 }
 
 template <int Dim>
-double Sides<Dim>::inward_speed(int axis, int side, const Vec<Dim>& x, double t) const {
+double DomainBoundary<Dim>::inward_speed(int axis, int side, const Vec<Dim>& x, double t) const {
   if (types_[axis][side] != SideType::inflow) return 0;
   const double v = velocity(axis, side, axis, x, t);
   return std::max(0.0, side == 0 ? v : -v);
 }
 
 template <int Dim>
-bool Sides<Dim>::any_inflow() const {
+bool DomainBoundary<Dim>::any_inflow() const {
   for (const auto& axis : types_)
     for (SideType s : axis)
       if (s == SideType::inflow) return true;
@@ -43,13 +43,13 @@ bool Sides<Dim>::any_inflow() const {
 }
 
 template <int Dim>
-bool Sides<Dim>::sticks(int axis, int side) const {
+bool DomainBoundary<Dim>::sticks(int axis, int side) const {
   const SideType s = type(axis, side);
   return flow_ == WallFlow::sticks && (s == SideType::no_slip || s == SideType::moving_wall);
 }
 
 template <int Dim>
-Extensions<Dim> Sides<Dim>::velocity_extensions(int component) const {
+Extensions<Dim> DomainBoundary<Dim>::velocity_extensions(int component) const {
   Extensions<Dim> e;
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2; ++side) {
@@ -61,16 +61,16 @@ Extensions<Dim> Sides<Dim>::velocity_extensions(int component) const {
 }
 
 template <int Dim>
-void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides,
+void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const DomainBoundary<Dim>& sides,
                           FaceField<Dim>& u) {
   halo.fill_ghosts(u);
   for (int a = 0; a < Dim; ++a)
     extend_beyond_sides<Dim>(layout, u[a].data(), face_offset<Dim>(a), sides.velocity_extensions(a));
 }
 
-template class Sides<2>;
-template class Sides<3>;
-template void fill_velocity_ghosts<2>(const Layout<2>&, const Halo<2>&, const Sides<2>&, FaceField<2>&);
-template void fill_velocity_ghosts<3>(const Layout<3>&, const Halo<3>&, const Sides<3>&, FaceField<3>&);
+template class DomainBoundary<2>;
+template class DomainBoundary<3>;
+template void fill_velocity_ghosts<2>(const Layout<2>&, const Halo<2>&, const DomainBoundary<2>&, FaceField<2>&);
+template void fill_velocity_ghosts<3>(const Layout<3>&, const Halo<3>&, const DomainBoundary<3>&, FaceField<3>&);
 
 }  // namespace seiche

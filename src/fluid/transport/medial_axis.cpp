@@ -1,4 +1,4 @@
-#include "fluid/transport/kinks.h"
+#include "fluid/transport/medial_axis.h"
 
 #include <algorithm>
 #include <numeric>
@@ -42,7 +42,7 @@ double beyond(double q, double low, double high, const Bend& b, double h) {
 //   q = l + t (t - 1)/2 m,  m the lesser of d1, d2 (ENO, Harten et al. 1987),
 // phi is q where the kink lies outside [p1, p2] and where the lines from both sides meet inside (subcell resolution,
 // Harten 1989) otherwise. Goes over from c to that by the share of a kink.
-double interpolate_with_kinks(const std::array<double, 4>& p, double t, double h) {
+double interpolate_with_medial_axis(const std::array<double, 4>& p, double t, double h) {
   const Bend b = bend(p[0], p[1], p[2], p[3], h);
   const double line = p[1] + t * (p[2] - p[1]), cubic = line + t * (t - 1) / 6 * ((2 - t) * b.d1 + (1 + t) * b.d2);
   if (b.share == 0) return cubic;
@@ -60,12 +60,12 @@ double interpolate_in_order(const Layout<Dim>& layout, const double* p, const Ve
   std::array<double, 4> v;
   for (int k = 0; k < 4; ++k)
     v[std::size_t(k)] = interpolate_in_order<Dim>(layout, p + (k - 1) * layout.stride(axis), t, order, level + 1);
-  return interpolate_with_kinks(v, t[axis], layout.h());
+  return interpolate_with_medial_axis(v, t[axis], layout.h());
 }
 
 // Whether any of the stencil's lines of four points along an axis crosses a kink.
 template <int Dim>
-bool meets_kink(const Layout<Dim>& layout, const double* p) {
+bool meets_medial_axis(const Layout<Dim>& layout, const double* p) {
   constexpr int lines = Dim == 2 ? 4 : 16;
   for (int axis = 0; axis < Dim; ++axis) {
     const Site d = layout.stride(axis), e = layout.stride((axis + 1) % Dim), f = layout.stride((axis + Dim - 1) % Dim);
@@ -81,13 +81,13 @@ bool meets_kink(const Layout<Dim>& layout, const double* p) {
 
 // At kinks the axes' turns do not commute: the mean over all orders favours none.
 template <int Dim>
-double interpolate_across_kinks(const Layout<Dim>& layout, const double* phi, const Vec<Dim>& g) {
+double interpolate_beside_medial_axis(const Layout<Dim>& layout, const double* phi, const Vec<Dim>& g) {
   const double cubic = interpolate_cubic<Dim>(layout, phi, g);
   const double near = std::clamp(reach + 1 - std::abs(cubic) / layout.h(), 0.0, 1.0);
   if (near == 0) return cubic;
   Vec<Dim> t;
   const double* p = phi + detail::base_site<Dim>(layout, g, 1, 2, t);
-  if (!meets_kink(layout, p)) return cubic;
+  if (!meets_medial_axis(layout, p)) return cubic;
   std::array<int, Dim> order;
   std::iota(order.begin(), order.end(), 0);
   double sum = 0;
@@ -99,7 +99,7 @@ double interpolate_across_kinks(const Layout<Dim>& layout, const double* phi, co
   return cubic + near * (sum / orders - cubic);
 }
 
-template double interpolate_across_kinks<2>(const Layout<2>&, const double*, const Vec<2>&);
-template double interpolate_across_kinks<3>(const Layout<3>&, const double*, const Vec<3>&);
+template double interpolate_beside_medial_axis<2>(const Layout<2>&, const double*, const Vec<2>&);
+template double interpolate_beside_medial_axis<3>(const Layout<3>&, const double*, const Vec<3>&);
 
 }  // namespace seiche

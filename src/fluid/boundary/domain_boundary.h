@@ -13,9 +13,9 @@ namespace seiche {
 enum class WallFlow { slips, sticks };
 
 template <int Dim>
-class Sides {
+class DomainBoundary {
  public:
-  explicit Sides(const DomainSpec& domain, WallFlow flow = WallFlow::slips);
+  explicit DomainBoundary(const DomainSpec& domain, WallFlow flow = WallFlow::slips);
 
   SideType type(int axis, int side) const { return types_[axis][side]; }
   bool is_outflow(int axis, int side) const { return type(axis, side) == SideType::outflow; }
@@ -42,6 +42,7 @@ class Sides {
 
 // Halo exchange and continuation beyond the sides. Collective.
 template <int Dim>
-void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Sides<Dim>& sides, FaceField<Dim>& u);
+void fill_velocity_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const DomainBoundary<Dim>& sides,
+                          FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-#include "coupling/thin/films.h"
+#include "coupling/thin/gap_flow.h"
 
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
@@ -24,34 +24,34 @@ bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis
 }  // namespace
 
 template <int Dim>
-Film<Dim> measure_film(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                       const FaceField<Dim>& continued) {
-  Film<Dim> film{faces.open, continued};
+GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
+                              const FaceField<Dim>& continued) {
+  GapFlow<Dim> gap_flow{faces.open, continued};
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (faces.open.at(a, f) < least_open) film.u.at(a, f) = solved.at(a, f);
+      if (faces.open.at(a, f) < least_open) gap_flow.u.at(a, f) = solved.at(a, f);
     });
-  return film;
+  return gap_flow;
 }
 
 // With w u^2 kept a plate of width L lifted from a floor obeys (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, as it
 // does in inviscid liquid that comes in from rest.
 template <int Dim>
-void set_film_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const Film<Dim>& film, const Vec3& g,
-                       double dt, FaceField<Dim>& u) {
+void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
+                      const Vec3& g, double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      const double before = film.open.at(a, f), open = faces.open.at(a, f);
+      const double before = gap_flow.open.at(a, f), open = faces.open.at(a, f);
       if (open <= before || !is_slit(domain.layout, faces, a, f, i)) return;
-      u.at(a, f) = film.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
+      u.at(a, f) = gap_flow.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
     });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template Film<D> measure_film<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&,                   \
-                                   const FaceField<D>&);                                                            \
-  template void set_film_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const Film<D>&, const Vec3&, double, \
-                                     FaceField<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template GapFlow<D> measure_gap_flow<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&,              \
+                                          const FaceField<D>&);                                                       \
+  template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const Vec3&, double, \
+                                    FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -1,4 +1,4 @@
-#include "linalg/precond/stiff_regions.h"
+#include "linalg/precond/viscous_regions.h"
 
 #include <algorithm>
 #include <cstring>
@@ -93,8 +93,8 @@ struct Count {
 };
 
 // Over all ranks, of sets with at least `fewest` rows; of smaller ones only those `across` ranks are heard of.
-std::vector<StiffRegion> count_sets(const LinearSystem& F, const Vector& label, const std::set<Row>& across,
-                                    int fewest) {
+std::vector<ViscousRegion> count_sets(const LinearSystem& F, const Vector& label, const std::set<Row>& across,
+                                      int fewest) {
   std::map<Row, std::int64_t> mine, all;
   for (int i = 0; i < F.rows(); ++i)
     if (label[std::size_t(i)] >= 0) ++mine[Row(label[std::size_t(i)])];
@@ -109,49 +109,49 @@ std::vector<StiffRegion> count_sets(const LinearSystem& F, const Vector& label, 
       std::memcpy(&count, part.data() + k, sizeof count);
       all[count.label] += count.rows;
     }
-  std::vector<StiffRegion> sets;
+  std::vector<ViscousRegion> sets;
   for (const auto& [first, rows] : all)
     if (rows >= fewest) sets.push_back({first, rows, {}});
   return sets;
 }
 
-void keep_largest(std::vector<StiffRegion>& regions, std::size_t most) {
+void keep_largest(std::vector<ViscousRegion>& regions, std::size_t most) {
   std::stable_sort(regions.begin(), regions.end(),
-                   [](const StiffRegion& a, const StiffRegion& b) { return a.size > b.size; });
+                   [](const ViscousRegion& a, const ViscousRegion& b) { return a.size > b.size; });
   if (regions.size() > most) regions.resize(most);
 }
 
 // Takes out sets that are next to what an earlier level found. Collective.
-void drop_known(const LinearSystem& F, const Vector& label, const std::vector<StiffRegion>& known,
-                std::vector<StiffRegion>& sets) {
+void drop_known(const LinearSystem& F, const Vector& label, const std::vector<ViscousRegion>& known,
+                std::vector<ViscousRegion>& sets) {
   constexpr double as_large = 1.05;
-  for (const StiffRegion& region : known) {
+  for (const ViscousRegion& region : known) {
     const double own = region.row.empty() ? -1 : label[std::size_t(region.row.front())];
     const Row around = Row(F.ranks().global_max(own));
-    std::erase_if(sets, [&](const StiffRegion& s) {
+    std::erase_if(sets, [&](const ViscousRegion& s) {
       return s.first == around && double(s.size) <= as_large * double(region.size);
     });
   }
 }
 
-void take_rows(const LinearSystem& F, const Vector& label, std::vector<StiffRegion>& sets) {
-  std::map<Row, StiffRegion*> by_label;
-  for (StiffRegion& s : sets) by_label[s.first] = &s;
+void take_rows(const LinearSystem& F, const Vector& label, std::vector<ViscousRegion>& sets) {
+  std::map<Row, ViscousRegion*> by_label;
+  for (ViscousRegion& s : sets) by_label[s.first] = &s;
   for (int i = 0; i < F.rows(); ++i)
     if (const auto s = by_label.find(Row(label[std::size_t(i)])); s != by_label.end()) s->second->row.push_back(i);
 }
 
 }  // namespace
 
-std::vector<StiffRegion> find_stiff_regions(const LinearSystem& F, int fewest, std::size_t most) {
+std::vector<ViscousRegion> find_viscous_regions(const LinearSystem& F, int fewest, std::size_t most) {
   double low = INFINITY, high = 0;
   for (int i = 0; i < F.rows(); ++i) low = std::min(low, F.diagonal(i)), high = std::max(high, F.diagonal(i));
   low = F.ranks().global_min(low), high = F.ranks().global_max(high);
   JoinedRows joined(F);
-  std::vector<StiffRegion> regions;
+  std::vector<ViscousRegion> regions;
   for (double level = high / alike; level > 0; level /= level_ratio) {
     const Vector& label = joined.label(level);
-    std::vector<StiffRegion> sets = count_sets(F, label, joined.labels_across(level), fewest);
+    std::vector<ViscousRegion> sets = count_sets(F, label, joined.labels_across(level), fewest);
     drop_known(F, label, regions, sets);
     keep_largest(sets, most);
     take_rows(F, label, sets);

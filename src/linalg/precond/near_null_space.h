@@ -3,7 +3,7 @@
 #include <array>
 
 #include "linalg/core/sparse_vector.h"
-#include "linalg/precond/stiff_regions.h"
+#include "linalg/precond/viscous_regions.h"
 
 namespace seiche {
 
@@ -13,15 +13,15 @@ struct FacePlaces {
   const std::vector<std::array<double, 3>>& position;
 };
 
-struct StiffMotion {
+struct NearNullVector {
   SparseVector z;
   int region, slab;  // motions of one region whose slabs are more than two apart do not meet
   bool whole;        // not of a slab
 };
 
-// The translations and rotations of find_stiff_regions(); of a slender one those of overlapping slabs along its longest
-// axis, weighted by hats that add up to one. Those alone that F lets through. Collective.
-std::vector<StiffMotion> find_stiff_motions(const LinearSystem& F, const FacePlaces& places, int dimension);
+// The translations and rotations of find_viscous_regions(); of a slender one those of overlapping slabs along its
+// longest axis, weighted by hats that add up to one. Those alone that F lets through. Collective.
+std::vector<NearNullVector> find_near_null_space(const LinearSystem& F, const FacePlaces& places, int dimension);
 
 // F x of vectors with few entries, from the rows that it reaches alone.
 class SparseProduct {

@@ -18,13 +18,13 @@ namespace seiche {
 // of liquid let go from rest in long steps more. Not for elastic and thin solids, two fluids, enclosed air that keeps
 // its volume, prescribed flows and first order; nor for rigid solids beside ones that move as prescribed: whether a
 // scene has steps by halves at all.
-bool may_go_by_halves(const Features& features);
+bool may_leapfrog(const Features& features);
 
 // Whether this step goes so. Near contact, where solids may meet within two steps, a step moves all at once, to where
 // contact is then solved; so does one in which a source opens or closes. Collective.
 template <int Dim>
-bool goes_by_halves(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
-                    const State<Dim>& state, double dt);
+bool is_leapfrog_step(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
+                      const State<Dim>& state, double dt);
 
 // Whether the velocities after the solve, half-way, can be gone on with for the other half: they cross no more cells
 // than the halo and the solids bear, and no solid meets another. Those before the step can. Collective.
@@ -45,6 +45,6 @@ bool any_moves(const Solids<Dim>& solids) {
 
 // Of the geometry that was solved with, distances and poses as at the end of the step.
 template <int Dim>
-StepGeometry<Dim> stand_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved);
+StepGeometry<Dim> placed_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved);
 
 }  // namespace seiche

@@ -10,7 +10,7 @@ class Simulation;
 struct Scene;
 
 // What each operator is multiplied with; 1 leaves every bit as it is.
-struct Tampering {
+struct OperatorPerturbation {
   double pressure_gradient = 1;   // in u = u* - dt grad p/rho
   double divergence = 1;          // of u*, the right-hand side of the pressure
   double gravity = 1;             // on the fluids
@@ -29,9 +29,10 @@ struct Tampering {
 
 // "viscosity:0.9" or, for a sign flipped, "viscosity:-1"; "" tampers with nothing. Throws Error(bad_input) with the
 // operators' names.
-Tampering parse_tampering(const std::string& text);
+OperatorPerturbation parse_perturbation(const std::string& text);
 
 // As make_simulation(scene, ranks), with wrong operators.
-std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks, const Tampering& tampering);
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks,
+                                            const OperatorPerturbation& perturbation);
 
 }  // namespace seiche
