@@ -195,7 +195,7 @@ Section<SolverSpec> solver_section() {
                    &S::tolerance),
       value_key<S>({.key = "preconditioner",
                     .type = T::choice,
-                    .choices = {"auto", "boomeramg", "multigrid", "none"},
+                    .choices = {"auto", "boomeramg", "geometric", "multigrid", "none"},
                     .doc = "preconditioner of the pressure solve"},
                    &S::preconditioner),
       value_key<S>({.key = "elastic",

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "linalg/precond/geometric_multigrid.h"
 #include "linalg/precond/hypre_adapter.h"
 
 namespace seiche {
@@ -34,6 +35,9 @@ PreconditionerOrFailure boomeramg(const LinearSystem& system) {
   const bool on_grid = box_of_rows(system).cells() > 0;
   return on_grid ? make_boomeramg(system) : make_boomeramg(system, {.aggressive_levels = 0});
 }
+PreconditionerOrFailure geometric(const LinearSystem& system) {
+  return make_geometric_multigrid(system);
+}
 PreconditionerOrFailure multigrid(const LinearSystem& system) {
   return make_pfmg(system);
 }
@@ -41,13 +45,13 @@ PreconditionerOrFailure multigrid(const LinearSystem& system) {
 constexpr PreconditionerEntry table[] = {
     {"none", "each row scaled by its diagonal", diagonal_scaling},
     {"boomeramg", "algebraic multigrid (hypre BoomerAMG): any liquid shape", boomeramg},
-    {"multigrid", "geometric multigrid (hypre PFMG) on the box around the liquid: fast where that is well filled",
-     multigrid},
+    {"geometric", "geometric multigrid of our own on the box around the liquid", geometric},
+    {"multigrid", "geometric multigrid (hypre PFMG) on the box around the liquid", multigrid},
 };
 
-// Measured: docs/decisions/0002-preconditioner-choice.md.
+// docs/decisions/0002-preconditioner-choice.md, 0032-geometric-multigrid.md
 constexpr std::int64_t rows_worth_a_hierarchy = 2000;
-constexpr double share_worth_a_box = 0.25;
+constexpr double share_worth_a_box = 0.05;
 
 }  // namespace
 
@@ -61,12 +65,16 @@ std::vector<std::string> preconditioner_names() {
   return names;
 }
 
+bool keeps_to_grid(const std::string& name) {
+  return name == "geometric" || name == "multigrid";
+}
+
 std::string choose_preconditioner(const std::string& name, const LinearSystem& system) {
   if (name != "auto") return name;
   const auto rows = system.pattern().global_rows;
   if (rows < rows_worth_a_hierarchy) return "none";
   const std::int64_t box = box_of_rows(system).cells();  // 0 if some row is not on the grid (enclosed air)
-  return box > 0 && double(rows) >= share_worth_a_box * double(box) ? "multigrid" : "boomeramg";
+  return box > 0 && double(rows) >= share_worth_a_box * double(box) ? "geometric" : "boomeramg";
 }
 
 PreconditionerOrFailure make_preconditioner(const std::string& name, const LinearSystem& system) {

@@ -33,6 +33,9 @@ std::span<const PreconditionerEntry> preconditioner_table();
 // Names that a scene may use: "auto" and those of the table.
 std::vector<std::string> preconditioner_names();
 
+// True if a preconditioner needs rows that couple neighbouring cells alone.
+bool keeps_to_grid(const std::string& name);
+
 // Replaces "auto" by the choice for this system; returns any other name unchanged. Collective.
 std::string choose_preconditioner(const std::string& name, const LinearSystem& system);
 

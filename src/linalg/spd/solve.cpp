@@ -97,26 +97,26 @@ std::vector<SpdSolver::Fallback> SpdSolver::make_fallback_chain(const std::strin
   constexpr auto cg = Method::conjugate_gradients;
   const int limit = options_.max_iterations, patience = std::max(2000, 10 * limit);  // patience: without a hierarchy
   const int start_limit = chosen == "none" ? patience : limit;
-  std::vector<Fallback> failed_attempts;
-  if (options_.preconditioner == "auto" && chosen == "multigrid") {
+  std::vector<Fallback> chain;
+  if (options_.preconditioner == "auto" && keeps_to_grid(chosen)) {
     const double digits = -std::log10(options_.tolerance);
-    failed_attempts.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
-    failed_attempts.push_back({cg, "boomeramg", Start::warm, limit});
+    chain.push_back({cg, chosen, Start::warm, std::min(limit, int(iterations_per_digit * digits))});
+    chain.push_back({cg, "boomeramg", Start::warm, limit});
   } else {
-    failed_attempts.push_back({cg, chosen, Start::warm, start_limit});
+    chain.push_back({cg, chosen, Start::warm, start_limit});
   }
-  if (chosen != "boomeramg") failed_attempts.push_back({cg, chosen, Start::cold, start_limit});
-  failed_attempts.push_back({cg, "boomeramg", Start::cold, limit});
-  if (chosen != "none") failed_attempts.push_back({cg, "none", Start::cold, patience});
-  failed_attempts.push_back({Method::flexible_gmres, "boomeramg", Start::cold, limit});
-  failed_attempts.push_back({Method::direct, "direct", Start::cold, 0});
-  return failed_attempts;
+  if (chosen != "boomeramg") chain.push_back({cg, chosen, Start::cold, start_limit});
+  chain.push_back({cg, "boomeramg", Start::cold, limit});
+  if (chosen != "none") chain.push_back({cg, "none", Start::cold, patience});
+  chain.push_back({Method::flexible_gmres, "boomeramg", Start::cold, limit});
+  chain.push_back({Method::direct, "direct", Start::cold, 0});
+  return chain;
 }
 
-// Preconditioners other than "multigrid", which needs the grid's stencil, include the coupling of deformable bodies.
+// Preconditioners that do not keep to the grid's stencil include the coupling of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
   const LinearSystem* system = &liquid_;
-  const bool filled = J_.any_deforms() && system_.is_coupled() && name != "multigrid";
+  const bool filled = J_.any_deforms() && system_.is_coupled() && !keeps_to_grid(name);
   if (filled) {
     built.matrix =
         std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
@@ -191,7 +191,7 @@ SpdSolver::Outcome SpdSolver::attempt(const Fallback& fallback, const Problem& p
 // columns of B J model their added mass if B is a hierarchy, but not if B is a diagonal.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  const bool poor = chosen == "none" || (chosen == "multigrid" && (J_.blocks.size() > few_bodies || J_.any_deforms()));
+  const bool poor = chosen == "none" || (keeps_to_grid(chosen) && (J_.blocks.size() > few_bodies || J_.any_deforms()));
   return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
 }
 

@@ -135,7 +135,7 @@ TEST_CASE("every preconditioner solves periodic boxes") {
   p.periodic = {1, size[2] > 1 ? 1 : 0, 0};
   if (size[2] == 1) p.periodic = {1, 1, 0};
   const cases::System s = cases::build(p, Communicator());
-  for (const char* name : {"none", "boomeramg", "multigrid"}) check_solved(s, name, 300);
+  for (const char* name : {"none", "boomeramg", "geometric", "multigrid"}) check_solved(s, name, 300);
 }
 
 TEST_CASE("every preconditioner solves a splash with cut cells and a ghost-fluid surface") {
@@ -166,7 +166,7 @@ TEST_CASE("the solution is that of an elimination, with mean zero on each closed
   Vector b = cases::noise_vector(s.A, 3);  // not compatible: the part outside the range is removed
   SolveOptions options;
   options.tolerance = 1e-12;
-  options.preconditioner = GENERATE("none", "boomeramg", "multigrid", "auto");
+  options.preconditioner = GENERATE("none", "boomeramg", "geometric", "multigrid", "auto");
   Vector x = cases::noise_vector(s.A, 4);
   const SolveReport report = solve(s, b, x, options, ranks);
   CAPTURE(options.preconditioner, report.failed_attempts);
@@ -188,7 +188,7 @@ TEST_CASE("cells without any open face are counted, keep zero and do not disturb
   REQUIRE(s.null_space.count == 4);
   Vector b = cases::noise_vector(s.A, 1), x(s.A.rows(), 7.0);
   SolveOptions options;
-  options.preconditioner = GENERATE("none", "boomeramg", "multigrid");
+  options.preconditioner = GENERATE("none", "boomeramg", "geometric", "multigrid");
   const SolveReport report = solve(s, b, x, options, ranks);
   CAPTURE(options.preconditioner, report.failed_attempts);
   CHECK(report.converged);
@@ -204,7 +204,7 @@ TEST_CASE("parts joined by a link of 1e-14 are solved") {
   cases::Poisson p = box({16, 12, 10}, Kind::wall);
   p.weight = [](Cell c, int axis) { return axis == 0 && c[0] == 8 ? 1e-14 : 1.0; };
   const cases::System s = cases::build(p, ranks);
-  for (const char* name : {"none", "boomeramg", "multigrid"}) check_solved(s, name, 400);
+  for (const char* name : {"none", "boomeramg", "geometric", "multigrid"}) check_solved(s, name, 400);
 }
 
 TEST_CASE("an incompatible right-hand side leaves its mean behind and says so") {
@@ -270,7 +270,7 @@ TEST_CASE("ranks without rows or without cells take part") {
     p.kind = [](Cell c) { return c[2] > 12 ? Kind::liquid : Kind::wall; };
   }
   const cases::System s = cases::build(p, ranks);
-  for (const char* name : {"none", "boomeramg", "multigrid", "auto"}) check_solved(s, name, 300);
+  for (const char* name : {"none", "boomeramg", "geometric", "multigrid", "auto"}) check_solved(s, name, 300);
 }
 
 TEST_CASE("two solves give the same bits") {
@@ -278,7 +278,7 @@ TEST_CASE("two solves give the same bits") {
   const cases::System s = cases::build(splash({24, 22, 20}), ranks);
   const Vector b = cases::noise_vector(s.A, 9);
   SolveOptions options;
-  options.preconditioner = GENERATE("none", "boomeramg", "multigrid");
+  options.preconditioner = GENERATE("none", "boomeramg", "geometric", "multigrid");
   Vector x(s.A.rows(), 0.0), y(s.A.rows(), 0.0);
   REQUIRE(solve(s, b, x, options, ranks).converged);
   REQUIRE(solve(s, b, y, options, ranks).converged);
@@ -290,7 +290,7 @@ TEST_CASE("a right-hand side scaled by a power of two scales the solution to the
   const cases::System s = cases::build(splash({18, 20, 16}), ranks);
   Vector b = cases::noise_vector(s.A, 9);
   SolveOptions options;
-  options.preconditioner = GENERATE("none", "boomeramg", "multigrid");
+  options.preconditioner = GENERATE("none", "boomeramg", "geometric", "multigrid");
   Vector x(s.A.rows(), 0.0), y(s.A.rows(), 0.0);
   REQUIRE(solve(s, b, x, options, ranks).converged);
   for (double& entry : b) entry = std::ldexp(entry, -40);
