@@ -1,4 +1,3 @@
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -97,15 +96,6 @@ int run_program(int argc, char** argv, const Communicator& ranks, const Emergenc
   }
 }
 
-// A step makes and drops the same vectors and matrices as the last one. The C library returns such memory to the system
-// at once and gets it back page by page, each cleared: a third of the processor time. It keeps what it has instead.
-void keep_freed_memory() {
-  constexpr int largest_threshold = 32 << 20;  // glibc refuses more
-  mallopt(M_MMAP_THRESHOLD, largest_threshold);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-  mallopt(M_TOP_PAD, 64 << 20);
-}
-
 // MPI and thread libraries end silently, or crash, at the limit of address space (ulimit -v). Called before any library
 // is initialised, so it may use the C library only.
 void require_room_to_begin() {
@@ -128,7 +118,6 @@ void require_room_to_begin() {
 }  // namespace seiche
 
 int main(int argc, char** argv) {
-  seiche::keep_freed_memory();
   seiche::note_stop_signals();
   std::setlocale(LC_ALL, "C");
   const seiche::MpiSession mpi(argc, argv);

@@ -1,11 +1,15 @@
 #pragma once
 // Fields whose type states the location of their values. All fields of a rank have the shape of its Layout.
 #include <array>
+#include <vector>
 
 #include "grid/layout.h"
-#include "grid/recycled_memory.h"
 
 namespace seiche {
+
+// The values of a cell field, or of one component of a field on faces or edges.
+template <class T>
+using FieldValues = std::vector<T>;
 
 namespace location {
 struct Cell {};

@@ -8,9 +8,9 @@
 
 namespace seiche {
 
-// Transports phi from time t to t + dt (s) with the velocity `path` (m/s), and joins it with inflow and sources. `state` gives the
-// positions of the solids. Returns the volume that sources brought, m^Dim. Throws as check_forces_of_step() does. Fills
-// ghosts. Collective.
+// Transports phi from time t to t + dt (s) with the velocity `path` (m/s). Joins it with inflow and sources. `state`
+// gives the positions of the solids. Returns the volume that sources brought, m^Dim. Throws as check_forces_of_step()
+// does. Fills ghosts. Collective.
 template <int Dim>
 double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
                          CellField<Dim>& phi);
