@@ -12,7 +12,8 @@ bool InertiaProblem::holds(const Eigen::VectorXd&) const {
 
 DryProblem::DryProblem(Eigen::SparseMatrix<double> mass, Eigen::VectorXd target, std::vector<Freedom> freedom,
                        Eigen::VectorXd held)
-    : mass_(std::move(mass)), target_(std::move(target)), freedom_(std::move(freedom)), held_(std::move(held)) {
+    : target_(std::move(target)), freedom_(std::move(freedom)), held_(std::move(held)) {
+  mass_.swap(mass);  // Eigen 3.4 would copy where it should move
   freedom_.resize(target_.size(), Freedom::free);
   if (held_.size() == 0) held_.setZero(target_.size());
   for (int i = 0; i < size(); ++i)
