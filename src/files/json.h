@@ -40,7 +40,7 @@ struct JsonValue {
 // not finite are null. Bytes that are no UTF-8 become U+FFFD.
 std::string format_json(const JsonValue& value);
 
-// Whether a text is one JSON object, whole.
+// True if a text is one whole JSON object.
 bool is_json_object(std::string_view text);
 
 // Value of a top-level key: the text of a string; a number, true, false or null as JSON. Empty for lists and objects,

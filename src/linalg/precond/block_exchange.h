@@ -8,7 +8,7 @@
 
 namespace seiche {
 
-// What every rank owns and wants, the same on all ranks. Wanted cells may lie beyond a periodic side.
+// Cells that each rank owns and wants, the same on all ranks. Wanted cells may lie beyond a periodic side.
 struct BlockPlan {
   std::vector<CellBox> owned;                // of each rank
   std::vector<std::vector<CellBox>> wanted;  // of each rank

@@ -36,7 +36,7 @@ class GeometricMultigrid : public Preconditioner {
   std::array<int, 3> periodic_;
   std::vector<int> place_;   // of each row, in `home`
   std::vector<float> lone_;  // 1 / a_ii of rows on no cell
-  // Where several ranks share the work, blocks of rows are cut elsewhere than those of the first level.
+  // On several ranks, blocks of rows are cut elsewhere than those of the first level.
   std::vector<float> home_b_, home_x_;
   BlockExchange to_level_, to_home_;
   std::vector<Stage<Dim>> stages_;

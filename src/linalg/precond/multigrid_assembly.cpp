@@ -31,7 +31,7 @@ void for_rows_on_cells(const RowGrid& grid, Visit visit) {
   });
 }
 
-// Of each row, then of the ghost columns.
+// One entry for each row, then one for each ghost column.
 Vector row_numbers(const LinearSystem& system, const CellNumbers& numbers) {
   Vector number(std::size_t(system.rows() + system.halo().ghosts()), nowhere);
   for_rows_on_cells(system.grid(), [&](int row, const auto& c) { number[std::size_t(row)] = numbers.of(c); });

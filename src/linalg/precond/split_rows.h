@@ -1,5 +1,5 @@
 #pragma once
-// How a level of multigrid stores the cells of a block: row by row along the first axis, the even cells of a row before
+// Storage of the cells of a block on a level of multigrid: row by row along the first axis, the even cells of a row before
 // its odd ones. Red and black cells are then contiguous, and so are the neighbours of either.
 #include <algorithm>
 
