@@ -1,6 +1,6 @@
 #pragma once
-// Storage of the cells of a block on a level of multigrid: row by row along the first axis, the even cells of a row before
-// its odd ones. Red and black cells are then contiguous, and so are the neighbours of either.
+// Storage of the cells of a block on a level of multigrid: row by row along the first axis, the even cells of a row
+// before its odd ones. Red and black cells are then contiguous, and so are the neighbours of either.
 #include <algorithm>
 
 #include "grid/parallel_range.h"
