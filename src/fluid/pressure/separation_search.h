@@ -15,7 +15,7 @@ class SeparationSearch {
   SeparationSearch(const ProjectionInput<Dim>& in, double tolerance, Separation<Dim>& separation);
 
   // Compares the current guess with its solution. Returns true if the guess is right or was the last one. Otherwise
-  // writes the next guess to `parting`; after the last round, this is the guess with the smallest error. Collective.
+  // writes the next guess to `separation`; after the last round, this is the guess with the smallest error. Collective.
   bool has_converged_with(const PressureRows<Dim>& rows, const std::vector<int>& closed_component,
                           const CellField<Dim>& pressure, const FaceField<Dim>& u_star);
 
