@@ -79,8 +79,9 @@ struct Projection {
   void solve() {
     const CellField<Dim> guess(setup.domain.layout);
     const FaceField<Dim> slope(setup.domain.layout);
+    const ConvectedPressure<Dim> convected;
     const auto solution = solve_coupled(CoupledInput<Dim>{setup, input(), geometry, state, guess, slope, u_star, u_star,
-                                                          dt, nullptr, PhaseFault::none});
+                                                          convected, dt, nullptr, PhaseFault::none});
     INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.failed_attempts, "; ")));
     REQUIRE(solution.failure.empty());
     state.pressure = solution.pressure;

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/time_spec.h"
+#include "coupling/solids/pressure_loads.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
 #include "coupling/transport/air_volume.h"
@@ -122,29 +123,12 @@ void measure_bodies(const Fluids& fluids, const TimeSpec& time, const State<Dim>
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].measure(fluids.gravity, time, state, stats);
 }
 
-// Adds force and torque of the pressure on the face shares of solid k, on this rank's faces, to `loads`: six numbers a
-// solid.
-template <int Dim>
-void add_pressure_loads(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g, std::size_t k,
-                        const Vec3& about, std::vector<double>& loads) {
-  for (const FaceShare& share : *g.shares[k]) {
-    const double jump = state.pressure[share.face - domain.layout.stride(share.axis)] - state.pressure[share.face];
-    const IVec<Dim> i = domain.layout.index(share.face);
-    if (jump == 0 || !domain.layout.faces(share.axis).contains(i)) continue;
-    Vec3 force = Vec3::Zero();
-    force[share.axis] = share.closed * domain.layout.geometry().face_area() * jump;
-    const Vec3 torque = (extend<Dim>(domain.layout.position(i, face_offset<Dim>(share.axis))) - about).cross(force);
-    for (int c = 0; c < 3; ++c) loads[6 * k + c] += force[c], loads[6 * k + 3 + c] += torque[c];
-  }
-}
-
-// F_k = sum_f s_k A (p_low - p_high) e_f, with its torque about the reference point: the transpose of the flux that the
-// body displaces. Viscous and other loads are added.
+// Loads of the pressure on the faces that each solid closes, plus those that state and solids keep.
 template <int Dim>
 std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                        const State<Dim>& state, const StepGeometry<Dim>& g) {
   std::vector<SolidState> states;
-  std::vector<double> loads(6 * solids.bodies.size());
+  const std::vector<SolidLoad> by_pressure = pressure_loads(domain, solids, g, state.pressure);
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Pose& pose = g.placed[k].pose;
     const Eigen::Quaterniond q(pose.rotation);
@@ -155,18 +139,9 @@ std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<D
     out.velocity = g.placed[k].twist.at(out.position);
     out.angular_velocity = g.placed[k].twist.angular;
     state.solids[k].describe(time, state, out);
-    add_pressure_loads(domain, state, g, k, g.deforms(int(k)) ? out.position : g.pivots[k], loads);
-  }
-  if (!loads.empty()) domain.ranks.global_sum(loads);
-  for (std::size_t k = 0; k < state.viscous_loads.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      loads[6 * k + c] += state.viscous_loads[k].force[c];
-      loads[6 * k + 3 + c] += state.viscous_loads[k].torque[c];
-    }
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    states[k].force = Vec3(loads[6 * k], loads[6 * k + 1], loads[6 * k + 2]);
-    states[k].torque = Vec3(loads[6 * k + 3], loads[6 * k + 4], loads[6 * k + 5]);
-    state.solids[k].add_loads(states[k]);
+    for (const std::vector<SolidLoad>* loads : {&by_pressure, &state.viscous_loads, &state.convected_loads})
+      if (!loads->empty()) out.force += (*loads)[k].force, out.torque += (*loads)[k].torque;
+    state.solids[k].add_loads(out);
   }
   return states;
 }

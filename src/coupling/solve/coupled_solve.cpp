@@ -66,6 +66,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   r.closed_component = liquid.closed.component;
   SolidCoupling<Dim> coupling =
       couple_solids(s, input.geometry, r.rows, liquid.closed, input.state, input.liquid.dt, input.horizon);
+  push_by(input.convected, s.domain, r.rows, input.liquid.dt, coupling);
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
   const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, s.scene.solver.viscosity,
@@ -113,7 +114,7 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
     state.solids = solids;
     CoupledSolution<Dim> trial =
         solve_once(CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow,
-                                     input.u_star, input.horizon, input.viscosity, input.fault});
+                                     input.u_star, input.convected, input.horizon, input.viscosity, input.fault});
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);
     r = std::move(trial);

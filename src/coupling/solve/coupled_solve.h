@@ -1,5 +1,6 @@
 #pragma once
 // Coupled solve of a step: pressure and viscosity of the liquid, rigid and elastic bodies, contact.
+#include "coupling/solids/convected_pressure.h"
 #include "coupling/solve/viscous_coupling.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -16,6 +17,7 @@ struct CoupledInput {
   const FaceField<Dim>& slope;  // grad p/rho of the step before, where known
   const FaceField<Dim>& flow;   // velocities at the start of the step
   const FaceField<Dim>& u_star;
+  const ConvectedPressure<Dim>& convected;
   double horizon;
   const ViscosityField<Dim>* viscosity;  // null: inviscid
   PhaseFault fault;
@@ -29,12 +31,12 @@ struct CoupledSolution {
   std::vector<int> closed_component;  // one a row: its closed component; -1: pressure is given; empty: -1 everywhere
   SolveReport report;                 // iterations of all solves, the worst residual
   int newton_iterations = 0, contacts = 0;
-  Eigen::VectorXd solids;                  // velocities of the bodies' unknowns
-  Eigen::VectorXd reactions;               // N: constraint forces on the unknowns, 0 for free ones
-  std::vector<ViscousLoad> viscous_loads;  // one a solid; empty: inviscid liquid
-  double dissipation = 0;                  // by viscosity, W
-  double separation_error = 0;             // SeparationSearch::error
-  std::string failure;                     // empty: accepted
+  Eigen::VectorXd solids;                // velocities of the bodies' unknowns
+  Eigen::VectorXd reactions;             // N: constraint forces on the unknowns, 0 for free ones
+  std::vector<SolidLoad> viscous_loads;  // one a solid; empty: inviscid liquid
+  double dissipation = 0;                // by viscosity, W
+  double separation_error = 0;           // SeparationSearch::error
+  std::string failure;                   // empty: accepted
 };
 
 // Solves for the pressure with which no liquid cell has a net flux, and for the velocities of rigid and elastic bodies.

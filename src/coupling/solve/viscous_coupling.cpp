@@ -195,7 +195,7 @@ void ViscousStep<Dim>::scatter(const Vector& rows, FaceField<Dim>& u) const {
 
 // Torques are about the points that solids.csv reports.
 template <int Dim>
-std::vector<ViscousLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
+std::vector<SolidLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
   std::vector<Vec3> about;
   for (std::size_t k = 0; k < all_.bodies.size(); ++k)
     about.push_back(geometry_.placed[k].pose.apply(all_.bodies[k].reference_point()));

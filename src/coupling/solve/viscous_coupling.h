@@ -56,7 +56,7 @@ class ViscousStep {
   Vector gather(const FaceField<Dim>& u) const;
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
   // Loads of the viscous stress on each solid, about its reference point, N and N m. Collective.
-  std::vector<ViscousLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
+  std::vector<SolidLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
   double dissipation(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;  // W
 
  private:

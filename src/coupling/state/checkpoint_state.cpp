@@ -113,14 +113,18 @@ Flow<Dim> load_flow(const Domain<Dim>& domain, const Fluids& fluids, const Level
   return flow;
 }
 
-// visit(name, value) for each number of the viscous loads.
-template <class Loads, class Visit>
-void for_each_load(Loads& loads, const Visit& visit) {
-  for (std::size_t k = 0; k < loads.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      visit(fmt::format("viscous.{}.force{}", k, c), loads[k].force[c]);
-      visit(fmt::format("viscous.{}.torque{}", k, c), loads[k].torque[c]);
-    }
+// visit(name, value) for each number of the loads of a state.
+template <class AnyState, class Visit>
+void for_each_load(AnyState& state, const Visit& visit) {
+  const auto visit_all = [&](const char* cause, auto& loads) {
+    for (std::size_t k = 0; k < loads.size(); ++k)
+      for (int c = 0; c < 3; ++c) {
+        visit(fmt::format("{}.{}.force{}", cause, k, c), loads[k].force[c]);
+        visit(fmt::format("{}.{}.torque{}", cause, k, c), loads[k].torque[c]);
+      }
+  };
+  visit_all("viscous", state.viscous_loads);
+  visit_all("convected", state.convected_loads);
 }
 
 // Saves vectors as texts that hold their bytes.
@@ -162,11 +166,13 @@ void visit_all(Participants<Dim>& solids, StateVisitor&& visitor) {
   for (std::size_t k = 0; k < solids.size(); ++k) solids[k].visit(visitor);
 }
 
-// Loads the viscous loads with `scalar(name)`. state.step must be set.
+// Loads the loads on solids. state.step must be set. Checkpoints of earlier versions have no convected ones.
 template <int Dim, class Scalar>
-void load_viscous_loads(const Fluids& fluids, const Solids<Dim>& solids, const Scalar& scalar, State<Dim>& state) {
+void load_loads(const CheckpointData& data, const Fluids& fluids, const Solids<Dim>& solids, const Scalar& scalar,
+                State<Dim>& state) {
   if (fluids.is_viscous() && state.step > 0) state.viscous_loads.resize(solids.bodies.size());
-  for_each_load(state.viscous_loads, [&](const std::string& n, double& x) { x = scalar(n); });
+  if (data.scalars.count("convected.0.force0") > 0) state.convected_loads.resize(solids.bodies.size());
+  for_each_load(state, [&](const std::string& n, double& x) { x = scalar(n); });
 }
 
 // Saves enclosed air: the region of each cell, the volumes as bytes, and the volume lost.
@@ -217,6 +223,7 @@ CheckpointData save_state(const Domain<Dim>& domain, const Fluids& fluids, const
                   {"step", double(state.step)},
                   {"dt_now", state.dt_now},
                   {"dt_before", state.dt_before},
+                  {"since_solve", state.since_solve},
                   {"horizon", state.horizon},
                   {"viscous_rate", state.viscous_rate},
                   {"levels", state.earlier  ? 3.0
@@ -226,7 +233,7 @@ CheckpointData save_state(const Domain<Dim>& domain, const Fluids& fluids, const
                   {"corrected_volume", state.corrected_volume}};
   Participants<Dim> saved = state.solids;
   visit_all(saved, Saver(data));
-  for_each_load(state.viscous_loads, [&](const std::string& n, double x) { data.scalars[n] = x; });
+  for_each_load(state, [&](const std::string& n, double x) { data.scalars[n] = x; });
   data.fields.push_back(record<Dim>(domain, "phi", domain.layout.cells(), state.phi));
   data.fields.push_back(record<Dim>(domain, "pressure", domain.layout.cells(), state.pressure));
   if (fluids.liquid.separates)
@@ -255,11 +262,12 @@ State<Dim> load_state(const Domain<Dim>& domain, const Fluids& fluids, const Sol
   state.step = std::int64_t(scalar("step"));
   state.dt_now = scalar("dt_now");
   state.dt_before = scalar("dt_before");
+  state.since_solve = data.scalars.count("since_solve") > 0 ? scalar("since_solve") : 0;  // earlier versions: none
   state.horizon = scalar("horizon");
   state.viscous_rate = scalar("viscous_rate");
   state.expected_volume = scalar("expected_volume");
   state.corrected_volume = scalar("corrected_volume");
-  load_viscous_loads(fluids, solids, scalar, state);
+  load_loads(data, fluids, solids, scalar, state);
   load_air(domain, fluids, data, scalar, state);
   state.solids = solids.at_start;
   visit_all(state.solids, Loader(data));

@@ -51,13 +51,16 @@ struct State {
   double expected_volume = 0;   // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim
   Participants<Dim> solids;
+  double since_solve = 0;       // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
   double horizon = 0;           // interval ahead for which the solids' velocities were solved, s
   Separation<Dim> separation;   // only with separating walls
   double viscous_rate = 0;      // largest mu/(rho h^2) of the last solve, 1/s
   AirRegions<Dim> air;          // only if enclosed air keeps its volume
   double lost_air = 0;          // volume of vanished regions too small for the grid, m^Dim
   CellField<Dim, char> sealed;  // cells sealed by elastic walls, their pins and the solids under these; may be empty
-  std::vector<ViscousLoad> viscous_loads;  // per solid; empty if the liquid is inviscid
+  // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if no solid
+  // moves).
+  std::vector<SolidLoad> viscous_loads, convected_loads;
 };
 
 template <int Dim>

@@ -105,9 +105,10 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
     slope = of_both(s.domain, before, &TimeLevel<Dim>::q), flow = of_both(s.domain, before, &TimeLevel<Dim>::u);
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
-  CoupledSolution<Dim> solution = solve_coupled(
-      CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, slope ? *slope : before.now->q,
-                        flow ? *flow : before.now->u, task.predicted.u_star, out.state.horizon, viscosity, fault});
+  CoupledSolution<Dim> solution = solve_coupled(CoupledInput<Dim>{
+      s, liquid, out.geometry, out.state, guess, slope ? *slope : before.now->q, flow ? *flow : before.now->u,
+      task.predicted.u_star, task.predicted.convected, out.state.horizon, viscosity, fault});
+  out.state.convected_loads = task.predicted.convected.loads;
   out.solve = solution.report;
   out.solve.iterations += earlier.iterations;
   out.newton_iterations = solution.newton_iterations;
@@ -192,7 +193,10 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   const CellField<Dim>& phi = moved.state.phi;
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
-  p.u_star = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
+  Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
+  p.convected = convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported,
+                                   before.since_solve + times.lead);
+  p.u_star = std::move(transported.u);
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
                    s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);

@@ -1,14 +1,16 @@
 #pragma once
 // Phases of a step that find its velocity: predict it, solve for pressure and solids, restore it from the pressure.
+#include "coupling/solids/convected_pressure.h"
 #include "coupling/step/surface_phases.h"
 #include "coupling/transport/viscous_transport.h"
 
 namespace seiche {
 
-// The velocity before the solve, and how the step treats viscosity.
+// The velocity before the solve, the pressure that moves with solids, and how the step treats viscosity.
 template <int Dim>
 struct Predicted {
   FaceField<Dim> u_star;  // m/s, ghosts filled
+  ConvectedPressure<Dim> convected;
   ViscousPlan viscosity;
   std::string failure;  // names a value that is not finite; empty: none
 };

@@ -145,6 +145,7 @@ template <int Dim>
 Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                                    Phases& phases) {
   Moved<Dim> moved{shifted_levels(before, times.dt), {}, {}};
+  moved.state.since_solve = times.dt - times.lead;
   move_solids(s, before, times, moved.state.solids);
   moved.geometry = measure_geometry(s, moved.state, times, phases);
   carry_surface(s, before, times, phases, moved);

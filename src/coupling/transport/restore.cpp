@@ -1,15 +1,14 @@
 #include "coupling/transport/restore.h"
 
-#include <optional>
-#include <unordered_map>
-
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/thin/gap_flow.h"
+#include "coupling/transport/solid_velocities.h"
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
+#include "grid/interpolation.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
 
@@ -40,50 +39,14 @@ FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Di
   return r;
 }
 
-// All velocity components at a face: its own, and the mean of the four nearest faces of each other component.
+// All velocity components at x, m/s.
 template <int Dim>
-Vec<Dim> velocity_at_face(const Layout<Dim>& layout, const FaceField<Dim>& u, int axis, Site f) {
+Vec<Dim> velocity_at_point(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x) {
   Vec<Dim> v;
-  for (int b = 0; b < Dim; ++b) {
-    const Site da = layout.stride(axis), db = layout.stride(b);
-    const auto& c = u[b];
-    v[b] = b == axis ? c[f] : 0.25 * (c[f] + c[f + db] + c[f - da] + c[f + db - da]);
-  }
+  for (int b = 0; b < Dim; ++b)
+    v[b] = interpolate_linear<Dim>(layout, u[b].data(), index_coordinates<Dim>(layout, x, face_offset<Dim>(b)));
   return v;
 }
-
-// Velocities of the solids at faces, m/s. Deforming solids have one only on faces that they close, near their surface.
-template <int Dim>
-class SolidVelocities {
- public:
-  SolidVelocities(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g)
-      : g_(g), layout_(domain.layout), shares_(solids.bodies.size()) {
-    for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
-      if (!g.deforms(int(k))) continue;
-      for (std::size_t n = 0; n < g.shares[k]->size(); ++n)
-        shares_[k][std::size_t((*g.shares[k])[n].axis)][(*g.shares[k])[n].face] = n;
-    }
-  }
-  std::optional<Vec<Dim>> at(int body, int axis, Site face) const {
-    if (!g_.deforms(body)) {
-      const Vec3 x = extend<Dim>(layout_.position(layout_.index(face), face_offset<Dim>(axis)));
-      return truncate<Dim>(g_.placed[std::size_t(body)].twist.at(x));
-    }
-    const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
-    const auto found = faces.find(face);
-    if (found == faces.end()) return {};
-    const SurfaceWeights& weights = (*g_.face_weights[std::size_t(body)])[found->second];
-    if (weights.empty()) return {};
-    Vec<Dim> v;
-    for (int b = 0; b < Dim; ++b) v[b] = velocity_at<Dim>(weights, b, g_.placed[std::size_t(body)].velocity);
-    return v;
-  }
-
- private:
-  const StepGeometry<Dim>& g_;
-  const Layout<Dim>& layout_;
-  std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
-};
 
 // True if viscous liquid sticks to this body (-1: none).
 template <int Dim>
@@ -91,27 +54,31 @@ bool liquid_sticks_to(const Fluids& fluids, const Solids<Dim>& solids, int body)
   return fluids.is_viscous() && body >= 0 && solids.bodies[std::size_t(body)].spec().slip == Slip::no_slip;
 }
 
-// In solids the extrapolated velocity takes the solid's normal velocity, u += ((v - u).n) n. Solved faces keep theirs.
-// If liquid sticks to the solid, linear extrapolation already passes through the solid's velocity at its surface.
-// Deeper than straight_layers, u is then the solid's velocity.
+// At the nearest point s of the surface, x - psi n, the normal velocity is the solid's, v. In solids the extrapolated
+// velocity is shifted by the same amount, u(x) += ((v - u(s)).n) n: it keeps its slope across the surface, so transport
+// beside it is of second order. Solved faces keep theirs. If liquid sticks to the solid, linear extrapolation already
+// passes through the solid's velocity at its surface. Deeper than straight_layers, u is then the solid's velocity.
 template <int Dim>
 void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                    const StepGeometry<Dim>& g, const SolidVelocities<Dim>& moving, const FaceField<Dim, char>& valid,
                    const FaceField<Dim, char>& reached, FaceField<Dim>& u) {
   const FaceField<Dim> old = u;
+  const Layout<Dim>& l = domain.layout;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * domain.layout.h()) return;
-      const FaceDistance<Dim> d = distance_at_face(domain.layout, g.psi, a, f);
+    for_each_index(l, l.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * l.h()) return;
+      const FaceDistance<Dim> d = distance_at_face(l, g.psi, a, f);
       const double norm = d.gradient.norm();
-      if (d.psi >= 0 || norm == 0) return;
+      if (d.psi > 0 || norm == 0) return;
       const Vec<Dim> n = d.gradient / norm;
       const std::optional<Vec<Dim>> v = moving.at(g.body[f], a, f);
       if (v && liquid_sticks_to(fluids, solids, g.body[f])) {
-        if (d.psi < -straight_layers * domain.layout.h()) u.at(a, f) = (*v)[a];
+        if (d.psi < -straight_layers * l.h()) u.at(a, f) = (*v)[a];
         return;
       }
-      if (v) u.at(a, f) += (*v - velocity_at_face(domain.layout, old, a, f)).dot(n) * n[a];
+      const double depth = std::min(-d.psi, straight_layers * l.h());
+      const Vec<Dim> surface = l.position(i, face_offset<Dim>(a)) + depth * n;
+      if (v) u.at(a, f) += (*v - velocity_at_point(l, old, surface)).dot(n) * n[a];
     });
 }
 
@@ -131,7 +98,7 @@ template <int Dim>
 void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                        const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid, FaceField<Dim>& u) {
   FaceField<Dim, char> reached = valid;
-  const SolidVelocities<Dim> moving(domain, solids, g);
+  const SolidVelocities<Dim> moving(domain.layout, g, g.placed);
   for (int a = 0; a < Dim; ++a) {
     // Inflow also sets the velocity of the air in front of it.
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {

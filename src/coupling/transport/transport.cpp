@@ -7,6 +7,8 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "coupling/transport/beside_solids.h"
+#include "coupling/transport/carried_acceleration.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/path_origins.h"
@@ -50,10 +52,46 @@ FaceField<Dim, char> interior_faces(const Domain<Dim>& domain, const FaceField<D
   return interior;
 }
 
-// w = u(t + dt/2), m/s: in the interior extrapolated from up to three time levels, elsewhere the present u.
+// The valid faces and those beside solids. Halo filled. Collective.
+template <int Dim>
+FaceField<Dim, char> faces_known(const Domain<Dim>& domain, const FaceField<Dim, char>& valid,
+                                 const FaceField<Dim, char>& beside) {
+  FaceField<Dim, char> known = valid;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (beside.at(a, f)) known.at(a, f) = 1;
+    });
+  domain.halo.fill_ghosts(known);
+  return known;
+}
+
+// Faces of a flow that transport may read, and the order that holds there. `g`: geometry of the solve.
+template <int Dim>
+struct Surroundings {
+  FaceField<Dim, char> beside;    // solids, where the flow is continued into them
+  FaceField<Dim, char> interior;  // of second order
+  FaceField<Dim, char> liquid;    // interior, and no solid within reach; only of viscous liquid
+  FaceField<Dim, char> whole;     // of fourth order; only with plan.full
+
+  Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
+               const FaceField<Dim, char>& near, const ViscousPlan& plan) {
+    if (s.solids.bodies.empty()) {
+      beside = FaceField<Dim, char>(s.domain.layout);
+      interior = interior_faces(s.domain, valid);
+    } else {
+      beside = faces_beside_solids(s.domain, s.solids, g, near);
+      interior = interior_faces(s.domain, faces_known(s.domain, valid, beside));
+    }
+    if (s.fluids.is_viscous()) liquid = s.solids.bodies.empty() ? interior : interior_faces(s.domain, valid);
+    if (plan.full) whole = whole_faces(s.domain.layout, s.domain.sides, uncut_faces(s.domain, g, valid));
+  }
+};
+
+// w = u(t + dt/2), m/s: in the interior extrapolated from up to three time levels, elsewhere the present u. Levels that
+// did not know a face count where it lies beside a solid: they were continued into it.
 template <int Dim>
 FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, const State<Dim>& state,
-                             const Flow<Dim>& flow, const FaceField<Dim, char>& interior, const ViscousPlan& plan,
+                             const Flow<Dim>& flow, const Surroundings<Dim>& around, const ViscousPlan& plan,
                              double dt) {
   FaceField<Dim> w = flow.now->u;
   if (plan.full) continue_beyond_walls(domain.layout, domain.sides, state.time, FaceValues::means, w);
@@ -66,7 +104,8 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (interior.at(a, f) && l1.valid.at(a, f) && l2.valid.at(a, f))
+      const bool knew = (l1.valid.at(a, f) && l2.valid.at(a, f)) || around.beside.at(a, f);
+      if (around.interior.at(a, f) && knew)
         w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, w);
@@ -74,63 +113,6 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   continue_beyond_inflows(domain.layout, domain.sides, state.time + dt / 2, w);
   let_air_follow(domain.layout, domain.sides, state.time + dt / 2, flow.now->valid, w);
   return w;
-}
-
-// One pass of the (1, 2, 1)/4 filter along every axis.
-template <int Dim>
-void smooth(const Domain<Dim>& domain, FaceField<Dim>& f) {
-  for (int axis = 0; axis < Dim; ++axis) {
-    const FaceField<Dim> old = f;
-    const Site d = domain.layout.stride(axis);
-    for (int a = 0; a < Dim; ++a)
-      for_each_site(domain.layout, domain.layout.faces(a),
-                    [&](Site c) { f.at(a, c) = 0.25 * (old.at(a, c - d) + 2 * old.at(a, c) + old.at(a, c + d)); });
-    fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);
-  }
-}
-
-// Change of the pressure slope from t - dt_now/2 to t + dt/2, m/s^2. Without a filter, extrapolation amplifies waves
-// that the flow carries more than about an eighth of their length a step. Errors obey r^2 = c ((1 + F) r - F), c = (1 -
-// exp(-i theta))/2, with F the filter's response. 2 C^2 passes of the filter keep |r| <= 1 up to the Courant number C =
-// 2; beyond it the trend is zero.
-template <int Dim>
-FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
-  FaceField<Dim> trend(domain.layout);
-  if (!flow.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
-  const double courant = fastest_component(domain, state) * dt / domain.layout.h();
-  if (courant > 2) return trend;
-  const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before;
-  const double ratio = (dt + state.dt_now) / (state.dt_now + state.dt_before);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (l0.valid.at(a, f) == face_solved && l1.valid.at(a, f) == face_solved)
-        trend.at(a, f) = ratio * (l0.q.at(a, f) - l1.q.at(a, f));
-    });
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, trend);
-  for (int n = 0; n < std::ceil(2 * courant * courant); ++n) smooth(domain, trend);
-  return trend;
-}
-
-// A = f - G: acceleration of the liquid at t + dt/2, m/s^2, with G the pressure slope plus its trend. Zero without an
-// earlier step and in first order. An impact changes velocity by an amount independent of dt, so its A does not predict
-// the next step. |A| dt^2 <= h/4 excludes impacts and leaves resolved flow alone, where A dt^2/h is O(h).
-template <int Dim>
-FaceField<Dim> acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
-                            const OperatorPerturbation& perturbation, const State<Dim>& state, const Flow<Dim>& flow,
-                            double dt) {
-  FaceField<Dim> acc(domain.layout);
-  if (state.dt_now == 0 || time.scheme == TimeScheme::first_order) return acc;
-  const FaceField<Dim> trend = slope_trend(domain, state, flow, dt);
-  const TimeLevel<Dim>& level = *flow.now;
-  const Vec3 g = perturbation.gravity * fluids.gravity.of_step(state.time + dt, dt);
-  const double limit = 0.25 * domain.layout.h() / (dt * dt);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (level.valid.at(a, f) == face_solved)
-        acc.at(a, f) = std::clamp(g[a] - level.q.at(a, f) - trend.at(a, f), -limit, limit);
-    });
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, acc);
-  return acc;
 }
 
 // Fraction of the trend of N, the viscous acceleration, that viscous_memory() uses. If viscosity is stiff, N is large
@@ -208,32 +190,17 @@ void advect_means(const Domain<Dim>& domain, const OperatorPerturbation& perturb
     });
 }
 
-// Faces of a flow that transport may read, and the order that holds there. `g`: geometry of the solve.
-template <int Dim>
-struct Surroundings {
-  bool enters_solids;                            // true if velocity is extrapolated into solids that liquid sticks to
-  FaceField<Dim, char> interior, liquid, whole;  // liquid: interior, such solids excluded; whole: of fourth order
-
-  Surroundings(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
-               const FaceField<Dim, char>& valid, const ViscousPlan& plan)
-      : enters_solids(plan.full && sticks_to_known_solids(fluids, solids)),
-        interior(interior_faces(domain, enters_solids ? faces_known_to_transport(domain, solids, g, valid) : valid)) {
-    liquid = enters_solids ? interior_faces(domain, valid) : interior;
-    if (plan.full) whole = whole_faces(domain.layout, domain.sides, uncut_faces(domain, g, valid));
-  }
-};
-
-// Velocity of one fluid before the projection on the faces `near` it, m/s. Collective.
+// Velocity of one fluid before the projection on the faces `near` it, m/s. Sets acc to carried_acceleration().
+// Collective.
 template <int Dim>
 FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
                               const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
-                              const StepGeometry<Dim>& geometry) {
-  const Surroundings<Dim> known(s.domain, s.fluids, s.solids, geometry, flow.now->valid, plan);
-  const FaceField<Dim, char>& interior = known.interior;
-  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, interior, plan, dt);
-  FaceField<Dim> acc = acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, dt),
-                 memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, known.liquid, dt, plan);
-  if (known.enters_solids) continue_into_solids(s.domain, flow.now->valid, acc);
+                              const StepGeometry<Dim>& geometry, FaceField<Dim>& acc) {
+  const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
+  const FaceField<Dim, char>& interior = around.interior;
+  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, around, plan, dt),
+                       memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, around.liquid, dt, plan);
+  acc = carried_acceleration(s.domain, s.fluids, s.solids, s.scene.time, s.perturbation, state, flow, dt);
   Carried<Dim> carried{flow.now->u, flow.now->u};
   if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
   continue_beyond_inflows(s.domain.layout, s.domain.sides, state.time, carried.outer);
@@ -244,13 +211,13 @@ FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, cons
   // The viscous operator also couples faces beside those near liquid.
   FaceField<Dim> u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
   if (plan.full)
-    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, known.whole, dt, u);
+    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, around.whole, dt, u);
   else
     advect_faces(s.domain.layout, path, s.perturbation.velocity_advection * dt, near, interior, carried.inner,
                  carried.outer, u);
   const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
   limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
-  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, known.whole, carried.outer, dt, u);
+  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, around.whole, carried.outer, dt, u);
   const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
@@ -332,20 +299,22 @@ FaceField<Dim, char> faces_near_gas(const Domain<Dim>& domain, const CellField<D
 }
 
 template <int Dim>
-FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
-                                  const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
+Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
+                                    const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
+  Transported<Dim> r;
+  FaceField<Dim>& u = r.u;
   const bool as_one = flow_as_one(s.fluids);
   const FaceField<Dim, char> near =
       as_one ? FaceField<Dim, char>(s.domain.layout, 1) : faces_near_liquid(s.domain, phi);
-  FaceField<Dim> u = transport_flow(s, state, as_one ? flow_of_both(s.domain, s.fluids, state) : liquid_flow(state),
-                                    near, dt, plan, geometry);
+  u = transport_flow(s, state, as_one ? flow_of_both(s.domain, s.fluids, state) : liquid_flow(state), near, dt, plan,
+                     geometry, r.acceleration);
   if (s.fluids.has_gas() && !as_one)
     join(s.domain, s.fluids, phi,
-         transport_flow(s, state, state.gas, faces_near_gas(s.domain, phi), dt, plan, geometry), u);
+         transport_flow(s, state, state.gas, faces_near_gas(s.domain, phi), dt, plan, geometry, r.gas_acceleration), u);
   if (s.fluids.has_gas()) add_shear_jump(s.domain, s.fluids, s.features, state, phi, dt, u);
   set_source_velocity(s.domain, s.sources, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, u);
-  return u;
+  return r;
 }
 
 template <int Dim>
@@ -375,8 +344,8 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
                                  const CellField<D, char>&, CellField<D>&);                                            \
   template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                             \
   template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                                \
-  template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,           \
-                                              const ViscousPlan&, const StepGeometry<D>&);                             \
+  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,         \
+                                                const ViscousPlan&, const StepGeometry<D>&);                           \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -26,14 +26,21 @@ void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids
 // gas, where only the surface separates the volumes. Also in prescribed flows.
 double closest_point_band(const Fluids& fluids);
 
+// Velocity before the projection (m/s, ghosts filled), and the acceleration that each fluid carried along its paths
+// (m/s^2). gas_acceleration: empty without gas, and where both fluids move as one.
+template <int Dim>
+struct Transported {
+  FaceField<Dim> u, acceleration, gas_acceleration;
+};
+
 // u before the projection on all faces next to liquid: the transported velocity plus
 //   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.
 // If gas flows, each fluid is transported with its own flow, extrapolated beyond the surface. Neither then takes up the
 // other's velocity by interpolation. On links that the surface crosses their momenta add up. See flow_as_one() for the
-// exception. `phi` and `geometry` are those of the solve. Ghosts filled. Collective.
+// exception. `phi` and `geometry` are those of the solve. Collective.
 template <int Dim>
-FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
-                                  double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
+Transported<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
+                                    double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
 
 // 1 on the owned faces with liquid (phi < 0) on at least one side.
 template <int Dim>

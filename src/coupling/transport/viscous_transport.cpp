@@ -8,7 +8,6 @@
 #include "fluid/boundary/domain.h"
 #include "fluid/boundary/inflow.h"
 #include "grid/loops.h"
-#include "levelset/extrapolate.h"
 
 namespace seiche {
 namespace {
@@ -16,10 +15,6 @@ namespace {
 bool has_uniform_viscosity(const Fluids& fluids) {
   const LiquidSpec& liquid = fluids.liquid;
   return liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
-}
-
-bool is_known_and_sticks(const SolidSpec& solid) {
-  return !solid.kind.is_free() && solid.slip == Slip::no_slip;
 }
 
 }  // namespace
@@ -45,25 +40,6 @@ ViscousPlan plan_viscosity(const Domain<Dim>& domain, const Fluids& fluids, cons
 }
 
 template <int Dim>
-bool sticks_to_known_solids(const Fluids& fluids, const Solids<Dim>& solids) {
-  return fluids.is_viscous() && std::any_of(solids.bodies.begin(), solids.bodies.end(),
-                                            [](const Body<Dim>& body) { return is_known_and_sticks(body.spec()); });
-}
-
-template <int Dim>
-FaceField<Dim, char> faces_known_to_transport(const Domain<Dim>& domain, const Solids<Dim>& solids,
-                                              const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid) {
-  FaceField<Dim, char> known = valid;
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (known.at(a, f) || g.faces.open.at(a, f) > 0 || g.body[f] < 0) return;
-      if (is_known_and_sticks(solids.bodies[std::size_t(g.body[f])].spec())) known.at(a, f) = 1;
-    });
-  domain.halo.fill_ghosts(known);
-  return known;
-}
-
-template <int Dim>
 FaceField<Dim, char> uncut_faces(const Domain<Dim>& domain, const StepGeometry<Dim>& g,
                                  const FaceField<Dim, char>& valid) {
   FaceField<Dim, char> uncut = valid;
@@ -73,15 +49,6 @@ FaceField<Dim, char> uncut_faces(const Domain<Dim>& domain, const StepGeometry<D
     });
   domain.halo.fill_ghosts(uncut);
   return uncut;
-}
-
-template <int Dim>
-void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f) {
-  for (int a = 0; a < Dim; ++a) {
-    FieldValues<char> known = valid[a];
-    extrapolate(domain.layout, domain.halo, domain.layout.faces(a), {domain.extrapolated_layers(), 2}, f[a], known);
-  }
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);
 }
 
 template <int Dim>
@@ -113,11 +80,7 @@ void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, cons
   template bool has_surface<D>(const Domain<D>&, const CellField<D>&);                                                \
   template ViscousPlan plan_viscosity<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const Features&,           \
                                          const State<D>&, const CellField<D>&, double);                               \
-  template bool sticks_to_known_solids<D>(const Fluids&, const Solids<D>&);                                           \
-  template FaceField<D, char> faces_known_to_transport<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
-                                                          const FaceField<D, char>&);                                 \
   template FaceField<D, char> uncut_faces<D>(const Domain<D>&, const StepGeometry<D>&, const FaceField<D, char>&);    \
-  template void continue_into_solids<D>(const Domain<D>&, const FaceField<D, char>&, FaceField<D>&);                  \
   template FaceField<D> points_of_means<D>(const Domain<D>&, const FaceField<D, char>&, const FaceField<D>&, double); \
   template void add_missing_viscosity<D>(const Domain<D>&, const Fluids&, const State<D>&, const FaceField<D, char>&, \
                                          const FaceField<D>&, double, FaceField<D>&);

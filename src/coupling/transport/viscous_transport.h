@@ -1,6 +1,5 @@
 #pragma once
-// Transport in viscous liquid that fills the domain: fourth order between walls, and flow extrapolated into no-slip
-// solids.
+// Transport in viscous liquid that fills the domain: fourth order between walls.
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -32,25 +31,10 @@ ViscousPlan plan_viscosity(const Domain<Dim>& domain, const Fluids& fluids, cons
 template <int Dim>
 bool has_surface(const Domain<Dim>& domain, const CellField<Dim>& phi);
 
-// True if viscous liquid sticks to any solid that is static or prescribed.
-template <int Dim>
-bool sticks_to_known_solids(const Fluids& fluids, const Solids<Dim>& solids);
-
-// The valid faces and those that such solids close. Velocity extrapolated there passes through the solid's velocity at
-// its surface, so transport keeps its order beside the solid. Halo filled. Collective.
-template <int Dim>
-FaceField<Dim, char> faces_known_to_transport(const Domain<Dim>& domain, const Solids<Dim>& solids,
-                                              const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid);
-
 // The valid faces that no solid cuts. Halo filled. Collective.
 template <int Dim>
 FaceField<Dim, char> uncut_faces(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry,
                                  const FaceField<Dim, char>& valid);
-
-// Extrapolates f from the valid faces into the others, linearly for two layers, constant beyond. Ghosts filled.
-// Collective.
-template <int Dim>
-void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f);
 
 // Velocities (m/s) at face centres from face means u, on the `whole` faces; others keep u. `t` (s): time of the
 // velocities of walls and inflow. Ghosts filled. Collective.

@@ -92,17 +92,17 @@ FaceRows<Dim> number_faces(const ViscousInput<Dim>& in);
 template <int Dim>
 ViscousSystem<Dim> assemble_viscosity(const ViscousInput<Dim>& in);
 
-// Force and torque of the viscous stress on a solid: N and N m; in 2D N/m and N.
-struct ViscousLoad {
+// Force and torque on a solid: N and N m; in 2D N/m and N.
+struct SolidLoad {
   Vec3 force{0, 0, 0}, torque{0, 0, 0};
 };
 
 // Load on each solid, with the torque about about[k], for face velocities u (ghosts filled) and body unknowns v.
 // Collective.
 template <int Dim>
-std::vector<ViscousLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
-                                        const FaceField<Dim>& u, const Eigen::VectorXd& v,
-                                        const std::vector<Vec3>& about);
+std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
+                                      const FaceField<Dim>& u, const Eigen::VectorXd& v,
+                                      const std::vector<Vec3>& about);
 
 // Viscous dissipation rate z'Vz, W (2D: W/m). Collective.
 template <int Dim>

@@ -35,9 +35,9 @@ double slope(const ViscousTerm<Dim>& t, const std::array<double, ViscousTerm<Dim
 // The force on body k is minus the derivative of half the dissipation rate with respect to its rigid motion. Slots that
 // read the body move with it; in terms with the body's frame, all other slots move against it.
 template <int Dim>
-std::vector<ViscousLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
-                                        const FaceField<Dim>& u, const Eigen::VectorXd& v,
-                                        const std::vector<Vec3>& about) {
+std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
+                                      const FaceField<Dim>& u, const Eigen::VectorXd& v,
+                                      const std::vector<Vec3>& about) {
   std::vector<double> sum(6 * in.solids.size());
   for_each_valued(in, system, u, v, [&](const auto& terms, const ViscousTerm<Dim>& t, const auto& s) {
     const auto push = [&](int k, const Slot& slot, double force) {
@@ -53,7 +53,7 @@ std::vector<ViscousLoad> viscous_forces(const ViscousInput<Dim>& in, const Visco
     }
   });
   in.ranks.global_sum(sum);
-  std::vector<ViscousLoad> loads(in.solids.size());
+  std::vector<SolidLoad> loads(in.solids.size());
   for (std::size_t k = 0; k < loads.size(); ++k)
     for (int c = 0; c < 3; ++c) loads[k].force[c] = sum[6 * k + c], loads[k].torque[c] = sum[6 * k + 3 + c];
   return loads;
@@ -70,9 +70,9 @@ double viscous_dissipation(const ViscousInput<Dim>& in, const ViscousSystem<Dim>
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                  \
-  template std::vector<ViscousLoad> viscous_forces<D>(const ViscousInput<D>&, const ViscousSystem<D>&,         \
-                                                      const FaceField<D>&, const Eigen::VectorXd&,             \
-                                                      const std::vector<Vec3>&);                               \
+  template std::vector<SolidLoad> viscous_forces<D>(const ViscousInput<D>&, const ViscousSystem<D>&,           \
+                                                    const FaceField<D>&, const Eigen::VectorXd&,               \
+                                                    const std::vector<Vec3>&);                                 \
   template double viscous_dissipation<D>(const ViscousInput<D>&, const ViscousSystem<D>&, const FaceField<D>&, \
                                          const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)

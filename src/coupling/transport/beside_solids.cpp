@@ -1,0 +1,37 @@
+#include "coupling/transport/beside_solids.h"
+
+#include "grid/loops.h"
+#include "levelset/extrapolate.h"
+
+namespace seiche {
+
+template <int Dim>
+FaceField<Dim, char> faces_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                         const StepGeometry<Dim>& g, const FaceField<Dim, char>& near) {
+  constexpr double reach = 2;  // cells
+  FaceField<Dim, char> beside(domain.layout);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (!near.at(a, f) || g.body[f] < 0 || g.psi[f] >= reach * domain.layout.h()) return;
+      beside.at(a, f) = !solids.bodies[std::size_t(g.body[f])].is_thin();
+    });
+  return beside;
+}
+
+template <int Dim>
+void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f) {
+  for (int a = 0; a < Dim; ++a) {
+    FieldValues<char> known = valid[a];
+    extrapolate(domain.layout, domain.halo, domain.layout.faces(a), {domain.extrapolated_layers(), 2}, f[a], known);
+  }
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                    \
+  template FaceField<D, char> faces_beside_solids<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
+                                                     const FaceField<D, char>&);                                 \
+  template void continue_into_solids<D>(const Domain<D>&, const FaceField<D, char>&, FaceField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

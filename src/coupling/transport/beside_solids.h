@@ -1,0 +1,22 @@
+#pragma once
+// Flow continued into solids, for transport beside them.
+#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
+
+namespace seiche {
+
+// 1 on the owned faces within two cells of a solid that are `near` the fluid (1: fluid on at least one side). Velocity
+// and acceleration continued into the solid are of second order there, so transport may read these faces whether liquid
+// touches them or not. Two cells are more than a solid moves in a step. Solids thinner than a cell do not count: beyond
+// them lies other liquid.
+template <int Dim>
+FaceField<Dim, char> faces_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                         const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near);
+
+// Extrapolates f from the valid faces into the others, linearly for two layers, constant beyond. Ghosts filled.
+// Collective.
+template <int Dim>
+void continue_into_solids(const Domain<Dim>& domain, const FaceField<Dim, char>& valid, FaceField<Dim>& f);
+
+}  // namespace seiche

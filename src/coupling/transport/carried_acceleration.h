@@ -1,0 +1,18 @@
+#pragma once
+// The acceleration that transport carries along paths, predicted from the pressure of earlier steps.
+#include "coupling/state/fluids.h"
+#include "coupling/state/operator_perturbation.h"
+#include "coupling/state/solids.h"
+#include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
+
+namespace seiche {
+
+// A = f - G: acceleration of a fluid at t + dt/2 from state.time = t, m/s^2, with G the pressure slope plus its trend.
+// Continued into solids. Zero without an earlier step and in first order. Ghosts filled. Collective.
+template <int Dim>
+FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                    const TimeSpec& time, const OperatorPerturbation& perturbation,
+                                    const State<Dim>& state, const Flow<Dim>& flow, double dt);
+
+}  // namespace seiche
