@@ -137,12 +137,12 @@ FaceField<Dim> acceleration(const Domain<Dim>& domain, const Fluids& fluids, con
 // and almost balanced by pressure. A trend known in only part of the liquid disturbs this balance and amplifies itself.
 // The fraction is 1 up to mu dt/(rho h^2) = 1/2 and 0 from 1 on, or 1 if all of the liquid is interior. Collective.
 template <int Dim>
-double trust_in_viscous_trend(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                              const FaceField<Dim, char>& interior, double dt) {
+double trust_in_viscous_trend(const Domain<Dim>& domain, const State<Dim>& state, const FaceField<Dim, char>& interior,
+                              double dt) {
   bool partial = false;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      const bool wet = state.phi[f] < 0 || state.phi[f - domain.layout.stride(a)] < 0 || fluids.has_gas();
+      const bool wet = state.phi[f] < 0 || state.phi[f - domain.layout.stride(a)] < 0 || state.exterior->flows();
       partial = partial || (wet && !interior.at(a, f));
     });
   return domain.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
@@ -160,7 +160,7 @@ FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, c
   FaceField<Dim> memory(domain.layout);
   if (!fluids.is_viscous() || !flow.before || time.scheme == TimeScheme::first_order) return memory;
   if (dt > 2 * state.dt_now) return memory;
-  const double trust = trust_in_viscous_trend(domain, fluids, state, interior, dt);
+  const double trust = trust_in_viscous_trend(domain, state, interior, dt);
   if (trust == 0) return memory;
   const double earlier = (plan.implicit == 1 ? trust : 2 * plan.implicit - 1) * dt / (2 * state.dt_now),
                present = 1 - plan.implicit - earlier;
@@ -223,57 +223,6 @@ struct Surroundings {
   }
 };
 
-// Velocity of one fluid before the projection on the faces `near` it, m/s. Collective.
-template <int Dim>
-FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                              const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
-                              const StepGeometry<Dim>& geometry) {
-  const Surroundings<Dim> known(s.domain, s.fluids, s.solids, geometry, flow.now->valid, plan);
-  const FaceField<Dim, char>& interior = known.interior;
-  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, interior, plan, dt);
-  FaceField<Dim> acc = acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, dt),
-                 memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, known.liquid, dt, plan);
-  if (known.enters_solids) continue_into_solids(s.domain, flow.now->valid, acc);
-  Carried<Dim> carried{flow.now->u, flow.now->u};
-  if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
-  continue_beyond_inflows(s.domain.layout, s.domain.sides, state.time, carried.outer);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.padded(), [&](Site f) {
-      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
-    });
-  // The viscous operator also couples faces beside those near liquid.
-  FaceField<Dim> u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
-  if (plan.full)
-    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, known.whole, dt, u);
-  else
-    advect_faces(s.domain.layout, path, s.perturbation.velocity_advection * dt, near, interior, carried.inner,
-                 carried.outer, u);
-  const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
-  limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
-  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, known.whole, carried.outer, dt, u);
-  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
-      if (near.at(a, f) || s.fluids.is_viscous())
-        u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
-    });
-  let_liquid_in(s.domain, s.fluids, s.scene.time, s.perturbation, *flow.now, paths, state.time, memory, u);
-  return u;
-}
-
-// Merges the gas's velocity into u: liquid faces keep u, gas faces take the gas's. On links that the surface crosses,
-// momenta add up, rho_f u = theta rho u_liquid + (1 - theta) rho_gas u_gas.
-template <int Dim>
-void join(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, const FaceField<Dim>& gas,
-          FaceField<Dim>& u) {
-  const double ratio = fluids.gas_density() / fluids.density();
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      const double theta = liquid_part(phi[f - domain.layout.stride(a)], phi[f]);
-      u.at(a, f) = (theta * u.at(a, f) + (1 - theta) * ratio * gas.at(a, f)) / (theta + (1 - theta) * ratio);
-    });
-}
-
 }  // namespace
 
 double closest_point_band(const Fluids& fluids) {
@@ -332,17 +281,46 @@ FaceField<Dim, char> faces_near_gas(const Domain<Dim>& domain, const CellField<D
 }
 
 template <int Dim>
+FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                              const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
+                              const StepGeometry<Dim>& geometry) {
+  const Surroundings<Dim> known(s.domain, s.fluids, s.solids, geometry, flow.now->valid, plan);
+  const FaceField<Dim, char>& interior = known.interior;
+  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, interior, plan, dt);
+  FaceField<Dim> acc = acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, dt),
+                 memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, known.liquid, dt, plan);
+  if (known.enters_solids) continue_into_solids(s.domain, flow.now->valid, acc);
+  Carried<Dim> carried{flow.now->u, flow.now->u};
+  if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
+  continue_beyond_inflows(s.domain.layout, s.domain.sides, state.time, carried.outer);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.domain.layout, s.domain.layout.padded(), [&](Site f) {
+      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
+    });
+  // The viscous operator also couples faces beside those near liquid.
+  FaceField<Dim> u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
+  if (plan.full)
+    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, known.whole, dt, u);
+  else
+    advect_faces(s.domain.layout, path, s.perturbation.velocity_advection * dt, near, interior, carried.inner,
+                 carried.outer, u);
+  const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
+  limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
+  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, known.whole, carried.outer, dt, u);
+  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
+      if (near.at(a, f) || s.fluids.is_viscous())
+        u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
+    });
+  let_liquid_in(s.domain, s.fluids, s.scene.time, s.perturbation, *flow.now, paths, state.time, memory, u);
+  return u;
+}
+
+template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                                   const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
-  const bool as_one = flow_as_one(s.fluids);
-  const FaceField<Dim, char> near =
-      as_one ? FaceField<Dim, char>(s.domain.layout, 1) : faces_near_liquid(s.domain, phi);
-  FaceField<Dim> u = transport_flow(s, state, as_one ? flow_of_both(s.domain, s.fluids, state) : liquid_flow(state),
-                                    near, dt, plan, geometry);
-  if (s.fluids.has_gas() && !as_one)
-    join(s.domain, s.fluids, phi,
-         transport_flow(s, state, state.gas, faces_near_gas(s.domain, phi), dt, plan, geometry), u);
-  if (s.fluids.has_gas()) add_shear_jump(s.domain, s.fluids, s.features, state, phi, dt, u);
+  FaceField<Dim> u = state.exterior->transported_velocity(s, state, phi, dt, plan, geometry);
   set_source_velocity(s.domain, s.sources, state.time, state.time + dt, u);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, u);
   return u;
@@ -375,6 +353,8 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
                                  const CellField<D, char>&, CellField<D>&);                                            \
   template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                             \
   template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                                \
+  template FaceField<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&, const FaceField<D, char>&, \
+                                          double, const ViscousPlan&, const StepGeometry<D>&);                         \
   template FaceField<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,           \
                                               const ViscousPlan&, const StepGeometry<D>&);                             \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);

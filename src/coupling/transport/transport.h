@@ -28,12 +28,17 @@ double closest_point_band(const Fluids& fluids);
 
 // u before the projection on all faces next to liquid: the transported velocity plus
 //   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.
-// If gas flows, each fluid is transported with its own flow, extrapolated beyond the surface. Neither then takes up the
-// other's velocity by interpolation. On links that the surface crosses their momenta add up. See flow_as_one() for the
-// exception. `phi` and `geometry` are those of the solve. Ghosts filled. Collective.
+// The exterior adds its own flow (Exterior::transported_velocity). `phi` and `geometry` are those of the solve. Ghosts
+// filled. Collective.
 template <int Dim>
 FaceField<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
                                   double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
+
+// The same for one fluid with the levels `flow`, on the faces `near` it, without sources. Collective.
+template <int Dim>
+FaceField<Dim> transport_flow(const Setup<Dim>& setup, const State<Dim>& state, const Flow<Dim>& flow,
+                              const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
+                              const StepGeometry<Dim>& geometry);
 
 // 1 on the owned faces with liquid (phi < 0) on at least one side.
 template <int Dim>
