@@ -18,8 +18,7 @@ enum class Kind { vacuum, enclosed_air, flowing_gas };
 Scene pool(int dim, Kind kind, double viscosity = 0) {
   Scene s = test::box_scene(dim, 16);
   s.gravity = {0, -9.81, 0};
-  test::add_liquid(
-      s, dim == 2 ? "max(y-0.7, 0.15-hypot(x-0.5, y-0.35))" : "max(y-0.7, 0.15-sqrt((x-0.5)^2+(y-0.35)^2+(z-0.5)^2))");
+  test::add_liquid(s, fmt::format("max(y-0.7, 0.15-sqrt((x-0.5)^2+(y-0.35)^2{}))", dim == 3 ? "+(z-0.5)^2" : ""));
   s.liquid.viscosity = fmt::format("{}", viscosity);
   s.gas.present = kind != Kind::vacuum;
   s.gas.bubbles = kind == Kind::enclosed_air ? Bubbles::volume_conserving : Bubbles::resolved;

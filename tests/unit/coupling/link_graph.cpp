@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include <Eigen/Dense>
+
 #include "coupling/solids/link_graph.h"
 
 using namespace seiche;
