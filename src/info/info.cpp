@@ -149,7 +149,7 @@ Lines list_checkpoints(const fs::path& folder) {
 void add_summary(const fs::path& file, Lines& lines) {
   std::ifstream in(file);
   if (!in) {
-    lines.push_back("  no summary.json: the run is going on, or it was killed");
+    lines.push_back("  no summary.json: the run is in progress, or it was killed");
     return;
   }
   std::ostringstream text;

@@ -6,13 +6,10 @@
 #include <numeric>
 
 #include "grid/loops.h"
+#include "levelset/minmod.h"
 
 namespace seiche {
 namespace {
-
-double minmod(double a, double b) {
-  return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b);
-}
 
 // Extrapolates to a site from the sites of earlier layers. Sites must be at least four from the end of the stored ones.
 template <int Dim>

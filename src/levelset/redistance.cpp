@@ -6,13 +6,10 @@
 #include "grid/loops.h"
 #include "grid/parallel_range.h"
 #include "levelset/closest_point.h"
+#include "levelset/minmod.h"
 
 namespace seiche {
 namespace {
-
-double minmod(double a, double b) {
-  return a * b <= 0 ? 0 : (std::abs(a) < std::abs(b) ? a : b);
-}
 
 // `cell`: cell size in the units of phi. It limits the slopes beyond the sides, since |grad| of a distance is 1.
 template <int Dim>

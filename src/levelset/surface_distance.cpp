@@ -188,6 +188,12 @@ typename SurfaceDistance<Dim>::Nearest SurfaceDistance<Dim>::search(const Vec<Di
   return best;
 }
 
+template <int Dim>
+bool SurfaceDistance<Dim>::is_near(const Nearest& n) const {
+  const double far = reach * layout_.h();
+  return n.facet >= 0 && n.distance2 <= far * far;
+}
+
 // The sign follows from the normal of the nearest corner, edge or facet.
 template <int Dim>
 bool SurfaceDistance<Dim>::is_inside(const Vec<Dim>& x, const Nearest& n) const {
@@ -219,7 +225,7 @@ void SurfaceDistance<Dim>::fill(NodeField<Dim>& distance) const {
   for_each_index_in_order(layout_, box_, [&](Site s, const IVec<Dim>& i) {
     const Vec<Dim> x = layout_.position(i, node_offset<Dim>());
     const Nearest n = search(x);
-    if (n.facet < 0 || n.distance2 > reach * reach * h * h) return;
+    if (!is_near(n)) return;
     distance[s] = (is_inside(x, n) ? -1 : 1) * std::sqrt(n.distance2);
     known[s] = 1;
     front.emplace_back(s, i);
@@ -247,7 +253,7 @@ void SurfaceDistance<Dim>::fill(NodeField<Dim>& distance) const {
 template <int Dim>
 bool SurfaceDistance<Dim>::nearest(const Vec<Dim>& x, SurfacePoint<Dim>& point) const {
   const Nearest n = search(x);
-  if (n.facet < 0 || n.distance2 > reach * reach * layout_.h() * layout_.h()) return false;
+  if (!is_near(n)) return false;
   point = {corners(n.facet), n.weights};
   return true;
 }
@@ -290,14 +296,13 @@ SurfaceWeights SurfaceDistance<Dim>::mean_around(const Vec<Dim>& x, double R) co
 template <int Dim>
 Vec<Dim> SurfaceDistance<Dim>::normal_near(const Vec<Dim>& x) const {
   const Nearest n = search(x);
-  return n.facet < 0 ? Vec<Dim>(Vec<Dim>::Zero()) : facet_normals_[std::size_t(n.facet)];
+  return is_near(n) ? facet_normals_[std::size_t(n.facet)] : Vec<Dim>(Vec<Dim>::Zero());
 }
 
 template <int Dim>
 double SurfaceDistance<Dim>::distance(const Vec<Dim>& x) const {
   const Nearest n = search(x);
-  const double far = reach * layout_.h();
-  if (n.facet < 0 || n.distance2 > far * far) return far;
+  if (!is_near(n)) return reach * layout_.h();
   return (is_inside(x, n) ? -1 : 1) * std::sqrt(n.distance2);
 }
 

@@ -37,7 +37,7 @@ class SurfaceDistance {
   // Weights of the mean over the surface within the distance R of x (m, at most two cells), by area times (1 -
   // r^2/R^2)^2. Empty if there is no surface.
   SurfaceWeights mean_around(const Vec<Dim>& x, double R) const;
-  // Outward unit normal of the nearest facet; zero if no facet's box is within two cells of x's cell.
+  // Outward unit normal of the nearest facet; zero if it is more than two cells away.
   Vec<Dim> normal_near(const Vec<Dim>& x) const;
   // Signed distance of a point, m; +2 h if it is farther than two cells, on either side.
   double distance(const Vec<Dim>& x) const;
@@ -60,6 +60,7 @@ class SurfaceDistance {
   void make_normals();
   Site cell_of(const Vec<Dim>& x) const;
   Nearest search(const Vec<Dim>& x) const;
+  bool is_near(const Nearest& n) const;  // within two cells
   bool is_inside(const Vec<Dim>& x, const Nearest& n) const;
   double winding_number(const Vec<Dim>& x) const;
 

@@ -75,7 +75,10 @@ ColorScale measure_scale(const Job& job) {
 Canvas picture_2d(const Job& job, LoadedFrame& frame) {
   if (!frame.phi) {  // no surface in the frame: the whole domain counts as liquid
     frame.phi = frame.quantity;
-    if (!frame.phi) throw Error(ExitCode::bad_input, "the frames hold neither a surface nor what --color names");
+    if (!frame.phi)
+      throw Error(
+          ExitCode::bad_input,
+          "the frames have neither a surface nor the field given by --color; render other frames or another --color");
     std::fill(frame.phi->values.begin(), frame.phi->values.end(), -frame.phi->h);
   }
   const Plot plot{frame.domain, *frame.phi, frame.quantity, job.scale, frame.solids, solid_colors(job.scene)};

@@ -118,8 +118,8 @@ Start look_at_start(const Scene& scene, const Cost& cost, const Verified& found,
   }
   Start start{found.meshes, found.notes};
   start.lines.push_back(
-      "note: formulas are evaluated, and liquid and solids measured, as the run begins; the grid is too large for that "
-      "here");
+      "note: the grid is too large to evaluate formulas and measure liquid and solids here; the run does it as it "
+      "begins");
   return start;
 }
 
@@ -145,7 +145,7 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
   for (const std::string& text : start.lines) log.note(text);
   for (const std::string& text : found.factors) log.note(text);
   log.note(report(scene, cost, around.ranks.size()));
-  if (!found.meshes.empty()) log.note("note: the time is that of the liquid; elastic solids take theirs on top");
+  if (!found.meshes.empty()) log.note("note: the estimated time covers the liquid only; elastic solids add to it");
   return ExitCode::done;
 }
 

@@ -102,7 +102,7 @@ Continuation read_run(const ResumeOptions& options, const Communicator& ranks, R
   });
   agree_on_root(ranks, "comparing the tables", [&] {
     for (const std::string& fault : verify_tables(paths, options.edits, run.state))
-      log.warn(fault + "; going on with the rows that are left (--force)");
+      log.warn(fault + "; continuing with the rows that are there (--force)");
   });
   return run;
 }

@@ -67,16 +67,17 @@ void check_memory(const Cost& cost, int ranks, int ranks_here, const MachineMemo
       fmt::format("the grid has {} cells and needs about {} on this machine", cost.cells, readable_bytes(here));
   const char* remedy = "choose a larger cell_size or more machines";
   if (here > memory.total) {
-    throw Error(ExitCode::bad_input, fmt::format("{}, which has {}; {}", need, readable_bytes(memory.total), remedy));
+    throw Error(ExitCode::bad_input, fmt::format("{}, but it has {}; {}", need, readable_bytes(memory.total), remedy));
   }
   if (here > memory.available) {
     throw Error(ExitCode::machine,
-                fmt::format("{}, where {} are free now; {}", need, readable_bytes(memory.available), remedy));
+                fmt::format("{}, but {} are free now; {}", need, readable_bytes(memory.available), remedy));
   }
   if (share > memory.address_limit) {
     throw Error(ExitCode::machine,
                 fmt::format("out of memory while reserving the grid: it has {} cells and needs about {} in "
-                            "this process, whose limit leaves {} (ulimit -v)",
+                            "this process, but its limit leaves {}; raise the limit (ulimit -v) or choose a larger "
+                            "cell_size",
                             cost.cells, readable_bytes(share), readable_bytes(memory.address_limit)));
   }
 }

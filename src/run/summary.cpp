@@ -29,8 +29,8 @@ std::string volume_warning(const RunState& state, double cell) {
   const double amiss = std::abs(state.liquid_volume - state.expected_volume);
   if (std::abs(volume_drift(state)) <= drift_told || amiss <= cells_told * cell) return {};
   return fmt::format(
-      "step {}: the liquid's volume is {:.6g} where {:.6g} is expected of what was there, sources, inflow and outflow, "
-      "{:+.3g} %: shorter steps (time.cfl, time.max_step) or smaller cells keep it (told once a session)",
+      "step {}: the liquid's volume is {:.6g}, expected {:.6g} from start, sources, inflow and outflow ({:+.3g} %); "
+      "use shorter steps (time.cfl, time.max_step) or smaller cells (reported once per session)",
       state.step, state.liquid_volume, state.expected_volume, 100 * volume_drift(state));
 }
 
@@ -43,7 +43,7 @@ std::string format_summary(const RunSummary& s) {
                                  {"omp_num_threads", s.omp_num_threads.empty() ? JsonValue() : s.omp_num_threads},
                                  {"steps", s.state.step},
                                  {"rejected_steps", s.state.rejected_steps},
-                                 {"unsettled_partings", s.state.unconverged_separations},
+                                 {"unconverged_separations", s.state.unconverged_separations},
                                  {"frames", s.state.frame + 1},
                                  {"time", s.state.time},
                                  {"end", s.end},

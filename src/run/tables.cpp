@@ -60,7 +60,7 @@ std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy,
     if (!fault.empty()) faults.push_back(fault);
   if (policy == EditPolicy::force || faults.empty()) return faults;
   throw Error(ExitCode::bad_checkpoint,
-              fmt::format("{}; put it back as it was, or give --force to go on with the rows that are left",
+              fmt::format("{}; restore the table, or give --force to continue with the rows that are there",
                           fmt::join(faults, "; ")));
 }
 

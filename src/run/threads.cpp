@@ -32,7 +32,8 @@ void warn_about_openmp(const std::string& mine, int hardware, const Communicator
   if (all[0].empty()) return;
   const long number = leading_number(all[0]);
   if (number < 1) {
-    log.warn(fmt::format("OMP_NUM_THREADS is '{}', which is no number of threads", all[0]));
+    log.warn(
+        fmt::format("OMP_NUM_THREADS is '{}', but must be a whole number above 0; libraries may ignore it", all[0]));
   } else if (number > 4L * hardware) {
     log.warn(fmt::format("OMP_NUM_THREADS is {} on a machine with {} hardware threads", number, hardware));
   }
@@ -50,7 +51,7 @@ void warn_about_crowding(int here, int threads, int processors, const Communicat
                                        counted(threads, "thread"), counted(processors, "processor"));
   for (const std::string& text : ranks.all_gather(crowding == most ? mine : std::string())) {
     if (text.empty()) continue;
-    log.warn(text + ": they wait for each other, fewer are faster");
+    log.warn(text + ": they compete for processors; use fewer ranks or threads");
     break;
   }
 }

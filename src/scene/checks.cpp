@@ -152,7 +152,7 @@ void check_followed_solids(const Checker& c, const Scene& scene) {
     if (probe.kind != ProbeKind::displacement || is_known || !c.context.clean(fmt::format("probe.{}", i))) continue;
     const auto near = suggest(probe.solid, names);
     c.report(fmt::format("probe.{}.solid", i),
-             fmt::format("probe \"{}\" follows \"{}\", which is no elastic solid; {}", probe.name, probe.solid,
+             fmt::format("probe \"{}\" needs an elastic solid, and \"{}\" is none; {}", probe.name, probe.solid,
                          near            ? "did you mean \"" + *near + "\"?"
                          : names.empty() ? "the scene has none"
                                          : "there is " + quoted_list(names)));
@@ -189,8 +189,8 @@ void check_moving_solids(const Checker& c, const Scene& scene) {
     for (int axis = 0; axis < scene.dimension && is_pressure_free; ++axis) {
       if (scene.domain.sides[axis][0].type != SideType::periodic || solid.rigid.fixed_position[axis]) continue;
       c.report(fmt::format("solid.{}.kind", i),
-               fmt::format("{0} solid \"{1}\" may move along {2}, but the domain is periodic along {2}, where bodies "
-                           "cannot come back; close these sides, or {3}",
+               fmt::format("{0} solid \"{1}\" may move along {2}, but solids cannot cross the periodic sides along "
+                           "{2}; make these sides walls, or {3}",
                            solid.kind.name, solid.name, "xyz"[axis],
                            has_elements          ? "pin a part of it"
                            : solid.kind.may_turn ? fmt::format("give fixed = [\"{}\"]", "xyz"[axis])
@@ -205,7 +205,7 @@ void check_rheology(const Checker& c, Scene& scene) {
   spec = resolve_rheology(scene);
   if (spec.model.empty() || viscosity(spec, 0) <= number_limit) return;
   const std::string remedy =
-      spec.regularisation ? fmt::format("; raise regularisation, which is {:g} 1/s", *spec.regularisation) : "";
+      spec.regularisation ? fmt::format("; raise regularisation, now {:g} 1/s", *spec.regularisation) : "";
   c.report("liquid.rheology",
            fmt::format("liquid.rheology: the viscosity at rest is {:g} Pa s; it must be at most {:g}{}",
                        viscosity(spec, 0), number_limit, remedy));
@@ -214,12 +214,11 @@ void check_rheology(const Checker& c, Scene& scene) {
 // Features that exclude gas.
 void check_gas(const Checker& c, const Scene& scene) {
   if (!scene.gas.present || !scene.liquid.separates) return;
-  c.report("liquid.separates", scene.gas.flows()
-                                   ? "liquid.separates = true and flowing gas exclude each other: gas comes in where "
-                                     "liquid parts from a solid, so leave out separates"
-                                   : "liquid.separates = true and gas.bubbles = \"volume_conserving\" exclude each "
-                                     "other: liquid that parts from a solid leaves a gap that no air flows into, so "
-                                     "leave out separates");
+  c.report("liquid.separates",
+           scene.gas.flows() ? "liquid.separates = true does not work with flowing gas, which already lets liquid "
+                               "separate from solids; remove separates"
+                             : "liquid.separates = true does not work with gas.bubbles = \"volume_conserving\": no air "
+                               "would flow into the gap where liquid separates from a solid; remove separates");
 }
 
 }  // namespace

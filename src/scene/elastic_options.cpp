@@ -182,7 +182,7 @@ void check_element_size(SceneContext& c, const Place& p, const SolidSpec& solid)
   }
   if (given && from_file) {
     c.report(path, given->line,
-             fmt::format("{} has no meaning: the elements are those of '{}'; leave it out", path,
+             fmt::format("{} has no effect, because the elements come from '{}'; remove it", path,
                          solid.shape.file.filename().string()));
   }
 }

@@ -50,9 +50,9 @@ void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Sc
   const std::vector<std::string> names = beside_prescribed_flow(scene);
   if (names.empty()) return;
   context.report(path, line_of(root, path),
-                 fmt::format("{}: a flow that is given for all times is not solved for and feels nothing of {}; leave "
-                             "out {}, or prescribed_velocity",
-                             path, fmt::join(names, ", "), names.size() > 1 ? "these" : "this"));
+                 fmt::format("{}: the flow is prescribed and not solved, so {} would have no effect; remove {}, or "
+                             "prescribed_velocity",
+                             path, fmt::join(names, ", "), names.size() > 1 ? "these" : "it"));
 }
 
 }  // namespace seiche

@@ -98,8 +98,8 @@ void check_held(SceneContext& c, const Place& p, const std::string& key, const V
     if (velocity[axis] == 0 || !held[std::size_t(axis)]) continue;
     const std::string path = join_path(p.path, key);
     c.report(path, p.node->find(key)->value.line,
-             fmt::format("{} is {} for {}, which fixed holds; set it to 0 or leave it out of fixed", path,
-                         velocity[axis], axis_name(axis)));
+             fmt::format("{0} is {1} for {2}, but fixed includes {2}; set the velocity to 0 or remove {2} from fixed",
+                         path, velocity[axis], axis_name(axis)));
   }
 }
 

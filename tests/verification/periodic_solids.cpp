@@ -67,7 +67,7 @@ TEST_CASE("faces on periodic sides are as open at either place") {
 TEST_CASE("solids that reach a periodic side are named") {
   const Setup<2> s(beside_sides(2, SolidKind::rigid), Communicator(), {});
   const std::string names = solids_at_periodic_sides(s.domain, s.solids, initial_state(s));
-  CHECK(names == "'box' and the periodic side y_upper, which no solid can pass");
+  CHECK(names == "'box' and the periodic side y_upper (solids cannot cross periodic sides)");
 }
 
 TEST_CASE("elastic solids may end at a periodic side but not reach beyond it", "[elastic]") {

@@ -151,8 +151,8 @@ std::string fault_of_energy(const Setup<Dim>& s, const State<Dim>& before, const
   const double most = most_kinetic_energy(budget);
   if (found <= most) return {};
   return fmt::format(
-      "kinetic energy grows from {:.4g} to {:.4g} {}, while all that it could draw on comes to {:.4g}: the solve blew "
-      "up",
+      "kinetic energy grows from {:.4g} to {:.4g} {}, but gravity, pressure, solids and sides can supply no more than "
+      "{:.4g}: the solution is unstable",
       start.kinetic_energy, found, Dim == 2 ? "J/m" : "J", most);
 }
 

@@ -4,7 +4,6 @@
 #include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
 #include "coupling/transport/liquid_viscosity.h"
-#include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
@@ -21,9 +20,8 @@ double cell_gradient(const Layout<Dim>& layout, const FieldValues<double>& u, in
 
 // |curl u| in 3D, curl u in 2D, where there is fluid; 0 elsewhere. 1/s.
 template <int Dim>
-double vorticity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const FaceField<Dim>& u,
-                 Site c) {
-  if (state.phi[c] >= 0 && !fluids.has_gas()) return 0;
+double vorticity(const Domain<Dim>& domain, const State<Dim>& state, const FaceField<Dim>& u, Site c) {
+  if (state.phi[c] >= 0 && !state.exterior->flows()) return 0;
   const auto part = [&](int a, int b) {
     return cell_gradient(domain.layout, u[b], b, a, c) - cell_gradient(domain.layout, u[a], a, b, c);
   };
@@ -40,7 +38,7 @@ CellField<Dim> viscosity(const Domain<Dim>& domain, const Fluids& fluids, const 
   const std::string fault = set_liquid_viscosity(domain, fluids, state.now->u, state.now->valid, state.time, mu);
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
-    if (state.phi[c] >= 0) mu[c] = fluids.has_gas() ? fluids.gas.viscosity : 0;
+    if (state.phi[c] >= 0) mu[c] = fluids.gas_viscosity();
   });
   return mu;
 }
@@ -60,8 +58,8 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
   if (name == "surface")
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
   else if (name == "vel")
-    fill(FrameField::Kind::staggered_vector, [&, u = of_both(domain, state, &TimeLevel<Dim>::u)](Site c) {
-      for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(u.at(std::min(a, Dim - 1), c)) : 0.0f);
+    fill(FrameField::Kind::staggered_vector, [&, flow = state.exterior->joined_level(domain, fluids, state)](Site c) {
+      for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(flow->u.at(std::min(a, Dim - 1), c)) : 0.0f);
     });
   else if (name == "pressure")
     fill(FrameField::Kind::scalar, [&](Site c) { out.values.push_back(float(state.pressure[c])); });
@@ -69,8 +67,8 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
     fill(FrameField::Kind::scalar,
          [&, mu = viscosity(domain, fluids, state)](Site c) { out.values.push_back(float(mu[c])); });
   else if (name == "vorticity")
-    fill(FrameField::Kind::scalar, [&, u = of_both(domain, state, &TimeLevel<Dim>::u)](Site c) {
-      out.values.push_back(float(vorticity(domain, fluids, state, u, c)));
+    fill(FrameField::Kind::scalar, [&, flow = state.exterior->joined_level(domain, fluids, state)](Site c) {
+      out.values.push_back(float(vorticity(domain, state, flow->u, c)));
     });
   else
     throw Error(ExitCode::bug, "no field named '" + name + "'");

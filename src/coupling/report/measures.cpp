@@ -1,12 +1,9 @@
 #include "coupling/report/measures.h"
 
-#include <numeric>
-
 #include "base/time_spec.h"
 #include "coupling/solids/pressure_loads.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
-#include "coupling/transport/air_volume.h"
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
@@ -67,11 +64,14 @@ FluidSums sum_fluid(const Domain<Dim>& domain, const TimeLevel<Dim>& level, cons
   return r;
 }
 
+// The same where phi >= 0; zero without such a level.
 template <int Dim>
-CellField<Dim> negated(const Layout<Dim>& layout, const CellField<Dim>& f) {
-  CellField<Dim> r(layout);
-  for_each_site(layout, layout.padded(), [&](Site c) { r[c] = -f[c]; });
-  return r;
+FluidSums sum_gas(const Domain<Dim>& domain, const std::shared_ptr<const TimeLevel<Dim>>& level,
+                  const CellField<Dim>& phi, const NodeField<Dim>& psi, double density, const Vec<Dim>& g) {
+  if (!level) return {};
+  CellField<Dim> negated(domain.layout);
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { negated[c] = -phi[c]; });
+  return sum_fluid(domain, *level, negated, psi, density, g);
 }
 
 }  // namespace
@@ -80,9 +80,8 @@ template <int Dim>
 void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
                     StepStats& stats) {
   const Vec<Dim> g = truncate<Dim>(fluids.gravity.at(state.time));
-  FluidSums liquid = sum_fluid(domain, *state.now, state.phi, psi, fluids.density(), g), gas;
-  if (fluids.has_gas())
-    gas = sum_fluid(domain, *state.gas.now, negated(domain.layout, state.phi), psi, fluids.gas_density(), g);
+  FluidSums liquid = sum_fluid(domain, *state.now, state.phi, psi, fluids.density(), g),
+            gas = sum_gas(domain, state.exterior->flow.now, state.phi, psi, fluids.gas_density(), g);
   domain.ranks.global_sum(liquid.sums);
   domain.ranks.global_sum(gas.sums);
   stats.liquid_volume = liquid.sums[0];
@@ -93,6 +92,7 @@ void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State
   stats.max_speed = std::sqrt(domain.ranks.global_max(std::max(liquid.fastest_squared, gas.fastest_squared)));
   stats.cells_liquid = std::int64_t(liquid.sums[6]);
   stats.volume_corrected = state.corrected_volume;
+  state.exterior->measure(domain, psi, state.phi, stats);
 }
 
 template <int Dim>
@@ -100,22 +100,9 @@ double kinetic_energy_of_fluids_before(const Domain<Dim>& domain, const Fluids& 
                                        const NodeField<Dim>& psi) {
   if (!state.before) return 0;
   const Vec<Dim> g = Vec<Dim>::Zero();
-  double sum = sum_fluid(domain, *state.before, state.phi, psi, fluids.density(), g).sums[1];
-  if (fluids.has_gas() && state.gas.before)
-    sum +=
-        sum_fluid(domain, *state.gas.before, negated(domain.layout, state.phi), psi, fluids.gas_density(), g).sums[1];
-  return domain.ranks.global_sum(sum);
-}
-
-template <int Dim>
-void measure_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
-                 StepStats& stats) {
-  if (!fluids.keeps_air()) return;
-  const std::vector<double> volumes = air_volumes(domain, state.air, psi, state.phi);
-  // Regions whose air lies in cut cells, inside the solid, have no volume.
-  stats.bubbles = std::count_if(volumes.begin(), volumes.end() - 1, [](double v) { return v > 0; });
-  stats.gas_volume = std::accumulate(volumes.begin(), volumes.end() - 1, 0.0);
-  stats.air_lost = state.lost_air;
+  const FluidSums liquid = sum_fluid(domain, *state.before, state.phi, psi, fluids.density(), g),
+                  gas = sum_gas(domain, state.exterior->flow.before, state.phi, psi, fluids.gas_density(), g);
+  return domain.ranks.global_sum(liquid.sums[1] + gas.sums[1]);
 }
 
 template <int Dim>
@@ -150,7 +137,6 @@ std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<D
   template void measure_fluids<D>(const Domain<D>&, const Fluids&, const State<D>&, const NodeField<D>&, StepStats&); \
   template double kinetic_energy_of_fluids_before<D>(const Domain<D>&, const Fluids&, const State<D>&,                \
                                                      const NodeField<D>&);                                            \
-  template void measure_air<D>(const Domain<D>&, const Fluids&, const State<D>&, const NodeField<D>&, StepStats&);    \
   template void measure_bodies<D>(const Fluids&, const TimeSpec&, const State<D>&, StepStats&);                       \
   template std::vector<SolidState> measure_solids<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&,             \
                                                      const State<D>&, const StepGeometry<D>&);

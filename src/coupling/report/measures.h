@@ -9,7 +9,7 @@
 
 namespace seiche {
 
-// Energy, momentum, volumes and speed of liquid and gas. Collective.
+// Energy, momentum, volumes and speed of liquid and gas, and the columns of the exterior. Collective.
 template <int Dim>
 void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
                     StepStats& stats);
@@ -19,11 +19,6 @@ void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State
 template <int Dim>
 double kinetic_energy_of_fluids_before(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                                        const NodeField<Dim>& psi);
-
-// Number and volume of the regions of enclosed air, and lost air. Collective.
-template <int Dim>
-void measure_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const NodeField<Dim>& psi,
-                 StepStats& stats);
 
 // Adds energies and momentum of the solids.
 template <int Dim>

@@ -4,7 +4,6 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
-#include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/transport/advection.h"
 #include "grid/ghosts.h"
@@ -40,22 +39,17 @@ double level_set_at(const Domain<Dim>& domain, const State<Dim>& state, const Ve
 
 // True, on all ranks, if x lies in a fluid that flows.
 template <int Dim>
-bool is_wet(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
-  return fluids.has_gas() || domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
-}
-
-// True, on all ranks, if x lies in air that keeps its volume.
-template <int Dim>
-bool is_in_enclosed_air(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
-  if (!fluids.keeps_air()) return false;
-  return domain.ranks.any(holds(domain.layout, x) &&
-                          state.air.label[domain.layout.site(cell_of(domain.layout, x))] >= 0);
+bool is_wet(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
+  return state.exterior->flows() || domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
 }
 
 // True, on all ranks, if there is a pressure at x: never before the first solve.
 template <int Dim>
-bool has_pressure(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x) {
-  return state.step > 0 && (is_wet(domain, fluids, state, x) || is_in_enclosed_air(domain, fluids, state, x));
+bool has_pressure(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
+  if (state.step == 0) return false;
+  return domain.ranks.any(holds(domain.layout, x) &&
+                          (level_set_at(domain, state, x) < 0 ||
+                           state.exterior->has_pressure(domain.layout.site(cell_of(domain.layout, x)))));
 }
 
 // Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall.
@@ -154,10 +148,11 @@ std::map<std::string, MaterialPoint> find_followed_points(const std::vector<Prob
 
 // Velocity at x, equal on all ranks; zero if nothing flows there. Collective.
 template <int Dim>
-Vec3 velocity_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x, bool flows) {
-  const FaceField<Dim> u = of_both(domain, state, &TimeLevel<Dim>::u);
+Vec3 velocity_at(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x,
+                 bool flows) {
+  const auto flow = state.exterior->joined_level(domain, fluids, state);
   Vec3 v = Vec3::Zero();
-  if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, u, x));
+  if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, flow->u, x));
   domain.ranks.global_sum(std::span<double>(v.data(), 3));
   return v;
 }
@@ -173,13 +168,13 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   };
   switch (probe.kind) {
     case ProbeKind::pressure:
-      out.defined = has_pressure(s.domain, s.fluids, state, x);
+      out.defined = has_pressure(s.domain, state, x);
       if (out.defined) out.value = pressure_at(s.domain, state, x);
       break;
     case ProbeKind::velocity:
       out.is_vector = true;
-      out.defined = is_wet(s.domain, s.fluids, state, x);
-      out.vector = velocity_at(s.domain, state, x, out.defined);
+      out.defined = is_wet(s.domain, state, x);
+      out.vector = velocity_at(s.domain, s.fluids, state, x, out.defined);
       break;
     case ProbeKind::surface_height:
       take(farthest_liquid(s.domain, state, x, upwards<Dim>(s.fluids).first, upwards<Dim>(s.fluids).second));

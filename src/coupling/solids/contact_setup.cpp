@@ -130,8 +130,8 @@ std::string solids_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim
   std::string names;
   for (std::size_t k = 0; k < solids.bodies.size(); ++k)
     for (const std::string& side : periodic_sides_at(domain, state, k, near))
-      names += fmt::format("{}'{}' and the periodic side {}, which no solid can pass", names.empty() ? "" : ", ",
-                           solids.bodies[k].spec().name, side);
+      names += fmt::format("{}'{}' and the periodic side {} (solids cannot cross periodic sides)",
+                           names.empty() ? "" : ", ", solids.bodies[k].spec().name, side);
   return names;
 }
 
@@ -199,8 +199,8 @@ std::vector<std::string> faults_at_periodic_sides(const Domain<Dim>& domain, con
     const SolidSpec& spec = solids.bodies[k].spec();
     for (const std::string& side : periodic_sides_at(domain, state, k, -rounding))
       lines.push_back(
-          fmt::format("{}: elastic solid '{}' reaches beyond the periodic side {}, which no part of it can pass; "
-                      "let it end within the domain, or close these sides",
+          fmt::format("{}: elastic solid '{}' reaches beyond the periodic side {}, but solids cannot cross periodic "
+                      "sides; move it inside the domain, or make these sides walls",
                       spec.shape.where, spec.name, side));
   }
   return lines;

@@ -27,28 +27,27 @@ bool has_corner_inside(const Layout<Dim>& layout, const NodeField<Dim>& distance
   return false;
 }
 
-// True if a cell of enclosed air lies more than h inside the cavity. Collective.
+// True if a cell beyond the surface that has a pressure lies more than h inside the cavity. Collective.
 template <int Dim>
-bool holds_air(const Domain<Dim>& domain, const Fluids& fluids, const AirRegions<Dim>& air,
-               const NodeField<Dim>& distance, const Box<Dim>& cells) {
-  if (!fluids.keeps_air()) return false;
+bool holds_air(const Domain<Dim>& domain, const Exterior<Dim>& exterior, const NodeField<Dim>& distance,
+               const Box<Dim>& cells) {
   bool any = false;
   for_each_index_in_order(domain.layout, cells, [&](Site c, const IVec<Dim>&) {
-    any = any || (air.label[c] >= 0 && distance[c] < -domain.layout.h());
+    any = any || (exterior.has_pressure(c) && distance[c] < -domain.layout.h());
   });
   return domain.ranks.any(any);
 }
 
 template <int Dim>
-void fill_cavity(const Domain<Dim>& domain, const Fluids& fluids, const ElasticSolid<Dim>& solid, int patch,
-                 const Eigen::VectorXd& u, const AirRegions<Dim>& air, CellField<Dim>& phi) {
+void fill_cavity(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, int patch, const Eigen::VectorXd& u,
+                 const Exterior<Dim>& exterior, CellField<Dim>& phi) {
   const SurfaceMesh wall = wall_of_cavity(solid, patch);
   const std::vector<Vec<Dim>> points = surface_points(solid, u);
   const SurfaceDistance<Dim> surface(domain.layout, wall, points);
   NodeField<Dim> distance(domain.layout, 1e30);
   surface.fill(distance);
   const Box<Dim> cells = domain.layout.cells().cut({surface.box().lower, surface.box().upper.array() - 1});
-  if (holds_air(domain, fluids, air, distance, cells)) return;
+  if (holds_air(domain, exterior, distance, cells)) return;
   for_each_site(domain.layout, cells, [&](Site c) {
     if (has_corner_inside(domain.layout, distance, c))
       phi[c] = std::min(phi[c], distance[c] - depth * domain.layout.h());
@@ -85,7 +84,7 @@ void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State
     const Eigen::VectorXd& cavity = old[k]->cavity;
     for (int p = 0; p < int(cavity.size()); ++p) {
       if (!(cavity[p] >= 0) || !solid.patches[std::size_t(p)].is_closed()) continue;
-      fill_cavity(s.domain, s.fluids, solid, p, now[k]->state.u, before.air, phi);
+      fill_cavity(s.domain, solid, p, now[k]->state.u, *before.exterior, phi);
       any = true;
     }
   }

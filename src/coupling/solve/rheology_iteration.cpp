@@ -8,19 +8,17 @@
 namespace seiche {
 
 template <int Dim>
-RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const CellField<Dim>& phi, const TimeLevel<Dim>& flow,
-                                          double t)
+RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const State<Dim>& state, const TimeLevel<Dim>& flow)
     : setup_(s),
-      phi_(phi),
-      time_(t),
+      state_(state),
       last_(flow.u),
-      viscosity_(measure_viscosity(s.domain, s.fluids, s.perturbation, phi, flow, t)) {}
+      viscosity_(measure_viscosity(s.domain, s.fluids, s.perturbation, state, flow)) {}
 
 template <int Dim>
 bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
   if (setup_.fluids.liquid.rheology.model.empty()) return false;
   ++count_;
-  const FaceField<Dim, char> near = faces_near_liquid(setup_.domain, phi_);
+  const FaceField<Dim, char> near = faces_near_liquid(setup_.domain, state_.phi);
   const FaceField<Dim>& u = flow.u;
   std::array<double, 2> largest{};  // difference, velocity
   for (int a = 0; a < Dim; ++a)
@@ -34,7 +32,7 @@ bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
   last_ = u;
   if (change_ <= setup_.scene.solver.rheology_tolerance || count_ >= setup_.scene.solver.rheology_iterations)
     return false;
-  viscosity_ = measure_viscosity(setup_.domain, setup_.fluids, setup_.perturbation, phi_, flow, time_);
+  viscosity_ = measure_viscosity(setup_.domain, setup_.fluids, setup_.perturbation, state_, flow);
   return true;
 }
 

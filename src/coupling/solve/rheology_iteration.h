@@ -9,8 +9,9 @@ namespace seiche {
 template <int Dim>
 class RheologyIteration {
  public:
-  // Starts with the viscosity for the velocities of `flow`. Keeps a reference to the setup.
-  RheologyIteration(const Setup<Dim>& setup, const CellField<Dim>& phi, const TimeLevel<Dim>& flow, double t);
+  // Starts with the viscosity for the velocities of `flow`. `state`: where surface and exterior stand in the solve.
+  // Keeps references to setup and state.
+  RheologyIteration(const Setup<Dim>& setup, const State<Dim>& state, const TimeLevel<Dim>& flow);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
   int count() const { return count_; }  // number of solves; 0: Newtonian liquid
   double change() const { return change_; }
@@ -22,8 +23,7 @@ class RheologyIteration {
 
  private:
   const Setup<Dim>& setup_;
-  CellField<Dim> phi_;
-  double time_;
+  const State<Dim>& state_;
   FaceField<Dim> last_;
   ViscosityField<Dim> viscosity_;
   int count_ = 0;

@@ -8,7 +8,6 @@
 #include "coupling/state/state.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/liquid_viscosity.h"
-#include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/rheology/rheology.h"
 #include "fluid/viscosity/no_slip_flux.h"
@@ -41,7 +40,17 @@ BlockColumns scaled(BlockColumns J, double by) {
   return J;
 }
 
-// The mean of the cells around an edge, one cell around the owned ones.
+// The split route is noisy beside free no-slip solids. Beside an elastic one it caused jets of 10 m/s where the coupled
+// solve has 0.02 (validation/fsi1). A sphere's speed jumped by 3 % from step to step
+// (validation/falling_sphere_re11p6).
+template <int Dim>
+bool sticks_to_what_it_moves(const Solids<Dim>& solids) {
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(),
+                     [](const Body<Dim>& b) { return b.kind().is_free() && b.spec().slip == Slip::no_slip; });
+}
+
+}  // namespace
+
 template <int Dim>
 EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu) {
   EdgeField<Dim> edge(layout);
@@ -55,47 +64,25 @@ EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu
   return edge;
 }
 
-// Adds the gas. mu.largest refers to the liquid's density, so gas counts by its kinematic viscosity.
-template <int Dim>
-void add_gas(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, ViscosityField<Dim>& mu) {
-  const double gas = fluids.gas.viscosity;
-  mu.largest = std::max(mu.largest, gas * fluids.density() / fluids.gas_density());
-  mu.uniform = mu.uniform && mu.value[domain.layout.site(domain.layout.cells().lower)] == gas;
-  if (mu.uniform) return;
-  if (!mu.edge) mu.edge = mean_at_edges(domain.layout, mu.value);
-  mix_gas_viscosity(domain, fluids, phi, mu.value, *mu.edge);
-}
-
-// The split route is noisy beside free no-slip solids. Beside an elastic one it caused jets of 10 m/s where the coupled
-// solve has 0.02 (validation/fsi1). A sphere's speed jumped by 3 % from step to step
-// (validation/falling_sphere_re11p6).
-template <int Dim>
-bool sticks_to_what_it_moves(const Solids<Dim>& solids) {
-  return std::any_of(solids.bodies.begin(), solids.bodies.end(),
-                     [](const Body<Dim>& b) { return b.kind().is_free() && b.spec().slip == Slip::no_slip; });
-}
-
-}  // namespace
-
 template <int Dim>
 ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids,
-                                      const OperatorPerturbation& perturbation, const CellField<Dim>& phi,
-                                      const TimeLevel<Dim>& flow, double t) {
+                                      const OperatorPerturbation& perturbation, const State<Dim>& state,
+                                      const TimeLevel<Dim>& flow) {
   ViscosityField<Dim> mu{CellField<Dim>(domain.layout), 0, false};
   const std::string fault =
-      first_text(domain.ranks, set_liquid_viscosity(domain, fluids, flow.u, flow.valid, t, mu.value));
+      first_text(domain.ranks, set_liquid_viscosity(domain, fluids, flow.u, flow.valid, state.time, mu.value));
   if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { mu.value[c] *= perturbation.viscosity; });
   const LiquidSpec& liquid = fluids.liquid;
-  mu.uniform = liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
+  mu.uniform = fluids.constant_viscosity().has_value();
   const double largest =
-      local_max(domain.layout, domain.layout.cells(), 0, [&](Site c) { return phi[c] < 0 ? mu.value[c] : 0; });
+      local_max(domain.layout, domain.layout.cells(), 0, [&](Site c) { return state.phi[c] < 0 ? mu.value[c] : 0; });
   mu.largest = domain.ranks.global_max(largest);
   if (!liquid.rheology.model.empty()) {
     mu.edge.emplace(domain.layout);
     set_edge_viscosity(domain.layout, fluids.rheology, flow.u, flow.valid, *mu.edge);
   }
-  if (fluids.has_gas()) add_gas(domain, fluids, phi, mu);
+  state.exterior->add_viscosity(domain, fluids, state.phi, mu);
   return mu;
 }
 
@@ -208,8 +195,9 @@ double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::Vecto
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \
+  template EdgeField<D> mean_at_edges<D>(const Layout<D>&, const CellField<D>&);                                \
   template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const OperatorPerturbation&, \
-                                                  const CellField<D>&, const TimeLevel<D>&, double);            \
+                                                  const State<D>&, const TimeLevel<D>&);                        \
   template ViscousRoute choose_route<D>(const Domain<D>&, const Fluids&, const Solids<D>&, ViscousSolve,        \
                                         const ViscosityField<D>&, double);                                      \
   template class ViscousStep<D>;

@@ -20,12 +20,16 @@ struct ViscosityField {
   std::optional<EdgeField<Dim>> edge{};  // Pa s, one cell around
 };
 
-// Viscosity of the scene at time t; shear-dependent liquid has the shear rates of `flow`. Throws Error(cannot_continue)
-// if a formula is not a number or negative. Collective.
+// Viscosity of the scene at the state's time, surface and exterior; shear-dependent liquid has the shear rates of
+// `flow`. Throws Error(cannot_continue) if a formula is not a number or negative. Collective.
 template <int Dim>
 ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& fluids,
-                                      const OperatorPerturbation& perturbation, const CellField<Dim>& phi,
-                                      const TimeLevel<Dim>& flow, double t);
+                                      const OperatorPerturbation& perturbation, const State<Dim>& state,
+                                      const TimeLevel<Dim>& flow);
+
+// The mean of the cells around an edge, one cell around the owned ones.
+template <int Dim>
+EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu);
 
 // split: viscosity first, then pressure; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };

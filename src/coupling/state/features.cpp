@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "base/expression.h"
 #include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -67,13 +66,8 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
   return table;
 }
 
-bool has_formula_of_viscosity(const Fluids& fluids) {
-  return !fluids.liquid.rheology.model.empty() || !Expression(fluids.liquid.viscosity).is_constant();
-}
-
 bool one_is_inviscid(const Fluids& fluids) {
-  if (has_formula_of_viscosity(fluids)) return false;
-  return Expression(fluids.liquid.viscosity)(Vec3::Zero(), 0) == 0 || fluids.gas.viscosity == 0;
+  return fluids.constant_viscosity() && (*fluids.constant_viscosity() == 0 || fluids.gas.viscosity == 0);
 }
 
 const char* const introduction = R"doc(# Features that others switch off
@@ -107,7 +101,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
        [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
       {F::shared_viscosity, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::shared_viscosity, "solids", [](S s) { return !s.solids.bodies.empty(); }},
-      {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return has_formula_of_viscosity(s.fluids); }},
+      {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return !s.fluids.constant_viscosity(); }},
       {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s.fluids); }},
       {F::one_sided_at_medial_axis, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},

@@ -7,10 +7,10 @@
 namespace seiche {
 namespace {
 
-bool has_viscosity(const LiquidSpec& liquid) {
-  if (!liquid.rheology.model.empty()) return true;
+std::optional<double> constant_viscosity_of(const LiquidSpec& liquid) {
   const Expression value(liquid.viscosity);
-  return !value.is_constant() || value(Vec3::Zero(), 0) != 0;
+  if (!liquid.rheology.model.empty() || !value.is_constant()) return {};
+  return value(Vec3::Zero(), 0);
 }
 
 }  // namespace
@@ -20,6 +20,7 @@ Fluids::Fluids(const Scene& scene)
       gas(scene.gas),
       rheology(resolve_rheology(scene)),
       gravity(scene.gravity),
-      viscous_(has_viscosity(liquid) || (gas.flows() && gas.viscosity > 0)) {}
+      constant_viscosity_(constant_viscosity_of(liquid)),
+      viscous_(constant_viscosity_ != 0 || gas_viscosity() > 0) {}
 
 }  // namespace seiche

@@ -8,6 +8,7 @@
 #include "base/time_spec.h"
 #include "coupling/geometry/step_geometry.h"
 #include "coupling/state/simulation.h"
+#include "coupling/state/state_visitor.h"
 #include "fluid/viscosity/viscosity.h"
 #include "solid/contact/contact.h"
 
@@ -23,14 +24,6 @@ template <int Dim>
 struct CouplingParts;
 template <int Dim>
 struct CoupledStep;
-
-// Visits all data that a participant keeps from step to step. One list serves saving and loading.
-class StateVisitor {
- public:
-  virtual ~StateVisitor() = default;
-  virtual void number(const std::string& name, double& value) = 0;
-  virtual void vector(const std::string& name, Eigen::VectorXd& value) = 0;  // keeps its size
-};
 
 // Advance over one step. Participants move to their position at the solve, `lead` (s) after the start of the step: dt,
 // or dt/2 in leapfrog steps. `velocity`: of the participant's unknowns over the step.

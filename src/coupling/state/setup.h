@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/scene.h"
+#include "coupling/state/exterior.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/operator_perturbation.h"
@@ -23,6 +24,7 @@ struct Setup {
   Fluids fluids;
   Domain<Dim> domain;
   Solids<Dim> solids;
+  OwnedExterior<Dim> exterior;  // before its start
   std::vector<Source<Dim>> sources;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;

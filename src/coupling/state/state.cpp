@@ -20,9 +20,10 @@ double fastest_inflow(const Domain<Dim>& domain, const TimeLevel<Dim>& level) {
   return fastest;
 }
 
+// 0 if there is no such level.
 template <int Dim>
-double speed_at(const TimeLevel<Dim>& level, int axis, Site f) {
-  return level.valid.at(axis, f) ? std::abs(level.u.at(axis, f)) : 0.0;
+double speed_at(const std::shared_ptr<const TimeLevel<Dim>>& level, int axis, Site f) {
+  return level && level->valid.at(axis, f) ? std::abs(level->u.at(axis, f)) : 0.0;
 }
 
 }  // namespace
@@ -31,10 +32,9 @@ template <int Dim>
 double fastest_component(const Domain<Dim>& domain, const State<Dim>& state) {
   double fastest = 0;
   for (int a = 0; a < Dim; ++a)
-    fastest =
-        std::max(fastest, local_max(domain.layout, domain.layout.faces(a), 0.0, [&](Site f) {
-                   return std::max(speed_at(*state.now, a, f), state.gas.now ? speed_at(*state.gas.now, a, f) : 0.0);
-                 }));
+    fastest = std::max(fastest, local_max(domain.layout, domain.layout.faces(a), 0.0, [&](Site f) {
+                         return std::max(speed_at(state.now, a, f), speed_at(state.exterior->flow.now, a, f));
+                       }));
   return domain.ranks.global_max(std::max(fastest, fastest_inflow(domain, *state.now)));
 }
 

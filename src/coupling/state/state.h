@@ -1,7 +1,7 @@
 #pragma once
 // Flow, surface and solids at one time. Each accepted step replaces it.
-#include <memory>
-
+#include "coupling/state/exterior.h"
+#include "coupling/state/flow.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/participant.h"
 #include "fluid/boundary/domain.h"
@@ -10,41 +10,19 @@
 
 namespace seiche {
 
-// One time level of the flow.
-template <int Dim>
-struct TimeLevel {
-  FaceField<Dim> u;            // m/s, extrapolated beyond the liquid, ghosts filled
-  FaceField<Dim, char> valid;  // not 0 where u was solved for or prescribed next to liquid (codes: restore.h)
-  FaceField<Dim> q;            // grad p / rho of the step that led here, m/s^2, where valid
-  FaceField<Dim> n;            // viscous acceleration at this time, m/s^2, where valid; empty in inviscid scenes
-};
-
-// Time levels of one fluid's flow, extrapolated beyond its own region. Null: no such level.
-template <int Dim>
-struct Flow {
-  std::shared_ptr<const TimeLevel<Dim>> now, before, earlier;
-};
-
-// A level at rest, without valid faces.
-template <int Dim>
-TimeLevel<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {
-  return {FaceField<Dim>(layout), FaceField<Dim, char>(layout), FaceField<Dim>(layout),
-          viscous ? FaceField<Dim>(layout) : FaceField<Dim>()};
-}
-
 // Open fractions of the faces and their velocities (m/s), in slits as solved (thin/gap_flow.h).
 template <int Dim>
 struct GapFlow {
   FaceField<Dim> open, u;
 };
 
+// The liquid's flow (now, before, earlier) and all else.
 template <int Dim>
-struct State {
+struct State : Flow<Dim> {
   double time = 0;
   std::int64_t step = 0;
-  std::shared_ptr<const TimeLevel<Dim>> now, before, earlier;  // before and earlier are null at the start
-  double dt_now = 0, dt_before = 0;                            // steps that led to `now` and `before`, s
-  Flow<Dim> gas;                // only if gas flows; now, before, earlier are the liquid's
+  double dt_now = 0, dt_before = 0;  // steps that led to `now` and `before`, s
+  OwnedExterior<Dim> exterior;
   GapFlow<Dim> gap_flow;        // at `now`
   CellField<Dim> phi;           // m, ghosts filled
   CellField<Dim> pressure;      // Pa, 0 where the cell has no row
@@ -55,18 +33,11 @@ struct State {
   double horizon = 0;           // interval ahead for which the solids' velocities were solved, s
   Separation<Dim> separation;   // only with separating walls
   double viscous_rate = 0;      // largest mu/(rho h^2) of the last solve, 1/s
-  AirRegions<Dim> air;          // only if enclosed air keeps its volume
-  double lost_air = 0;          // volume of vanished regions too small for the grid, m^Dim
   CellField<Dim, char> sealed;  // cells sealed by elastic walls, their pins and the solids under these; may be empty
   // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if no solid
   // moves).
   std::vector<SolidLoad> viscous_loads, convected_loads;
 };
-
-template <int Dim>
-Flow<Dim> liquid_flow(const State<Dim>& state) {
-  return {state.now, state.before, state.earlier};
-}
 
 // Placements of all solids at the state's time. Prescribed solids have their mean velocity over the last step, others
 // zero.

@@ -66,10 +66,8 @@ class FlowSimulation : public Simulation {
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_.domain, setup_.fluids, state_, name);
   }
-  CheckpointData save() const override { return save_state(setup_.domain, setup_.fluids, setup_.solids, state_); }
-  std::vector<FieldRecord> checkpoint_boxes() const override {
-    return state_boxes(setup_.domain, setup_.fluids, setup_.solids);
-  }
+  CheckpointData save() const override { return save_state(setup_, state_); }
+  std::vector<FieldRecord> checkpoint_boxes() const override { return state_boxes(setup_); }
   const Timers& timers() const override { return phases_.timers; }
   std::vector<std::string> take_warnings() override { return std::exchange(phases_.warnings, {}); }
 
@@ -92,14 +90,15 @@ class FlowSimulation : public Simulation {
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
     const std::string close = nearest_solids(setup_.domain, setup_.solids, setup_.scene.domain, state_);
-    throw Error(ExitCode::cannot_continue, fmt::format("{} (after {} halvings; {})", failures, most_halvings,
-                                                       close.empty() ? remedy() : "all but touching: " + close));
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("{} (after {} halvings; {})", failures, most_halvings,
+                            close.empty() ? remedy() : "solids almost in contact: " + close));
   }
 
   // Drops warnings on the start, which the first run gave. The note on long steps is repeated: `resume --set` may
   // change cfl.
   void load(const CheckpointData& data) override {
-    state_ = load_state(setup_.domain, setup_.fluids, setup_.solids, data);
+    state_ = load_state(setup_, data);
     phases_.warnings.clear();
     warn_of_long_steps();
     geometry_ = measure_geometry();
@@ -131,7 +130,7 @@ class FlowSimulation : public Simulation {
     Attempt<Dim> trial = budgeted_step(state_, dt);
     if (!trial.failure.empty()) return trial;
     Attempt<Dim> informed = budgeted_step(inform(trial.state, dt), dt);
-    informed.state.earlier = informed.state.gas.earlier = nullptr;
+    informed.state.earlier = informed.state.exterior->flow.earlier = nullptr;
     informed.state.dt_before = 0;
     return informed;
   }
@@ -159,21 +158,23 @@ class FlowSimulation : public Simulation {
   // u(-dt) = 2 u(0) - u(dt).
   State<Dim> inform(const State<Dim>& trial, double dt) const {
     State<Dim> state = state_;
-    std::tie(state.now, state.before) = inform(*state_.now, *trial.now);
-    if (state.gas.now) std::tie(state.gas.now, state.gas.before) = inform(*state_.gas.now, *trial.gas.now);
+    inform(trial, state);
+    inform(trial.exterior->flow, state.exterior->flow);
     state.dt_now = dt;
     for (const auto& interaction : setup_.solids.interactions) interaction->inform(trial, state);
     return state;
   }
 
-  static std::pair<std::shared_ptr<TimeLevel<Dim>>, std::shared_ptr<TimeLevel<Dim>>> inform(
-      const TimeLevel<Dim>& start, const TimeLevel<Dim>& trial) {
-    auto now = std::make_shared<TimeLevel<Dim>>(start), before = std::make_shared<TimeLevel<Dim>>(start);
-    now->q = before->q = trial.q;
-    now->n = before->n = trial.n;
+  // Changes nothing if there is no such flow.
+  static void inform(const Flow<Dim>& trial, Flow<Dim>& start) {
+    if (!start.now) return;
+    auto now = std::make_shared<TimeLevel<Dim>>(*start.now), before = std::make_shared<TimeLevel<Dim>>(*start.now);
+    now->q = before->q = trial.now->q;
+    now->n = before->n = trial.now->n;
     for (int a = 0; a < Dim; ++a)
-      for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.u[a][f];
-    return {now, before};
+      for (std::size_t f = 0; f < before->u[a].size(); ++f) before->u[a][f] = 2 * now->u[a][f] - trial.now->u[a][f];
+    start.now = std::move(now);
+    start.before = std::move(before);
   }
 
   void accept(Attempt<Dim> a) {
@@ -209,10 +210,10 @@ class FlowSimulation : public Simulation {
   // Warns once.
   void warn_of_separation() {
     if (separation_error_ == 0 || std::exchange(told_of_separation_, true)) return;
-    phases_.warnings.push_back(
-        fmt::format("step {}: which cells part from the solids was not found; going on with the set that is wrong by "
-                    "the least, {:.1e} of the largest pressure (later ones are counted in summary.json)",
-                    state_.step, separation_error_));
+    phases_.warnings.push_back(fmt::format(
+        "step {}: the search for cells where liquid separates from solids did not converge; the step uses the "
+        "best set found, with an error of {:.1e} of the largest pressure (summary.json counts further ones)",
+        state_.step, separation_error_));
   }
 
   // Volumes, energies, momentum and speed of a state.
@@ -222,7 +223,6 @@ class FlowSimulation : public Simulation {
     stats.time = state.time;
     stats.dt = state.dt_now;
     measure_fluids(setup_.domain, setup_.fluids, state, geometry.psi, stats);
-    measure_air(setup_.domain, setup_.fluids, state, geometry.psi, stats);
     stats.liquid_volume -= volume_beyond(setup_.domain, setup_.solids, geometry, state.phi);
     measure_bodies(setup_.fluids, setup_.scene.time, state, stats);
     return stats;
@@ -280,10 +280,11 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicat
 // hierarchy of grids takes about 1 kB a row; half the cells are assumed to have one.
 Cost estimate_cost(const Scene& scene, int ranks) {
   const double halo = std::ceil(scene.time.cfl) + 3;
+  const double ranks_an_axis = std::pow(double(ranks), 1.0 / scene.dimension);
   double cells = 1, padded = 1;
   for (int a = 0; a < scene.dimension; ++a) {
     cells *= scene.domain.cells[a];
-    padded *= scene.domain.cells[a] / std::cbrt(double(ranks)) + 2 * halo;
+    padded *= scene.domain.cells[a] / ranks_an_axis + 2 * halo;
   }
   const double per_site = 8.0 * (12 + 20 * scene.dimension);
   return {std::int64_t(std::min(cells, 9e18)), padded * ranks * per_site + 0.5 * cells * 1000};

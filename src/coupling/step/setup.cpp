@@ -4,6 +4,7 @@
 #include "base/domain_spec.h"
 #include "base/error.h"
 #include "base/time_spec.h"
+#include "coupling/exterior/exteriors.h"
 #include "coupling/report/measures.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/solid_kinds.h"
@@ -19,7 +20,6 @@
 #include "coupling/thin/gap_flow.h"
 #include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
-#include "coupling/transport/air_volume.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/initial_surface.h"
 #include "coupling/transport/liquid_viscosity.h"
@@ -60,7 +60,8 @@ std::vector<Body<Dim>> make_bodies(const Scene& scene, std::vector<std::string>&
     if (bodies.back().is_thin()) append_name(spec.name, thin);
   }
   if (!thin.empty())
-    notes.push_back(fmt::format("thinner than a cell of {:g} m: {}; liquid sees steps of whole cells there", h, thin));
+    notes.push_back(
+        fmt::format("thinner than a cell of {:g} m: {}; the liquid sees them as steps of whole cells", h, thin));
   return bodies;
 }
 
@@ -122,40 +123,6 @@ FaceField<Dim> initial_velocity(const Domain<Dim>& domain, const Fluids& fluids,
   return u;
 }
 
-template <int Dim>
-FaceField<Dim> initial_gas_velocity(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim, char>& near,
-                                    std::string& fault) {
-  FaceField<Dim> u(domain.layout);
-  const VectorFormula& formula = fluids.gas.velocity;
-  const VectorExpression velocity(formula);
-  for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (!near.at(a, f)) return;
-      const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
-      u.at(a, f) = velocity.component(a, extend<Dim>(x), 0);
-      if (fault.empty() && !std::isfinite(u.at(a, f)))
-        fault = not_finite_text<Dim>(fmt::format("gas.velocity[{}]", a), formula[a], u.at(a, f), x, 0);
-    });
-  return u;
-}
-
-// A fluid's first time level: velocity u on the faces `near` it, continued beyond.
-template <int Dim>
-std::shared_ptr<const TimeLevel<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
-                                                    const Solids<Dim>& solids, const StepGeometry<Dim>& g,
-                                                    const FaceField<Dim, char>& near, FaceField<Dim> u) {
-  TimeLevel<Dim> level = empty_level(domain.layout, fluids.is_viscous());
-  level.valid = near;
-  level.u = std::move(u);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
-      if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
-    });
-  continue_level(domain, fluids, solids, g, near, level);
-  return std::make_shared<TimeLevel<Dim>>(std::move(level));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -191,6 +158,7 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
              ranks),
       solids(from, domain, perturbation, notes),
+      exterior(make_exterior(fluids, domain)),
       sources(make_sources<Dim>(from, notes)),
       followed(find_followed_points(from.probes, solids)) {
   fluids.rheology.yield_stress *= perturbation.yield_stress;
@@ -235,16 +203,12 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);
   if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, state, g, state.phi);
   state.expected_volume = liquid_volume(s.domain, state.phi, g.psi) - volume_beyond(s.domain, s.solids, g, state.phi);
-  if (s.fluids.keeps_air()) state.air = initial_air(s.domain, g, state.phi);
 
   std::string fault;
   const FaceField<Dim, char> wet = faces_near_liquid(s.domain, state.phi);
   FaceField<Dim> u = initial_velocity(s.domain, s.fluids, wet, shapes, fault);
-  if (s.fluids.has_gas()) {
-    const FaceField<Dim, char> near = faces_near_gas(s.domain, state.phi);
-    state.gas.now =
-        initial_level(s.domain, s.fluids, s.solids, g, near, initial_gas_velocity(s.domain, s.fluids, near, fault));
-  }
+  state.exterior = s.exterior;
+  state.exterior->start(s, g, state.phi, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene.domain, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));

@@ -11,7 +11,6 @@
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
-#include "coupling/transport/two_fluids.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -46,17 +45,12 @@ template <int Dim>
 ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Dim>& state,
                                       const StepGeometry<Dim>& geometry) {
   const Setup<Dim>& s = task.s;
-  return {s.domain.layout,
-          s.domain.halo,
-          s.domain.ranks,
-          state.phi,
-          geometry.faces,
-          s.fluids.density(),
-          task.times.dt,
-          s.fluids.liquid.separates ? &state.separation : nullptr,
-          s.perturbation.gas_density * s.fluids.gas_density(),
-          task.tension ? &task.tension->jump : nullptr,
-          s.fluids.keeps_air() ? &state.air : nullptr};
+  ProjectionInput<Dim> in{s.domain.layout, s.domain.halo,      s.domain.ranks, state.phi,
+                          geometry.faces,  s.fluids.density(), task.times.dt};
+  if (s.fluids.liquid.separates) in.separation = &state.separation;
+  if (task.tension) in.surface_jump = &task.tension->jump;
+  state.exterior->set_rows(s, in);
+  return in;
 }
 
 // A gap of half a cell at a wall becomes air.
@@ -100,14 +94,12 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const PhaseFault fault = task.phases.enter("solve");
   const auto timed = task.phases.timers.measure("solve");
   const State<Dim>& before = task.before;
-  std::optional<FaceField<Dim>> slope, flow;  // of liquid and gas in one
-  if (before.gas.now)
-    slope = of_both(s.domain, before, &TimeLevel<Dim>::q), flow = of_both(s.domain, before, &TimeLevel<Dim>::u);
+  const auto flow = before.exterior->joined_level(s.domain, s.fluids, before);
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
-  CoupledSolution<Dim> solution = solve_coupled(CoupledInput<Dim>{
-      s, liquid, out.geometry, out.state, guess, slope ? *slope : before.now->q, flow ? *flow : before.now->u,
-      task.predicted.u_star, task.predicted.convected, out.state.horizon, viscosity, fault});
+  CoupledSolution<Dim> solution = solve_coupled(
+      CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
+                        task.predicted.convected, out.state.horizon, viscosity, fault});
   out.state.convected_loads = task.predicted.convected.loads;
   out.solve = solution.report;
   out.solve.iterations += earlier.iterations;
@@ -127,16 +119,16 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, A
   const auto timed = task.phases.timers.measure("restore");
   const ProjectionInput<Dim> liquid = projection_input(task, out.state, out.geometry);
   equalise_air_pressure(liquid, solution.rows, solution.u_star, out.state.pressure);
-  Restored<Dim> restored = restore_velocity(s.domain, s.fluids, s.solids, s.perturbation, liquid, solution.rows,
-                                            out.state.pressure, solution.u_star, out.geometry);
-  set_viscous_acceleration(task, solution.u_star, restored.level);
-  auto level = std::make_shared<TimeLevel<Dim>>(std::move(restored.level));
-  if (s.fluids.has_gas()) {
-    set_viscous_acceleration(task, solution.u_star, restored.gas);
-    out.state.gas.now = std::make_shared<TimeLevel<Dim>>(std::move(restored.gas));
-  }
-  out.state.gap_flow = std::move(restored.gap_flow);
-  out.divergence = restored.divergence;
+  const CellField<Dim>& phi = out.state.phi;
+  auto level =
+      std::make_shared<TimeLevel<Dim>>(solved_level(s.domain, s.fluids, s.solids, s.perturbation, liquid, solution.rows,
+                                                    out.state.pressure, solution.u_star, out.geometry));
+  out.divergence = max_divergence(liquid, solution.rows, level->u);
+  set_viscous_acceleration(task, solution.u_star, *level);
+  out.state.exterior->take(s, out.geometry, phi, *level);
+  const FaceField<Dim> solved = level->u;
+  continue_level(s.domain, s.fluids, s.solids, out.geometry, faces_near_liquid(s.domain, phi), *level);
+  out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, solved, level->u);
   if (s.fluids.liquid.separates) {
     advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.separation);
     open_gaps(s.domain, out.state);
@@ -164,7 +156,7 @@ Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const Visc
 template <int Dim>
 Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, Solves<Dim>& solves) {
   const Layout<Dim>& layout = task.s.domain.layout;
-  RheologyIteration<Dim> rheology(task.s, moved.state.phi, *task.before.now, moved.state.time);
+  RheologyIteration<Dim> rheology(task.s, moved.state, *task.before.now);
   for (;;) {
     const ViscosityField<Dim> implicit = implicit_part(layout, rheology.viscosity(), task.predicted.viscosity.implicit);
     Attempt<Dim> out = solve_once(task, moved, &implicit, solves);

@@ -32,7 +32,7 @@ double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, co
   const double capillary = capillary_step(domain, fluids);
   if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
-  if (!fluids.has_gas() && !has_surface(domain, state.phi)) return std::min(flow, capillary);  // nothing to wave
+  if (!state.exterior->flows() && !has_surface(domain, state.phi)) return std::min(flow, capillary);  // nothing to wave
   const double waves = 1.5 * std::sqrt(domain.layout.h() / (3.14159265358979323846 * g));
   return std::min(flow, waves / std::sqrt(1 + waves * waves / (capillary * capillary)));
 }
@@ -115,7 +115,7 @@ std::string too_short(double dt, double remaining, double h, const std::string& 
   return fmt::format("steps of {:.3g} s are too short: {:.3g} s remain to the next frame (limit {} steps); {}", dt,
                      remaining, most_steps_a_frame,
                      held.empty() ? fmt::format("the flow or a solid is too fast for cells of {:.3g} m", h)
-                                  : "solids leave each other no room: " + held);
+                                  : "the gap between these solids is too small for them to move: " + held);
 }
 
 }  // namespace

@@ -7,12 +7,10 @@
 #include "coupling/step/leapfrog.h"
 #include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
-#include "coupling/transport/air_volume.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/transport.h"
-#include "coupling/transport/two_fluids.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -24,10 +22,8 @@ State<Dim> shifted_levels(const State<Dim>& before, double dt) {
   State<Dim> next = before;
   next.time = before.time + dt;
   next.step = before.step + 1;
-  next.earlier = before.before;
-  next.before = before.now;
-  next.gas.earlier = before.gas.before;
-  next.gas.before = before.gas.now;
+  age(next);
+  age(next.exterior->flow);
   next.dt_before = before.dt_now;
   next.dt_now = dt;
   return next;
@@ -96,7 +92,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   const auto timed = phases.timers.measure("surface");
   FaceField<Dim> u = s.fluids.has_prescribed_flow()
                          ? prescribed_flow(s.domain, s.fluids, before.phi, times.start + 0.5 * times.dt)
-                         : flow_at_surface(s.domain, s.fluids, before);
+                         : before.exterior->surface_velocity(s, before);
   CellField<Dim>& phi = moved.state.phi;
   const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
@@ -105,16 +101,6 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   moved.state.expected_volume += transport_surface(s, before, std::move(u), times.start, times.lead, phi);
   make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
   inject(s.domain, fault, phi.data());
-}
-
-// Shifts of the surface that keep the volumes of liquid and of each region of enclosed air.
-template <int Dim>
-void control_liquid_and_air(const Setup<Dim>& s, const State<Dim>& before, double dt, double expected,
-                            Moved<Dim>& moved) {
-  State<Dim>& next = moved.state;
-  next.air = follow_air(s.domain, before.air, before.now->u, dt, moved.geometry, next.phi, next.lost_air);
-  next.corrected_volume +=
-      control_volumes(s.domain, moved.geometry, expected, largest_shift(s.domain), next.air, next.phi);
 }
 
 template <int Dim>
@@ -130,13 +116,11 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const double uncounted =
       gap_volume(s.domain, s.fluids, before.separation) + volume_beyond(s.domain, s.solids, geometry, next.phi);
   const double expected = next.expected_volume + uncounted;
-  if (s.fluids.keeps_air())
-    control_liquid_and_air(s, before, times.dt, expected, moved);
-  else
-    next.corrected_volume += control_volume(s.domain, geometry.psi, expected, largest_shift(s.domain), next.phi);
+  next.exterior->follow(s.domain, geometry, before.now->u, times.dt, next.phi);
+  next.corrected_volume +=
+      next.exterior->control_volume(s.domain, geometry, expected, largest_shift(s.domain), next.phi);
   keep_sides_apart(s.domain, s.solids, before, geometry, next.phi);
-  if (s.fluids.keeps_air())
-    next.air = follow_air(s.domain, next.air, before.now->u, 0, geometry, next.phi, next.lost_air);
+  next.exterior->follow(s.domain, geometry, before.now->u, 0, next.phi);
 }
 
 }  // namespace
@@ -164,13 +148,14 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   State<Dim>& next = solved.state;
   const bool can = can_go_on(s.domain, s.solids, s.scene.time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
-  FaceField<Dim> u = flow_at_surface(s.domain, s.fluids, leading);
+  FaceField<Dim> u = leading.exterior->surface_velocity(s, leading);
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
   next.expected_volume += transport_surface(s, next, std::move(u), times.start + times.lead, times.lead, next.phi);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
   const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);
-  next.corrected_volume += control_volume(s.domain, solved.geometry.psi, expected, largest_shift(s.domain), next.phi);
+  next.corrected_volume +=
+      next.exterior->control_volume(s.domain, solved.geometry, expected, largest_shift(s.domain), next.phi);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                \

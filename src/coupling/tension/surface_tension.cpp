@@ -70,10 +70,8 @@ void agree_in_slivers(const Domain<Dim>& domain, const Fluids& fluids, const Cel
 template <int Dim>
 double grid_ohnesorge(const Domain<Dim>& domain, const Fluids& fluids) {
   const LiquidSpec& liquid = fluids.liquid;
-  const Expression mu(liquid.viscosity);
-  if (!liquid.rheology.model.empty() || !mu.is_constant()) return 0;
-  const double viscosity = mu(Vec3::Zero(), 0) + (fluids.has_gas() ? fluids.gas.viscosity : 0),
-               rho = density_at_surface(fluids);
+  if (!fluids.constant_viscosity()) return 0;
+  const double viscosity = *fluids.constant_viscosity() + fluids.gas_viscosity(), rho = density_at_surface(fluids);
   return viscosity / std::sqrt(rho * liquid.surface_tension * domain.layout.h());
 }
 

@@ -67,6 +67,7 @@ struct ThinSolids {
     const double distance = solid.distance(x), least = std::max(distance, least_distance * domain.layout.h());
     if (distance <= 0) return phi;
     const Near near = find_near(domain, before.phi, then, solid.carried_to(then, x));
+    if (!near.wet && !near.dry) return phi;  // no cell tells: outside of the domain, or walled in
     if (phi < 0 && !near.wet) return least;
     if (phi >= 0 && !near.dry) return -least;
     return phi;

@@ -52,8 +52,8 @@ std::string set_liquid_viscosity(const Domain<Dim>& domain, const Fluids& fluids
 template <int Dim>
 std::string fault_of_viscosity(const Domain<Dim>& domain, const Fluids& fluids, double t) {
   const LiquidSpec& liquid = fluids.liquid;
-  const bool asked = liquid.rheology.model.empty() && !Expression(liquid.viscosity).is_constant();
-  return asked ? evaluate(domain, liquid.viscosity, t, [](Site, double) {}) : std::string();
+  const bool by_formula = liquid.rheology.model.empty() && !fluids.constant_viscosity();
+  return by_formula ? evaluate(domain, liquid.viscosity, t, [](Site, double) {}) : std::string();
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                        \

@@ -82,6 +82,18 @@ void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids
     });
 }
 
+// Invalidates all faces of a level but the marked ones, and sets their u, q and n to 0.
+template <int Dim>
+void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(layout, layout.faces(a), [&](Site f) {
+      if (marked.at(a, f)) return;
+      level.valid.at(a, f) = 0;
+      level.u.at(a, f) = level.q.at(a, f) = 0;
+      if (!level.n[a].empty()) level.n.at(a, f) = 0;
+    });
+}
+
 // Sets the given velocity on walls and inflow sides, wet or dry. Fills ghosts. Collective.
 template <int Dim>
 void keep_prescribed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
@@ -124,53 +136,62 @@ void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const So
 template <int Dim>
 void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                     const StepGeometry<Dim>& g, const FaceField<Dim, char>& near, TimeLevel<Dim>& level) {
-  if (fluids.has_gas()) keep_faces(domain.layout, near, level);
+  keep_faces(domain.layout, near, level);
   continue_velocity(domain, fluids, solids, g, level.valid, level.u);
   domain.halo.fill_ghosts(level.valid);
 }
 
 template <int Dim>
-Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                               const OperatorPerturbation& perturbation, const ProjectionInput<Dim>& in,
-                               const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                               const FaceField<Dim>& u_star, const StepGeometry<Dim>& g) {
-  TimeLevel<Dim> next = empty_level(domain.layout, fluids.is_viscous());
+std::shared_ptr<const TimeLevel<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                    const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+                                                    const FaceField<Dim, char>& near, FaceField<Dim> u) {
+  TimeLevel<Dim> level = empty_level(domain.layout, fluids.is_viscous());
+  level.valid = near;
+  level.u = std::move(u);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
+      if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
+    });
+  continue_level(domain, fluids, solids, g, near, level);
+  return std::make_shared<TimeLevel<Dim>>(std::move(level));
+}
+
+template <int Dim>
+TimeLevel<Dim> solved_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                            const OperatorPerturbation& perturbation, const ProjectionInput<Dim>& in,
+                            const PressureRows<Dim>& rows, const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                            const StepGeometry<Dim>& g) {
+  TimeLevel<Dim> level = empty_level(domain.layout, fluids.is_viscous());
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       const Site low = f - domain.layout.stride(a);
       const bool wet = rows.touch_pressure(low, f);
       if (!wet || in.faces.kind_at(a, f) == FaceKind::closed) return;
       if (in.faces.kind_at(a, f) == FaceKind::prescribed) {
-        next.valid.at(a, f) = face_prescribed;
-        next.u.at(a, f) = in.faces.prescribed.at(a, f);
+        level.valid.at(a, f) = face_prescribed;
+        level.u.at(a, f) = in.faces.prescribed.at(a, f);
         return;
       }
       if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(fluids, solids, g.body[f]))
-        next.valid.at(a, f) = face_solved;
-      next.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
-      next.u.at(a, f) = u_star.at(a, f) - perturbation.pressure_gradient * in.dt * next.q.at(a, f);
+        level.valid.at(a, f) = face_solved;
+      level.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
+      level.u.at(a, f) = u_star.at(a, f) - perturbation.pressure_gradient * in.dt * level.q.at(a, f);
     });
-  domain.halo.fill_ghosts(next.u);
-  Restored<Dim> restored;
-  restored.divergence = max_divergence(in, rows, next.u);
-  const FaceField<Dim> solved = next.u;
-  if (in.has_gas()) {
-    restored.gas = next;
-    continue_level(domain, fluids, solids, g, faces_near_gas(domain, in.phi), restored.gas);
-  }
-  continue_level(domain, fluids, solids, g, faces_near_liquid(domain, in.phi), next);
-  restored.gap_flow = measure_gap_flow(domain, in.faces, solved, next.u);
-  restored.level = std::move(next);
-  return restored;
+  domain.halo.fill_ghosts(level.u);
+  return level;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                    \
-  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,     \
-                                  const FaceField<D, char>&, TimeLevel<D>&);                                     \
-  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,  \
-                                     const FaceField<D, char>&, FaceField<D>&);                                  \
-  template Restored<D> restore_velocity<D>(                                                                      \
-      const Domain<D>&, const Fluids&, const Solids<D>&, const OperatorPerturbation&, const ProjectionInput<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template void continue_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,       \
+                                  const FaceField<D, char>&, TimeLevel<D>&);                                       \
+  template void continue_velocity<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&,    \
+                                     const FaceField<D, char>&, FaceField<D>&);                                    \
+  template std::shared_ptr<const TimeLevel<D>> initial_level<D>(const Domain<D>&, const Fluids&, const Solids<D>&, \
+                                                                const StepGeometry<D>&, const FaceField<D, char>&, \
+                                                                FaceField<D>);                                     \
+  template TimeLevel<D> solved_level<D>(                                                                           \
+      const Domain<D>&, const Fluids&, const Solids<D>&, const OperatorPerturbation&, const ProjectionInput<D>&,   \
       const PressureRows<D>&, const CellField<D>&, const FaceField<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -8,26 +8,17 @@
 
 namespace seiche {
 
-// Values of Level::valid.
+// Values of TimeLevel::valid.
 enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2 };
 
-// The flow after a solve.
-template <int Dim>
-struct Restored {
-  TimeLevel<Dim> level;  // the liquid's
-  TimeLevel<Dim> gas;    // the gas's, if it flows
-  GapFlow<Dim> gap_flow;
-  double divergence = 0;  // largest |net flux|/volume of a cell with a row, 1/s
-};
-
-// Velocity after the projection,
+// The level after the projection on all faces that touch a pressure, of any fluid,
 //   u = u* - dt q,   q = grad p/rho,
-// on unknown faces that touch a pressure, and the given velocity on prescribed ones. Then extrapolates u. Collective.
+// on unknown faces, and the given velocity on prescribed ones. n is 0. Ghosts of u filled. Collective.
 template <int Dim>
-Restored<Dim> restore_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                               const OperatorPerturbation& perturbation, const ProjectionInput<Dim>& in,
-                               const PressureRows<Dim>& rows, const CellField<Dim>& pressure,
-                               const FaceField<Dim>& u_star, const StepGeometry<Dim>& geometry);
+TimeLevel<Dim> solved_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                            const OperatorPerturbation& perturbation, const ProjectionInput<Dim>& in,
+                            const PressureRows<Dim>& rows, const CellField<Dim>& pressure, const FaceField<Dim>& u_star,
+                            const StepGeometry<Dim>& geometry);
 
 // Extrapolates u from its valid faces: linearly for two layers, constant beyond. In solids u follows the solid, so that
 // no flow passes through its surface. Faces of walls and inflow keep the given velocity. Ghosts filled. Collective.
@@ -35,9 +26,15 @@ template <int Dim>
 void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                        const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& valid, FaceField<Dim>& u);
 
-// Extrapolates the level of one fluid. If gas flows, only the faces `near` the fluid stay valid. Collective.
+// Extrapolates the level of one fluid. Only the faces `near` the fluid stay valid. Collective.
 template <int Dim>
 void continue_level(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                     const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near, TimeLevel<Dim>& level);
+
+// A fluid's first time level: velocity u on the faces `near` it, extrapolated beyond. Collective.
+template <int Dim>
+std::shared_ptr<const TimeLevel<Dim>> initial_level(const Domain<Dim>& domain, const Fluids& fluids,
+                                                    const Solids<Dim>& solids, const StepGeometry<Dim>& geometry,
+                                                    const FaceField<Dim, char>& near, FaceField<Dim> u);
 
 }  // namespace seiche

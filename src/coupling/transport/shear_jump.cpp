@@ -84,10 +84,10 @@ struct BothFluids {
 template <int Dim>
 void add_shear_jump(const Domain<Dim>& domain, const Fluids& fluids, const Features& features, const State<Dim>& state,
                     const CellField<Dim>& phi, double dt, FaceField<Dim>& u) {
-  if (!fluids.has_gas() || !fluids.is_viscous() || !features.has(Feature::shear_jump)) return;
-  const double liquid = Expression(fluids.liquid.viscosity)(Vec3::Zero(), 0), gas = fluids.gas.viscosity;
+  if (!fluids.is_viscous() || !features.has(Feature::shear_jump)) return;
+  const double liquid = *fluids.constant_viscosity(), gas = fluids.gas_viscosity();
   const BothFluids<Dim> both{domain.layout, phi, make_fluid(domain, *state.now, fluids.density(), liquid),
-                             make_fluid(domain, *state.gas.now, fluids.gas_density(), gas)};
+                             make_fluid(domain, *state.exterior->flow.now, fluids.gas_density(), gas)};
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       double force = 0;

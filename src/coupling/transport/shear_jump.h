@@ -15,7 +15,7 @@ namespace seiche {
 //   mu (u_high - u_low)/h = stress + epsilon,   epsilon = (h/8) c mu (a+ - a-),   c = (1 - 2 |s|/h)^2 n_d^2,
 // with n_d the component of the surface normal along the link. The error acts on the fluids as +-epsilon/h, which is
 // missing in their n. So a+- = (rho n +- epsilon/h)/mu+-, solved for epsilon with n of the last step. Does nothing
-// without gas, without viscosity or without Feature::shear_jump (both viscosities constant and positive). Collective.
+// without viscosity or without Feature::shear_jump (both viscosities constant and positive). Collective.
 template <int Dim>
 void add_shear_jump(const Domain<Dim>& domain, const Fluids& fluids, const Features& features, const State<Dim>& state,
                     const CellField<Dim>& phi, double dt, FaceField<Dim>& u);

@@ -117,15 +117,16 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
 
 // Fraction of the trend of N, the viscous acceleration, that viscous_memory() uses. If viscosity is stiff, N is large
 // and almost balanced by pressure. A trend known in only part of the liquid disturbs this balance and amplifies itself.
-// The fraction is 1 up to mu dt/(rho h^2) = 1/2 and 0 from 1 on, or 1 if all of the liquid is interior. Collective.
+// The fraction is 1 up to mu dt/(rho h^2) = 1/2 and 0 from 1 on, or 1 if all of the liquid is interior and no solid is
+// within reach. Collective.
 template <int Dim>
-double trust_in_viscous_trend(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                              const FaceField<Dim, char>& interior, double dt) {
+double trust_in_viscous_trend(const Domain<Dim>& domain, const State<Dim>& state, const FaceField<Dim, char>& liquid,
+                              double dt) {
   bool partial = false;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      const bool wet = state.phi[f] < 0 || state.phi[f - domain.layout.stride(a)] < 0 || fluids.has_gas();
-      partial = partial || (wet && !interior.at(a, f));
+      const bool wet = state.phi[f] < 0 || state.phi[f - domain.layout.stride(a)] < 0 || state.exterior->flows();
+      partial = partial || (wet && !liquid.at(a, f));
     });
   return domain.ranks.any(partial) ? std::clamp(2 - 2 * dt * state.viscous_rate, 0.0, 1.0) : 1;
 }
@@ -134,21 +135,24 @@ double trust_in_viscous_trend(const Domain<Dim>& domain, const Fluids& fluids, c
 //   dt (c2 N(t) + c3 N(t - dt_now)),   N the viscous acceleration, N(t - dt_now) transported along the path.
 // Together with the implicit share c1 (ViscousPlan::implicit), c1 N(t + dt) + c2 N(t) + c3 N(t - dt_now) is N(t + dt/2)
 // to second order. For c1 = 1 the explicit part is a trend, -dt^2/(2 dt_now) (N(t) - N(t - dt_now)) times
-// trust_in_viscous_trend(). Zero where either level is unknown, for dt > 2 dt_now, and in first order.
+// trust_in_viscous_trend(). N is continued into solids as A is. Zero where either level is unknown, for dt > 2 dt_now,
+// and in first order.
 template <int Dim>
-FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
-                              const State<Dim>& state, const Flow<Dim>& flow, const FaceField<Dim, char>& interior,
-                              double dt, const ViscousPlan& plan) {
+FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                              const Surroundings<Dim>& around, double dt, const ViscousPlan& plan) {
+  const Domain<Dim>& domain = s.domain;
+  const FaceField<Dim, char>& interior = around.interior;
   FaceField<Dim> memory(domain.layout);
-  if (!fluids.is_viscous() || !flow.before || time.scheme == TimeScheme::first_order) return memory;
+  if (!s.fluids.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return memory;
   if (dt > 2 * state.dt_now) return memory;
-  const double trust = trust_in_viscous_trend(domain, fluids, state, interior, dt);
+  const double trust = trust_in_viscous_trend(domain, state, around.liquid, dt);
   if (trust == 0) return memory;
   const double earlier = (plan.implicit == 1 ? trust : 2 * plan.implicit - 1) * dt / (2 * state.dt_now),
                present = 1 - plan.implicit - earlier;
   const TimeLevel<Dim>& now = *flow.now;
   FaceField<Dim> last = flow.before->n, carried(domain.layout);
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, last);
+  if (!s.solids.bodies.empty()) continue_into_solids(domain, flow.before->valid, last);
   advect_faces(domain.layout, now.u, state.dt_now, interior, interior, last, last, carried);
   const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as for A
   for (int a = 0; a < Dim; ++a)
@@ -187,57 +191,6 @@ void advect_means(const Domain<Dim>& domain, const OperatorPerturbation& perturb
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (!near.at(a, f) || !interior.at(a, f) || !whole.at(a, f)) return;
       u.at(a, f) = carried.inner.at(a, f) + d.at(a, f) + excess_of_mean(domain.layout, d, a, f);
-    });
-}
-
-// Velocity of one fluid before the projection on the faces `near` it, m/s. Sets acc to carried_acceleration().
-// Collective.
-template <int Dim>
-FaceField<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                              const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
-                              const StepGeometry<Dim>& geometry, FaceField<Dim>& acc) {
-  const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
-  const FaceField<Dim, char>& interior = around.interior;
-  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, around, plan, dt),
-                       memory = viscous_memory(s.domain, s.fluids, s.scene.time, state, flow, around.liquid, dt, plan);
-  acc = carried_acceleration(s.domain, s.fluids, s.solids, s.scene.time, s.perturbation, state, flow, dt);
-  Carried<Dim> carried{flow.now->u, flow.now->u};
-  if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
-  continue_beyond_inflows(s.domain.layout, s.domain.sides, state.time, carried.outer);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.padded(), [&](Site f) {
-      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
-    });
-  // The viscous operator also couples faces beside those near liquid.
-  FaceField<Dim> u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
-  if (plan.full)
-    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, around.whole, dt, u);
-  else
-    advect_faces(s.domain.layout, path, s.perturbation.velocity_advection * dt, near, interior, carried.inner,
-                 carried.outer, u);
-  const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
-  limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
-  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, around.whole, carried.outer, dt, u);
-  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
-      if (near.at(a, f) || s.fluids.is_viscous())
-        u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
-    });
-  let_liquid_in(s.domain, s.fluids, s.scene.time, s.perturbation, *flow.now, paths, state.time, memory, u);
-  return u;
-}
-
-// Merges the gas's velocity into u: liquid faces keep u, gas faces take the gas's. On links that the surface crosses,
-// momenta add up, rho_f u = theta rho u_liquid + (1 - theta) rho_gas u_gas.
-template <int Dim>
-void join(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, const FaceField<Dim>& gas,
-          FaceField<Dim>& u) {
-  const double ratio = fluids.gas_density() / fluids.density();
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      const double theta = liquid_part(phi[f - domain.layout.stride(a)], phi[f]);
-      u.at(a, f) = (theta * u.at(a, f) + (1 - theta) * ratio * gas.at(a, f)) / (theta + (1 - theta) * ratio);
     });
 }
 
@@ -299,21 +252,50 @@ FaceField<Dim, char> faces_near_gas(const Domain<Dim>& domain, const CellField<D
 }
 
 template <int Dim>
+Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
+                                const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
+                                const StepGeometry<Dim>& geometry) {
+  const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
+  const FaceField<Dim, char>& interior = around.interior;
+  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, around, plan, dt),
+                       memory = viscous_memory(s, state, flow, around, dt, plan);
+  Transported<Dim> r;
+  r.acceleration = carried_acceleration(s.domain, s.fluids, s.solids, s.scene.time, s.perturbation, state, flow, dt);
+  const FaceField<Dim>& acc = r.acceleration;
+  Carried<Dim> carried{flow.now->u, flow.now->u};
+  if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
+  continue_beyond_inflows(s.domain.layout, s.domain.sides, state.time, carried.outer);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.domain.layout, s.domain.layout.padded(), [&](Site f) {
+      carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
+    });
+  // The viscous operator also couples faces beside those near liquid.
+  FaceField<Dim>& u = r.u;
+  u = s.fluids.is_viscous() ? flow.now->u : FaceField<Dim>(s.domain.layout);
+  if (plan.full)
+    advect_means(s.domain, s.perturbation, state, carried, path, near, interior, around.whole, dt, u);
+  else
+    advect_faces(s.domain.layout, path, s.perturbation.velocity_advection * dt, near, interior, carried.inner,
+                 carried.outer, u);
+  const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
+  limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
+  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, around.whole, carried.outer, dt, u);
+  const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
+      if (near.at(a, f) || s.fluids.is_viscous())
+        u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
+    });
+  let_liquid_in(s.domain, s.fluids, s.scene.time, s.perturbation, *flow.now, paths, state.time, memory, u);
+  return r;
+}
+
+template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                                     const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
-  Transported<Dim> r;
-  FaceField<Dim>& u = r.u;
-  const bool as_one = flow_as_one(s.fluids);
-  const FaceField<Dim, char> near =
-      as_one ? FaceField<Dim, char>(s.domain.layout, 1) : faces_near_liquid(s.domain, phi);
-  u = transport_flow(s, state, as_one ? flow_of_both(s.domain, s.fluids, state) : liquid_flow(state), near, dt, plan,
-                     geometry, r.acceleration);
-  if (s.fluids.has_gas() && !as_one)
-    join(s.domain, s.fluids, phi,
-         transport_flow(s, state, state.gas, faces_near_gas(s.domain, phi), dt, plan, geometry, r.gas_acceleration), u);
-  if (s.fluids.has_gas()) add_shear_jump(s.domain, s.fluids, s.features, state, phi, dt, u);
-  set_source_velocity(s.domain, s.sources, state.time, state.time + dt, u);
-  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, u);
+  Transported<Dim> r = state.exterior->transported_velocity(s, state, phi, dt, plan, geometry);
+  set_source_velocity(s.domain, s.sources, state.time, state.time + dt, r.u);
+  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);
   return r;
 }
 
@@ -344,6 +326,9 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
                                  const CellField<D, char>&, CellField<D>&);                                            \
   template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                             \
   template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                                \
+  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                          \
+                                            const FaceField<D, char>&, double, const ViscousPlan&,                     \
+                                            const StepGeometry<D>&);                                                   \
   template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,         \
                                                 const ViscousPlan&, const StepGeometry<D>&);                           \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);

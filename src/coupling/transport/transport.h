@@ -35,12 +35,18 @@ struct Transported {
 
 // u before the projection on all faces next to liquid: the transported velocity plus
 //   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.
-// If gas flows, each fluid is transported with its own flow, extrapolated beyond the surface. Neither then takes up the
-// other's velocity by interpolation. On links that the surface crosses their momenta add up. See flow_as_one() for the
-// exception. `phi` and `geometry` are those of the solve. Collective.
+// The exterior adds its own flow (Exterior::transported_velocity). `phi` and `geometry` are those of the solve.
+// Collective.
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
                                     double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
+
+// The same for one fluid with the levels `flow`, on the faces `near` it, without sources. Sets `acceleration` to its
+// own. Collective.
+template <int Dim>
+Transported<Dim> transport_flow(const Setup<Dim>& setup, const State<Dim>& state, const Flow<Dim>& flow,
+                                const FaceField<Dim, char>& near, double dt, const ViscousPlan& plan,
+                                const StepGeometry<Dim>& geometry);
 
 // 1 on the owned faces with liquid (phi < 0) on at least one side.
 template <int Dim>

@@ -29,7 +29,24 @@ FaceField<Dim> of_levels(const Domain<Dim>& domain, const CellField<Dim>& phi, c
   return r;
 }
 
-// Composite level, valid where either fluid's is; null unless both exist. Collective.
+// Reynolds number of a cell, (U + sqrt(sigma/(rho h))) h/nu: cells that the flow and the shortest capillary wave cross
+// while viscosity smooths one cell. nu is the smaller of both, rho the sum. Infinite if the liquid's viscosity is not
+// constant or nu is 0. Also infinite without tension, since viscosity alone would let the surface roll up. Collective.
+template <int Dim>
+double reynolds_number_of_cell(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
+  const LiquidSpec& liquid = fluids.liquid;
+  const double none = std::numeric_limits<double>::infinity(), h = domain.layout.h();
+  if (!fluids.constant_viscosity()) return none;
+  const double nu =
+      std::min(*fluids.constant_viscosity() / fluids.density(), fluids.gas_viscosity() / fluids.gas_density());
+  if (nu == 0 || liquid.surface_tension == 0) return none;
+  return (fastest_component(domain, state) +
+          std::sqrt(liquid.surface_tension / ((fluids.density() + fluids.gas_density()) * h))) *
+         h / nu;
+}
+
+}  // namespace
+
 template <int Dim>
 std::shared_ptr<const TimeLevel<Dim>> level_of_both(const Domain<Dim>& domain, const Fluids& fluids,
                                                     const CellField<Dim>& phi,
@@ -47,32 +64,9 @@ std::shared_ptr<const TimeLevel<Dim>> level_of_both(const Domain<Dim>& domain, c
   return r;
 }
 
-// Reynolds number of a cell, (U + sqrt(sigma/(rho h))) h/nu: cells that the flow and the shortest capillary wave cross
-// while viscosity smooths one cell. nu is the smaller of both, rho the sum. Infinite if the liquid's viscosity is not
-// constant or nu is 0. Also infinite without tension, since viscosity alone would let the surface roll up. Collective.
-template <int Dim>
-double reynolds_number_of_cell(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
-  const LiquidSpec& liquid = fluids.liquid;
-  const Expression mu(liquid.viscosity);
-  const double none = std::numeric_limits<double>::infinity(), h = domain.layout.h();
-  if (!liquid.rheology.model.empty() || !mu.is_constant()) return none;
-  const double nu = std::min(mu(Vec3::Zero(), 0) / fluids.density(), fluids.gas.viscosity / fluids.gas_density());
-  if (nu == 0 || liquid.surface_tension == 0) return none;
-  return (fastest_component(domain, state) +
-          std::sqrt(liquid.surface_tension / ((fluids.density() + fluids.gas_density()) * h))) *
-         h / nu;
-}
-
-}  // namespace
-
-template <int Dim>
-FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> TimeLevel<Dim>::*field) {
-  return state.gas.now ? of_levels(domain, state.phi, *state.now, *state.gas.now, field) : (*state.now).*field;
-}
-
 bool flow_as_one(const Fluids& fluids) {
   constexpr double alike = 4;
-  if (!fluids.has_gas() || fluids.liquid.surface_tension > 0) return false;
+  if (fluids.liquid.surface_tension > 0) return false;
   return std::max(fluids.density(), fluids.gas_density()) <= alike * std::min(fluids.density(), fluids.gas_density());
 }
 
@@ -81,32 +75,22 @@ Flow<Dim> flow_of_both(const Domain<Dim>& domain, const Fluids& fluids, const St
   const auto join = [&](const auto& liquid, const auto& gas) {
     return level_of_both(domain, fluids, state.phi, liquid, gas);
   };
-  return {join(state.now, state.gas.now), join(state.before, state.gas.before), join(state.earlier, state.gas.earlier)};
+  const Flow<Dim>& gas = state.exterior->flow;
+  return {join(state.now, gas.now), join(state.before, gas.before), join(state.earlier, gas.earlier)};
 }
 
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state) {
-  if (flow_as_one(fluids)) return of_both(domain, state, &TimeLevel<Dim>::u);
+  const TimeLevel<Dim>& of_gas = *state.exterior->flow.now;
+  if (flow_as_one(fluids)) return of_levels(domain, state.phi, *state.now, of_gas, &TimeLevel<Dim>::u);
   FaceField<Dim> u = state.now->u;
-  if (!fluids.has_gas()) return u;
   constexpr double resolved = 10;
   const double share = std::clamp(2 - reynolds_number_of_cell(domain, fluids, state) / resolved, 0.0, 1.0);
   if (share == 0) return u;
-  const FaceField<Dim>& gas = state.gas.now->u;
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.padded(),
-                  [&](Site f) { u.at(a, f) += 0.5 * share * (gas.at(a, f) - u.at(a, f)); });
+                  [&](Site f) { u.at(a, f) += 0.5 * share * (of_gas.u.at(a, f) - u.at(a, f)); });
   return u;
-}
-
-template <int Dim>
-void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level) {
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(layout, layout.faces(a), [&](Site f) {
-      if (marked.at(a, f)) return;
-      level.valid.at(a, f) = 0;
-      level.u.at(a, f) = level.q.at(a, f) = 0;
-    });
 }
 
 template <int Dim>
@@ -127,12 +111,13 @@ void mix_gas_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const Ce
                 [&](Site c) { cell[c] = mean(liquid_share_at(phi[c], h), cell[c]); });
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template FaceField<D> flow_at_surface<D>(const Domain<D>&, const Fluids&, const State<D>&);             \
-  template Flow<D> flow_of_both<D>(const Domain<D>&, const Fluids&, const State<D>&);                     \
-  template FaceField<D> of_both<D>(const Domain<D>&, const State<D>&, FaceField<D> TimeLevel<D>::*);      \
-  template void keep_faces<D>(const Layout<D>&, const FaceField<D, char>&, TimeLevel<D>&);                \
-  template void mix_gas_viscosity<D>(const Domain<D>&, const Fluids&, const CellField<D>&, CellField<D>&, \
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template FaceField<D> flow_at_surface<D>(const Domain<D>&, const Fluids&, const State<D>&);                         \
+  template Flow<D> flow_of_both<D>(const Domain<D>&, const Fluids&, const State<D>&);                                 \
+  template std::shared_ptr<const TimeLevel<D>> level_of_both<D>(const Domain<D>&, const Fluids&, const CellField<D>&, \
+                                                                const std::shared_ptr<const TimeLevel<D>>&,           \
+                                                                const std::shared_ptr<const TimeLevel<D>>&);          \
+  template void mix_gas_viscosity<D>(const Domain<D>&, const Fluids&, const CellField<D>&, CellField<D>&,             \
                                      EdgeField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

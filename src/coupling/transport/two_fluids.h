@@ -6,10 +6,13 @@
 
 namespace seiche {
 
-// Composite of both fluids: on each face the value of the fluid there, the liquid's if there is no gas. `field`: a
-// member of Level. Collective.
+// Composite level: on each face the values of the fluid there, valid where either fluid's are; null unless both exist.
+// Collective.
 template <int Dim>
-FaceField<Dim> of_both(const Domain<Dim>& domain, const State<Dim>& state, FaceField<Dim> TimeLevel<Dim>::*field);
+std::shared_ptr<const TimeLevel<Dim>> level_of_both(const Domain<Dim>& domain, const Fluids& fluids,
+                                                    const CellField<Dim>& phi,
+                                                    const std::shared_ptr<const TimeLevel<Dim>>& liquid,
+                                                    const std::shared_ptr<const TimeLevel<Dim>>& gas);
 
 // True if one velocity, interpolated across the surface, transports both fluids and the surface: densities within a
 // factor of 4 and no surface tension. Interpolation then exchanges little momentum between the fluids. Separate flows
@@ -28,10 +31,6 @@ Flow<Dim> flow_of_both(const Domain<Dim>& domain, const Fluids& fluids, const St
 // liquid's. Collective.
 template <int Dim>
 FaceField<Dim> flow_at_surface(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state);
-
-// Invalidates all faces of a level but the marked ones, and sets their u and q to 0.
-template <int Dim>
-void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level);
 
 // Liquid share of a box of width h around a point at signed distance phi (m) from a plane surface.
 inline double liquid_share_at(double phi, double h) {

@@ -10,15 +10,6 @@
 #include "grid/loops.h"
 
 namespace seiche {
-namespace {
-
-bool has_uniform_viscosity(const Fluids& fluids) {
-  const LiquidSpec& liquid = fluids.liquid;
-  return liquid.rheology.model.empty() && Expression(liquid.viscosity).is_constant();
-}
-
-}  // namespace
-
 template <int Dim>
 bool has_surface(const Domain<Dim>& domain, const CellField<Dim>& phi) {
   bool air = false;
@@ -32,7 +23,7 @@ ViscousPlan plan_viscosity(const Domain<Dim>& domain, const Fluids& fluids, cons
                            const Features& features, const State<Dim>& state, const CellField<Dim>& phi, double dt) {
   constexpr double stiff = 0.5;
   ViscousPlan plan;
-  if (!fluids.is_viscous() || fluids.has_gas() || time.scheme == TimeScheme::first_order) return plan;
+  if (!fluids.is_viscous() || state.exterior->flows() || time.scheme == TimeScheme::first_order) return plan;
   plan.full = !has_surface(domain, phi);
   const bool known = state.before && dt <= 2 * state.dt_now && dt * state.viscous_rate <= stiff;
   if (plan.full && known && features.has(Feature::shared_viscosity)) plan.implicit = 9.0 / 16;
@@ -68,7 +59,7 @@ FaceField<Dim> points_of_means(const Domain<Dim>& domain, const FaceField<Dim, c
 template <int Dim>
 void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                            const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt, FaceField<Dim>& u) {
-  if (!has_uniform_viscosity(fluids)) return;
+  if (!fluids.constant_viscosity()) return;
   const double reach = state.viscous_rate * dt;  // mu dt/(rho h^2)
   for (int a = 0; a < Dim; ++a)
     for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh/facets.h"
+
 namespace seiche {
 namespace {
 
@@ -91,14 +93,6 @@ bool may_meet(const Corners<Dim>& p, const Box<Dim>& box) {
   for (int a = 0; a < Dim; ++a)
     if (p.row(a).maxCoeff() < box.lower[a] - outward || p.row(a).minCoeff() > box.upper[a] + outward) return false;
   return true;
-}
-
-template <int Dim>
-const std::vector<std::array<int, Dim>>& facets_of(const SurfaceMesh& surface) {
-  if constexpr (Dim == 2)
-    return surface.segments;
-  else
-    return surface.triangles;
 }
 
 }  // namespace

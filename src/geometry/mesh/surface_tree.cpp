@@ -18,7 +18,8 @@ void copy_used_points(const SurfaceMesh& mesh, const std::string& name, SurfaceT
   for (std::array<int, Dim> element : facets_of<Dim>(mesh)) {
     for (int& p : element) {
       if (p < 0 || p >= static_cast<int>(mesh.points.size()))
-        throw Error(ExitCode::bad_input, name + ": its surface uses point " + std::to_string(p) + ", which it lacks");
+        throw Error(ExitCode::bad_input,
+                    name + ": its surface uses point " + std::to_string(p) + ", but there is no such point");
       if (place[p] < 0) {
         place[p] = static_cast<int>(s.points.size());
         s.points.push_back(truncate<Dim>(mesh.points[p]));

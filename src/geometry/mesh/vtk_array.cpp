@@ -17,7 +17,7 @@ namespace {
   fail_in_line_of(document.source, array.byte, "array '" + name + "' " + message);
 }
 
-constexpr const char* beyond_length = "goes on behind the length it announces";
+constexpr const char* beyond_length = "is longer than its header says";
 
 std::string without_white_space(std::string_view text) {
   std::string rest;
@@ -56,7 +56,7 @@ std::string bytes_of_base64(const VtkDocument& document, const VtkArray& array, 
   if (total > text.size() - first) fail(document, array, "is cut short");
   const std::string bytes = decode(document, array, text.substr(first, total));
   text.remove_prefix(first + total);
-  if (bytes.size() < expected) fail(document, array, "is padded where it should go on");
+  if (bytes.size() < expected) fail(document, array, "is shorter than its header says");
   if (bytes.size() > expected) fail(document, array, beyond_length);
   return apart ? bytes : bytes.substr(header);
 }

@@ -359,7 +359,8 @@ Frame decode(const std::filesystem::path& file) {
   Frame frame = open.frame;
   for (const auto& source : *open.grids) {
     if (!source->isType<FloatGrid>() && !source->isType<Vec3SGrid>()) {
-      refuse(file, "grid '" + source->getName() + "' has the type " + source->type() + ", which Seiche does not write");
+      refuse(file,
+             "grid '" + source->getName() + "' has the type " + source->type() + "; Seiche does not write such grids");
     }
     require_within(file, open, *source);
     frame.grids.push_back(to_dense(open, *source));

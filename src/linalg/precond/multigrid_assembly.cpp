@@ -75,7 +75,7 @@ template <int Dim>
 std::string assemble_stencil(const LinearSystem& system, const CellBox& box, StencilRows<Dim>& stencil) {
   for (const int n : system.grid().periodic)
     if (n > 0 && n < 3) return "a periodic axis has fewer than 3 cells";
-  if (box.cells() > INT32_MAX / 4) return "more cells than multigrid counts";
+  if (box.cells() > INT32_MAX / 4) return "too many cells for 32-bit indices";
   CellBox mine;
   for (int a = 0; a < 3; ++a) {
     mine.lower[a] = std::max(box.lower[a], system.grid().lower[a]);

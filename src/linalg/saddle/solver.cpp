@@ -19,8 +19,8 @@ enum class Start { warm, cold };
 const SaddleSystem& checked_size(const SaddleSystem& s) {
   constexpr Row limit = std::numeric_limits<std::int32_t>::max();
   if (s.F.global_rows <= limit) return s;
-  throw Error(ExitCode::machine, fmt::format("the viscous system has {} faces, but hypre as built here counts to {}; "
-                                             "use larger cells, or a hypre with 64-bit integers",
+  throw Error(ExitCode::machine, fmt::format("the viscous system has {} unknowns, more than the {} that this build of "
+                                             "hypre can number; use larger cells, or build with a 64-bit hypre",
                                              s.F.global_rows, limit));
 }
 

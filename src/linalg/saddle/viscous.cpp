@@ -91,8 +91,9 @@ SaddleReport SaddleSolver::solve_viscous(const BodyMatrix& H, const Vector& f, c
     report.used = fmt::format("conjugate gradients with {} boomeramg", strength);
     const Outcome result = iterate_viscous(build(options_.preconditioner, strength), w, b, x, report);
     if (report.converged) break;
-    report.failed_attempts.push_back(fmt::format("{}: residual {:.2e} after {} iterations, {}", report.used,
-                                                 report.residual, result.iterations, result.failure));
+    report.failed_attempts.push_back(fmt::format("{}: residual {:.2e} after {} iterations{}{}", report.used,
+                                                 report.residual, result.iterations, result.failure.empty() ? "" : ", ",
+                                                 result.failure));
     if (strength == std::string("standard")) std::fill(x.begin(), x.end(), 0.0);
   }
   weigh(w, x);

@@ -44,8 +44,8 @@ void spoil(Vector& x, int fallback) {
 const DistributedMatrix& checked_size(const DistributedMatrix& A) {
   constexpr Row limit = std::numeric_limits<std::int32_t>::max();
   if (A.global_rows <= limit) return A;
-  throw Error(ExitCode::machine, fmt::format("the pressure system has {} rows, but hypre as built here counts to {}; "
-                                             "use larger cells, or a hypre with 64-bit integers",
+  throw Error(ExitCode::machine, fmt::format("the pressure system has {} unknowns, more than the {} that this build of "
+                                             "hypre can number; use larger cells, or build with a 64-bit hypre",
                                              A.global_rows, limit));
 }
 

@@ -19,8 +19,8 @@ void number(const ContactBody& body, typename ContactScene<Dim>::Data& data) {
   for (const int p : surface.source) {
     const int node = !deforms ? 0 : p < static_cast<int>(body.nodes.size()) ? body.nodes[p] : -1;
     if (deforms && (node < 0 || node >= body.node_count))
-      throw Error(ExitCode::bad_input,
-                  data.names.back() + ": point " + std::to_string(p) + " of its surface is at no node of its mesh");
+      throw Error(ExitCode::bad_input, data.names.back() + ": point " + std::to_string(p) +
+                                           " of its surface coincides with no node of its mesh");
     data.point_dof.push_back(deforms ? begin + Dim * node : -1);
     data.pinned.push_back(std::size_t(p) < body.pinned.size() ? body.pinned[std::size_t(p)] : 0);
   }

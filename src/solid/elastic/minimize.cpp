@@ -109,7 +109,7 @@ void descend(const Descent<Dim>& s, const MinimizeOptions& options, Eigen::Vecto
   for (; s.report.iterations < options.max_iterations; ++s.report.iterations) {
     const Eigen::VectorXd g = potential_gradient(s.potential, u);
     if (!newton_step(s, u, g, d)) {
-      s.report.failure = "the stiffness is singular: is the body held?";
+      s.report.failure = "the stiffness matrix is singular; pin the body";
       return;
     }
     s.report.last_step = d.template lpNorm<Eigen::Infinity>() / s.size;
@@ -187,7 +187,7 @@ MinimizeReport minimize(const IncrementalPotential<Dim>& p, const Pins& pins, co
   MinimizeReport report;
   const Descent<Dim> descent{p, pins, workspace, report, extent(p.body->mesh)};
   if (!(least_volume_ratio(*p.body, u) > 0)) {
-    report.failure = "the start has inverted elements";
+    report.failure = "elements are inverted at the start";
   } else if (!drive_pins(descent, options.max_iterations, u)) {
     report.failure = "the pins cannot move without inverting an element";
   } else {

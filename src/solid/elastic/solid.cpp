@@ -31,9 +31,10 @@ std::vector<int> nodes_in(const PinSpec& pin, const std::string& name, const Ela
     if (d <= on_surface * edge) nodes.push_back(int(n));
   }
   if (!nodes.empty()) return nodes;
-  throw Error(ExitCode::bad_input,
-              fmt::format("{}: pinned of solid '{}' holds none of its {} nodes; the nearest lies {:.4g} m outside it",
-                          pin.shape.where, name, mesh.nodes.size(), nearest));
+  throw Error(
+      ExitCode::bad_input,
+      fmt::format("{}: the pinned shape of solid '{}' contains none of its {} nodes; the nearest lies {:.4g} m outside",
+                  pin.shape.where, name, mesh.nodes.size(), nearest));
 }
 
 // Removes nodes that earlier pins already hold with the same motion.
@@ -46,11 +47,10 @@ void drop_held(const PinSpec& pin, const std::string& name, const ElasticMesh<Di
     if (both.empty()) continue;
     if (!same_motion(pin.motion, other.motion)) {
       const Vec3 at = extend<Dim>(mesh.nodes[std::size_t(both[0])]);
-      throw Error(
-          ExitCode::bad_input,
-          fmt::format("{}: two parts of pinned of solid '{}' move differently and hold the same {} node(s), the "
-                      "first at ({:g}, {:g}, {:g}); make them apart",
-                      pin.shape.where, name, both.size(), at[0], at[1], at[2]));
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: two pinned shapes of solid '{}' move differently but share {} node(s), the first at "
+                              "({:g}, {:g}, {:g}); separate the shapes",
+                              pin.shape.where, name, both.size(), at[0], at[1], at[2]));
     }
     std::vector<int> rest;
     std::set_difference(nodes.begin(), nodes.end(), both.begin(), both.end(), std::back_inserter(rest));
@@ -98,10 +98,11 @@ LoadedSides find_sides(const TractionSpec& traction, const std::string& name, co
     if (farthest <= on_surface * edge) loaded.faces.push_back(std::move(face));
   }
   if (!loaded.faces.empty()) return loaded;
-  throw Error(ExitCode::bad_input,
-              fmt::format("{}: traction of solid '{}' holds no whole side of an element; the nearest reaches {:.4g} m "
-                          "out of it. Make its shape larger than the loaded part of the boundary",
-                          traction.shape.where, name, nearest));
+  throw Error(
+      ExitCode::bad_input,
+      fmt::format("{}: the traction shape of solid '{}' contains no whole boundary face of an element; the nearest "
+                  "face reaches {:.4g} m beyond it; enlarge the shape",
+                  traction.shape.where, name, nearest));
 }
 
 template <int Dim>

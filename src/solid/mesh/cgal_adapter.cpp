@@ -128,8 +128,8 @@ ElasticMesh<2> triangulate(const SurfaceMesh& outline, double size) {
       t.insert_constraint(plane::point(outline.points[std::size_t(i)]), plane::point(outline.points[std::size_t(j)]));
   } catch (const plane::Triangulation::Intersection_of_constraints_exception&) {
     fail(
-        "its outline crosses itself when drawn with the edges of elements, for it has parts, gaps or notches narrower "
-        "than those; lower element_size or leave such detail out");
+        "its outline crosses itself when drawn with edges of element_size, because it has parts, gaps or notches "
+        "narrower than an element; lower element_size or remove such detail");
   }
   if (t.dimension() < 2) fail("its outline has no area");
   plane::mark_inside(t);

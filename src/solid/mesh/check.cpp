@@ -60,7 +60,7 @@ void drop_unused(ElasticMesh<Dim>& mesh, const std::string& where, std::vector<s
   }
   if (kept.size() == mesh.nodes.size()) return;
   notes.push_back(where + ": dropped " + std::to_string(mesh.nodes.size() - kept.size()) +
-                  " nodes that no element has");
+                  " nodes that belong to no element");
   for (int& n : mesh.elements) n = place[n];
   mesh.nodes = std::move(kept);
 }

@@ -84,8 +84,9 @@ long long integer_token(const mesh::Source& source, mesh::Tokens& tokens) {
 long long count_token(const mesh::Source& source, mesh::Tokens& tokens, const char* what) {
   const long long count = integer_token(source, tokens);
   if (count >= 0 && count <= (long long)(tokens.bytes_left() / 2)) return count;
-  mesh::fail_at_line(source, tokens.line(),
-                     std::to_string(count) + " " + what + " cannot be in what is left of the file");
+  mesh::fail_at_line(
+      source, tokens.line(),
+      std::to_string(count) + " " + what + " do not fit into the rest of the file; it is truncated or damaged");
 }
 
 }  // namespace elastic

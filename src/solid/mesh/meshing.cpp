@@ -105,9 +105,10 @@ void check_thickness(const SolidSpec& spec, const SurfaceMesh& surface) {
   if (thickness >= spec.elastic.element_size) return;
   const double count = volume * (Dim == 2 ? 2.3 : 8.5) / std::pow(thickness, Dim);
   if (count <= most_elements) return;
-  fail(spec, fmt::format("it is about {:.2g} m thick, and elements as small would be about {:.2g}; at most {:.0g} are "
-                         "possible: make it thicker, or write a plate as a box, whose elements may be flat",
-                         thickness, count, most_elements));
+  fail(spec,
+       fmt::format("it is about {:.2g} m thick; elements of that size would be about {:.2g} in number, and at most "
+                   "{:.0g} are possible; make it thicker, or use shape = \"box\", whose elements may be flat",
+                   thickness, count, most_elements));
 }
 
 // Sampled shapes: the contour's edges have notches of the sampling distance, which must not be kept.
@@ -120,8 +121,8 @@ template <int Dim>
 double sampling(const SolidSpec& spec, const Vec<Dim>& domain) {
   const double spacing = sample_share * spec.elastic.element_size;
   if (is_sampled(spec.shape) && (domain / spacing).prod() > most_samples) {
-    fail(spec, fmt::format("element_size = {:g} m is too small for a shape without bounds of its own, which is looked "
-                           "for at points {:g} m apart all over the domain; raise it",
+    fail(spec, fmt::format("element_size = {:g} m is too small: the shape has no bounds of its own and would be "
+                           "sampled every {:g} m all over the domain; raise element_size",
                            spec.elastic.element_size, spacing));
   }
   return spacing;

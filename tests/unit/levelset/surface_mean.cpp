@@ -1,4 +1,4 @@
-// Mean of surface values around a point.
+// Values of a surface near a point: means, normals, distances.
 #include <catch2/catch.hpp>
 
 #include "levelset/surface_distance.h"
@@ -55,5 +55,30 @@ TEST_CASE("the mean of a surface around a point is of all points near it, howeve
     for (std::size_t k = 0; k < points.size(); ++k)
       if ((points[k] - x).norm() < 0.14) CHECK(seen[k]);
     CHECK(surface.mean_around({0.05, 0.9}, 0.15).empty());
+  }
+}
+
+// The box of a long oblique facet reaches far beyond the facet itself.
+TEST_CASE("a surface has a nearest point, a normal and a distance within two cells of it only") {
+  Geometry<2> g;
+  g.lower = {-1, -1};
+  g.h = 0.1;
+  g.cells = {20, 20};
+  const Layout<2> layout(g, g.box(), 3);
+  SurfaceMesh m;
+  m.points = {{-0.6, -0.6, 0}, {0.6, -0.6, 0}, {-0.6, 0.6, 0}};
+  m.segments = {{0, 1}, {1, 2}, {2, 0}};
+  const std::vector<Vec<2>> points = flat(m);
+  const SurfaceDistance<2> surface(layout, m, points);
+  const Vec<2> normal = Vec<2>(1, 1).normalized();
+  for (const double d : {-0.25, -0.15, 0.15, 0.19, 0.21, 0.5}) {  // from the oblique side
+    INFO(d);
+    const Vec<2> x = d * normal;
+    const bool is_near = std::abs(d) <= 0.2;
+    SurfacePoint<2> point;
+    CHECK(surface.nearest(x, point) == is_near);
+    CHECK(surface.nearest_weights(x).empty() == !is_near);
+    CHECK((surface.normal_near(x) - (is_near ? normal : Vec<2>::Zero().eval())).norm() <= 1e-15);
+    CHECK(surface.distance(x) == Approx(is_near ? d : 0.2).epsilon(1e-14));
   }
 }

@@ -140,6 +140,23 @@ TEST_CASE("saddle: the viscous part alone") {
   CHECK((dense(m, a.u, a.v, {}, ranks).head(n) - exact).norm() <= 1e-7 * exact.norm());
 }
 
+TEST_CASE("saddle: attempts at the viscous part that only ran out of iterations name no other cause") {
+  const Communicator ranks;
+  const StokesMatrices m = cases::StokesBuilder(liquid(2, 10, 1.0), ranks).make();
+  const Problem p = pose(m);
+  BodyMatrix H(ranks);
+  REQUIRE(H.set(m.H));
+  SaddleSolver solver(m.system(), {.tolerance = 1e-11, .max_iterations = 1}, ranks);
+  Answer a = start(m);
+  const SaddleReport report = solver.solve_viscous(H, p.f, p.g, a.u, a.v);
+  CHECK_FALSE(report.converged);
+  REQUIRE(report.failed_attempts.size() == 2);
+  for (const std::string& attempt : report.failed_attempts) {
+    INFO(attempt);
+    CHECK(attempt.substr(attempt.size() - 10) == "iterations");
+  }
+}
+
 TEST_CASE("saddle: a solver that is wrong is found out, and the next one asked") {
   const Communicator ranks;
   Stokes s = liquid(2, 16, 10);

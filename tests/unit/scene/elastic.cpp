@@ -168,7 +168,7 @@ TEST_CASE("pins must be shapes and their motions continuous") {
       "did you mean 'translate'?");
   check_refused(small_scene + "[domain.boundary]\nx_lower = \"periodic\"\nx_upper = \"periodic\"\n" +
                     ball("").substr(small_scene.size()),
-                "elastic solid \"solid1\" may move along x, but the domain is periodic along x");
+                "elastic solid \"solid1\" may move along x, but solids cannot cross the periodic sides along x");
 }
 
 TEST_CASE("an elastic solid may be read from a file of elements, another not") {
@@ -183,7 +183,7 @@ TEST_CASE("an elastic solid may be read from a file of elements, another not") {
       const SolidSpec solid = parse(from(start, name, keys), {}, folder.path()).solids[0];
       CHECK(solid.elastic.element_size == 0);
       CHECK_THAT(fault(from(start, name, keys + "element_size = 0.1\n"), {}, folder.path()),
-                 Contains("element_size has no meaning: the elements are those of '"));
+                 Contains("element_size has no effect, because the elements come from '"));
     }
   }
   CHECK_NOTHROW(parse(from(small_scene, "body.obj", keys + "element_size = 0.1\n"), {}, folder.path()));
@@ -249,7 +249,7 @@ TEST_CASE("a displacement probe follows a point of an elastic solid") {
   CHECK(parse(write_scene(scene)).probes[0].solid == "gate");
   check_refused(ball(probe), "needs 'solid' with kind = \"displacement\"");
   check_refused(ball("name = \"gate\"" + probe + "solid = \"gat\"\n"),
-                "probe \"probe1\" follows \"gat\", which is no elastic solid; did you mean \"gate\"?");
+                "probe \"probe1\" needs an elastic solid, and \"gat\" is none; did you mean \"gate\"?");
   check_refused(ball(probe + "solid = \"x\"\n"), "there is \"solid1\"");
   check_refused(small_scene + probe + "solid = \"x\"\n", "the scene has none");
   check_refused(small_scene + "[[probe]]\nkind = \"pressure\"\nposition = [0, 0, 0]\nsolid = \"x\"\n",

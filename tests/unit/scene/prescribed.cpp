@@ -37,11 +37,11 @@ TEST_CASE("what a prescribed flow would feel nothing of is refused by name") {
            {"[[liquid.source]]\n" + disc + "velocity = [1, 0]\n", "liquid.source.velocity"},
            {"[gas]\n", "[gas]"},
            {"[[solid]]\n" + disc, "[[solid]]"}}) {
-    CHECK_THAT(fault(swirl + more), Contains("liquid.prescribed_velocity: a flow that is given for all times") &&
-                                        Contains("nothing of " + name + "; leave out this"));
+    CHECK_THAT(fault(swirl + more), Contains("liquid.prescribed_velocity: the flow is prescribed and not solved") &&
+                                        Contains("so " + name + " would have no effect; remove it"));
   }
   CHECK_THAT(fault(swirl + "separates = true\nviscosity = 1\n"),
-             Contains("nothing of liquid.viscosity, liquid.separates; leave out these"));
+             Contains("so liquid.viscosity, liquid.separates would have no effect; remove these"));
   CHECK_THAT(fault(flat_scene + "[liquid]\nprescribed_velocty = [0, 0]\n"),
              Contains("did you mean 'prescribed_velocity'"));
 }

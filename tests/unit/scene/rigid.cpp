@@ -108,7 +108,7 @@ TEST_CASE("what is fixed must exist, be said once and not move") {
   check_refused(heavy(2, "fixed = [\"z\"]"),
                 "solid.0.fixed.0 must be \"x\", \"y\" or \"rotation\", not the text \"z\"");
   check_refused(heavy(2, "fixed = [\"rotation_z\"]"), "did you mean \"rotation\"?");
-  check_refused(heavy(3, "fixed = [\"y\"]\nvelocity = [1, 2, 3]"), "solid.0.velocity is 2 for y, which fixed holds");
+  check_refused(heavy(3, "fixed = [\"y\"]\nvelocity = [1, 2, 3]"), "solid.0.velocity is 2 for y, but fixed includes y");
   check_refused(heavy(2, "fixed = [\"rotation\"]\nangular_velocity = 1"), "solid.0.angular_velocity is 1 for z");
 }
 

@@ -90,5 +90,5 @@ TEST_CASE("a surface whose points do not exist is refused") {
   SurfaceMesh broken = box<3>(Vec3::Ones());
   broken.triangles[3][1] = 8;
   CHECK_THROWS_WITH(ContactScene<3>({{broken, BodyControl::free, 1, {}, "rock"}}, {}),
-                    "rock: its surface uses point 8, which it lacks");
+                    "rock: its surface uses point 8, but there is no such point");
 }

@@ -165,7 +165,7 @@ TEST_CASE("Binary arrays of a mesh that are damaged or lie are refused", "[elast
   expect_refused(types(3, "\n\n"), "array 'types' is ");
   expect_refused(types(std::numeric_limits<std::uint64_t>::max(), "\n\n"), "array 'types' is cut short");
   expect_refused(types(std::uint64_t(1) << 40, "\n\n"), "array 'types' is cut short");
-  expect_refused(types(2, std::string(8, '\n')), "goes on behind the length it announces");
+  expect_refused(types(2, std::string(8, '\n')), "is longer than its header says");
   expect_refused(types(1, "\n"), "there are not as many types as offsets");
   for (const char* letters :
        {"", "AgAA", "Ag*AAAAAAAAKCg==", "AgAAAAAAAAAK-g==", "AgAAAAAAAAAKCg=", "====AAAAAAAAAAAA"})

@@ -267,12 +267,12 @@ TEST_CASE("Pins hold the nodes that lie in them", "[elastic][meshing]") {
     CHECK(pins.targets[i + 1] == Approx(X[0] - X[1]).margin(1e-15));
   }
   spec.elastic.pinned[1].motion.degrees = "0";
-  CHECK_THAT(fault<2>(spec), Contains("scene.toml:9: two parts of pinned of solid 'body' move differently and hold the "
-                                      "same 5 node(s)"));
+  CHECK_THAT(fault<2>(spec), Contains("scene.toml:9: two pinned shapes of solid 'body' move differently but share "
+                                      "5 node(s)"));
   spec.elastic.pinned = {pin};
   spec.elastic.pinned[0].shape.upper[1] = -0.25;
-  CHECK_THAT(fault<2>(spec), Contains("scene.toml:9: pinned of solid 'body' holds none of its") &&
-                                 Contains("the nearest lies 0.25 m outside it"));
+  CHECK_THAT(fault<2>(spec), Contains("scene.toml:9: the pinned shape of solid 'body' contains none of its") &&
+                                 Contains("the nearest lies 0.25 m outside"));
 }
 
 TEST_CASE("Forces on an elastic solid add up", "[elastic][meshing]") {
@@ -299,8 +299,9 @@ TEST_CASE("Forces on an elastic solid add up", "[elastic][meshing]") {
   CHECK(sum[1] == Approx(50 * 2 * 0.1 * 0.2));
   CHECK(sum[2] == Approx(0.1 * 0.2 * 0.1 + 8 * 0.1 * 0.2));
   spec.elastic.tractions[1].shape.lower[2] = 0.3;
-  CHECK_THAT(fault<3>(spec), Contains("scene.toml:12: traction of solid 'body' holds no whole side of an element; the "
-                                      "nearest reaches 0.1 m out of it"));
+  CHECK_THAT(fault<3>(spec),
+             Contains("scene.toml:12: the traction shape of solid 'body' contains no whole boundary face "
+                      "of an element; the nearest face reaches 0.1 m beyond it"));
   spec.elastic.tractions = {upper};
   spec.elastic.tractions[0].stress = {"0", "1/(y-0.4)", "0"};
   CHECK_THAT(fault<3>(spec), Contains("scene.toml:12: traction of solid 'body' is not a finite number"));

@@ -235,7 +235,7 @@ TEST_CASE("what is near by its shape does not push, what crosses itself is repor
 
 TEST_CASE("a deformable surface off its mesh's nodes is refused", "[soft]") {
   ContactBody body{box<2>(Vec3::Ones()), BodyControl::deformable, 1, {}, "jelly", {0, 1, 4, 3}, 4};
-  CHECK_THROWS_WITH(ContactScene<2>({body}, {}), "jelly: point 2 of its surface is at no node of its mesh");
+  CHECK_THROWS_WITH(ContactScene<2>({body}, {}), "jelly: point 2 of its surface coincides with no node of its mesh");
 }
 
 TEMPLATE_TEST_CASE_SIG("soft bodies go straight as far as is surely free, and a solve goes on from an earlier one",
