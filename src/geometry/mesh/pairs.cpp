@@ -13,7 +13,7 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-constexpr double few_pairs = 32;            // up to so many pairs are tried one by one
+constexpr double few_pairs = 256;           // up to so many pairs are tried one by one
 constexpr double gain = 0.8;                // a halving is worthwhile if it leaves at most this fraction of the pairs
 constexpr std::size_t few_pieces = 64;      // a shared point is looked for among so many pieces
 constexpr int most_patience = 4;            // halvings without gain before all pairs are tried
