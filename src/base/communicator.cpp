@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/patient_yield.h"
 
 namespace seiche {
 namespace {
@@ -43,7 +44,7 @@ std::vector<std::string> split(const Pieces& p) {
 // Variables that the environment sets already keep their values.
 MpiSession::MpiSession(int& argc, char**& argv) {
   // Waiting ranks yield their core. Otherwise, on a busy machine, they would block the ranks that they wait for.
-  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  wait_patiently();
   // Without mpirun, Open MPI starts a daemon for the single process and makes a folder that all such processes share:
   // both can fail if one process starts while another ends. A single process needs neither.
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {

@@ -30,9 +30,17 @@ struct Verified {
   std::vector<std::string> notes, meshes, factors;
 };
 
-std::vector<const ShapeSpec*> shapes_of(const Scene& scene) {
+std::string describe_factors(const std::string& name, int dimension, int nodes) {
+  return fmt::format("the factors of '{}' take about {}", name,
+                     readable_bytes(factor_bytes(dimension, dimension * nodes)));
+}
+
+// The set-up for a run makes the shapes of sources and solids itself and tells their notes; doing it here as well would
+// double the time.
+std::vector<const ShapeSpec*> shapes_of(const Scene& scene, bool set_up) {
   std::vector<const ShapeSpec*> shapes;
   for (const auto& region : scene.liquid.regions) shapes.push_back(&region.shape);
+  if (set_up) return shapes;
   for (const auto& source : scene.liquid.sources) shapes.push_back(&source.shape);
   for (const auto& solid : scene.solids) {
     if (!solid.kind.has_elements) shapes.push_back(&solid.shape);
@@ -50,22 +58,21 @@ void verify_elastic(const Scene& scene, const SolidSpec& solid, const ShapeOptio
       point_of_probe<Dim>(elastic.body.mesh, probe);
   }
   found.meshes.push_back(describe_mesh<Dim>(solid.name, elastic.body.mesh));
-  found.factors.push_back(fmt::format("the factors of '{}' take about {}", solid.name,
-                                      readable_bytes(factor_bytes(Dim, elastic.body.size()))));
+  found.factors.push_back(describe_factors(solid.name, Dim, elastic.body.size() / Dim));
 }
 
 template <int Dim>
-void verify_shapes(const Scene& scene, Verified& found) {
+void verify_shapes(const Scene& scene, bool set_up, Verified& found) {
   const ShapeOptions options{scene.domain.cell_size, &found.notes};
-  for (const ShapeSpec* shape : shapes_of(scene)) make_shape<Dim>(*shape, options);
+  for (const ShapeSpec* shape : shapes_of(scene, set_up)) make_shape<Dim>(*shape, options);
   for (const SolidSpec& solid : scene.solids) {
-    if (solid.kind.has_elements) verify_elastic<Dim>(scene, solid, options, found);
+    if (solid.kind.has_elements && !set_up) verify_elastic<Dim>(scene, solid, options, found);
   }
 }
 
-Verified verify_solids(const Scene& scene) {
+Verified verify_solids(const Scene& scene, bool set_up) {
   Verified found;
-  scene.dimension == 2 ? verify_shapes<2>(scene, found) : verify_shapes<3>(scene, found);
+  scene.dimension == 2 ? verify_shapes<2>(scene, set_up, found) : verify_shapes<3>(scene, set_up, found);
   return found;
 }
 
@@ -107,9 +114,13 @@ struct Start {
 };
 
 // Sets up the initial state, which evaluates the formulas as a run would, and describes liquid and solids.
-Start look_at_start(const Scene& scene, const Cost& cost, const Verified& found, const Communicator& ranks) {
+Start look_at_start(const Scene& scene, const Cost& cost, Verified& found, const Communicator& ranks) {
   if (cost.cells <= most_cells_set_up) {
     const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);
+    for (std::size_t k = 0; k < scene.solids.size(); ++k)
+      if (scene.solids[k].kind.has_elements)
+        found.factors.push_back(
+            describe_factors(scene.solids[k].name, scene.dimension, int(simulation->solid_volume(k).rest.size())));
     Start start{simulation->describe_start(), found.notes};
     for (std::string& text : simulation->take_warnings())
       if (std::find(start.warnings.begin(), start.warnings.end(), text) == start.warnings.end())
@@ -129,14 +140,15 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
   RunLog log(around.ranks, around.console, Verbosity::normal);
   Scene scene;
   Verified found;
+  Cost cost;
   agree(around.ranks, "checking the scene", [&] {
     scene = read_scene(options.scene, options.overrides);
-    check_memory(estimate_cost(scene, around.ranks.size()), 1, 1, machine_memory());
+    cost = estimate_cost(scene, around.ranks.size());
+    check_memory(cost, 1, 1, machine_memory());
     std::vector<std::string> notes = check_mesh_extents(scene);
-    found = verify_solids(scene);
+    found = verify_solids(scene, cost.cells <= most_cells_set_up);
     found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
   });
-  const Cost cost = estimate_cost(scene, around.ranks.size());
   const Start start = look_at_start(scene, cost, found, around.ranks);
   for (const std::string& text : start.warnings) log.warn(text);
   log.note(fmt::format("{}: no errors", options.scene.string()));
@@ -145,7 +157,7 @@ ExitCode check_command(const CheckOptions& options, const Surroundings& around) 
   for (const std::string& text : start.lines) log.note(text);
   for (const std::string& text : found.factors) log.note(text);
   log.note(report(scene, cost, around.ranks.size()));
-  if (!found.meshes.empty()) log.note("note: the estimated time covers the liquid only; elastic solids add to it");
+  if (!found.factors.empty()) log.note("note: the estimated time covers the liquid only; elastic solids add to it");
   return ExitCode::done;
 }
 

@@ -14,7 +14,8 @@ namespace {
 
 // fewest_samples detects jumps that last; most_samples bounds the time of the check.
 constexpr int most_samples = 2000, fewest_samples = 50;
-constexpr double start_tolerance = 1e-9;  // m, degrees; round-off of formulas that are zero at t = 0
+// Of the domain's diagonal, and in degrees: round-off of formulas that are zero at t = 0.
+constexpr double start_tolerance = 1e-9;
 constexpr int sample_budget = 2'000'000;  // of all solids together
 
 struct Sampling {
@@ -57,12 +58,12 @@ struct Moving {
   Start start;
 };
 
-// An elastic solid starts undeformed, so its pins must start at rest positions.
-std::string fault_of_start(const Moving& moving) {
+// An elastic solid starts undeformed, so its pins must start at rest positions. `size`: the domain's diagonal, m.
+std::string fault_of_start(const Moving& moving, double size) {
   if (moving.start == Start::anywhere) return "";
   const Vec3 moved = VectorExpression(moving.motion->translate)(Vec3::Zero(), 0);
   const double turned = Expression(moving.motion->degrees)(Vec3::Zero(), 0);
-  if (moved.norm() <= start_tolerance && std::abs(turned) <= start_tolerance) return "";
+  if (moved.norm() <= start_tolerance * size && std::abs(turned) <= start_tolerance) return "";
   return fmt::format(
       "the motion must begin at the rest pose; at t = 0 it moves by {:.4g} m and turns by {:.4g} degrees", moved.norm(),
       turned);
@@ -85,12 +86,13 @@ std::vector<Moving> motions_of(const SolidSpec& solid, const std::string& path) 
 }  // namespace
 
 void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene) {
+  const double size = (scene.domain.upper - scene.domain.lower).norm();
   std::vector<Moving> moving;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const std::string path = fmt::format("solid.{}", i);
     if (!context.clean(path)) continue;
     for (Moving& m : motions_of(scene.solids[i], path)) {
-      const std::string fault = fault_of_start(m);
+      const std::string fault = fault_of_start(m, size);
       if (!fault.empty()) {
         context.report(m.path, line_of(root, m.path), m.subject + ": " + fault);
       } else if (!at_rest(*m.motion)) {
@@ -98,7 +100,7 @@ void check_motions(SceneContext& context, const TomlNode& root, const Scene& sce
       }
     }
   }
-  Sampling sampling{scene.time.end, (scene.domain.upper - scene.domain.lower).norm(), most_samples};
+  Sampling sampling{scene.time.end, size, most_samples};
   if (!moving.empty()) sampling.count = std::clamp(sample_budget / int(moving.size()), fewest_samples, most_samples);
   for (const Moving& m : moving) {
     const std::string fault = fault_of_motion(*m.motion, sampling);

@@ -548,6 +548,19 @@ def nan_once_in_numerics(bench):
         frames_are_good(bench.path(phase))
 
 
+def energy_beyond_the_budget(bench):
+    """A step that gains more energy than there is, is tried again at half its length, told and counted."""
+    for ranks in (1, 2):
+        out = f"blown_{ranks}"
+        result = bench.simulate("--break", "gravity:40", "--set", "time.fixed_step=0.02", "--frames", "1", out=out,
+                                ranks=ranks).needs(0)
+        expect("kinetic energy grows" in result.errors and "trying half the step" in result.errors, result.errors)
+        with open(bench.path(f"{out}/stats.csv")) as file:
+            rejected = [int(row["rejected"]) for row in csv.DictReader(file)]
+        expect(sum(rejected) == result.errors.count("trying half the step") > 0, f"rejected: {rejected}")
+        frames_are_good(bench.path(out))
+
+
 def nan_that_stays(bench):
     """A NaN in every attempt ends the run with 3, field and cell, and a checkpoint of the last good step."""
     for phase in ("transport", "solve", "frame", "checkpoint", "stats"):
@@ -1067,7 +1080,7 @@ TABLES = {
     "memory": [grid_larger_than_any_machine, address_space_limit, allocation_fails_on_one_rank],
     "stopping": [stop_by_signal, stop_in_the_first_moments, run_folder_removed, stop_by_file_and_walltime, stop_under_mpirun, hung_rank, killed_and_resumed,
                  resume_of_finished_run],
-    "injection": [exception_in_every_phase, rank_killed, nan_once_in_numerics, nan_that_stays],
+    "injection": [exception_in_every_phase, rank_killed, nan_once_in_numerics, energy_beyond_the_budget, nan_that_stays],
     "checkpoints": [damaged_checkpoints, damaged_tables, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
                     foreign_checkpoints, other_rank_counts, edited_scene],
     "frames": [frames_open_elsewhere],

@@ -4,8 +4,10 @@ import copy
 import json
 import pathlib
 import random
+import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import unittest.mock
 
@@ -13,7 +15,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 from fuzzing import damage, oracle, registry, scene_mode, scenes, tables, toml  # noqa: E402
-from fuzzing.program import Done  # noqa: E402
+from fuzzing.program import Done, kill_session, session_members  # noqa: E402
 
 SCENE = {"dimension": 2, "domain": {"lower": [0, 0], "upper": [1, 1], "cell_size": 0.1}, "liquid": {"density": 1000.0}}
 COLUMNS = ("step", "time", "liquid_volume", "kinetic_energy", "potential_energy", "elastic_energy", "wall_seconds")
@@ -44,6 +46,18 @@ class Ends(unittest.TestCase):
             with self.assertRaises(tables.Fault) as found:
                 oracle.check_end(done, (0, 2, 3), "run")
             self.assertEqual(found.exception.what, what)
+
+
+class Kills(unittest.TestCase):
+    def test_ranks_in_process_groups_of_their_own(self):
+        """As `mpirun` starts them: the death of their parent's group leaves them alive."""
+        job = "import os, time; os.fork() or os.setpgid(0, 0); time.sleep(100)"
+        process = subprocess.Popen([sys.executable, "-c", job], start_new_session=True)
+        while len(session_members(process.pid)) < 2:
+            time.sleep(0.01)
+        kill_session(process.pid)
+        self.assertEqual(session_members(process.pid), [])
+        process.wait()
 
 
 class Results(unittest.TestCase):

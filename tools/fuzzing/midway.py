@@ -1,8 +1,7 @@
 """Runs that are killed before their end, and the same runs undisturbed."""
-import os
-import signal
 import time
 
+from fuzzing.program import kill_session
 from fuzzing.tables import Fault, same_stats
 
 SCENE = """\
@@ -49,12 +48,9 @@ def steps_done(out):
     return max(0, path.read_bytes().count(b"\n") - 2) if path.exists() else 0
 
 
-def kill(process, how=signal.SIGKILL):
-    """Kills a run and all its ranks at once; `mpirun` and its ranks are one session."""
-    try:
-        os.killpg(process.pid, how)
-    except ProcessLookupError:
-        pass
+def kill(process):
+    """Kills a run and all its ranks at once, and returns when none is left."""
+    kill_session(process.pid)
     process.wait()
 
 

@@ -79,6 +79,36 @@ def tail(stream):
     return stream.read().decode(errors="replace")
 
 
+def session_members(leader):
+    """Processes of the session of `leader` that still run; zombies do not count."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            state, _, _, session = (entry / "stat").read_text().rpartition(")")[2].split()[:4]
+        except OSError:
+            continue
+        if int(session) == leader and state != "Z":
+            found.append(int(entry.name))
+    return found
+
+
+def kill_session(leader):
+    """Kills all processes of a session and returns when none runs any more.
+
+    `mpirun` puts each rank into a process group of its own. A rank that outlives it by a second still holds the lock
+    of the run, so that a run started at once is refused."""
+    until = time.monotonic() + 60
+    while (members := session_members(leader)) and time.monotonic() < until:
+        for pid in members:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        time.sleep(0.001)
+
+
 def wait(process, until):
     """(exit code or None, usage); wait4 reports the usage of this child and its children."""
     while True:
@@ -87,7 +117,7 @@ def wait(process, until):
             process.returncode = os.waitstatus_to_exitcode(status)
             return (None if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else process.returncode), usage
         if time.monotonic() > until:
-            os.killpg(process.pid, signal.SIGKILL)
+            kill_session(process.pid)
             process.wait()
             return None, None
         time.sleep(0.005)

@@ -111,6 +111,15 @@ SurfaceMesh mend(SurfaceMesh mesh, std::vector<std::string>& notes) {
   return mesh;
 }
 
+struct Mended {
+  SurfaceMesh raw, whole;
+  std::vector<std::string> notes;
+};
+
+bool same(const SurfaceMesh& a, const SurfaceMesh& b) {
+  return a.points == b.points && a.triangles == b.triangles && a.segments == b.segments;
+}
+
 }  // namespace
 
 std::string read_bytes(const std::filesystem::path& file) {
@@ -126,16 +135,23 @@ std::string read_bytes(const std::filesystem::path& file) {
 
 }  // namespace mesh
 
+// The last mesh that was mended is kept: distance, surface and mass of a solid are made from one file, and the search
+// for self-intersections takes longer than all else.
 SurfaceMesh read_closed_mesh(const std::filesystem::path& file, std::vector<std::string>& notes) {
+  static thread_local mesh::Mended last;
   SurfaceMesh raw = mesh::parse(file);
-  std::vector<std::string> own;
-  try {
-    SurfaceMesh result = mesh::mend(std::move(raw), own);
-    for (const std::string& note : own) notes.push_back(file.string() + ": " + note);
-    return result;
-  } catch (const Error& e) {
-    throw Error(e.code(), file.string() + ": " + e.what());
+  if (!mesh::same(raw, last.raw)) {
+    last = {};
+    mesh::Mended now{raw, {}, {}};
+    try {
+      now.whole = mesh::mend(std::move(raw), now.notes);
+    } catch (const Error& e) {
+      throw Error(e.code(), file.string() + ": " + e.what());
+    }
+    last = std::move(now);
   }
+  for (const std::string& note : last.notes) notes.push_back(file.string() + ": " + note);
+  return last.whole;
 }
 
 Vec3 mesh_extent(const std::filesystem::path& file) {

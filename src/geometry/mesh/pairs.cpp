@@ -13,8 +13,9 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-constexpr double few_pairs = 32;            // up to so many pairs are tried one by one
+constexpr double few_pairs = 256;           // up to so many pairs are tried one by one
 constexpr double gain = 0.8;                // a halving is worthwhile if it leaves at most this fraction of the pairs
+constexpr std::size_t few_pieces = 64;      // a shared point is looked for among so many pieces
 constexpr int most_patience = 4;            // halvings without gain before all pairs are tried
 constexpr double rounding = 1e-12;          // relative to the largest coordinate, far above the round-off of clipping
 constexpr std::size_t max_corners = 3 + 6;  // corners of a triangle clipped by a box
@@ -93,15 +94,17 @@ class Search {
     }));
   }
 
-  // Number of pairs to try without those that share `point`. The point is the best of a few candidates; -1: none.
+  // Number of pairs to try without those that share `point`. The point is the best of a few candidates; -1: none. It
+  // takes time, and is looked for only among few pieces, or where halving has gained little.
   struct Work {
     int point = -1;
     double pairs = 0;
   };
-  Work work(const Pieces& edges, const Pieces& triangles) const {
+  Work work(const Pieces& edges, const Pieces& triangles, int patience) const {
     if (edges.empty() || triangles.empty()) return {};
     Work least{-1, double(edges.size()) * double(triangles.size())};
-    if (least.pairs <= few_pairs) return least;
+    const bool few = edges.size() + triangles.size() <= few_pieces;
+    if (least.pairs <= few_pairs || (patience == most_patience && !few)) return least;
     for (const std::size_t t : {std::size_t(0), triangles.size() / 2, triangles.size() - 1}) {
       for (const int point : triangles_[triangles[t].index]) {
         const double e = double(count_without(edges_, edges, point)),
@@ -153,25 +156,25 @@ class Search {
     double pairs = std::numeric_limits<double>::infinity();
   };
 
-  Halves halves(const Half& whole, int axis, double at) const {
+  Halves halves(const Half& whole, int axis, double at, int patience) const {
     Halves result;
     result.pairs = 0;
     for (const bool high : {false, true}) {
       Half& half = high ? result.high : result.low;
       half = {beyond(edges_, whole.edges, axis, at, high), beyond(triangles_, whole.triangles, axis, at, high)};
-      result.pairs += work(half.edges, half.triangles).pairs;
+      result.pairs += work(half.edges, half.triangles, patience).pairs;
     }
     return result;
   }
 
   // Halves the longest side, or, if that gains little, the side that gains most.
-  Halves best_halves(const Half& whole, const Box& cell, double now) const {
+  Halves best_halves(const Half& whole, const Box& cell, double now, int patience) const {
     Eigen::Index longest = 0;
     cell.sizes().maxCoeff(&longest);
-    Halves best = halves(whole, int(longest), cell.center()[longest]);
+    Halves best = halves(whole, int(longest), cell.center()[longest], patience);
     for (int axis = 0; axis < 3 && best.pairs > gain * now; ++axis) {
       if (axis == longest) continue;
-      Halves other = halves(whole, axis, cell.center()[axis]);
+      Halves other = halves(whole, axis, cell.center()[axis], patience);
       if (other.pairs < best.pairs) best = std::move(other);
     }
     return best;
@@ -181,10 +184,10 @@ class Search {
     const Box cell = around(whole.edges).intersection(around(whole.triangles));
     keep_within(cell, whole.edges);
     keep_within(cell, whole.triangles);
-    const Work now = work(whole.edges, whole.triangles);
+    const Work now = work(whole.edges, whole.triangles, patience);
     if (now.pairs == 0) return;
     if (now.pairs <= few_pairs || patience == 0) return try_all(whole, now.point);
-    Halves best = best_halves(whole, cell, now.pairs);
+    Halves best = best_halves(whole, cell, now.pairs, patience);
     patience = best.pairs < gain * now.pairs ? most_patience : patience - 1;
     whole = {};
     halve(std::move(best.low), patience);

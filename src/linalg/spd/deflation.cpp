@@ -215,10 +215,24 @@ void Deflation::multiply_out() {
   });
   zaz_ = zaz.total(ranks);
   jz_ = jz.total(ranks);
-  double trace = 0;
+  regularize();
+}
+
+// A share of each column's own diagonal entry, since columns of translation, rotation and closed components differ in
+// units. Columns without energy, as of closed components, take the mean diagonal entry of A instead.
+void Deflation::regularize() {
+  constexpr double rounding = 1e-14;
+  const LinearSystem& A = S_.liquid();
+  std::vector<double> sums{0, double(A.rows())};
+  for (int i = 0; i < A.rows(); ++i) sums[0] += A.diagonal(i);
+  S_.ranks().global_sum(sums);
+  regularization_.assign(Z_.size(), sums[1] > 0 ? rounding * sums[0] / sums[1] : 0);
   for (const auto& t : zaz_)
-    if (t.row() == t.col()) trace += t.value();
-  regularization_ = Z_.empty() ? 0 : 1e-14 * trace / double(Z_.size());
+    if (t.row() == t.col() && t.value() > 0) regularization_[std::size_t(t.row())] = rounding * t.value();
+}
+
+Eigen::Map<const Eigen::VectorXd> Deflation::regularization(Eigen::Index count) const {
+  return Eigen::Map<const Eigen::VectorXd>(regularization_.data(), count);
 }
 
 Eigen::MatrixXd Deflation::estimate_schur() const {
@@ -228,8 +242,8 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
     if (t.row() < body_columns_ && t.col() < body_columns_) zaz(t.row(), t.col()) += t.value();
   for (const auto& t : jz_)
     if (t.col() < body_columns_) jz(t.row(), t.col()) += t.value();
-  zaz.diagonal().array() += regularization_;
-  const Eigen::MatrixXd schur = jz * zaz.ldlt().solve(jz.transpose());
+  zaz.diagonal() += regularization(body_columns_);
+  const Eigen::MatrixXd schur = jz * ScaledLdlt(zaz).solve(jz.transpose());
   return 0.5 * (schur + schur.transpose());
 }
 
@@ -245,7 +259,7 @@ bool Deflation::multiply_small() {
   Eigen::MatrixXd JZ = Eigen::MatrixXd::Zero(S_.columns().columns(), n), E = Eigen::MatrixXd::Zero(n, n);
   for (const auto& t : jz_) JZ(t.row(), t.col()) += t.value();
   for (const auto& t : zaz_) E(t.row(), t.col()) += t.value();
-  E.diagonal().array() += regularization_;
+  E.diagonal() += regularization(n);
   for (Eigen::Index k = 0; k < n; ++k) E.col(k) += JZ.transpose() * S_.weigh(JZ.col(k));
   small_.emplace(0.5 * (E + E.transpose()));
   return small_->info() == Eigen::Success && E.allFinite();
@@ -256,7 +270,7 @@ bool Deflation::factor_extended() {
   const int n = int(Z_.size()), m = S_.columns().columns();
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& t : zaz_) entries.emplace_back(t.row(), t.col(), t.value());
-  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, regularization_);
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, regularization_[std::size_t(i)]);
   for (const auto& t : jz_) {
     entries.emplace_back(n + t.row(), t.col(), t.value());
     entries.emplace_back(t.col(), n + t.row(), t.value());
@@ -279,7 +293,7 @@ void Deflation::factor_own() {
   if (n < least_dense || n > body_columns_ || double(zaz_.size()) < dense * double(n) * double(n)) return;
   Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);
   for (const auto& t : zaz_) F(t.row(), t.col()) += t.value();
-  F.diagonal().array() += regularization_;
+  F.diagonal() += regularization(n);
   own_.emplace(F);
   if (own_->info() != Eigen::Success) return own_.reset();
   W_.setZero(n, m);

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
+#include "linalg/core/scaled_ldlt.h"
 #include "linalg/core/sparse_vector.h"
 #include "linalg/precond/preconditioners.h"
 #include "linalg/spd/body_regions.h"
@@ -50,6 +51,8 @@ class Deflation {
   void add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode);
   void add_component_columns();
   void multiply_out();
+  void regularize();
+  Eigen::Map<const Eigen::VectorXd> regularization(Eigen::Index count) const;  // of the first columns
   Eigen::VectorXd transposed(const std::vector<SparseVector>& columns, const Vector& x) const;
   bool multiply_small();
   bool factor_extended();
@@ -64,13 +67,13 @@ class Deflation {
   std::vector<SparseVector> Z_, AZ_;
   std::vector<Eigen::Triplet<double>> zaz_, jz_;  // Z' A Z and J' Z
   int body_columns_ = 0;                          // columns of Z that belong to bodies; closed components follow
-  double regularization_ = 0;
+  std::vector<double> regularization_;            // of the diagonal of Z'AZ
   int applications_ = 0;
-  std::optional<Eigen::LDLT<Eigen::MatrixXd>> small_;  // of E
-  Eigen::SimplicialLDLT<SparseMatrix> extended_;       // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> own_;     // or, where nearly all columns overlap: Z'AZ = LL',
-  Eigen::MatrixXd W_, added_;                          // W = L^-1 (J'Z)', W'W,
-  Eigen::LLT<Eigen::MatrixXd> added_mass_;             // H/c + W'W
+  std::optional<ScaledLdlt> small_;                 // of E
+  Eigen::SimplicialLDLT<SparseMatrix> extended_;    // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> own_;  // or, where nearly all columns overlap: Z'AZ = LL',
+  Eigen::MatrixXd W_, added_;                       // W = L^-1 (J'Z)', W'W,
+  Eigen::LLT<Eigen::MatrixXd> added_mass_;          // H/c + W'W
 };
 
 }  // namespace seiche

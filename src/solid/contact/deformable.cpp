@@ -38,6 +38,7 @@ PairDofs<Dim> pair_dofs(const typename ContactScene<Dim>::Data& scene, const Int
                         const Candidate& pair) {
   PairDofs<Dim> r;
   r.prescribed.setZero(PairDofs<Dim>::most);
+  r.lengths.setOnes(PairDofs<Dim>::most);
   const auto sides = sides_of<Dim>(pair);
   for (int s = 0; s < 2; ++s) {
     const Side& side = sides[s];
@@ -50,9 +51,11 @@ PairDofs<Dim> pair_dofs(const typename ContactScene<Dim>::Data& scene, const Int
     }
     const int first = scene.first_dof[side.body];
     if (first < 0) r.prescribed.template segment<twist_size<Dim>>(r.count) = interval.prescribed[side.body];
+    r.lengths.template segment<turn_size<Dim>>(r.count + Dim).setConstant(interval.radius[side.body]);
     for (int k = 0; k < twist_size<Dim>; ++k) r.dof[r.count++] = first < 0 ? -1 : first + k;
   }
   r.prescribed.conservativeResize(r.count);
+  r.lengths.conservativeResize(r.count);
   return r;
 }
 

@@ -18,6 +18,7 @@ struct PairDofs {
   std::array<int, most> dof{};  // in the stacked velocities; -1: prescribed
   std::array<int, 2> begin{};   // first degree of freedom of each side
   Vector prescribed;            // velocities of prescribed sides, 0 elsewhere
+  Vector lengths;               // 1 for velocities; the radius of the body for rotations
 };
 
 // second: a body, or -1 for a wall.

@@ -16,12 +16,16 @@ using PairVector = Eigen::Matrix<double, 2 * twist_size<Dim>, 1>;
 template <int Dim>
 using PairMatrix = Eigen::Matrix<double, 2 * twist_size<Dim>, 2 * twist_size<Dim>>;
 
-// Nearest positive semi-definite matrix: negative eigenvalues become zero.
-template <class Matrix>
-Matrix without_negative(const Matrix& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric);
+// Nearest positive semi-definite matrix, where negative eigenvalues become zero, in unknowns of one unit: velocities,
+// and rotations times the given lengths (1 for velocities).
+template <class Matrix, class Lengths>
+Matrix without_negative(const Matrix& symmetric, const Lengths& lengths) {
+  const Matrix units = lengths * lengths.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric.cwiseQuotient(units));
   if (eigen.eigenvalues()[0] >= 0) return symmetric;
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  const Matrix positive =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  return positive.cwiseProduct(units);
 }
 
 // Sums pairs by the two bodies they join. The ordered map keeps sums identical from run to run.
@@ -49,7 +53,7 @@ class Assembly {
   void add(const PairDofs<Dim>& dofs, const typename PairDofs<Dim>::Vector& gradient,
            const typename PairDofs<Dim>::Matrix& exact) {
     const typename PairDofs<Dim>::Matrix hessian =
-        curvature_ == HessianProjection::exact ? exact : without_negative(exact);
+        curvature_ == HessianProjection::exact ? exact : without_negative(exact, dofs.lengths);
     const typename PairDofs<Dim>::Vector drag = hessian * (left_ * dofs.prescribed);
     for (int i = 0; i < dofs.count; ++i) {
       if (dofs.dof[i] < 0) continue;
@@ -63,7 +67,8 @@ class Assembly {
   void finish(ContactTerms& terms) {
     std::vector<Eigen::Triplet<double>>& entries = entries_;
     for (const auto& [bodies, sum] : hessians_) {
-      const PairMatrix<Dim> hessian = curvature_ == HessianProjection::exact ? sum : without_negative(sum);
+      const PairMatrix<Dim> hessian =
+          curvature_ == HessianProjection::exact ? sum : without_negative(sum, lengths(bodies));
       const std::array<int, 2> body{bodies.first, bodies.second};
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) scatter(body[i], body[j], hessian.template block<n, n>(n * i, n * j), entries);
@@ -76,6 +81,14 @@ class Assembly {
 
  private:
   int first_dof(int body) const { return body < 0 ? -1 : scene_.first_dof[body]; }
+
+  // 1 for velocities and the body's radius for rotations, of both bodies (second: -1 for a wall).
+  PairVector<Dim> lengths(const std::pair<int, int>& bodies) const {
+    PairVector<Dim> r = PairVector<Dim>::Ones();
+    r.template segment<n - Dim>(Dim).setConstant(interval_.radius[bodies.first]);
+    if (bodies.second >= 0) r.template tail<n - Dim>().setConstant(interval_.radius[bodies.second]);
+    return r;
+  }
 
   void scatter(int row, int column, const Eigen::Matrix<double, n, n>& part,
                std::vector<Eigen::Triplet<double>>& entries) {

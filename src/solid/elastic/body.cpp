@@ -100,12 +100,12 @@ void assemble_mass(ElasticBody<Dim>& body) {
   const int count = body.mesh.nodes_per_element();
   const auto add = [&](int e, const Eigen::VectorXd& N, const Vec<Dim>&, double volume) {
     const int* n = body.mesh.element(e);
-    for (int pair = 0; pair < count * count; ++pair) {
-      const int a = pair / count, b = pair % count, slot = body.slots[size_t(e) * count * count + pair];
-      for (int k = 0; k < Dim; ++k) {
-        body.mass.valuePtr()[body.mass.outerIndexPtr()[Dim * n[b] + k] + slot + k] +=
-            body.properties.density * volume * N[a] * N[b];
-      }
+    const int* slot = &body.slots[size_t(e) * count * count];
+    for (int a = 0; a < count; ++a) {
+      const double row = body.properties.density * volume * N[a];
+      for (int b = 0; b < count; ++b, ++slot)
+        for (int k = 0; k < Dim; ++k)
+          body.mass.valuePtr()[body.mass.outerIndexPtr()[Dim * n[b] + k] + *slot + k] += row * N[b];
     }
   };
   over_volume(body.mesh, add);

@@ -67,6 +67,25 @@ TEST_CASE("polygons become fans of triangles") {
   CHECK(volume(mesh) == Approx(1));
 }
 
+// The last mesh is kept. It must not stand in for another one, for a changed file or for a refused one.
+TEST_CASE("a mesh that is read again is the same, with its notes") {
+  const TemporaryFolder folder;
+  const SurfaceMesh ball = sphere(Vec3(0, 0, 0), 1, 1);
+  SurfaceMesh twice = ball, open = ball;
+  twice.triangles.push_back(ball.triangles[0]);
+  open.triangles.pop_back();
+  for (int round = 0; round < 2; ++round) {
+    for (const char* name : {"a.obj", "b.obj"}) {
+      std::vector<std::string> notes;
+      CHECK(read(folder, name, obj(twice), &notes).triangles.size() == ball.triangles.size());
+      REQUIRE(notes.size() == 1);
+      CHECK_THAT(notes[0], Catch::Contains(name));
+    }
+    CHECK(refusal(folder, "a.obj", obj(open)) != "");
+    CHECK(read(folder, "a.obj", obj(cube())).triangles.size() == 12);
+  }
+}
+
 TEST_CASE("missing, empty, foreign and unfetched files are refused by name") {
   const TemporaryFolder folder;
   CHECK_THAT(refusal_of_file(folder.path / "none.obj"), Catch::Contains("none.obj") && Catch::Contains("No such file"));

@@ -171,6 +171,22 @@ TEST_CASE("pins must be shapes and their motions continuous") {
                 "elastic solid \"solid1\" may move along x, but solids cannot cross the periodic sides along x");
 }
 
+// A pin is 1e-5 domain widths away from its start in domains of a micrometre and of a kilometre, and 1e-12 of them.
+TEST_CASE("pins begin at rest positions to a share of the domain") {
+  for (const double width : {1e-6, 1e3}) {
+    const auto moved = [width](double share) {
+      return fmt::format(
+          "dimension = 2\n[domain]\nupper = [{0}, {0}]\ncell_size = {1}\n[time]\nend = 1\n[[solid]]\n"
+          "kind = \"elastic\"\nshape = \"sphere\"\nradius = {1}\ncenter = [{2}, {2}]\ndensity = 1\n"
+          "element_size = {1}\n{3}pinned = {{ shape = \"sphere\", center = [{2}, {2}], radius = {1}, "
+          "motion = {{ translate = [{4}, 0] }} }}\n",
+          width, width / 16, width / 2, rubber, share * width);
+    };
+    check_refused(moved(1e-5), "the motion must begin at the rest pose");
+    CHECK_NOTHROW(parse(moved(1e-12)));
+  }
+}
+
 TEST_CASE("an elastic solid may be read from a file of elements, another not") {
   const ScratchFolder folder;
   for (const char* name : {"body.msh", "body.vtu", "body.MESH", "body.obj"}) folder.write(name, "x");
