@@ -2,24 +2,35 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 
 #include "linalg/core/sparse_inverse.h"
 
 namespace seiche {
+
+std::vector<CouplingEntry> of_all_ranks(const std::vector<CouplingEntry>& mine, const Communicator& ranks) {
+  if (ranks.size() == 1) return mine;
+  std::vector<CouplingEntry> all;
+  for (const std::string& part :
+       ranks.all_gather(std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(CouplingEntry)))) {
+    const std::size_t before = all.size();
+    all.resize(before + part.size() / sizeof(CouplingEntry));
+    if (!part.empty()) std::memcpy(static_cast<void*>(all.data() + before), part.data(), part.size());
+  }
+  return all;
+}
+
+int index_of(const std::vector<Row>& rows, Row row) {
+  const auto found = std::lower_bound(rows.begin(), rows.end(), row);
+  return found != rows.end() && *found == row ? int(found - rows.begin()) : -1;
+}
+
 namespace {
 
-struct Entry {
-  Row row;
-  std::int64_t column;
-  double value;
-};
-
 // This rank's entries of the deformable blocks of J. Identity rows of A are left out.
-std::vector<Entry> local_entries(const LinearSystem& A, const BlockColumns& J) {
+std::vector<CouplingEntry> local_entries(const LinearSystem& A, const BlockColumns& J) {
   std::vector<char> is_identity(std::size_t(A.rows()), 0);
   for (const int i : A.identity_list()) is_identity[std::size_t(i)] = 1;
-  std::vector<Entry> entries;
+  std::vector<CouplingEntry> entries;
   std::int64_t first = 0;
   for (const ColumnBlock& b : J.blocks) {
     if (b.deforms())
@@ -32,30 +43,13 @@ std::vector<Entry> local_entries(const LinearSystem& A, const BlockColumns& J) {
   return entries;
 }
 
-std::vector<Entry> of_all_ranks(const std::vector<Entry>& mine, const Communicator& ranks) {
-  if (ranks.size() == 1) return mine;
-  std::vector<Entry> all;
-  for (const std::string& part :
-       ranks.all_gather(std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(Entry)))) {
-    const std::size_t before = all.size();
-    all.resize(before + part.size() / sizeof(Entry));
-    if (!part.empty()) std::memcpy(static_cast<void*>(all.data() + before), part.data(), part.size());
-  }
-  return all;
-}
-
 // Rows that bodies touch, over all ranks, ascending.
-std::vector<Row> touched_rows(const std::vector<Entry>& entries) {
+std::vector<Row> touched_rows(const std::vector<CouplingEntry>& entries) {
   std::vector<Row> rows;
-  for (const Entry& e : entries) rows.push_back(e.row);
+  for (const CouplingEntry& e : entries) rows.push_back(e.row);
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
-}
-
-int index_of(const std::vector<Row>& rows, Row row) {
-  const auto found = std::lower_bound(rows.begin(), rows.end(), row);
-  return found != rows.end() && *found == row ? int(found - rows.begin()) : -1;
 }
 
 // Drops off-diagonal entries below this fraction of the diagonal: nine in ten of them, at no cost in iterations.
@@ -68,10 +62,11 @@ void drop_small(SparseMatrix& M) {
 }
 
 // J G'G J' on the touched rows.
-SparseMatrix coupling_of(const std::vector<Entry>& entries, const std::vector<Row>& rows, const SparseMatrix& H) {
+SparseMatrix coupling_of(const std::vector<CouplingEntry>& entries, const std::vector<Row>& rows,
+                         const SparseMatrix& H) {
   std::vector<Eigen::Triplet<double>> triplets;
   std::vector<char> wanted(std::size_t(H.rows()), 0);
-  for (const Entry& e : entries) {
+  for (const CouplingEntry& e : entries) {
     triplets.emplace_back(index_of(rows, e.row), int(e.column), e.value);
     wanted[std::size_t(e.column)] = 1;
   }
@@ -85,23 +80,49 @@ SparseMatrix coupling_of(const std::vector<Entry>& entries, const std::vector<Ro
 
 }  // namespace
 
-DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c) {
-  const std::vector<Entry> entries = of_all_ranks(local_entries(A, J), A.ranks());
-  const std::vector<Row> rows = touched_rows(entries);
-  const SparseMatrix C = coupling_of(entries, rows, H);
+BodyCoupling body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c) {
+  const std::vector<CouplingEntry> entries = of_all_ranks(local_entries(A, J), A.ranks());
+  BodyCoupling C{touched_rows(entries), {}};
+  C.matrix = c * coupling_of(entries, C.rows, H);
+  return C;
+}
+
+DistributedMatrix add_body_coupling(const LinearSystem& A, const BodyCoupling& C) {
   const DistributedMatrix& P = A.pattern();
   DistributedMatrix M;
   M.first_row = P.first_row;
   M.global_rows = P.global_rows;
+  M.column.reserve(P.column.size() + std::size_t(C.matrix.nonZeros()));
+  M.value.reserve(P.column.size() + std::size_t(C.matrix.nonZeros()));
   for (int i = 0; i < A.rows(); ++i) {
     const Row own = P.first_row + i;
-    std::map<Row, double> row;  // the diagonal has key -1, so that it comes first
-    const auto add = [&](Row column, double value) { row[column == own ? -1 : column] += value; };
-    for (int k = P.row_start[i]; k < P.row_start[i + 1]; ++k) add(P.column[k], A.values()[k]);
-    if (const int m = index_of(rows, own); m >= 0)
-      for (SparseMatrix::InnerIterator it(C, m); it; ++it) add(rows[std::size_t(it.row())], c * it.value());
-    for (const auto& [column, value] : row) M.column.push_back(column < 0 ? own : column), M.value.push_back(value);
+    const auto begin = std::ptrdiff_t(M.column.size());
+    const auto add = [&](Row column, double value) {
+      const auto found = std::find(M.column.begin() + begin, M.column.end(), column);
+      if (found != M.column.end())
+        M.value[std::size_t(found - M.column.begin())] += value;
+      else
+        M.column.push_back(column), M.value.push_back(value);
+    };
+    for (int k = P.row_start[i]; k < P.row_start[i + 1]; ++k) {
+      M.column.push_back(P.column[std::size_t(k)]);
+      M.value.push_back(A.values()[std::size_t(k)]);
+    }
+    if (const int m = index_of(C.rows, own); m >= 0)
+      for (SparseMatrix::InnerIterator it(C.matrix, m); it; ++it) add(C.rows[std::size_t(it.row())], it.value());
     M.row_start.push_back(int(M.column.size()));
+  }
+  return M;
+}
+
+DistributedMatrix add_lumped_coupling(const LinearSystem& A, const BodyCoupling& C) {
+  DistributedMatrix M = A.pattern();
+  M.value = A.values();
+  for (std::size_t m = 0; m < C.rows.size(); ++m) {
+    const Row i = C.rows[m] - M.first_row;
+    if (i < 0 || i >= A.rows()) continue;
+    for (SparseMatrix::InnerIterator it(C.matrix, int(m)); it; ++it)
+      M.value[std::size_t(M.row_start[std::size_t(i)])] += std::abs(it.value());
   }
   return M;
 }

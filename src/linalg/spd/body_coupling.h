@@ -7,8 +7,33 @@
 
 namespace seiche {
 
-// Adds the coupling of the deformable blocks of J; others are left out. Collective.
-DistributedMatrix add_body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c);
+// c J G'G J' of the deformable blocks of J, on the rows that they touch, over all ranks.
+struct BodyCoupling {
+  std::vector<Row> rows;  // ascending
+  SparseMatrix matrix;
+};
+
+// Place of a row in an ascending list, -1 if it is not there.
+int index_of(const std::vector<Row>& rows, Row row);
+
+// An entry of a matrix with global rows.
+struct CouplingEntry {
+  Row row;
+  std::int64_t column;
+  double value;
+};
+
+// The entries of all ranks, in the order of the ranks. Collective.
+std::vector<CouplingEntry> of_all_ranks(const std::vector<CouplingEntry>& mine, const Communicator& ranks);
+
+// Identity rows of A are left out. Collective.
+BodyCoupling body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c);
+
+// A + C. Collective.
+DistributedMatrix add_body_coupling(const LinearSystem& A, const BodyCoupling& C);
+
+// A + diag(sums over the rows of |C|): keeps the stencil of A, and equals A + C on constants if C has one sign.
+DistributedMatrix add_lumped_coupling(const LinearSystem& A, const BodyCoupling& C);
 
 // True if some diagonal entry of H has changed by more than a factor of 4: stiffness or contact has come or gone.
 bool has_changed_much(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& before);

@@ -59,6 +59,23 @@ std::vector<std::array<int, 3>> cells_of_rows(const LinearSystem& A) {
   return cells;
 }
 
+std::vector<int> rows_in(const CellRange& range, const RowGrid& grid) {
+  std::array<std::vector<int>, 3> inside;  // offsets from the grid's lower end
+  for (int a = 0; a < 3; ++a)
+    for (int i = grid.lower[a]; i < grid.upper[a]; ++i)
+      if (const int n = range.offset(a, i); n >= 0 && n < range.width(a)) inside[a].push_back(i - grid.lower[a]);
+  const int nx = grid.upper[0] - grid.lower[0], ny = grid.upper[1] - grid.lower[1];
+  std::vector<int> rows;
+  for (const int k : inside[2])
+    for (const int j : inside[1])
+      for (const int i : inside[0]) {
+        const auto cell = std::size_t(i) + std::size_t(nx) * (std::size_t(j) + std::size_t(ny) * std::size_t(k));
+        if (cell < grid.row_of_cell.size() && grid.row_of_cell[cell] >= 0) rows.push_back(grid.row_of_cell[cell]);
+      }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
 std::vector<CellRange> ranges_of_blocks(const BlockColumns& J, const std::vector<std::array<int, 3>>& cells,
                                         const std::array<int, 3>& period, const Communicator& ranks) {
   constexpr int far = 1 << 30;  // beyond any cell index

@@ -27,6 +27,9 @@ struct CellRange {
 std::vector<std::array<int, 3>> cells_of_rows(const LinearSystem& A);
 bool has_place(const std::array<int, 3>& cell);
 
+// Local rows whose cells lie in the range, ascending.
+std::vector<int> rows_in(const CellRange& range, const RowGrid& grid);
+
 // Bounding range of the rows of each block, over all ranks. Collective.
 std::vector<CellRange> ranges_of_blocks(const BlockColumns& J, const std::vector<std::array<int, 3>>& cells,
                                         const std::array<int, 3>& period, const Communicator& ranks);

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
-#include <cstring>
-#include <map>
-#include <unordered_map>
+#include <numeric>
+
+#include "linalg/spd/column_products.h"
 
 namespace seiche {
 namespace {
@@ -16,81 +16,47 @@ constexpr int cut_reach = 4;
 // Least number of columns for dense factors.
 constexpr Eigen::Index least_dense = 100;
 
-enum class Placeless { keep, drop };
-
-// Nonzeros of v in rows whose cell lies in the range. Rows without a cell (placeless) are kept or dropped.
-SparseVector cut(const Vector& v, const std::vector<std::array<int, 3>>& cells, const CellRange& range,
-                 Placeless placeless) {
+// Nonzeros of v in the given rows.
+SparseVector cut(const Vector& v, const std::vector<int>& rows) {
   SparseVector c;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const bool kept = has_place(cells[i]) ? range.contains(cells[i]) : placeless == Placeless::keep;
-    if (v[i] != 0 && kept) c.row.push_back(int(i)), c.value.push_back(v[i]);
-  }
+  for (const int i : rows)
+    if (v[std::size_t(i)] != 0) c.row.push_back(i), c.value.push_back(v[std::size_t(i)]);
   return c;
 }
 
-// Scales values linearly to zero over the outer cells of a range. A sharp cut leaves large A z at the edge and doubles
-// the iterations.
-void fade_out(const std::vector<std::array<int, 3>>& cells, const CellRange& range, SparseVector& c) {
-  for (std::size_t n = 0; n < c.row.size(); ++n) {
-    const auto& cell = cells[c.row[n]];
+// Weight of each row: 1, linearly to zero over the outer cells of the range. A sharp cut leaves large A z at the edge
+// and doubles the iterations.
+std::vector<double> fading_weights(const std::vector<int>& rows, const std::vector<std::array<int, 3>>& cells,
+                                   const CellRange& range) {
+  std::vector<double> weights;
+  for (const int row : rows) {
     double weight = 1;
     for (int a = 0; a < 3; ++a) {
       if (range.wraps(a)) continue;
-      const int n = range.offset(a, cell[a]);
+      const int n = range.offset(a, cells[std::size_t(row)][std::size_t(a)]);
       const double inside = std::min(n + 1, range.width(a) - n);
       weight = std::min(weight, inside / (cut_reach + 1));
     }
-    c.value[n] *= weight;
+    weights.push_back(weight);
   }
+  return weights;
 }
 
-// Sums over the rows of all ranks, one for each pair of columns.
-class PairSums {
- public:
-  explicit PairSums(std::int64_t columns) : columns_(columns) {}
-  void add(int i, int j, double value) { sums_[std::int64_t(i) * columns_ + j] += value; }
+std::vector<int> all_rows(const LinearSystem& A) {
+  std::vector<int> rows(std::size_t(A.rows()));
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
 
-  // Collective.
-  std::vector<Eigen::Triplet<double>> total(const Communicator& ranks) const {
-    std::map<std::int64_t, double> all(sums_.begin(), sums_.end());
-    if (ranks.size() > 1) {
-      std::vector<Item> mine;
-      for (const auto& [key, value] : all) mine.push_back({key, value});
-      const std::string bytes(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(Item));
-      all.clear();
-      for (const std::string& part : ranks.all_gather(bytes)) {
-        std::vector<Item> theirs(part.size() / sizeof(Item));
-        if (!part.empty()) std::memcpy(theirs.data(), part.data(), part.size());
-        for (const Item& item : theirs) all[item.key] += item.value;
-      }
-    }
-    std::vector<Eigen::Triplet<double>> triplets;
-    for (const auto& [key, value] : all) triplets.emplace_back(int(key / columns_), int(key % columns_), value);
-    return triplets;
-  }
-
- private:
-  struct Item {
-    std::int64_t key;
-    double value;
-  };
-  std::int64_t columns_;
-  std::unordered_map<std::int64_t, double> sums_;
-};
-
-struct ColumnValue {
-  int column;
-  double value;
-};
-
-// Transposes columns to lists by row.
-std::vector<std::vector<ColumnValue>> by_row(const std::vector<SparseVector>& columns, int rows) {
-  std::vector<std::vector<ColumnValue>> list(rows);
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    for (std::size_t n = 0; n < columns[c].row.size(); ++n)
-      list[columns[c].row[n]].push_back({int(c), columns[c].value[n]});
-  return list;
+// Rows without a cell, and those in the range, ascending.
+std::vector<int> with_placeless(const std::vector<std::array<int, 3>>& cells, const CellRange& range,
+                                const RowGrid& grid) {
+  std::vector<int> rows = rows_in(range, grid);
+  const std::size_t placed = rows.size();
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (!has_place(cells[i])) rows.push_back(int(i));
+  std::inplace_merge(rows.begin(), rows.begin() + std::ptrdiff_t(placed), rows.end());
+  return rows;
 }
 
 }  // namespace
@@ -106,13 +72,26 @@ Deflation::Deflation(const CoupledSystem& S, Preconditioner& B) : S_(S), B_(B) {
 
 Deflation::Regions Deflation::find_regions() const {
   const BlockColumns& J = S_.columns();
-  Regions regions{cells_of_rows(S_.liquid()), {}, {}, {}, J.blocks.size() <= few_bodies};
-  constexpr int everywhere = 1 << 28;
-  for (const CellRange& r : ranges_of_blocks(J, regions.cells, S_.liquid().grid().periodic, S_.ranks())) {
-    regions.kept.push_back(r.grown(regions.whole ? everywhere : cut_reach));
-    regions.touched.push_back(regions.kept.back().grown(1));  // A reaches one more cell
+  const LinearSystem& A = S_.liquid();
+  if (J.blocks.size() <= few_bodies) {
+    Regions regions;
+    for (std::size_t b = 0; b < J.blocks.size(); ++b) {
+      regions.bodies.push_back({all_rows(A), all_rows(A), {}});
+      regions.color.push_back(int(b));
+    }
+    return regions;
   }
-  regions.color = color(regions.touched, reaching_placeless(S_.liquid(), regions.cells, regions.kept));
+  const auto cells = cells_of_rows(A);
+  std::vector<CellRange> kept, touched;
+  Regions regions;
+  for (const CellRange& r : ranges_of_blocks(J, cells, A.grid().periodic, S_.ranks())) {
+    kept.push_back(r.grown(cut_reach));
+    touched.push_back(kept.back().grown(1));  // A reaches one more cell
+    const std::vector<int> rows = rows_in(kept.back(), A.grid());
+    regions.bodies.push_back(
+        {rows, with_placeless(cells, touched.back(), A.grid()), fading_weights(rows, cells, kept.back())});
+  }
+  regions.color = color(touched, reaching_placeless(A, cells, kept));
   return regions;
 }
 
@@ -182,12 +161,15 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
   A.project(z);
   ++applications_;
   for (const std::size_t b : members) {
-    Z_.push_back(cut(z, regions.cells, regions.kept[b], regions.whole ? Placeless::keep : Placeless::drop));
-    if (!regions.whole) fade_out(regions.cells, regions.kept[b], Z_.back());
-    for (std::size_t n = 0; n < Z_.back().row.size(); ++n) own[Z_.back().row[n]] = Z_.back().value[n];
+    const Neighbourhood& n = regions.bodies[b];
+    for (std::size_t k = 0; k < n.kept.size(); ++k) {
+      const auto row = std::size_t(n.kept[k]);
+      own[row] = n.fading.empty() ? z[row] : n.fading[k] * z[row];
+    }
+    Z_.push_back(cut(own, n.kept));
   }
   A.multiply(own, az);
-  for (const std::size_t b : members) AZ_.push_back(cut(az, regions.cells, regions.touched[b], Placeless::keep));
+  for (const std::size_t b : members) AZ_.push_back(cut(az, regions.bodies[b].touched));
 }
 
 // Adds indicators of the closed components that bodies feel: null vectors of A but not of S.
@@ -204,17 +186,8 @@ void Deflation::add_component_columns() {
 }
 
 void Deflation::multiply_out() {
-  const Communicator& ranks = S_.ranks();
-  const auto z_rows = by_row(Z_, S_.rows()), az_rows = by_row(AZ_, S_.rows());
-  PairSums zaz(std::int64_t(Z_.size())), jz(std::int64_t(Z_.size()));
-  for (std::size_t i = 0; i < z_rows.size(); ++i)
-    for (const ColumnValue& a : z_rows[i])
-      for (const ColumnValue& b : az_rows[i]) zaz.add(a.column, b.column, a.value * b.value);
-  S_.columns().for_each([&](int i, int k, double value) {
-    for (const ColumnValue& z : z_rows[i]) jz.add(k, z.column, value * z.value);
-  });
-  zaz_ = zaz.total(ranks);
-  jz_ = jz.total(ranks);
+  zaz_ = products(Z_, AZ_, S_.rows(), S_.ranks());
+  jz_ = products(S_.columns(), Z_, S_.rows(), S_.ranks());
   regularize();
 }
 

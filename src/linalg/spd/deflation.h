@@ -38,11 +38,14 @@ class Deflation {
   int applications_of_B() const { return applications_; }  // during set-up
 
  private:
+  // Rows around a body in which its columns of Z and of A Z may be nonzero, ascending; the factor of each kept entry.
+  struct Neighbourhood {
+    std::vector<int> kept, touched;
+    std::vector<double> fading;  // empty: 1 everywhere
+  };
   struct Regions {
-    std::vector<std::array<int, 3>> cells;  // of local rows
-    std::vector<CellRange> kept, touched;   // per body: ranges where its columns of Z and of A Z may be nonzero
+    std::vector<Neighbourhood> bodies;
     std::vector<int> color;
-    bool whole;  // columns are not cut
   };
   Regions find_regions() const;
   void find_modes();

@@ -48,7 +48,7 @@ void SchurPreconditioner::set_directions(std::vector<Vector> Jd) {
 void SchurPreconditioner::make_hierarchy(const SparseMatrix& H) {
   const LinearSystem* system = &A_;
   if (deforms_) {
-    matrix_ = std::make_unique<DistributedMatrix>(add_body_coupling(A_, J_, H, coupled_.scale()));
+    matrix_ = std::make_unique<DistributedMatrix>(add_body_coupling(A_, body_coupling(A_, J_, H, coupled_.scale())));
     filled_ = std::make_unique<LinearSystem>(*matrix_, A_.grid(), A_.null_space(), A_.ranks());
     diagonal_ = H.diagonal();
     system = filled_.get();

@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "base/error.h"
+#include "linalg/core/grid_stencil.h"
 #include "linalg/krylov/krylov.h"
-#include "linalg/precond/hypre_adapter.h"
-#include "linalg/precond/preconditioners.h"
 #include "linalg/spd/body_coupling.h"
 #include "linalg/spd/deflation.h"
 #include "linalg/spd/direct_solve.h"
+#include "linalg/spd/hierarchy.h"
 
 namespace seiche {
 namespace {
@@ -71,10 +71,7 @@ struct SpdSolver::Problem {
 };
 
 struct SpdSolver::Built {
-  std::unique_ptr<DistributedMatrix> matrix;  // the matrix it was made from, if not A
-  std::unique_ptr<LinearSystem> system;
-  Eigen::VectorXd diagonal;  // of H when it was made
-  PreconditionerOrFailure made;
+  Hierarchy hierarchy;
   std::unique_ptr<Deflation> deflation;
   int solves = 0, first_iterations = 0, last_iterations = 0;
 
@@ -113,34 +110,15 @@ std::vector<SpdSolver::Fallback> SpdSolver::make_fallback_chain(const std::strin
   return chain;
 }
 
-// Preconditioners that do not keep to the grid's stencil include the coupling of deformable bodies.
 void SpdSolver::make(const std::string& name, Built& built) const {
-  const LinearSystem* system = &liquid_;
-  const bool filled = J_.any_deforms() && system_.is_coupled() && !keeps_to_grid(name);
-  if (filled) {
-    built.matrix =
-        std::make_unique<DistributedMatrix>(add_body_coupling(liquid_, J_, system_.bodies(), system_.scale()));
-    built.system = std::make_unique<LinearSystem>(*built.matrix, liquid_.grid(), liquid_.null_space(), system_.ranks());
-    system = built.system.get();
-    built.diagonal = system_.bodies().diagonal();
-  }
-  // Rows filled by deformable bodies: aggressive coarsening doubles the iterations, and a single sweep costs a third
-  // more. Jumps: docs/decisions/0002-preconditioner-choice.md.
-  if (name != "boomeramg")
-    built.made = make_preconditioner(name, *system);
-  else if (filled)
-    built.made = make_boomeramg(*system, {.aggressive_levels = 0, .sweeps = 2});
-  else if (options_.jumps)
-    built.made = make_boomeramg(*system, {.elements_per_row = 6, .aggressive_levels = 0});
-  else
-    built.made = make_preconditioner(name, *system);
+  built.hierarchy = make_hierarchy(name, system_, options_.jumps ? Coefficients::jumping : Coefficients::smooth);
 }
 
 SpdSolver::Built& SpdSolver::build(const std::string& name) {
   std::unique_ptr<Built>& built = built_[J_.any_deforms() && system_.is_coupled() ? name + ", coupled" : name];
   if (!built || is_outdated(*built)) make(name, *(built = std::make_unique<Built>()));
-  if (!built->made.preconditioner) return *built;
-  if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->made.preconditioner);
+  if (!built->hierarchy.made.preconditioner) return *built;
+  if (!built->deflation) built->deflation = std::make_unique<Deflation>(system_, *built->hierarchy.made.preconditioner);
   last_built_ = built->deflation.get();
   return *built;
 }
@@ -148,8 +126,8 @@ SpdSolver::Built& SpdSolver::build(const std::string& name) {
 // True if stiffness or contact has changed and the solver has become slow. Contact at a few nodes alone does not slow
 // it down; a new hierarchy would cost far more than it saves (docs/decisions/0018-hierarchies-in-contact.md).
 bool SpdSolver::is_outdated(const Built& built) const {
-  return built.diagonal.size() > 0 && built.has_become_slow() &&
-         has_changed_much(system_.bodies().diagonal(), built.diagonal);
+  return built.hierarchy.diagonal.size() > 0 && built.has_become_slow() &&
+         has_changed_much(system_.bodies().diagonal(), built.hierarchy.diagonal);
 }
 
 double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
@@ -161,7 +139,7 @@ double SpdSolver::true_residual(const Problem& problem, const Vector& x) const {
 // Iterates; restarts from the current x until the true residual meets the tolerance.
 SpdSolver::Outcome SpdSolver::iterate(const Fallback& fallback, const Problem& problem, Vector& x) {
   Built& built = build(fallback.preconditioner);
-  if (!built.made.preconditioner) return {0, built.made.failure};
+  if (!built.hierarchy.made.preconditioner) return {0, built.hierarchy.made.failure};
   Deflation& B = *built.deflation;
   if (!B.refresh()) return {0, "the bodies' part of the preconditioner could not be factored"};
   // Slightly below the tolerance, since the residual of the recurrence drifts from the true one.
@@ -187,12 +165,11 @@ SpdSolver::Outcome SpdSolver::attempt(const Fallback& fallback, const Problem& p
   return iterate(fallback, problem, x);
 }
 
-// With many bodies PFMG needs twice the iterations of BoomerAMG (docs/decisions/0006-many-bodies.md). With any bodies,
-// columns of B J model their added mass if B is a hierarchy, but not if B is a diagonal.
+// With bodies, columns of B J model their added mass if B is a hierarchy, but not if B is a diagonal.
 std::string SpdSolver::choose() const {
   const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  const bool poor = chosen == "none" || (keeps_to_grid(chosen) && (J_.blocks.size() > few_bodies || J_.any_deforms()));
-  return options_.preconditioner == "auto" && !J_.blocks.empty() && poor ? "boomeramg" : chosen;
+  if (options_.preconditioner != "auto" || J_.blocks.empty() || chosen != "none") return chosen;
+  return box_of_rows(liquid_).cells() > 0 ? "geometric" : "boomeramg";
 }
 
 Eigen::MatrixXd SpdSolver::added_mass_estimate() const {
