@@ -3,7 +3,7 @@
 // Open MPI calls sched_yield() in each turn of a waiting loop (mpi_yield_when_idle). Beside any other busy process the
 // core then goes to that process for a time slice of some milliseconds, at each of the thousands of messages of a step.
 // Messages between ranks that run take microseconds. Ranks that outnumber the cores must yield all the same.
-// Figures: docs/decisions/0034-waiting-ranks.md.
+// Figures: docs/decisions/0035-waiting-ranks.md.
 #include "base/patient_yield.h"
 
 #include <sys/syscall.h>
