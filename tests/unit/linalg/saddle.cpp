@@ -140,13 +140,14 @@ TEST_CASE("saddle: the viscous part alone") {
   CHECK((dense(m, a.u, a.v, {}, ranks).head(n) - exact).norm() <= 1e-7 * exact.norm());
 }
 
-TEST_CASE("saddle: attempts at the viscous part that only ran out of iterations name no other cause") {
+// Below round-off, the residual of the recurrence converges and the true one does not.
+TEST_CASE("saddle: attempts at the viscous part that miss the tolerance without a failure name none") {
   const Communicator ranks;
   const StokesMatrices m = cases::StokesBuilder(liquid(2, 10, 1.0), ranks).make();
   const Problem p = pose(m);
   BodyMatrix H(ranks);
   REQUIRE(H.set(m.H));
-  SaddleSolver solver(m.system(), {.tolerance = 1e-11, .max_iterations = 1}, ranks);
+  SaddleSolver solver(m.system(), {.tolerance = 1e-18}, ranks);
   Answer a = start(m);
   const SaddleReport report = solver.solve_viscous(H, p.f, p.g, a.u, a.v);
   CHECK_FALSE(report.converged);
