@@ -1,6 +1,7 @@
 #include "linalg/spd/body_regions.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace seiche {
 namespace {
@@ -42,6 +43,18 @@ bool CellRange::meets(const CellRange& other) const {
     if (!overlap) return false;
   }
   return true;
+}
+
+int CellRange::squared_distance(const CellRange& other) const {
+  int sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int ahead = offset(a, other.lower[a]), behind = other.offset(a, lower[a]);
+    int gap = std::numeric_limits<int>::max();
+    if (ahead >= 0) gap = std::min(gap, std::max(0, ahead - width(a)));
+    if (behind >= 0) gap = std::min(gap, std::max(0, behind - other.width(a)));
+    sum += gap * gap;
+  }
+  return sum;
 }
 
 bool has_place(const std::array<int, 3>& cell) {
@@ -115,12 +128,18 @@ std::vector<char> reaching_placeless(const LinearSystem& A, const std::vector<st
   return reaching;
 }
 
-std::vector<int> color(const std::vector<CellRange>& ranges, const std::vector<char>& apart) {
+std::vector<int> color(const std::vector<CellRange>& ranges, const std::vector<char>& apart, int distance) {
+  const auto conflict = [&](std::size_t b, std::size_t other) {
+    if (apart[b] && apart[other]) return true;
+    const bool empty = ranges[b].empty() || ranges[other].empty();
+    return !empty &&
+           (ranges[b].meets(ranges[other]) || ranges[b].squared_distance(ranges[other]) < distance * distance);
+  };
   std::vector<int> colors;
   for (std::size_t b = 0; b < ranges.size(); ++b) {
     std::vector<char> taken(b + 1, 0);
     for (std::size_t other = 0; other < b; ++other)
-      if (ranges[b].meets(ranges[other]) || (apart[b] && apart[other])) taken[colors[other]] = 1;
+      if (conflict(b, other)) taken[colors[other]] = 1;
     colors.push_back(int(std::find(taken.begin(), taken.end(), 0) - taken.begin()));
   }
   return colors;

@@ -21,6 +21,8 @@ struct CellRange {
   bool contains(const std::array<int, 3>& cell) const;
   CellRange grown(int n) const;
   bool meets(const CellRange& other) const;
+  // Square of the distance between ranges that do not overlap, cells^2; else 0.
+  int squared_distance(const CellRange& other) const;
 };
 
 // Cell of each local row. Rows of enclosed air have none: has_place() is false and no range contains them.
@@ -38,8 +40,8 @@ std::vector<CellRange> ranges_of_blocks(const BlockColumns& J, const std::vector
 std::vector<char> reaching_placeless(const LinearSystem& A, const std::vector<std::array<int, 3>>& cells,
                                      const std::vector<CellRange>& ranges);
 
-// Colours 0, 1, ... such that ranges of one colour do not overlap and at most one of them has `apart` set. Greedy, in
-// the given order.
-std::vector<int> color(const std::vector<CellRange>& ranges, const std::vector<char>& apart);
+// Colours 0, 1, ... such that ranges of one colour do not overlap, are at least `distance` apart, and at most one of
+// them has `apart` set. Greedy, in the given order.
+std::vector<int> color(const std::vector<CellRange>& ranges, const std::vector<char>& apart, int distance = 0);
 
 }  // namespace seiche

@@ -13,6 +13,8 @@ namespace {
 // Width (cells) of the neighbourhood to which a body's columns of B J are cut if there are many bodies. A wider one
 // saves iterations but needs more colours (docs/decisions/0006-many-bodies.md).
 constexpr int cut_reach = 4;
+// Bodies at least this far apart (cells) share applications of B: columns of neither are kept where the other's are.
+constexpr int sharing_distance = 2 * cut_reach;
 // Least number of columns for dense factors.
 constexpr Eigen::Index least_dense = 100;
 
@@ -79,19 +81,23 @@ Deflation::Regions Deflation::find_regions() const {
       regions.bodies.push_back({all_rows(A), all_rows(A), {}});
       regions.color.push_back(int(b));
     }
+    regions.separate = regions.color;
     return regions;
   }
   const auto cells = cells_of_rows(A);
   std::vector<CellRange> kept, touched;
   Regions regions;
-  for (const CellRange& r : ranges_of_blocks(J, cells, A.grid().periodic, S_.ranks())) {
+  const std::vector<CellRange> bodies = ranges_of_blocks(J, cells, A.grid().periodic, S_.ranks());
+  for (const CellRange& r : bodies) {
     kept.push_back(r.grown(cut_reach));
     touched.push_back(kept.back().grown(1));  // A reaches one more cell
     const std::vector<int> rows = rows_in(kept.back(), A.grid());
     regions.bodies.push_back(
         {rows, with_placeless(cells, touched.back(), A.grid()), fading_weights(rows, cells, kept.back())});
   }
-  regions.color = color(touched, reaching_placeless(A, cells, kept));
+  const std::vector<char> apart = reaching_placeless(A, cells, kept);
+  regions.color = color(bodies, apart, sharing_distance);
+  regions.separate = color(touched, apart);
   return regions;
 }
 
@@ -147,7 +153,7 @@ void Deflation::make_columns() {
 // z = B (sum of the members' columns of J), cut to a column of Z for each member.
 void Deflation::add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode) {
   const LinearSystem& A = S_.liquid();
-  Vector r(A.rows(), 0.0), z(A.rows()), own(A.rows(), 0.0), az(A.rows());
+  Vector r(A.rows(), 0.0), z(A.rows());
   bool any = false;
   for (const std::size_t b : members) {
     const ColumnBlock& block = S_.columns().blocks[b];
@@ -160,6 +166,17 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
   B_.apply(r, z);
   A.project(z);
   ++applications_;
+  for (std::vector<std::size_t> left = members; !left.empty();) {
+    const auto same = [&, c = regions.separate[left.front()]](std::size_t b) { return regions.separate[b] == c; };
+    const auto rest = std::stable_partition(left.begin(), left.end(), same);
+    cut_columns(regions, {left.begin(), rest}, z);
+    left.erase(left.begin(), rest);
+  }
+}
+
+// A column of Z from z for each member, whose ranges are separate, and one of A Z.
+void Deflation::cut_columns(const Regions& regions, const std::vector<std::size_t>& members, const Vector& z) {
+  Vector own(z.size(), 0.0), az(z.size());
   for (const std::size_t b : members) {
     const Neighbourhood& n = regions.bodies[b];
     for (std::size_t k = 0; k < n.kept.size(); ++k) {
@@ -168,7 +185,7 @@ void Deflation::add_columns(const Regions& regions, const std::vector<std::size_
     }
     Z_.push_back(cut(own, n.kept));
   }
-  A.multiply(own, az);
+  S_.liquid().multiply(own, az);
   for (const std::size_t b : members) AZ_.push_back(cut(az, regions.bodies[b].touched));
 }
 

@@ -45,13 +45,15 @@ class Deflation {
   };
   struct Regions {
     std::vector<Neighbourhood> bodies;
-    std::vector<int> color;
+    std::vector<int> color;     // bodies of one share applications of B
+    std::vector<int> separate;  // ranges touched by bodies of one do not overlap
   };
   Regions find_regions() const;
   void find_modes();
   int mode_count(std::size_t block) const;
   void make_columns();
   void add_columns(const Regions& regions, const std::vector<std::size_t>& members, int mode);
+  void cut_columns(const Regions& regions, const std::vector<std::size_t>& members, const Vector& z);
   void add_component_columns();
   void multiply_out();
   void regularize();

@@ -25,6 +25,11 @@ TEST_CASE("ranges of cells go on beyond periodic sides") {
   CHECK(all.meets(low));
   CHECK(color({high, low, middle}, {0, 0, 0}) == std::vector<int>{0, 1, 0});
   CHECK(color({high, low, middle}, {1, 0, 1}) == std::vector<int>{0, 1, 1});
+  CHECK(high.squared_distance(low) == 0);
+  CHECK(high.squared_distance(middle) == 1);  // 6 lies between
+  CHECK(low.squared_distance({{4, 7, 3}, {5, 8, 4}, {10, 0, 0}}) == 2 * 2 + 2 * 2 + 2 * 2);
+  CHECK(color({high, low, middle}, {0, 0, 0}, 1) == std::vector<int>{0, 1, 0});
+  CHECK(color({high, low, middle}, {0, 0, 0}, 2) == std::vector<int>{0, 1, 2});
 }
 
 TEST_CASE("no range without period goes on beyond a side") {
