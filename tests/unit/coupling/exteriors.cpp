@@ -85,7 +85,7 @@ void check_checkpoint(const Scene& scene) {
     other->load(data);
     check_equal(other->save(), data);
     check_boxes(other->checkpoint_boxes(), data.fields);
-    (void)sim->step(0.1);
+    (void)sim->step(1);
   }
 }
 

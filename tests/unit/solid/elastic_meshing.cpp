@@ -227,7 +227,7 @@ TEST_CASE("Elements that cannot be made are refused in words", "[elastic][meshin
   CHECK_THAT(fault<3>(block({0, 0, 0}, {1, 1e-8, 1}, 1e-4)), Contains("raise it"));
   SolidSpec fine = solid_of("expression", 1e-5);
   fine.shape.phi = "sqrt(x*x+y*y)-0.2";
-  CHECK_THAT(fault<3>(fine), Contains("raise it"));
+  CHECK_THAT(fault<3>(fine), Contains("raise element_size"));
   SolidSpec two = solid_of("expression", 0.05);
   two.shape.phi = "min(sqrt(x*x+y*y)-0.2, sqrt((x-1)*(x-1)+y*y)-0.2)";
   CHECK_THAT(fault<2>(two), Contains("do not hang together"));
