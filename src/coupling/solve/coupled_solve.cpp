@@ -4,7 +4,6 @@
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solve/solve_parts.h"
 #include "coupling/solve/viscous_solve.h"
-#include "coupling/state/features.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -23,13 +22,6 @@ bool iterates_on_bodies(const Solids<Dim>& solids, const SolverSpec& solver, con
   return coupling.potential && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
-// "auto" does not take PFMG where coefficients jump. There it needs 24 to 44 iterations against 15 of BoomerAMG, or is
-// not positive definite.
-std::string preconditioner(const Features& features, const SolverSpec& solver) {
-  const std::string& choice = solver.preconditioner;
-  return choice == "auto" && !features.has(Feature::multigrid) ? "boomeramg" : choice;
-}
-
 // Solves for pressure and bodies. r.u_star and coupling.push are those without pressure.
 template <int Dim>
 void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
@@ -38,7 +30,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   const ProjectionInput<Dim>& in = input.liquid;
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
   const SolveOptions options{.tolerance = s.scene.solver.tolerance,
-                             .preconditioner = preconditioner(s.features, s.scene.solver),
+                             .preconditioner = s.scene.solver.preconditioner,
                              .jumps = in.has_gas()};
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.domain.ranks);
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);

@@ -60,9 +60,7 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
        "the surface is interpolated across its medial axis, and thin films are transported less sharply",
        [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
-       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }},
-      {F::multigrid, "the program's own multigrid as preconditioner", "algebraic multigrid (BoomerAMG) is used",
-       [](S s) { return s.scene.solver.preconditioner == "auto"; }}};
+       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }}};
   return table;
 }
 
@@ -104,8 +102,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return !s.fluids.constant_viscosity(); }},
       {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s.fluids); }},
       {F::one_sided_at_medial_axis, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
-      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
-      {F::multigrid, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }}};
+      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }}};
   return table;
 }
 

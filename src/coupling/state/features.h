@@ -9,7 +9,7 @@ namespace seiche {
 template <int Dim>
 struct Setup;
 
-enum class Feature { leapfrog, shared_viscosity, shear_jump, one_sided_at_medial_axis, sealed_cavities, multigrid };
+enum class Feature { leapfrog, shared_viscosity, shear_jump, one_sided_at_medial_axis, sealed_cavities };
 
 // The features that nothing in the scene switches off.
 class Features {

@@ -17,7 +17,7 @@ void make_filled(const std::string& name, const CoupledSystem& S, const BodyCoup
 }
 
 // Multigrid on the grid's stencil for A + lumped C; C itself in an exact solve on the rows it touches
-// (docs/decisions/0049-multigrid-with-bodies.md).
+// (docs/decisions/0036-multigrid-with-bodies.md).
 void make_on_grid(const std::string& name, const CoupledSystem& S, const BodyCoupling& C, Hierarchy& h) {
   const LinearSystem& A = S.liquid();
   h.matrix = std::make_unique<DistributedMatrix>(add_lumped_coupling(A, C));
