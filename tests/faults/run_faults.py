@@ -1030,7 +1030,7 @@ def elastic_out_of_range(bench):
             "element_size must be > 0 m": elastic(block, extra="element_size = 0"),
             "element_size = 0.5 m is larger than the solid": elastic(block, extra="element_size = 0.5"),
             "would make about": elastic(block, extra="element_size = 1e-5"),
-            "nodes; the nearest lies 0.3 m outside it": elastic(block, extra="element_size = 0.05\n" + pin)}.items():
+            "nodes; the nearest lies 0.3 m outside": elastic(block, extra="element_size = 0.05\n" + pin)}.items():
         bench.run("check", bench.scene(box_scene([16, 16], POOL, solid))).needs(2, "scene.toml:", said)
 
 
