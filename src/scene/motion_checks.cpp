@@ -14,7 +14,7 @@ namespace {
 
 // fewest_samples detects jumps that last; most_samples bounds the time of the check.
 constexpr int most_samples = 2000, fewest_samples = 50;
-// Of the domain's diagonal, and in degrees: round-off of formulas that are zero at t = 0.
+// Shares of the domain's diagonal, and degrees: round-off of formulas that are zero at t = 0.
 constexpr double start_tolerance = 1e-9;
 constexpr int sample_budget = 2'000'000;  // of all solids together
 
