@@ -24,7 +24,7 @@ VelocitiesAtCells<Dim> velocities_at_cells(const Layout<Dim>& layout, const Step
   const SolidVelocities<Dim> moving(layout, g, placed);
   for (std::size_t k = 0; k < placed.size(); ++k) {
     const Body<Dim>& body = solids.bodies[k];
-    if (!body.kind().moves() || body.is_thin()) continue;
+    if (!body.kind().moves() || body.is_thin() || g.deforms(int(k))) continue;
     for (const FaceShare& share : *g.shares[k]) {
       const auto v = moving.at(int(k), share.axis, share.face);
       if (!v) continue;

@@ -24,7 +24,7 @@ struct ConvectedPressure {
 };
 
 // `since`: time between the last solve's geometry and this one's, s. `participants`: with the velocities of the last
-// solve. Solids thinner than a cell have none. Collective.
+// solve. Solids that are thinner than a cell or deform have none. Collective.
 template <int Dim>
 ConvectedPressure<Dim> convected_pressure(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                                           const Participants<Dim>& participants, const StepGeometry<Dim>& geometry,

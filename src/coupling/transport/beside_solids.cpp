@@ -13,7 +13,7 @@ FaceField<Dim, char> faces_beside_solids(const Domain<Dim>& domain, const Solids
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
       if (!near.at(a, f) || g.body[f] < 0 || g.psi[f] >= reach * domain.layout.h()) return;
-      beside.at(a, f) = !solids.bodies[std::size_t(g.body[f])].is_thin();
+      beside.at(a, f) = !g.deforms(g.body[f]) && !solids.bodies[std::size_t(g.body[f])].is_thin();
     });
   return beside;
 }

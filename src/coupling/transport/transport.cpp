@@ -135,13 +135,12 @@ double trust_in_viscous_trend(const Domain<Dim>& domain, const State<Dim>& state
 //   dt (c2 N(t) + c3 N(t - dt_now)),   N the viscous acceleration, N(t - dt_now) transported along the path.
 // Together with the implicit share c1 (ViscousPlan::implicit), c1 N(t + dt) + c2 N(t) + c3 N(t - dt_now) is N(t + dt/2)
 // to second order. For c1 = 1 the explicit part is a trend, -dt^2/(2 dt_now) (N(t) - N(t - dt_now)) times
-// trust_in_viscous_trend(). N is continued into solids as A is. Zero where either level is unknown, for dt > 2 dt_now,
-// and in first order.
+// trust_in_viscous_trend(). Zero where either level is unknown, for dt > 2 dt_now, and in first order.
 template <int Dim>
 FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
                               const Surroundings<Dim>& around, double dt, const ViscousPlan& plan) {
   const Domain<Dim>& domain = s.domain;
-  const FaceField<Dim, char>& interior = around.interior;
+  const FaceField<Dim, char>& interior = around.liquid;  // docs/decisions/0026-steady-flow-and-steps.md
   FaceField<Dim> memory(domain.layout);
   if (!s.fluids.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return memory;
   if (dt > 2 * state.dt_now) return memory;
@@ -152,7 +151,6 @@ FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, cons
   const TimeLevel<Dim>& now = *flow.now;
   FaceField<Dim> last = flow.before->n, carried(domain.layout);
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, last);
-  if (!s.solids.bodies.empty()) continue_into_solids(domain, flow.before->valid, last);
   advect_faces(domain.layout, now.u, state.dt_now, interior, interior, last, last, carried);
   const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as for A
   for (int a = 0; a < Dim; ++a)
