@@ -1,11 +1,18 @@
 #include "coupling/solids/convected_pressure.h"
 
+#include <algorithm>
+#include <unordered_map>
+
 #include "coupling/solids/pressure_loads.h"
-#include "coupling/transport/solid_velocities.h"
 #include "grid/loops.h"
 
 namespace seiche {
 namespace {
+
+template <int Dim>
+bool carries_pressure(const Body<Dim>& body) {
+  return body.kind().moves() && !body.is_thin() && body.elements() == nullptr;
+}
 
 // Velocities of solids in the cells beside the faces that they close, weighted by closed shares.
 template <int Dim>
@@ -21,17 +28,15 @@ template <int Dim>
 VelocitiesAtCells<Dim> velocities_at_cells(const Layout<Dim>& layout, const StepGeometry<Dim>& g,
                                            const Solids<Dim>& solids, const std::vector<Placement>& placed) {
   VelocitiesAtCells<Dim> cells;
-  const SolidVelocities<Dim> moving(layout, g, placed);
   for (std::size_t k = 0; k < placed.size(); ++k) {
-    const Body<Dim>& body = solids.bodies[k];
-    if (!body.kind().moves() || body.is_thin() || g.deforms(int(k))) continue;
+    if (!carries_pressure(solids.bodies[k])) continue;
     for (const FaceShare& share : *g.shares[k]) {
-      const auto v = moving.at(int(k), share.axis, share.face);
-      if (!v) continue;
+      const Vec3 x = extend<Dim>(layout.position(layout.index(share.face), face_offset<Dim>(share.axis)));
+      const Vec<Dim> v = truncate<Dim>(placed[k].twist.at(x));
       for (const Site c : {share.face, share.face - layout.stride(share.axis)}) {
         if (!layout.cells().contains(layout.index(c))) continue;
         cells[c].weight += share.closed;
-        cells[c].sum += share.closed * *v;
+        cells[c].sum += share.closed * v;
       }
     }
   }
@@ -54,8 +59,7 @@ ConvectedPressure<Dim> convected_pressure(const Domain<Dim>& domain, const Fluid
                                           const CellField<Dim>& phi, const Transported<Dim>& transported,
                                           double since) {
   ConvectedPressure<Dim> r;
-  if (std::none_of(solids.bodies.begin(), solids.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); }))
-    return r;
+  if (std::none_of(solids.bodies.begin(), solids.bodies.end(), carries_pressure<Dim>)) return r;
   std::vector<Placement> placed = g.placed;
   for (std::size_t k = 0; k < placed.size(); ++k) participants[k].set_velocity(placed[k]);
   r.value = CellField<Dim>(domain.layout);
@@ -70,6 +74,8 @@ ConvectedPressure<Dim> convected_pressure(const Domain<Dim>& domain, const Fluid
   }
   domain.halo.fill_ghosts(r.value);
   r.loads = pressure_loads(domain, solids, g, r.value);
+  for (std::size_t k = 0; k < r.loads.size(); ++k)
+    if (!carries_pressure(solids.bodies[k])) r.loads[k] = {};  // cells beside it may touch one that does
   return r;
 }
 
@@ -81,7 +87,11 @@ void push_by(const ConvectedPressure<Dim>& convected, const Domain<Dim>& domain,
   Vector p(rows.cells.size());
   for (std::size_t n = 0; n < rows.liquid; ++n) p[n] = convected.value[rows.cells[n]];
   const double impulse = dt * domain.layout.geometry().face_area();
-  for (const BlockColumns* J : {&c.J, &c.J_held}) c.push += impulse * multiply_transposed(*J, p, domain.ranks);
+  const Eigen::VectorXd load = multiply_transposed(c.J, p, domain.ranks);
+  for (std::size_t b = 0; b < c.bodies.size(); ++b) {
+    const int first = c.first[b], n = c.first[b + 1] - first;
+    if (!c.J.blocks[b].deforms()) c.push.segment(first, n) += impulse * load.segment(first, n);
+  }
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                              \

@@ -5,7 +5,8 @@
 
 namespace seiche {
 
-// Pressure (Pa) to add to that of the solve where it acts on solids, and its load on each solid.
+// Pressure (Pa) to add to that of the solve where it acts on solids that move, and its load on each solid. Solids that
+// are thinner than a cell or deform do not carry it.
 //
 // A step from u_n, which fits the solids' places X_n at the last solve, to u_(n+1), which fits X_(n+1), has the mean
 //   p = (p_n + p_(n+1))/2
@@ -17,20 +18,20 @@ namespace seiche {
 // not part of A and does not move along.
 template <int Dim>
 struct ConvectedPressure {
-  CellField<Dim> value;          // beside solids that move, else 0; ghosts filled. Empty: no solid moves.
-  std::vector<SolidLoad> loads;  // one a solid, the same on all ranks; empty if no solid moves
+  CellField<Dim> value;          // beside solids that carry it, else 0; ghosts filled; empty if there are none
+  std::vector<SolidLoad> loads;  // one a solid, the same on all ranks; empty if none carries it
 
   bool any() const { return !loads.empty(); }
 };
 
 // `since`: time between the last solve's geometry and this one's, s. `participants`: with the velocities of the last
-// solve. Solids that are thinner than a cell or deform have none. Collective.
+// solve. Collective.
 template <int Dim>
 ConvectedPressure<Dim> convected_pressure(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                                           const Participants<Dim>& participants, const StepGeometry<Dim>& geometry,
                                           const CellField<Dim>& phi, const Transported<Dim>& transported, double since);
 
-// Adds its impulse on the unknowns over a step of dt (s) to coupling.push. Collective.
+// Adds its impulse on the unknowns of rigid blocks over a step of dt (s) to coupling.push. Collective.
 template <int Dim>
 void push_by(const ConvectedPressure<Dim>& convected, const Domain<Dim>& domain, const PressureRows<Dim>& rows,
              double dt, SolidCoupling<Dim>& coupling);

@@ -1,10 +1,12 @@
 #include "coupling/transport/restore.h"
 
+#include <optional>
+#include <unordered_map>
+
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/thin/gap_flow.h"
-#include "coupling/transport/solid_velocities.h"
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
@@ -47,6 +49,39 @@ Vec<Dim> velocity_at_point(const Layout<Dim>& layout, const FaceField<Dim>& u, c
     v[b] = interpolate_linear<Dim>(layout, u[b].data(), index_coordinates<Dim>(layout, x, face_offset<Dim>(b)));
   return v;
 }
+
+// Velocities of the solids at faces, m/s. Deforming solids have one only on faces that they close, near their surface.
+template <int Dim>
+class SolidVelocities {
+ public:
+  SolidVelocities(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g)
+      : g_(g), layout_(domain.layout), shares_(solids.bodies.size()) {
+    for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
+      if (!g.deforms(int(k))) continue;
+      for (std::size_t n = 0; n < g.shares[k]->size(); ++n)
+        shares_[k][std::size_t((*g.shares[k])[n].axis)][(*g.shares[k])[n].face] = n;
+    }
+  }
+  std::optional<Vec<Dim>> at(int body, int axis, Site face) const {
+    if (!g_.deforms(body)) {
+      const Vec3 x = extend<Dim>(layout_.position(layout_.index(face), face_offset<Dim>(axis)));
+      return truncate<Dim>(g_.placed[std::size_t(body)].twist.at(x));
+    }
+    const auto& faces = shares_[std::size_t(body)][std::size_t(axis)];
+    const auto found = faces.find(face);
+    if (found == faces.end()) return {};
+    const SurfaceWeights& weights = (*g_.face_weights[std::size_t(body)])[found->second];
+    if (weights.empty()) return {};
+    Vec<Dim> v;
+    for (int b = 0; b < Dim; ++b) v[b] = velocity_at<Dim>(weights, b, g_.placed[std::size_t(body)].velocity);
+    return v;
+  }
+
+ private:
+  const StepGeometry<Dim>& g_;
+  const Layout<Dim>& layout_;
+  std::vector<std::array<std::unordered_map<Site, std::size_t>, Dim>> shares_;
+};
 
 // True if viscous liquid sticks to this body (-1: none).
 template <int Dim>
@@ -113,7 +148,7 @@ template <int Dim>
 void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                        const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid, FaceField<Dim>& u) {
   FaceField<Dim, char> reached = valid;
-  const SolidVelocities<Dim> moving(domain.layout, g, g.placed);
+  const SolidVelocities<Dim> moving(domain, solids, g);
   for (int a = 0; a < Dim; ++a) {
     // Inflow also sets the velocity of the air in front of it.
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {

@@ -125,6 +125,19 @@ DistributedMatrix add_lumped_coupling(const LinearSystem& A, const BodyCoupling&
   return M;
 }
 
+double coupling_strength(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c) {
+  const Eigen::VectorXd h = H.diagonal();
+  std::vector<double> C(std::size_t(A.rows()), 0.0);
+  const std::vector<int> first = J.first_columns();
+  for (std::size_t b = 0; b < J.blocks.size(); ++b)
+    if (J.blocks[b].deforms())
+      J.blocks[b].for_each([&](int i, int k, double v) { C[std::size_t(i)] += c * v * v / h[first[b] + k]; });
+  double largest = 0;
+  for (int i = 0; i < A.rows(); ++i)
+    if (A.diagonal(i) > 0) largest = std::max(largest, C[std::size_t(i)] / A.diagonal(i));
+  return A.ranks().global_max(largest);
+}
+
 bool has_changed_much(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& before) {
   constexpr double much = 4;
   const Eigen::ArrayXd change = diagonal.array() / before.array();

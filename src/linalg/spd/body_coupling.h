@@ -35,6 +35,10 @@ DistributedMatrix add_body_coupling(const LinearSystem& A, const BodyCoupling& C
 // A + diag(sums over the rows of |C|): keeps the stencil of A, and equals A + C on constants if C has one sign.
 DistributedMatrix add_lumped_coupling(const LinearSystem& A, const BodyCoupling& C);
 
+// Largest ratio of the diagonals of c J H^-1 J' and A over all rows, with H by its diagonal and the deformable blocks
+// of J. Collective.
+double coupling_strength(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c);
+
 // True if some diagonal entry of H has changed by more than a factor of 4: stiffness or contact has come or gone.
 bool has_changed_much(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& before);
 

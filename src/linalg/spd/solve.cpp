@@ -165,11 +165,17 @@ SpdSolver::Outcome SpdSolver::attempt(const Fallback& fallback, const Problem& p
   return iterate(fallback, problem, x);
 }
 
-// With bodies, columns of B J model their added mass if B is a hierarchy, but not if B is a diagonal.
-std::string SpdSolver::choose() const {
-  const std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  if (options_.preconditioner != "auto" || J_.blocks.empty() || chosen != "none") return chosen;
-  return box_of_rows(liquid_).cells() > 0 ? "geometric" : "boomeramg";
+// With bodies, columns of B J model their added mass if B is a hierarchy, but not if B is a diagonal. Where deformable
+// bodies yield more than the liquid, BoomerAMG needs fewer iterations (docs/decisions/0036-multigrid-with-bodies.md).
+std::string SpdSolver::choose() {
+  constexpr double strong = 1;
+  std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
+  if (options_.preconditioner != "auto" || J_.blocks.empty()) return chosen;
+  if (chosen == "none") chosen = box_of_rows(liquid_).cells() > 0 ? "geometric" : "boomeramg";
+  if (!J_.any_deforms() || !system_.is_coupled()) return chosen;
+  const auto yields = [&] { return coupling_strength(liquid_, J_, system_.bodies(), system_.scale()) > strong; };
+  if (choice_.empty()) choice_ = keeps_to_grid(chosen) && yields() ? "boomeramg" : chosen;
+  return choice_;
 }
 
 Eigen::MatrixXd SpdSolver::added_mass_estimate() const {

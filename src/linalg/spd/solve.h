@@ -64,7 +64,7 @@ class SpdSolver {
   bool is_outdated(const Built& built) const;
   double true_residual(const Problem& problem, const Vector& x) const;
   double make_compatible(Vector& b) const;
-  std::string choose() const;
+  std::string choose();
   std::vector<Fallback> make_fallback_chain(const std::string& chosen) const;
   struct Outcome {
     int iterations = 0;
@@ -80,6 +80,8 @@ class SpdSolver {
   CoupledSystem system_;
   std::map<std::string, std::unique_ptr<Built>> built_;
   const Deflation* last_built_ = nullptr;
+  std::string
+      choice_;  // of the first solve with deformable bodies; kept, for a second hierarchy costs more than it saves
 };
 
 // Solves A x = b once, as SpdSolver does. Collective.
