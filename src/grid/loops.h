@@ -95,6 +95,21 @@ void for_each_listed(const std::vector<Site>& list, const Body& body) {
   });
 }
 
+// The sites of a box for which wanted(site) is true, row by row.
+template <int Dim, class Wanted>
+std::vector<Site> listed_sites(const Layout<Dim>& layout, const Box<Dim>& box, const Wanted& wanted) {
+  const detail::Rows<Dim> rows(layout, box);
+  std::vector<std::vector<Site>> found(std::size_t(rows.count));
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const Site begin = layout.site(rows.first(r));
+    for (Site s = begin; s < begin + rows.length; ++s)
+      if (wanted(s)) found[std::size_t(r)].push_back(s);
+  });
+  std::vector<Site> all;
+  for (const std::vector<Site>& row : found) all.insert(all.end(), row.begin(), row.end());
+  return all;
+}
+
 // Sum of body(site, index) over a box on this rank only.
 template <int Dim, class Body>
 double local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {

@@ -4,8 +4,11 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <vector>
 
 #include "grid/loops.h"
+#include "grid/parallel_range.h"
 #include "levelset/minmod.h"
 
 namespace seiche {
@@ -75,23 +78,83 @@ struct StraightPredictor {
   }
 };
 
-// Fills unknown sites with the predictor's values, layer by layer.
+// Moves sites from unknown to queued, each once.
+struct Queue {
+  static constexpr char queued = 127;  // above every layer
+  FieldValues<char>& known;
+  std::vector<Site> sites;
+
+  void add(Site s) {
+    if (known[s] != 0) return;
+    known[s] = queued;
+    sites.push_back(s);
+  }
+};
+
+// The part of the box that is next to one of its sides.
+template <int Dim>
+Box<Dim> slab(Box<Dim> box, int axis, int side) {
+  if (side == 0)
+    box.upper[axis] = std::min(box.upper[axis], box.lower[axis] + 1);
+  else
+    box.lower[axis] = std::max(box.lower[axis], box.upper[axis] - 1);
+  return box;
+}
+
+// Unknown sites of the box beside known ones.
+template <int Dim>
+std::vector<Site> first_front(const Layout<Dim>& layout, const Box<Dim>& box, const FieldValues<char>& known) {
+  return listed_sites(layout, box, [&](Site s) {
+    if (known[s] != 0) return false;
+    for (int a = 0; a < Dim; ++a)
+      if (known[s - layout.stride(a)] != 0 || known[s + layout.stride(a)] != 0) return true;
+    return false;
+  });
+}
+
+// Unknown sites of the box beside those that `layer` filled, here or on other ranks, and sites of `front` that it could
+// not fill.
+template <int Dim>
+std::vector<Site> next_front(const Layout<Dim>& layout, const Box<Dim>& box, char layer, const std::vector<Site>& front,
+                             FieldValues<char>& known) {
+  Queue queue{known, {}};
+  for (const Site s : front) {
+    if (known[s] == 0) queue.add(s);
+    if (known[s] != layer) continue;
+    const IVec<Dim> i = layout.index(s);
+    for (int a = 0; a < Dim; ++a) {
+      if (i[a] > box.lower[a]) queue.add(s - layout.stride(a));
+      if (i[a] + 1 < box.upper[a]) queue.add(s + layout.stride(a));
+    }
+  }
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1}) {
+      const Site beyond = side == 0 ? -layout.stride(a) : layout.stride(a);
+      for_each_index_in_order(layout, slab(box, a, side), [&](Site s, const IVec<Dim>&) {
+        if (known[s + beyond] == layer) queue.add(s);
+      });
+    }
+  for (const Site s : queue.sites) known[s] = 0;
+  return queue.sites;
+}
+
+// Fills unknown sites with the predictor's values, layer by layer. Visits only sites beside known ones.
 template <int Dim, class Predictor>
 void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim>& box, int layers,
                  const Predictor& predictor, FieldValues<double>& f, FieldValues<char>& known) {
-  FieldValues<char> next = known;  // neighbours still read `known` while this is written
+  std::vector<Site> front = first_front(layout, box, known);
   for (int n = 0; n < layers; ++n) {
     const char layer = char(n + 2);
-    for_each_site(layout, box, [&](Site s) {
+    std::vector<std::optional<double>> values(front.size());
+    parallel_range_in_tasks(front.size(), 1024, [&](std::size_t k) {
       double value;
-      next[s] = known[s];
-      if (known[s] != 0 || !predictor.predict(s, layer, value)) return;
-      f[s] = value;
-      next[s] = layer;
+      if (predictor.predict(front[k], layer, value)) values[k] = value;
     });
-    known.swap(next);
+    for (std::size_t k = 0; k < front.size(); ++k)
+      if (values[k]) f[front[k]] = *values[k], known[front[k]] = layer;
     halo.fill_ghosts({f.data()});
     halo.fill_ghosts({known.data()});
+    if (n + 1 < layers) front = next_front(layout, box, layer, front, known);
   }
 }
 

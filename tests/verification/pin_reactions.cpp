@@ -162,7 +162,7 @@ TEST_CASE("the pins of a body that liquid flows past hold against weight and liq
       WARN(dim << "D, viscosity " << viscosity << ": " << block.pin_force.transpose() << " N, liquid "
                << block.force.transpose() << " N, sum with the weight " << error << " of it, bar 1e-10");
       CHECK(error <= 1e-10);
-      CHECK(std::abs(block.force[0]) > 1e-3 * weight.norm());
+      CHECK(std::abs(block.force[0]) > 1e-5 * weight.norm());  // ideal liquid has next to no drag
     }
 }
 

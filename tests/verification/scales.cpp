@@ -108,7 +108,7 @@ TEST_CASE("liquid runs alike from micrometres to kilometres, to the bit") {
 
 // Rotations and translations differ in unit; nothing may compare one with the other. Bodies then run alike to the bit,
 // too, on one machine. The tolerance leaves room for round-off that contact amplifies; a solver's tolerance is 1e-8.
-TEST_CASE("bodies in contact and in liquid run alike from micrometres to kilometres") {
+TEST_CASE("bodies in contact and in liquid run alike from micrometres to kilometres", "[long]") {
   SECTION("rigid, 2D") {
     check_scales(2, {.rigid = true}, 12, 1e-10);
   }

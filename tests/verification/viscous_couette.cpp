@@ -150,7 +150,7 @@ CouetteErrors spherical_couette(int n, int turns) {
 
 }  // namespace
 
-TEST_CASE("spherical couette", "[viscous]") {
+TEST_CASE("spherical couette", "[viscous][long]") {
   const CouetteErrors coarse = spherical_couette(10, 1), fine = spherical_couette(16, 1);
   CAPTURE(coarse.velocity, fine.velocity, coarse.torque, fine.torque);
   CHECK(order(coarse.velocity, fine.velocity) >= 1.9 * std::log2(1.6));

@@ -71,7 +71,7 @@ void set_viscous_acceleration(const SolveTask<Dim>& task, const FaceField<Dim>& 
   const Layout<Dim>& layout = task.s.domain.layout;
   for (int a = 0; a < Dim && task.s.fluids.is_viscous(); ++a)
     for_each_site(layout, layout.faces(a), [&](Site f) {
-      if (level.valid.at(a, f) == face_solved)
+      if (is_solved(level.valid.at(a, f)))
         level.n.at(a, f) = (solved_u_star.at(a, f) - task.predicted.u_star.at(a, f)) / span;
     });
 }

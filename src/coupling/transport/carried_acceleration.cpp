@@ -4,6 +4,7 @@
 #include "coupling/transport/beside_solids.h"
 #include "coupling/transport/restore.h"
 #include "grid/loops.h"
+#include "levelset/minmod.h"
 
 namespace seiche {
 namespace {
@@ -54,31 +55,35 @@ double largest_carried(double acceleration, double before, double h, double dt) 
 }  // namespace
 
 template <int Dim>
-FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                                    const TimeSpec& time, const OperatorPerturbation& perturbation,
-                                    const State<Dim>& state, const Flow<Dim>& flow, double dt) {
+FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                                    const OperatorPerturbation& perturbation, const State<Dim>& state,
+                                    const Flow<Dim>& flow, const FaceField<Dim, char>& deep, double dt) {
   FaceField<Dim> acc(domain.layout);
   if (state.dt_now == 0 || time.scheme == TimeScheme::first_order) return acc;
   const FaceField<Dim> trend = slope_trend(domain, state, flow, dt);
   const TimeLevel<Dim>& level = *flow.now;
   const Vec3 g = perturbation.gravity * fluids.gravity.of_step(state.time + dt, dt);
+  FaceField<Dim, char> known(domain.layout);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      known.at(a, f) = level.valid.at(a, f) == face_prescribed;
       if (level.valid.at(a, f) != face_solved) return;
       const bool knows_before = flow.before && flow.before->valid.at(a, f) == face_solved;
       const double now = g[a] - level.q.at(a, f) - trend.at(a, f);
-      const double most =
-          largest_carried(now, knows_before ? g[a] - flow.before->q.at(a, f) : 0, domain.layout.h(), dt);
-      acc.at(a, f) = std::clamp(now, -most, most);
+      const double before = knows_before ? g[a] - flow.before->q.at(a, f) : 0;
+      const double most = largest_carried(now, before, domain.layout.h(), dt);
+      const double limited = std::clamp(now, -most, most);
+      acc.at(a, f) = deep.at(a, f) ? limited : minmod(limited, before);
+      known.at(a, f) = deep.at(a, f) || knows_before;
     });
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, acc);
-  if (!solids.bodies.empty()) continue_into_solids(domain, level.valid, acc);
+  continue_beyond(domain, known, acc);
   return acc;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template FaceField<D> carried_acceleration<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&, \
-                                                const OperatorPerturbation&, const State<D>&, const Flow<D>&, double);
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template FaceField<D> carried_acceleration<D>(const Domain<D>&, const Fluids&, const TimeSpec&,             \
+                                                const OperatorPerturbation&, const State<D>&, const Flow<D>&, \
+                                                const FaceField<D, char>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -2,17 +2,18 @@
 // The acceleration that transport carries along paths, predicted from the pressure of earlier steps.
 #include "coupling/state/fluids.h"
 #include "coupling/state/operator_perturbation.h"
-#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // A = f - G: acceleration of a fluid at t + dt/2 from state.time = t, m/s^2, with G the pressure slope plus its trend.
-// Continued into solids. Zero without an earlier step and in first order. Ghosts filled. Collective.
+// Where not `deep` in known flow, at a free surface say, it is the minmod of A and that of the step before: flow that
+// is smooth in time keeps it, thin jets and drops do not (docs/decisions/0030-transport-near-surfaces.md). Continued
+// beyond the fluid. Zero without an earlier step and in first order. Ghosts filled. Collective.
 template <int Dim>
-FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                                    const TimeSpec& time, const OperatorPerturbation& perturbation,
-                                    const State<Dim>& state, const Flow<Dim>& flow, double dt);
+FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                                    const OperatorPerturbation& perturbation, const State<Dim>& state,
+                                    const Flow<Dim>& flow, const FaceField<Dim, char>& deep, double dt);
 
 }  // namespace seiche

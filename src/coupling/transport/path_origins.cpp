@@ -56,7 +56,7 @@ Box<Dim> faces_behind(const Layout<Dim>& layout, int axis, int side, int compone
 template <int Dim>
 double acceleration_at(const Domain<Dim>& domain, const Fluids& fluids, const TimeLevel<Dim>& level, int axis, Site f,
                        double g, double dt) {
-  if (level.valid.at(axis, f) != face_solved) return g;
+  if (!is_solved(level.valid.at(axis, f))) return g;
   const double most = std::max(std::abs(g), 0.25 * domain.layout.h() / (dt * dt));
   const double viscous = fluids.is_viscous() ? level.n.at(axis, f) : 0;
   return std::clamp(g - level.q.at(axis, f) + viscous, -most, most);

@@ -7,6 +7,7 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/thin/gap_flow.h"
+#include "coupling/transport/beside_solids.h"
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
@@ -18,28 +19,6 @@ namespace seiche {
 namespace {
 
 constexpr int straight_layers = 2;  // layers of linear extrapolation; constant beyond
-
-// Mean of psi over a face's corners, m, and its gradient there, m per cell.
-template <int Dim>
-struct FaceDistance {
-  double psi = 0;
-  Vec<Dim> gradient = Vec<Dim>::Zero();
-};
-
-template <int Dim>
-FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, int axis, Site face) {
-  constexpr int corners = 1 << (Dim - 1);
-  FaceDistance<Dim> r;
-  for (int k = 0; k < corners; ++k) {
-    Site node = face;
-    for (int b = 1; b < Dim; ++b) node += ((k >> (b - 1)) & 1) * layout.stride((axis + b) % Dim);
-    r.psi += psi[node] / corners;
-    r.gradient[axis] += (psi[node + layout.stride(axis)] - psi[node - layout.stride(axis)]) / (2 * corners);
-    for (int b = 1; b < Dim; ++b)
-      r.gradient[(axis + b) % Dim] += (((k >> (b - 1)) & 1) ? 1 : -1) * psi[node] * 2 / corners;
-  }
-  return r;
-}
 
 // All velocity components at x, m/s.
 template <int Dim>
@@ -142,6 +121,13 @@ void keep_prescribed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, Face
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
 }
 
+// True if the pressure's link across the face ends at the surface.
+template <int Dim>
+bool ends_at_surface(const ProjectionInput<Dim>& in, int axis, Site f) {
+  return !in.has_gas() && in.faces.kind_at(axis, f) != FaceKind::outflow &&
+         in.is_liquid(f) != in.is_liquid(f - in.layout.stride(axis));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -212,7 +198,7 @@ TimeLevel<Dim> solved_level(const Domain<Dim>& domain, const Fluids& fluids, con
         return;
       }
       if (in.faces.open.at(a, f) >= least_open || liquid_sticks_to(fluids, solids, g.body[f]))
-        level.valid.at(a, f) = face_solved;
+        level.valid.at(a, f) = ends_at_surface(in, a, f) ? face_at_surface : face_solved;
       level.q.at(a, f) = face_pressure_slope(in, rows, pressure, a, f);
       level.u.at(a, f) = u_star.at(a, f) - perturbation.pressure_gradient * in.dt * level.q.at(a, f);
     });

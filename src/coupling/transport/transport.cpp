@@ -35,10 +35,9 @@ std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
           tau * (tau + dt1) / ((dt1 + dt2) * dt2)};
 }
 
-// 1 on faces around which all faces that transport may read are known; higher order needs whole stencils.
+// 1 on faces around which all faces within `reach` cells along each axis are known.
 template <int Dim>
-FaceField<Dim, char> interior_faces(const Domain<Dim>& domain, const FaceField<Dim, char>& known) {
-  const int reach = domain.layout.halo() - 1;  // a step's path and half a stencil
+FaceField<Dim, char> faces_within(const Domain<Dim>& domain, const FaceField<Dim, char>& known, int reach) {
   FaceField<Dim, char> interior = known;
   for (int a = 0; a < Dim; ++a)
     for (int axis = 0; axis < Dim; ++axis) {
@@ -69,20 +68,20 @@ FaceField<Dim, char> faces_known(const Domain<Dim>& domain, const FaceField<Dim,
 template <int Dim>
 struct Surroundings {
   FaceField<Dim, char> beside;    // solids, where the flow is continued into them
-  FaceField<Dim, char> interior;  // of second order
-  FaceField<Dim, char> liquid;    // interior, and no solid within reach; only of viscous liquid
+  FaceField<Dim, char> interior;  // a step's path reads known faces: of second order
+  FaceField<Dim, char> deep;      // so do the stencils at its end
+  FaceField<Dim, char> liquid;    // deep, and no solid within reach; only of viscous liquid
   FaceField<Dim, char> whole;     // of fourth order; only with plan.full
 
   Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                const FaceField<Dim, char>& near, const ViscousPlan& plan) {
-    if (s.solids.bodies.empty()) {
-      beside = FaceField<Dim, char>(s.domain.layout);
-      interior = interior_faces(s.domain, valid);
-    } else {
-      beside = faces_beside_solids(s.domain, s.solids, g, near);
-      interior = interior_faces(s.domain, faces_known(s.domain, valid, beside));
-    }
-    if (s.fluids.is_viscous()) liquid = s.solids.bodies.empty() ? interior : interior_faces(s.domain, valid);
+    const int path = int(std::ceil(s.scene.time.cfl)), path_and_stencil = path + 2;
+    const bool solids = !s.solids.bodies.empty();
+    beside = solids ? faces_beside_solids(s.domain, s.solids, g, near) : FaceField<Dim, char>(s.domain.layout);
+    const FaceField<Dim, char> known = solids ? faces_known(s.domain, valid, beside) : valid;
+    interior = faces_within(s.domain, known, path);
+    deep = faces_within(s.domain, known, path_and_stencil);
+    if (s.fluids.is_viscous()) liquid = solids ? faces_within(s.domain, valid, path_and_stencil) : deep;
     if (plan.full) whole = whole_faces(s.domain.layout, s.domain.sides, uncut_faces(s.domain, g, valid));
   }
 };
@@ -155,7 +154,7 @@ FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, cons
   const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as for A
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (interior.at(a, f) && now.valid.at(a, f) == face_solved && flow.before->valid.at(a, f) == face_solved)
+      if (interior.at(a, f) && is_solved(now.valid.at(a, f)) && is_solved(flow.before->valid.at(a, f)))
         memory.at(a, f) = dt * std::clamp(present * now.n.at(a, f) + earlier * carried.at(a, f), -limit, limit);
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, memory);
@@ -258,7 +257,7 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, around, plan, dt),
                        memory = viscous_memory(s, state, flow, around, dt, plan);
   Transported<Dim> r;
-  r.acceleration = carried_acceleration(s.domain, s.fluids, s.solids, s.scene.time, s.perturbation, state, flow, dt);
+  r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, around.deep, dt);
   const FaceField<Dim>& acc = r.acceleration;
   Carried<Dim> carried{flow.now->u, flow.now->u};
   if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
