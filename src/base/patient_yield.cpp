@@ -6,6 +6,7 @@
 // Figures: docs/decisions/0035-waiting-ranks.md.
 #include "base/patient_yield.h"
 
+#include <sched.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -17,10 +18,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::microseconds patience{200};  // of spinning
-constexpr std::chrono::microseconds pause{5};       // between calls: a longer one begins a new wait
+std::chrono::microseconds patience{200};       // of spinning
+constexpr std::chrono::microseconds pause{5};  // between calls: a longer one begins a new wait
 
 thread_local Clock::time_point last_call, wait_begun;
+
+// True if more ranks run on this machine than processors are free to them: a rank that spins then keeps another one
+// from the work that it waits for.
+bool ranks_outnumber_processors() {
+  const char* ranks = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");  // set by mpirun
+  cpu_set_t free_to_us;
+  return ranks && sched_getaffinity(0, sizeof(free_to_us), &free_to_us) == 0 &&
+         std::atoi(ranks) > CPU_COUNT(&free_to_us);
+}
 
 }  // namespace
 
@@ -37,6 +47,7 @@ void end_yield() {
 
 void wait_patiently() {
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  if (ranks_outnumber_processors()) patience = patience.zero();
 }
 
 }  // namespace seiche
