@@ -10,8 +10,8 @@ bool is_patient();
 // Marks the return from a yield, which belongs to the wait however long it took.
 void end_yield();
 
-// Makes Open MPI call sched_yield() while it waits, unless the environment has its own choice. Waits begin with spinning
-// only if each rank on this machine has a processor. Before MPI_Init.
+// Makes Open MPI call sched_yield() while it waits, unless the environment has its own choice. Waits begin with
+// spinning only if each rank on this machine has a processor. Before MPI_Init.
 void wait_patiently();
 
 }  // namespace seiche
