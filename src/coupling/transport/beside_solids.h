@@ -1,5 +1,5 @@
 #pragma once
-// Flow continued into solids, for transport beside them.
+// Faces beside solids, and flow continued beyond the fluid, for transport near solids and surfaces.
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"

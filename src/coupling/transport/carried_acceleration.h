@@ -8,9 +8,10 @@
 namespace seiche {
 
 // A = f - G: acceleration of a fluid at t + dt/2 from state.time = t, m/s^2, with G the pressure slope plus its trend.
-// Where not `deep` in known flow, at a free surface say, it is the minmod of A and that of the step before: flow that
-// is smooth in time keeps it, thin jets and drops do not (docs/decisions/0030-transport-near-surfaces.md). Continued
-// beyond the fluid. Zero without an earlier step and in first order. Ghosts filled. Collective.
+// Faces that are not `deep` in known flow, near a free surface say, take the minmod of A and that of the step before.
+// Flow that is smooth in time keeps A there, thin jets and drops do not
+// (docs/decisions/0030-transport-near-surfaces.md). A is continued beyond the fluid. Zero without an earlier step and
+// in first order. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                     const OperatorPerturbation& perturbation, const State<Dim>& state,

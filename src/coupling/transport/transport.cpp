@@ -69,7 +69,7 @@ template <int Dim>
 struct Surroundings {
   FaceField<Dim, char> beside;    // solids, where the flow is continued into them
   FaceField<Dim, char> interior;  // a step's path reads known faces: of second order
-  FaceField<Dim, char> deep;      // so do the stencils at its end
+  FaceField<Dim, char> deep;      // the stencils at its end read known faces, too
   FaceField<Dim, char> liquid;    // deep, and no solid within reach; only of viscous liquid
   FaceField<Dim, char> whole;     // of fourth order; only with plan.full
 

@@ -80,8 +80,8 @@ class SpdSolver {
   CoupledSystem system_;
   std::map<std::string, std::unique_ptr<Built>> built_;
   const Deflation* last_built_ = nullptr;
-  std::string
-      choice_;  // of the first solve with deformable bodies; kept, for a second hierarchy costs more than it saves
+  // Choice of the first solve with deformable bodies. It is kept: a second hierarchy costs more than it saves.
+  std::string choice_;
 };
 
 // Solves A x = b once, as SpdSolver does. Collective.
