@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "grid/thread_limit.h"
+#include "base/thread_limit.h"
 #include "linalg/krylov/krylov.h"
 #include "linalg/precond/geometric_multigrid.h"
 #include "linalg/precond/hypre_adapter.h"

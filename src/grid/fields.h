@@ -1,15 +1,11 @@
 #pragma once
 // Fields whose type states the location of their values. All fields of a rank have the shape of its Layout.
 #include <array>
-#include <vector>
 
+#include "grid/field_values.h"
 #include "grid/layout.h"
 
 namespace seiche {
-
-// The values of a cell field, or of one component of a field on faces or edges.
-template <class T>
-using FieldValues = std::vector<T>;
 
 namespace location {
 struct Cell {};
@@ -25,7 +21,7 @@ class Field {
   const T& operator[](Site s) const { return data_[std::size_t(s)]; }
   T* data() { return data_.data(); }
   const T* data() const { return data_.data(); }
-  void fill(T value) { std::fill(data_.begin(), data_.end(), value); }
+  void fill(T value) { data_.fill(value); }
 
  private:
   FieldValues<T> data_;
@@ -49,7 +45,7 @@ class FaceField {
   T& at(int axis, Site s) { return components_[axis][std::size_t(s)]; }
   const T& at(int axis, Site s) const { return components_[axis][std::size_t(s)]; }
   void fill(T value) {
-    for (auto& c : components_) std::fill(c.begin(), c.end(), value);
+    for (auto& c : components_) c.fill(value);
   }
 
  private:

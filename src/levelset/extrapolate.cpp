@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/parallel_range.h"
 #include "grid/loops.h"
-#include "grid/parallel_range.h"
 #include "levelset/minmod.h"
 
 namespace seiche {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/parallel_range.h"
 #include "grid/ghosts.h"
 #include "grid/loops.h"
-#include "grid/parallel_range.h"
 #include "levelset/closest_point.h"
 #include "levelset/minmod.h"
 
@@ -111,11 +111,11 @@ class Relaxation {
   };
 
   void collect(const CellField<Dim, char>& fixed) {
-    for_each_index_in_order(layout_, layout_.cells(), [&](Site s, const IVec<Dim>& i) {
-      if (start_[s] == 0 || fixed[s] || !near_band(s)) return;
-      cells_.push_back(describe(s));
-      collect_lines(s, i);
-    });
+    const std::vector<Site> sites =
+        listed_sites(layout_, layout_.cells(), [&](Site s) { return start_[s] != 0 && !fixed[s] && near_band(s); });
+    cells_.resize(sites.size());
+    parallel_range_in_tasks(sites.size(), 4096, [&](std::size_t k) { cells_[k] = describe(sites[k]); });
+    for (const Site s : sites) collect_lines(s, layout_.index(s));
     change_.resize(cells_.size());
     std::sort(lines_.begin(), lines_.end());
     lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "grid/parallel_range.h"
+#include "base/parallel_range.h"
 #include "render/font.h"
 #include "render/outline.h"
 #include "render/palette.h"

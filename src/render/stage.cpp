@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "grid/parallel_range.h"
+#include "base/parallel_range.h"
 #include "render/palette.h"
 
 namespace seiche::render {

@@ -7,9 +7,9 @@
 
 #include "base/agree.h"
 #include "base/scene.h"
+#include "base/thread_limit.h"
 #include "coupling/state/operator_perturbation.h"
 #include "fluid/rheology/rheology.h"
-#include "grid/thread_limit.h"
 #include "run/fault.h"
 #include "run/loop.h"
 #include "run/memory.h"

@@ -17,7 +17,9 @@ using Vector = std::array<Field, 3>;
 int n;
 double nu;
 
-std::size_t at(int i, int j, int k) { return (std::size_t(i) * n + j) * n + k; }
+std::size_t at(int i, int j, int k) {
+  return (std::size_t(i) * n + j) * n + k;
+}
 
 // In place, along one pencil; direction -1 forwards.
 void transform(std::vector<C>& x, const std::vector<C>& roots, int direction) {
@@ -51,7 +53,9 @@ void transform(Field& f, int direction) {
       }
 }
 
-double wave(int i) { return i <= n / 2 ? i : i - n; }
+double wave(int i) {
+  return i <= n / 2 ? i : i - n;
+}
 
 template <class Visit>
 void for_each_mode(const Visit& visit) {
@@ -107,15 +111,17 @@ int main(int, char** argv) {
       }
   for (Field& f : u) transform(f, -1);
   const double dt = 0.05;
-  std::printf("# By make_reference.cpp, %d points a side, Re = %s: kinetic energy over its first value, 1/8 a volume.\n",
-              n, argv[2]);
+  std::printf(
+      "# By make_reference.cpp, %d points a side, Re = %s: kinetic energy over its first value, 1/8 a volume.\n", n,
+      argv[2]);
   std::printf("time,energy\n");
   for (int step = 0; step <= 200; ++step) {
     double energy = 0;
     for (const Field& f : u)
       for (const C& c : f) energy += 0.5 * std::norm(c);
     if (step % 2 == 0) std::printf("%.2f,%.10g\n", step * dt, 8 * energy), std::fflush(stdout);
-    const Vector k1 = rate(u), k2 = rate(plus(u, dt / 2, k1)), k3 = rate(plus(u, dt / 2, k2)), k4 = rate(plus(u, dt, k3));
+    const Vector k1 = rate(u), k2 = rate(plus(u, dt / 2, k1)), k3 = rate(plus(u, dt / 2, k2)),
+                 k4 = rate(plus(u, dt, k3));
     u = plus(plus(plus(plus(u, dt / 6, k1), dt / 3, k2), dt / 3, k3), dt / 6, k4);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/parallel_range.h"
 #include "coupling/solids/link_graph.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
@@ -43,15 +44,20 @@ std::vector<LoadedPiece<Dim>> load_pieces(const Domain<Dim>& domain, const CellF
                                           const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u) {
   constexpr int reach = 2;  // cells from a piece to the cell that acts on it, at most
   std::vector<LoadedPiece<Dim>> loaded;
-  for (const FacetPiece<Dim>& piece : cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach),
-                                                   solid.surface.facets, surface_points(solid, u)))
-    for (const IVec<Dim>& step : steps_outward<Dim>(piece.normal)) {
-      const IVec<Dim> cell = piece.cell + step;
+  const std::vector<FacetPiece<Dim>> pieces = cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach),
+                                                           solid.surface.facets, surface_points(solid, u));
+  std::vector<std::size_t> acted_on;
+  for (std::size_t n = 0; n < pieces.size(); ++n)
+    for (const IVec<Dim>& step : steps_outward<Dim>(pieces[n].normal)) {
+      const IVec<Dim> cell = pieces[n].cell + step;
       const Site c = domain.layout.site(cell);
       if (!open[c]) continue;
-      if (domain.layout.cells().contains(cell)) loaded.push_back({c, load_of_piece(solid, u, piece)});
+      if (domain.layout.cells().contains(cell)) loaded.push_back({c, {}}), acted_on.push_back(n);
       break;
     }
+  parallel_range(0, int(loaded.size()), [&](int i) {
+    loaded[std::size_t(i)].load = load_of_piece(solid, u, pieces[acted_on[std::size_t(i)]]);
+  });
   return loaded;
 }
 

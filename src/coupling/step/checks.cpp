@@ -8,16 +8,27 @@
 #include "grid/loops.h"
 
 namespace seiche {
+namespace {
+
+template <int Dim>
+std::string name_non_finite(const Layout<Dim>& layout, const std::string& name, const Box<Dim>& box, const double* f) {
+  std::string first;
+  for_each_index_in_order(layout, box, [&](Site c, const IVec<Dim>& i) {
+    if (!first.empty() || std::isfinite(f[c])) return;
+    first = fmt::format("{} is not a number at cell ({}", name, i[0]);
+    for (int a = 1; a < Dim; ++a) first += fmt::format(", {}", i[a]);
+    first += ")";
+  });
+  return first;
+}
+
+}  // namespace
 
 template <int Dim>
 std::string find_non_finite(const Domain<Dim>& domain, const std::string& name, const Box<Dim>& box, const double* f) {
   std::string mine;
-  for_each_index_in_order(domain.layout, box, [&](Site c, const IVec<Dim>& i) {
-    if (!mine.empty() || std::isfinite(f[c])) return;
-    mine = fmt::format("{} is not a number at cell ({}", name, i[0]);
-    for (int a = 1; a < Dim; ++a) mine += fmt::format(", {}", i[a]);
-    mine += ")";
-  });
+  if (local_max(domain.layout, box, 0, [&](Site c) { return std::isfinite(f[c]) ? 0 : 1; }) > 0)
+    mine = name_non_finite(domain.layout, name, box, f);
   if (!domain.ranks.any(!mine.empty())) return {};
   for (const std::string& text : domain.ranks.all_gather(mine))
     if (!text.empty()) return text;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/parallel_range.h"
 #include "fluid/viscosity/viscous_terms.h"
 #include "grid/loops.h"
-#include "grid/parallel_range.h"
 #include "linalg/core/matrix_entries.h"
 
 namespace seiche {

@@ -65,12 +65,14 @@ void BodyMatrix::share_out() {
 SparseMatrix BodyMatrix::submatrix(const std::vector<int>& rows) const {
   std::vector<int> place(std::size_t(H_.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) place[std::size_t(rows[i])] = int(i);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const int k : rows)
-    for (SparseMatrix::InnerIterator it(H_, k); it; ++it)
-      entries.emplace_back(place[std::size_t(it.row())], place[std::size_t(k)], it.value());
   SparseMatrix part(Eigen::Index(rows.size()), Eigen::Index(rows.size()));
-  part.setFromTriplets(entries.begin(), entries.end());
+  part.reserve(H_.nonZeros());
+  for (const int k : rows) {
+    part.startVec(place[std::size_t(k)]);
+    for (SparseMatrix::InnerIterator it(H_, k); it; ++it)
+      part.insertBack(place[std::size_t(it.row())], place[std::size_t(k)]) = it.value();
+  }
+  part.finalize();
   return part;
 }
 
@@ -101,6 +103,17 @@ Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
   // overwritten.
   if (!shared_.empty()) x(shared_) = Eigen::VectorXd(shared_factor_.solve(gathered(b, shared_)));
   return x;
+}
+
+Eigen::MatrixXd BodyMatrix::solve_columns(const Eigen::MatrixXd& B) const {
+  if (parts_.empty()) return shared_.empty() ? B : Eigen::MatrixXd(shared_factor_.solve(B));
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+  for (const Part& part : parts_)
+    if (part.owner == ranks_.rank()) X(part.rows, Eigen::all) = part.factor.solve_columns(B(part.rows, Eigen::all));
+  ranks_.global_sum(std::span<double>(X.data(), std::size_t(X.size())));  // without rounding, as in solve()
+  if (!shared_.empty())
+    X(shared_, Eigen::all) = Eigen::MatrixXd(shared_factor_.solve(Eigen::MatrixXd(B(shared_, Eigen::all))));
+  return X;
 }
 
 }  // namespace seiche

@@ -28,6 +28,8 @@ class BodyMatrix {
   int size() const { return int(H_.rows()); }
   // H^-1 b, the same bits on all ranks. Collective.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  // H^-1 B, all columns at once.
+  Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& B) const;
 
  private:
   struct Part {

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/parallel_range.h"
+
 namespace seiche {
 namespace {
+
+constexpr std::size_t rows_a_task = 1024;
 
 // An isolated cell without an open face has no equation, so it adds no constant to the null space.
 NullSpace without_rows(NullSpace null_space, const DistributedMatrix& A) {
@@ -45,6 +49,13 @@ void LinearSystem::replace_zero_diagonals() {
   for (const int i : identity_) values_[pattern_.row_start[i]] = 1;
 }
 
+double LinearSystem::row_times(std::size_t i, const double* x) const {
+  double sum = 0;
+  for (int k = pattern_.row_start[i]; k < pattern_.row_start[i + 1]; ++k)
+    sum += values_[std::size_t(k)] * x[columns_[std::size_t(k)]];
+  return sum;
+}
+
 const double* LinearSystem::with_ghosts(const Vector& x) const {
   assert(int(x.size()) == rows());
   if (ranks_.size() == 1) return x.data();
@@ -56,16 +67,16 @@ const double* LinearSystem::with_ghosts(const Vector& x) const {
 
 void LinearSystem::multiply(const Vector& x, Vector& y) const {
   const double* all = with_ghosts(x);
-  for (int i = 0; i < rows(); ++i) {
-    double sum = 0;
-    for (int k = pattern_.row_start[i]; k < pattern_.row_start[i + 1]; ++k) sum += values_[k] * all[columns_[k]];
-    y[i] = sum;
-  }
+  parallel_pieces(std::size_t(rows()), rows_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = row_times(i, all);
+  });
 }
 
 void LinearSystem::residual(const Vector& b, const Vector& x, Vector& r) const {
-  multiply(x, r);
-  for (int i = 0; i < rows(); ++i) r[i] = b[i] - r[i];
+  const double* all = with_ghosts(x);
+  parallel_pieces(std::size_t(rows()), rows_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) r[i] = b[i] - row_times(i, all);
+  });
 }
 
 void LinearSystem::project(Vector& v) const {

@@ -40,6 +40,7 @@ class LinearSystem {
  private:
   void replace_zero_diagonals();
   const double* with_ghosts(const Vector& x) const;
+  double row_times(std::size_t row, const double* with_ghosts) const;
 
   const DistributedMatrix& pattern_;
   const RowGrid& grid_;

@@ -51,4 +51,8 @@ Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
   return factors_->llt.solve(b);
 }
 
+Eigen::MatrixXd SparseCholesky::solve_columns(const Eigen::MatrixXd& B) const {
+  return factors_->llt.solve(B);
+}
+
 }  // namespace seiche

@@ -18,6 +18,8 @@ class SparseCholesky {
   [[nodiscard]] bool factor(const SparseMatrix& A);
   // A^-1 b, after a call of factor() that returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  // A^-1 B, all columns at once.
+  Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& B) const;
 
  private:
   struct Factors;

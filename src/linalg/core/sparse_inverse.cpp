@@ -3,8 +3,12 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "base/parallel_range.h"
+
 namespace seiche {
 namespace {
+
+using Entries = std::vector<Eigen::Triplet<double>>;
 
 // Dense submatrix of H on the rows and columns S. `place` is -1 everywhere before and after.
 Eigen::MatrixXd dense_part(const SparseMatrix& H, const std::vector<int>& S, std::vector<int>& place) {
@@ -17,27 +21,34 @@ Eigen::MatrixXd dense_part(const SparseMatrix& H, const std::vector<int>& S, std
   return part;
 }
 
+// Row i of G on its columns S: g = y/sqrt(y_i) with H_SS y = e_i.
+void add_row(const SparseMatrix& H, const std::vector<char>& wanted, int i, std::vector<int>& place, Entries& entries) {
+  std::vector<int> S;
+  bool any = false;
+  for (SparseMatrix::InnerIterator it(H, i); it && it.row() <= i; ++it) {
+    S.push_back(int(it.row()));
+    any = any || wanted[std::size_t(it.row())];
+  }
+  if (!any) return;
+  const Eigen::MatrixXd part = dense_part(H, S, place);
+  const Eigen::VectorXd y = part.llt().solve(Eigen::VectorXd::Unit(part.rows(), part.rows() - 1));
+  for (std::size_t a = 0; a < S.size(); ++a)
+    if (wanted[std::size_t(S[a])]) entries.emplace_back(i, S[a], y[Eigen::Index(a)] / std::sqrt(y[part.rows() - 1]));
+}
+
 }  // namespace
 
-// Row i of G on its columns S: g = y/sqrt(y_i) with H_SS y = e_i.
 SparseMatrix sparse_inverse_factor(const SparseMatrix& H, const std::vector<char>& wanted) {
-  const int n = int(H.rows());
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<int> place(std::size_t(n), -1);
-  for (int i = 0; i < n; ++i) {
-    std::vector<int> S;
-    bool any = false;
-    for (SparseMatrix::InnerIterator it(H, i); it && it.row() <= i; ++it) {
-      S.push_back(int(it.row()));
-      any = any || wanted[std::size_t(it.row())];
-    }
-    if (!any) continue;
-    const Eigen::MatrixXd part = dense_part(H, S, place);
-    const Eigen::VectorXd y = part.llt().solve(Eigen::VectorXd::Unit(part.rows(), part.rows() - 1));
-    for (std::size_t a = 0; a < S.size(); ++a)
-      if (wanted[std::size_t(S[a])]) entries.emplace_back(i, S[a], y[Eigen::Index(a)] / std::sqrt(y[part.rows() - 1]));
-  }
-  SparseMatrix G(n, n);
+  constexpr std::size_t rows_a_task = 128;
+  const auto n = std::size_t(H.rows());
+  std::vector<Entries> parts(n / rows_a_task + 1);
+  parallel_pieces(n, rows_a_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> place(n, -1);
+    for (std::size_t i = begin; i < end; ++i) add_row(H, wanted, int(i), place, parts[begin / rows_a_task]);
+  });
+  Entries entries;
+  for (const Entries& part : parts) entries.insert(entries.end(), part.begin(), part.end());
+  SparseMatrix G(H.rows(), H.rows());
   G.setFromTriplets(entries.begin(), entries.end());
   return G;
 }

@@ -1,5 +1,9 @@
 #include "linalg/core/sparse_vector.h"
 
+#include <algorithm>
+
+#include "base/parallel_range.h"
+
 namespace seiche {
 
 SparseVector nonzeros(const Vector& x) {
@@ -17,6 +21,17 @@ double local_dot(const SparseVector& x, const Vector& y) {
 
 void add_scaled(Vector& y, double a, const SparseVector& x) {
   for (std::size_t n = 0; n < x.row.size(); ++n) y[std::size_t(x.row[n])] += a * x.value[n];
+}
+
+void subtract_combination(const std::vector<SparseVector>& columns, std::span<const double> q, Vector& y) {
+  parallel_pieces(y.size(), entries_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const SparseVector& x = columns[c];
+      const auto first = std::lower_bound(x.row.begin(), x.row.end(), int(begin));
+      for (auto n = std::size_t(first - x.row.begin()); n < x.row.size() && x.row[n] < int(end); ++n)
+        y[std::size_t(x.row[n])] -= q[c] * x.value[n];
+    }
+  });
 }
 
 }  // namespace seiche

@@ -18,4 +18,7 @@ double local_dot(const SparseVector& x, const Vector& y);
 // y += a x
 void add_scaled(Vector& y, double a, const SparseVector& x);
 
+// y -= sum of q_c x_c
+void subtract_combination(const std::vector<SparseVector>& columns, std::span<const double> q, Vector& y);
+
 }  // namespace seiche

@@ -17,6 +17,12 @@ struct Stage {
   BlockExchange gather, scatter;
 };
 
+// A row on no cell.
+struct LoneRow {
+  std::size_t row;
+  float inverse;  // 1 / a_ii
+};
+
 template <int Dim>
 class GeometricMultigrid : public Preconditioner {
  public:
@@ -34,8 +40,8 @@ class GeometricMultigrid : public Preconditioner {
   MultigridSettings settings_;
   Communicator ranks_;
   std::array<int, 3> periodic_;
-  std::vector<int> place_;   // of each row, in `home`
-  std::vector<float> lone_;  // 1 / a_ii of rows on no cell
+  std::vector<int> place_;  // of each row, in `home`
+  std::vector<LoneRow> lone_;
   // On several ranks, blocks of rows are cut elsewhere than those of the first level.
   std::vector<float> home_b_, home_x_;
   BlockExchange to_level_, to_home_;
@@ -98,7 +104,7 @@ GeometricMultigrid<Dim>::GeometricMultigrid(const LinearSystem& system, const Ce
       place_(std::move(stencil.place)),
       excess_(std::move(stencil.excess)) {
   for (int row = 0; row < system.rows(); ++row)
-    if (place_[std::size_t(row)] < 0) lone_.push_back(float(1 / system.diagonal(row)));
+    if (place_[std::size_t(row)] < 0) lone_.push_back({std::size_t(row), float(1 / system.diagonal(row))});
   add_first_level(box, stencil);
 }
 
@@ -189,14 +195,18 @@ void GeometricMultigrid<Dim>::apply(const Vector& r, Vector& z) {
   TimeLevel& first = *stages_.front().level;
   const bool shared = ranks_.size() > 1;
   std::vector<float>&b = shared ? home_b_ : first.b, &x = shared ? home_x_ : first.x;
-  for (std::size_t row = 0; row < r.size(); ++row)
-    if (place_[row] >= 0) b[std::size_t(place_[row])] = float(r[row]);
+  parallel_pieces(r.size(), entries_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      if (place_[row] >= 0) b[std::size_t(place_[row])] = float(r[row]);
+  });
   if (shared) to_level_.run(b.data(), first.b.data());
   cycle(0);
   if (shared) to_home_.run(first.x.data(), x.data());
-  std::size_t lone = 0;
-  for (std::size_t row = 0; row < r.size(); ++row)
-    z[row] = place_[row] >= 0 ? double(x[std::size_t(place_[row])]) : double(lone_[lone++]) * r[row];
+  parallel_pieces(r.size(), entries_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      if (place_[row] >= 0) z[row] = double(x[std::size_t(place_[row])]);
+  });
+  for (const LoneRow& lone : lone_) z[lone.row] = double(lone.inverse) * r[lone.row];
 }
 
 template <int Dim>

@@ -1,7 +1,10 @@
 #include "linalg/precond/multigrid_assembly.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "base/parallel_range.h"
 
 namespace seiche {
 namespace {
@@ -88,10 +91,12 @@ std::string assemble_stencil(const LinearSystem& system, const CellBox& box, Ste
   stencil.place.assign(std::size_t(system.rows()), -1);
   const CellNumbers numbers(box, system.grid().periodic);
   const Vector number = row_numbers(system, numbers);
-  bool fits = true;
-  for_rows_on_cells(system.grid(), [&](int row, const auto& c) {
-    stencil.place[std::size_t(row)] = int(stencil.rows.at(c));
-    fits = enter_row(system, numbers, number, row, stencil) && fits;
+  for_rows_on_cells(system.grid(),
+                    [&](int row, const auto& c) { stencil.place[std::size_t(row)] = int(stencil.rows.at(c)); });
+  std::atomic<bool> fits = true;
+  parallel_pieces(std::size_t(system.rows()), entries_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      if (stencil.place[row] >= 0 && !enter_row(system, numbers, number, int(row), stencil)) fits = false;
   });
   return system.ranks().any(!fits) ? "the matrix couples cells that are not neighbours" : "";
 }

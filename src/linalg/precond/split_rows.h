@@ -3,7 +3,7 @@
 // before its odd ones. Red and black cells are then contiguous, and so are the neighbours of either.
 #include <algorithm>
 
-#include "grid/parallel_range.h"
+#include "base/parallel_range.h"
 #include "linalg/core/grid_stencil.h"
 
 namespace seiche {

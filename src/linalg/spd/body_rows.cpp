@@ -31,14 +31,33 @@ class EliminatedRows : public Preconditioner {
   Vector rest_;
 };
 
+// Number in n of this rank's rows and of those that they are linked to, -1 outside n.
+class NumbersNear {
+ public:
+  NumbersNear(const LinearSystem& A, const std::vector<Row>& n)
+      : first_(A.pattern().first_row), local_(std::size_t(A.rows()), -1), n_(n) {
+    for (std::size_t k = 0; k < n.size(); ++k)
+      if (is_local(n[k])) local_[std::size_t(n[k] - first_)] = int(k);
+  }
+  int of(Row row) const { return is_local(row) ? local_[std::size_t(row - first_)] : index_of(n_, row); }
+
+ private:
+  bool is_local(Row row) const { return row >= first_ && row < first_ + Row(local_.size()); }
+
+  Row first_;
+  std::vector<int> local_;
+  const std::vector<Row>& n_;
+};
+
 // (A + C)_nn on all ranks.
 SparseMatrix block_of(const LinearSystem& A, const BodyCoupling& C) {
   const DistributedMatrix& P = A.pattern();
+  const NumbersNear near(A, C.rows);
   std::vector<CouplingEntry> mine;
   for (int i = 0; i < A.rows(); ++i) {
-    if (index_of(C.rows, P.first_row + i) < 0) continue;
+    if (near.of(P.first_row + i) < 0) continue;
     for (int k = P.row_start[std::size_t(i)]; k < P.row_start[std::size_t(i) + 1]; ++k)
-      if (const int j = index_of(C.rows, P.column[std::size_t(k)]); j >= 0)
+      if (const int j = near.of(P.column[std::size_t(k)]); j >= 0)
         mine.push_back({P.first_row + i, j, A.values()[std::size_t(k)]});
   }
   std::vector<Eigen::Triplet<double>> triplets;
@@ -57,14 +76,14 @@ EliminatedRows::EliminatedRows(const LinearSystem& A, const BodyCoupling& C, std
 
 void EliminatedRows::find_rows(const LinearSystem& A, const BodyCoupling& C) {
   const DistributedMatrix& P = A.pattern();
+  const NumbersNear near(A, C.rows);
   for (int i = 0; i < A.rows(); ++i) {
-    if (const int n = index_of(C.rows, P.first_row + i); n >= 0) {
+    if (const int n = near.of(P.first_row + i); n >= 0) {
       own_.push_back({i, n});
       continue;
     }
     for (int k = P.row_start[std::size_t(i)]; k < P.row_start[std::size_t(i) + 1]; ++k)
-      if (const int n = index_of(C.rows, P.column[std::size_t(k)]); n >= 0)
-        links_.push_back({i, n, A.values()[std::size_t(k)]});
+      if (const int n = near.of(P.column[std::size_t(k)]); n >= 0) links_.push_back({i, n, A.values()[std::size_t(k)]});
   }
 }
 

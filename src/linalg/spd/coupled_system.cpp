@@ -68,14 +68,18 @@ Eigen::VectorXd CoupledSystem::weigh(const Eigen::VectorXd& w) const {
   return c_ * H_->solve(w);
 }
 
+Eigen::MatrixXd CoupledSystem::weigh_columns(const Eigen::MatrixXd& W) const {
+  return c_ * H_->solve_columns(W);
+}
+
 void CoupledSystem::multiply(const Vector& x, Vector& y) const {
   A_.multiply(x, y);
   if (is_coupled()) add_multiplied(J_, weigh(multiply_transposed(J_, x, ranks())), y);
 }
 
 void CoupledSystem::residual(const Vector& b, const Vector& x, Vector& r) const {
-  multiply(x, r);
-  for (int i = 0; i < rows(); ++i) r[i] = b[i] - r[i];
+  A_.residual(b, x, r);
+  if (is_coupled()) add_multiplied(J_, -weigh(multiply_transposed(J_, x, ranks())), r);
 }
 
 // v -= chi N (N' W N)^-1 N' chi' v, W the number of rows of each component, N = combinations_.

@@ -33,6 +33,8 @@ class CoupledSystem {
   void project(Vector& v) const;
   // Returns c H^-1 w. Collective.
   Eigen::VectorXd weigh(const Eigen::VectorXd& w) const;
+  // Returns c H^-1 W, all columns at once. Collective.
+  Eigen::MatrixXd weigh_columns(const Eigen::MatrixXd& W) const;
   // Closed components that bodies feel (J' chi != 0): their indicators chi are null vectors of A but not of S.
   const std::vector<int>& sensed_components() const { return sensed_; }
 

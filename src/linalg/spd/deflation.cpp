@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/parallel_range.h"
 #include "linalg/spd/column_products.h"
 
 namespace seiche {
@@ -21,6 +22,7 @@ constexpr Eigen::Index least_dense = 100;
 // Nonzeros of v in the given rows.
 SparseVector cut(const Vector& v, const std::vector<int>& rows) {
   SparseVector c;
+  c.row.reserve(rows.size()), c.value.reserve(rows.size());
   for (const int i : rows)
     if (v[std::size_t(i)] != 0) c.row.push_back(i), c.value.push_back(v[std::size_t(i)]);
   return c;
@@ -116,13 +118,11 @@ void Deflation::find_modes() {
   Eigen::Index most = 0;
   for (const ColumnBlock& b : blocks) most = std::max(most, b.loads.cols());
   if (most == 0 || !S_.is_coupled()) return;
-  Eigen::MatrixXd responses(first.back(), most);
-  for (Eigen::Index k = 0; k < most; ++k) {
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(first.back());
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (k < blocks[b].loads.cols()) load.segment(first[b], blocks[b].width) = blocks[b].loads.col(k).normalized();
-    responses.col(k) = S_.weigh(load);
-  }
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(first.back(), most);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (const Eigen::Index count = blocks[b].loads.cols(); count > 0)
+      loads.block(first[b], 0, blocks[b].width, count) = blocks[b].loads.colwise().normalized();
+  const Eigen::MatrixXd responses = S_.weigh_columns(loads);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (!blocks[b].deforms()) continue;
     Eigen::MatrixXd own = responses.block(first[b], 0, blocks[b].width, blocks[b].loads.cols());
@@ -243,14 +243,14 @@ bool Deflation::refresh() {
   return S_.columns().any_deforms() ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
 }
 
-// For large H: E column by column.
+// For large H.
 bool Deflation::multiply_small() {
   const auto n = Eigen::Index(Z_.size());
   Eigen::MatrixXd JZ = Eigen::MatrixXd::Zero(S_.columns().columns(), n), E = Eigen::MatrixXd::Zero(n, n);
   for (const auto& t : jz_) JZ(t.row(), t.col()) += t.value();
   for (const auto& t : zaz_) E(t.row(), t.col()) += t.value();
   E.diagonal() += regularization(n);
-  for (Eigen::Index k = 0; k < n; ++k) E.col(k) += JZ.transpose() * S_.weigh(JZ.col(k));
+  E += JZ.transpose() * S_.weigh_columns(JZ);
   small_.emplace(0.5 * (E + E.transpose()));
   return small_->info() == Eigen::Success && E.allFinite();
 }
@@ -317,12 +317,12 @@ Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
 
 Eigen::VectorXd Deflation::transposed(const std::vector<SparseVector>& columns, const Vector& x) const {
   Eigen::VectorXd y(Eigen::Index(columns.size()));
-  for (std::size_t c = 0; c < columns.size(); ++c) y[Eigen::Index(c)] = local_dot(columns[c], x);
+  parallel_range(0, int(columns.size()), [&](int c) { y[c] = local_dot(columns[std::size_t(c)], x); });
   return y;
 }
 
 void Deflation::subtract(const Eigen::VectorXd& q, Vector& z) const {
-  for (std::size_t c = 0; c < Z_.size(); ++c) add_scaled(z, -q[Eigen::Index(c)], Z_[c]);
+  subtract_combination(Z_, std::span<const double>(q.data(), Z_.size()), z);
 }
 
 void Deflation::apply(const Vector& r, Vector& z) {

@@ -14,12 +14,6 @@ std::string choose(const std::string& name, const BlockColumns& J) {
   return name == "auto" || J.any_deforms() ? "boomeramg" : name;
 }
 
-double local_dot(const Vector& x, const Vector& y) {
-  double sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
-  return sum;
-}
-
 }  // namespace
 
 SchurPreconditioner::SchurPreconditioner(const LinearSystem& A, const BlockColumns& J, double c, Vector mass,

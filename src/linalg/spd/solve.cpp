@@ -169,9 +169,13 @@ SpdSolver::Outcome SpdSolver::attempt(const Fallback& fallback, const Problem& p
 // bodies yield more than the liquid, BoomerAMG needs fewer iterations (docs/decisions/0036-multigrid-with-bodies.md).
 std::string SpdSolver::choose() {
   constexpr double strong = 1;
-  std::string chosen = choose_preconditioner(options_.preconditioner, liquid_);
-  if (options_.preconditioner != "auto" || J_.blocks.empty()) return chosen;
-  if (chosen == "none") chosen = box_of_rows(liquid_).cells() > 0 ? "geometric" : "boomeramg";
+  if (without_bodies_.empty()) without_bodies_ = choose_preconditioner(options_.preconditioner, liquid_);
+  if (options_.preconditioner != "auto" || J_.blocks.empty()) return without_bodies_;
+  if (with_bodies_.empty()) {
+    with_bodies_ = without_bodies_;
+    if (with_bodies_ == "none") with_bodies_ = box_of_rows(liquid_).cells() > 0 ? "geometric" : "boomeramg";
+  }
+  const std::string& chosen = with_bodies_;
   if (!J_.any_deforms() || !system_.is_coupled()) return chosen;
   const auto yields = [&] { return coupling_strength(liquid_, J_, system_.bodies(), system_.scale()) > strong; };
   if (choice_.empty()) choice_ = keeps_to_grid(chosen) && yields() ? "boomeramg" : chosen;

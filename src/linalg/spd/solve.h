@@ -80,8 +80,9 @@ class SpdSolver {
   CoupledSystem system_;
   std::map<std::string, std::unique_ptr<Built>> built_;
   const Deflation* last_built_ = nullptr;
-  // Choice of the first solve with deformable bodies. It is kept: a second hierarchy costs more than it saves.
-  std::string choice_;
+  // Choices of the first solve for the liquid alone, with bodies, and with bodies that deform. They are kept: a second
+  // hierarchy costs more than it saves.
+  std::string without_bodies_, with_bodies_, choice_;
 };
 
 // Solves A x = b once, as SpdSolver does. Collective.

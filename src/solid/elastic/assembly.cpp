@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel_range.h"
 #include "solid/elastic/body.h"
 #include "solid/material/guard.h"
 
@@ -72,9 +73,13 @@ Strain<Dim> strain_of(const ShapeGradients<Dim>& g) {
   return B;
 }
 
+template <int Dim>
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                                    Dim*(Dim + 1) * (Dim + 2) / 2, Dim*(Dim + 1) * (Dim + 2) / 2>;
+
 // Adds the element's matrix to the columns of its nodes.
-template <int Dim, class Matrix>
-void scatter(const ElasticBody<Dim>& body, int e, const Matrix& Ke, SparseMatrix& K) {
+template <int Dim>
+void scatter(const ElasticBody<Dim>& body, int e, const ElementMatrix<Dim>& Ke, SparseMatrix& K) {
   const int count = body.mesh.nodes_per_element();
   const int *n = body.mesh.element(e), *slot = body.slots.data() + size_t(e) * count * count;
   for (int b = 0; b < count; ++b) {
@@ -85,6 +90,30 @@ void scatter(const ElasticBody<Dim>& body, int e, const Matrix& Ke, SparseMatrix
       }
     }
   }
+}
+
+// K_e = integral of B' H B with H = d2Psi/dF2 plus the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2.
+template <int Dim>
+ElementMatrix<Dim> stiffness_of(const ElasticBody<Dim>& body, int e, const Eigen::VectorXd& u,
+                                HessianProjection curvature, const HeldPressure<Dim>& held) {
+  const Lame& lame = body.properties.lame;
+  const int size = Dim * body.mesh.nodes_per_element();
+  ElementMatrix<Dim> Ke = ElementMatrix<Dim>::Zero(size, size);
+  over_points(body, e, [&](const Point<Dim>& p) {
+    const Gradient<Dim> F = p.deformation(body, u);
+    const elastic::Guard guard = elastic::volume_guard(lame, F.determinant());
+    if (p.role == Role::node && guard.slope == 0) return;
+    Hessian<Dim> H = Hessian<Dim>::Zero();
+    if (p.role == Role::quadrature) H = body.material.stiffness(lame, F);
+    if (p.is_held(held)) H += held.stiffness(p.number, F);
+    const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
+    if (guard.slope != 0) H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
+    if (curvature == HessianProjection::convex) H = project_positive<Dim>(H);
+    const Strain<Dim> B = strain_of<Dim>(p.g);
+    const Strain<Dim> HB = p.weight * H * B;
+    Ke.noalias() += B.transpose() * HB;
+  });
+  return Ke;
 }
 
 // J(F + t D) = c_0 + c_1 t + c_2 t^2 + c_3 t^3
@@ -155,32 +184,19 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
   return r;
 }
 
-// K = integral of B' H B with H = d2Psi/dF2 plus the guard's b'' dJ/dF dJ/dF' + b' d2J/dF2.
+// Threads find the matrices of a batch of elements; they are added up in the order of the elements.
 template <int Dim>
 void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature, SparseMatrix& K,
                    const HeldPressure<Dim>& held) {
-  constexpr int most = Dim * (Dim + 1) * (Dim + 2) / 2;
-  const Lame& lame = body.properties.lame;
-  const int size = Dim * body.mesh.nodes_per_element();
-  for (int e = 0; e < body.mesh.element_count(); ++e) {
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most, most> Ke(size, size);
-    Ke.setZero();
-    over_points(body, e, [&](const Point<Dim>& p) {
-      const Gradient<Dim> F = p.deformation(body, u);
-      const elastic::Guard guard = elastic::volume_guard(lame, F.determinant());
-      if (p.role == Role::node && guard.slope == 0) return;
-      Hessian<Dim> H = Hessian<Dim>::Zero();
-      if (p.role == Role::quadrature) H = body.material.stiffness(lame, F);
-      if (p.is_held(held)) H += held.stiffness(p.number, F);
-      const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
-      if (guard.slope != 0)
-        H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
-      if (curvature == HessianProjection::convex) H = project_positive<Dim>(H);
-      const Strain<Dim> B = strain_of<Dim>(p.g);
-      const Strain<Dim> HB = p.weight * H * B;
-      Ke.noalias() += B.transpose() * HB;
+  constexpr int a_batch = 1024, a_task = 16;
+  const int elements = body.mesh.element_count();
+  std::vector<ElementMatrix<Dim>> found(std::size_t(std::min(elements, a_batch)));
+  for (int first = 0; first < elements; first += a_batch) {
+    const auto count = std::size_t(std::min(a_batch, elements - first));
+    parallel_pieces(count, a_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) found[n] = stiffness_of(body, first + int(n), u, curvature, held);
     });
-    scatter(body, e, Ke, K);
+    for (std::size_t n = 0; n < count; ++n) scatter(body, first + int(n), found[n], K);
   }
 }
 

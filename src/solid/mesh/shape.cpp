@@ -1,20 +1,22 @@
 #include "solid/mesh/shape.h"
 
 #include <Eigen/Dense>
+#include <array>
+#include <cassert>
 #include <cmath>
 
 namespace seiche::elastic {
 namespace {
 
 // Barycentric coordinates lambda. Below: their gradients as rows.
-Eigen::VectorXd barycentric(int dim, const ReferencePoint& xi) {
-  Eigen::VectorXd lambda(dim + 1);
+ShapeValues barycentric(int dim, const ReferencePoint& xi) {
+  ShapeValues lambda(dim + 1);
   lambda << 1 - xi.sum(), xi;
   return lambda;
 }
 
-Eigen::MatrixXd barycentric_gradients(int dim) {
-  Eigen::MatrixXd g(dim + 1, dim);
+ReferenceGradients barycentric_gradients(int dim) {
+  ReferenceGradients g(dim + 1, dim);
   g << Eigen::RowVectorXd::Constant(dim, -1), Eigen::MatrixXd::Identity(dim, dim);
   return g;
 }
@@ -63,19 +65,31 @@ std::vector<QuadraturePoint> conical(int dim, const std::vector<QuadraturePoint>
   return r;
 }
 
-}  // namespace
-
-std::vector<QuadraturePoint> quadrature(int dim, int degree) {
+std::vector<QuadraturePoint> make_quadrature(int dim, int degree) {
   if (degree <= 1) return {{ReferencePoint::Constant(dim, 1. / (dim + 1)), 1 / factorial(dim)}};
   if (degree == 2) return second_degree(dim);
   return conical(
       dim, gauss((degree + dim + 1) / 2));  // n points are exact to degree 2n - 1, of which the cone takes dim - 1
 }
 
-Eigen::VectorXd shape_values(int dim, int order, const ReferencePoint& xi) {
-  const Eigen::VectorXd lambda = barycentric(dim, xi);
+}  // namespace
+
+const std::vector<QuadraturePoint>& quadrature(int dim, int degree) {
+  constexpr int most = 6;
+  static const auto rules = [] {
+    std::array<std::array<std::vector<QuadraturePoint>, most + 1>, 4> all;
+    for (int d = 1; d <= 3; ++d)
+      for (int n = 0; n <= most; ++n) all[std::size_t(d)][std::size_t(n)] = make_quadrature(d, n);
+    return all;
+  }();
+  assert(1 <= dim && dim <= 3 && 0 <= degree && degree <= most);
+  return rules[std::size_t(dim)][std::size_t(degree)];
+}
+
+ShapeValues shape_values(int dim, int order, const ReferencePoint& xi) {
+  const ShapeValues lambda = barycentric(dim, xi);
   if (order == 1) return lambda;
-  Eigen::VectorXd N(nodes_per_simplex(dim, 2));
+  ShapeValues N(nodes_per_simplex(dim, 2));
   for (int a = 0; a <= dim; ++a) N[a] = lambda[a] * (2 * lambda[a] - 1);
   for (int e = 0; e < edges_per_simplex(dim); ++e) {
     N[dim + 1 + e] = 4 * lambda[edge_corners[e][0]] * lambda[edge_corners[e][1]];
@@ -83,11 +97,11 @@ Eigen::VectorXd shape_values(int dim, int order, const ReferencePoint& xi) {
   return N;
 }
 
-Eigen::MatrixXd shape_gradients(int dim, int order, const ReferencePoint& xi) {
-  const Eigen::MatrixXd g = barycentric_gradients(dim);
+ReferenceGradients shape_gradients(int dim, int order, const ReferencePoint& xi) {
+  const ReferenceGradients g = barycentric_gradients(dim);
   if (order == 1) return g;
-  const Eigen::VectorXd lambda = barycentric(dim, xi);
-  Eigen::MatrixXd dN(nodes_per_simplex(dim, 2), dim);
+  const ShapeValues lambda = barycentric(dim, xi);
+  ReferenceGradients dN(nodes_per_simplex(dim, 2), dim);
   for (int a = 0; a <= dim; ++a) dN.row(a) = (4 * lambda[a] - 1) * g.row(a);
   for (int e = 0; e < edges_per_simplex(dim); ++e) {
     const auto [a, b] = edge_corners[e];

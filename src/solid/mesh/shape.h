@@ -19,21 +19,24 @@ constexpr int edges_per_simplex(int dim) {
   return dim * (dim + 1) / 2;
 }
 
-using ReferencePoint = Eigen::VectorXd;  // xi, `dim` numbers
+using ReferencePoint = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;  // xi, `dim` numbers
+// Of the at most ten nodes of a simplex.
+using ShapeValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 10, 1>;
+using ReferenceGradients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 10, 3>;
 
 struct QuadraturePoint {
   ReferencePoint xi;
   double weight;  // of a simplex of volume 1/dim!
 };
 
-// Quadrature exact for polynomials of this degree. Degrees 1 and 2 use the fewest points, higher ones the conical
-// product (Stroud).
-std::vector<QuadraturePoint> quadrature(int dim, int degree);
+// Quadrature exact for polynomials of this degree, at most 6. Degrees 1 and 2 use the fewest points, higher ones the
+// conical product (Stroud).
+const std::vector<QuadraturePoint>& quadrature(int dim, int degree);
 
 // N_a(xi): lambda_a, or lambda_a (2 lambda_a - 1) at corners and 4 lambda_a lambda_b on edges.
-Eigen::VectorXd shape_values(int dim, int order, const ReferencePoint& xi);
+ShapeValues shape_values(int dim, int order, const ReferencePoint& xi);
 // Row a is dN_a / dxi.
-Eigen::MatrixXd shape_gradients(int dim, int order, const ReferencePoint& xi);
+ReferenceGradients shape_gradients(int dim, int order, const ReferencePoint& xi);
 // Reference coordinates of the nodes.
 std::vector<ReferencePoint> node_points(int dim, int order);
 

@@ -48,6 +48,9 @@ TEST_CASE("the matrix behind bodies is solved with, whatever parts it has", "[bo
     const double residual = (b - H * matrix.solve(b)).norm() / b.norm();
     CAPTURE(sizes, residual);
     CHECK(residual <= 1e-13);  // the condition is below 10
+    Eigen::MatrixXd B(H.rows(), 3);
+    B << b, 2 * b, b.reverse();
+    CHECK((B - H * matrix.solve_columns(B)).norm() <= 1e-13 * B.norm());
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "grid/thread_limit.h"
+#include "base/thread_limit.h"
 #include "linalg/core/linear_system.h"
 #include "linalg/krylov/krylov.h"
 #include "unit/linalg/cases.h"

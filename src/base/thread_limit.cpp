@@ -1,4 +1,4 @@
-#include "grid/thread_limit.h"
+#include "base/thread_limit.h"
 
 #include <tbb/global_control.h>
 
