@@ -215,6 +215,25 @@ TEST_CASE("an upturned glass pushed under water keeps its air for five seconds",
   }
 }
 
+// All cells of a region of air press alike on the liquid, on every route of the viscous solve.
+TEST_CASE("viscous liquid under air that has no way out stays at rest") {
+  for (const int dim : {2, 3})
+    for (const ViscousSolve route : {ViscousSolve::coupled, ViscousSolve::split}) {
+      Scene s = test::box_scene(dim, 12);
+      s.gravity = {0, -g, 0};
+      s.gas.present = true;
+      s.gas.bubbles = Bubbles::volume_conserving;
+      s.liquid.viscosity = "300";  // mu dt/(rho h^2) = 1.7
+      s.solver.viscosity = route;
+      test::add_liquid(s, "y-0.53");
+      const auto sim = make_simulation(s, Communicator());
+      double fastest = 0;
+      for (int k = 0; k < 3; ++k) fastest = std::max(fastest, sim->step(1).max_speed);
+      INFO(dim << "D, " << (route == ViscousSolve::split ? "split" : "coupled"));
+      CHECK(fastest <= 1e-7);  // the tolerance of the solve, 1e-8, of the 0.4 m/s that a step falls
+    }
+}
+
 TEST_CASE("a ball in a bubble feels nothing of the liquid around it") {
   Scene s = test::box_scene(2, 48);
   s.gas.present = true;

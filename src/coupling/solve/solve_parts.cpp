@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "coupling/state/solids.h"
+#include "grid/loops.h"
 
 namespace seiche {
 namespace {
@@ -63,9 +64,21 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   return std::move(m.velocity);
 }
 
+// A region of enclosed air has one row, on one rank; its pressure is that of all the region's cells.
 template <int Dim>
 void set_pressure(const CoupledInput<Dim>& in, const Vector& p, CoupledSolution<Dim>& r) {
-  for (std::size_t n = 0; n < p.size(); ++n) r.pressure[r.rows.cells[n]] = p[n];
+  std::vector<double> of_air(r.rows.air_row.size());
+  for (std::size_t n = 0; n < p.size(); ++n) {
+    const Site cell = r.rows.cells[n];
+    r.pressure[cell] = p[n];
+    if (n >= r.rows.liquid) of_air[std::size_t(r.rows.region(cell))] = p[n];
+  }
+  if (!of_air.empty()) {
+    in.setup.domain.ranks.global_sum(of_air);
+    for_each_site(in.liquid.layout, in.liquid.layout.cells(), [&](Site c) {
+      if (const std::int64_t k = r.rows.region(c); k >= 0) r.pressure[c] = of_air[std::size_t(k)];
+    });
+  }
   in.setup.domain.halo.fill_ghosts(r.pressure);
 }
 
