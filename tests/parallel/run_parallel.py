@@ -311,6 +311,12 @@ def air_ranks_agree_2d(bench):
     expect(largest(stats(bench.path("one")), "bubbles") > 0, "no air is enclosed")
 
 
+def viscous_air_ranks_agree_2d(bench):
+    """Thick liquid under enclosed air, on 1 and 2 ranks."""
+    ranks_agree(bench, airy(viscous(TWENTY_STEPS, 300.0).replace("[solver]", '[solver]\nviscosity = "coupled"')), (2,))
+    expect(largest(stats(bench.path("one")), "bubbles") > 0, "no air is enclosed")
+
+
 def prescribed_ranks_agree(bench):
     """A disc in a prescribed vortex on 1, 2, 3 and 4 ranks."""
     ranks_agree(bench, SWIRL)
@@ -414,7 +420,7 @@ def air_killed_at_random(bench):
 
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, sprung_ranks_agree_2d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
-                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, prescribed_ranks_agree, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
                       gas_killed_at_random, air_killed_at_random]}
