@@ -20,7 +20,7 @@ constexpr int edges_per_simplex(int dim) {
 }
 
 using ReferencePoint = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;  // xi, `dim` numbers
-// Of the at most ten nodes of a simplex.
+// Values at the nodes of a simplex, at most ten.
 using ShapeValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 10, 1>;
 using ReferenceGradients = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 10, 3>;
 
