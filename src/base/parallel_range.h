@@ -1,5 +1,5 @@
 #pragma once
-// Loops over ranges of integers on all threads, for work other than grids (rows of a picture, bodies).
+// Loops over ranges of integers on all threads: rows of a matrix or a picture, bodies, entries of a field.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
