@@ -135,12 +135,13 @@ class FlowSimulation : public Simulation {
     return informed;
   }
 
-  // Fails if the kinetic energy exceeds its budget. `start`: the present state, or this state informed by a trial.
+  // Fails if the kinetic energy exceeds the budget of the present state. `start`: the present state, or this state
+  // informed by a trial. The trial's flow adds nothing to the budget, since it has gained energy already.
   Attempt<Dim> budgeted_step(const State<Dim>& start, double dt) {
     Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
     if (!a.failure.empty()) return a;
     a.stats = measure(a.state, a.geometry);
-    if (!setup_.fluids.has_prescribed_flow()) a.failure = fault_of_energy(setup_, start, stats_, geometry_.psi, a);
+    if (!setup_.fluids.has_prescribed_flow()) a.failure = fault_of_energy(setup_, state_, stats_, geometry_.psi, a);
     return a;
   }
 
