@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/packed_values.h"
+
 namespace seiche {
 
 // This rank's part of one grid field: the entries with lower <= index < upper, first axis fastest. The boxes of all
@@ -13,7 +15,7 @@ namespace seiche {
 struct FieldRecord {
   std::string name;
   std::array<int, 3> lower{0, 0, 0}, upper{0, 0, 0};
-  std::vector<double> values;
+  PackedValues values;
 };
 
 struct CheckpointData {

@@ -67,10 +67,12 @@ int sync_handle(int handle) {
   return result == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
 }
 
-void write_synced(const fs::path& path, std::string_view bytes) {
+void write_synced(const fs::path& path, const std::function<void(const ByteSink&)>& produce) {
   Handle file(open_retrying(path, O_WRONLY | O_CREAT | O_TRUNC));
   if (file.number() < 0) fail(path, "open", errno);
-  if (const int error = write_all(file.number(), bytes)) fail(path, "write", error);
+  produce([&](std::string_view bytes) {
+    if (const int error = write_all(file.number(), bytes)) fail(path, "write", error);
+  });
   if (const int error = sync_handle(file.number())) fail(path, "sync", error);
   if (file.close_checked() != 0) fail(path, "close", errno);
 }
@@ -112,8 +114,12 @@ std::string describe_failure(const fs::path& path, const std::string& action, in
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
+  write_file(path, [&](const ByteSink& write) { write(bytes); });
+}
+
+void write_file(const fs::path& path, const std::function<void(const ByteSink&)>& produce) {
   UnlinkUnlessKept temporary{fs::path(path.string() + ".tmp")};
-  write_synced(temporary.path, bytes);
+  write_synced(temporary.path, produce);
   if (::rename(temporary.path.c_str(), path.c_str()) != 0) fail(path, "rename to", errno);
   temporary.kept = true;
   sync_folder(path.parent_path());

@@ -3,6 +3,7 @@
 // bytes are on the disk.
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,10 @@ namespace seiche {
 // Writes bytes to `path`.tmp, syncs, renames to `path` and syncs the folder. On failure removes the temporary file,
 // keeps an older file at `path`, and throws Error(output_failed) naming the path, the cause and the free bytes.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+// The same with bytes that `produce` gives to its argument piece by piece.
+using ByteSink = std::function<void(std::string_view)>;
+void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce);
 
 // Replaces the first bytes of an existing file and syncs. Throws Error(output_failed).
 void overwrite_start(const std::filesystem::path& path, std::string_view bytes);

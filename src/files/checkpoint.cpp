@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "base/agree.h"
-#include "base/crc32c.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "files/checked_file.h"
@@ -45,11 +44,12 @@ void check_finite(const CheckpointData& data, const Communicator& ranks) {
 
 CommittedFile write_own_file(const fs::path& folder, const CheckpointLabel& label, const CheckpointData& data,
                              const Communicator& ranks) {
-  const std::string bytes = encode_checkpoint_file(
-      {label.dimension, ranks.rank(), ranks.size(), label.step, label.scene_hash, "seiche " + version(), data});
+  const CheckpointHeader header{label.dimension, ranks.rank(),     ranks.size(),
+                                label.step,      label.scene_hash, "seiche " + version()};
   const std::string name = checkpoint_rank_file(ranks.rank());
-  write_file(folder / name, bytes);
-  return {name, bytes.size(), crc32c(bytes)};
+  WrittenBytes written;
+  write_file(folder / name, [&](const ByteSink& sink) { written = write_checkpoint_file(header, data, sink); });
+  return {name, written.count, written.checksum};
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -18,8 +18,10 @@ std::size_t offset_in(const FieldRecord& field, const Index& i) {
          extent(0) * (std::size_t(i[1] - field.lower[1]) + extent(1) * std::size_t(i[2] - field.lower[2]));
 }
 
-// Copies the intersection of `from` and `to` row by row; returns its number of entries.
-std::int64_t copy_common(const FieldRecord& from, FieldRecord& to, std::size_t components) {
+// Copies the intersection of `from` and `to` row by row; returns its number of entries. Both hold `components` values an
+// entry.
+std::int64_t copy_common(const FieldRecord& from, const FieldRecord& to, std::size_t components,
+                         std::vector<double>& target) {
   FieldRecord common;
   for (int axis = 0; axis < 3; ++axis) {
     common.lower[axis] = std::max(from.lower[axis], to.lower[axis]);
@@ -27,13 +29,14 @@ std::int64_t copy_common(const FieldRecord& from, FieldRecord& to, std::size_t c
   }
   const std::int64_t entries = box_entries(common);
   if (entries == 0) return 0;
-  to.values.resize(std::size_t(box_entries(to)) * components);
+  const std::vector<double> source = from.values.unpack();
+  target.resize(std::size_t(box_entries(to)) * components);
   const std::size_t row = std::size_t(common.upper[0] - common.lower[0]) * components;
   for (int k = common.lower[2]; k < common.upper[2]; ++k) {
     for (int j = common.lower[1]; j < common.upper[1]; ++j) {
       const Index start{common.lower[0], j, k};
-      std::copy_n(from.values.data() + offset_in(from, start) * components, row,
-                  to.values.data() + offset_in(to, start) * components);
+      std::copy_n(source.data() + offset_in(from, start) * components, row,
+                  target.data() + offset_in(to, start) * components);
     }
   }
   return entries;
@@ -47,7 +50,7 @@ std::int64_t box_entries(const FieldRecord& field) {
   return n;
 }
 
-BoxFiller::BoxFiller(const std::vector<FieldRecord>& wanted) : fields_(wanted) {
+BoxFiller::BoxFiller(const std::vector<FieldRecord>& wanted) : fields_(wanted), pieces_(wanted.size()) {
   for (const FieldRecord& field : fields_) missing_.push_back(box_entries(field));
 }
 
@@ -60,8 +63,21 @@ void BoxFiller::take(const FieldRecord& source) {
                                                       source.values.size(), entries));
   }
   for (std::size_t n = 0; n < fields_.size(); ++n) {
-    if (fields_[n].name == source.name) missing_[n] -= copy_common(source, fields_[n], components);
+    FieldRecord& field = fields_[n];
+    if (field.name != source.name) continue;
+    if (field.lower == source.lower && field.upper == source.upper) {
+      field.values = source.values;
+      missing_[n] = 0;
+    } else {
+      missing_[n] -= copy_common(source, field, components, pieces_[n]);
+    }
   }
+}
+
+std::vector<FieldRecord> BoxFiller::result() && {
+  for (std::size_t n = 0; n < fields_.size(); ++n)
+    if (!pieces_[n].empty()) fields_[n].values = PackedValues(std::exchange(pieces_[n], {}));
+  return std::move(fields_);
 }
 
 bool BoxFiller::complete() const {
@@ -77,10 +93,8 @@ std::string BoxFiller::first_incomplete() const {
 
 std::string first_not_finite(const std::vector<FieldRecord>& fields) {
   for (const FieldRecord& field : fields) {
-    const auto bad =
-        std::find_if_not(field.values.begin(), field.values.end(), [](double v) { return std::isfinite(v); });
-    if (bad == field.values.end()) continue;
-    const std::int64_t n = bad - field.values.begin();
+    const auto n = std::int64_t(field.values.first_not_finite());
+    if (n == std::int64_t(field.values.size())) continue;
     const std::int64_t nx = std::max(1, field.upper[0] - field.lower[0]),
                        ny = std::max(1, field.upper[1] - field.lower[1]);
     return fmt::format("{} at ({}, {}, {})", field.name, field.lower[0] + n % nx, field.lower[1] + n / nx % ny,

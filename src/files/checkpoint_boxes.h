@@ -18,10 +18,11 @@ class BoxFiller {
   bool complete() const;
   // Name of the first field with missing entries.
   std::string first_incomplete() const;
-  std::vector<FieldRecord> result() && { return std::move(fields_); }
+  std::vector<FieldRecord> result() &&;
 
  private:
   std::vector<FieldRecord> fields_;
+  std::vector<std::vector<double>> pieces_;  // of fields that come from more than one box
   std::vector<std::int64_t> missing_;  // entries not yet filled
 };
 

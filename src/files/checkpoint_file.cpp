@@ -15,33 +15,60 @@ constexpr char magic[8] = {'S', 'E', 'I', 'C', 'H', 'E', 'C', 'P'};
 constexpr std::uint32_t endianness_tag = 0x01020304u;
 constexpr std::uint32_t precision = sizeof(double);
 
-struct Header {
+struct FixedHeader {
   char magic[8];
   std::uint32_t endianness, version, precision, reserved;
 };
-static_assert(sizeof(Header) == 24);
+static_assert(sizeof(FixedHeader) == 24);
 
+// Collects small pieces before it passes them on.
 class Writer {
  public:
+  explicit Writer(const ByteSink& sink) : sink_(sink) {}
+
   template <class T>
   void number(T value) {
     static_assert(std::is_arithmetic_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    raw(&value, sizeof value);
   }
   void text(const std::string& value) {
     number(std::uint64_t(value.size()));
-    bytes_ += value;
+    raw(value.data(), value.size());
   }
-  void numbers(const std::vector<double>& values) {
-    number(std::uint64_t(values.size()));
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+  void values(const PackedValues& packed) {
+    number(std::uint64_t(packed.size()));
+    number(std::uint64_t(packed.words().size()));
+    raw(packed.words().data(), packed.words().size() * sizeof(std::uint64_t));
   }
-  void raw(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
-  std::string take() { return std::move(bytes_); }
-  const std::string& bytes() const { return bytes_; }
+  void raw(const void* data, std::size_t size) {
+    const std::string_view bytes(static_cast<const char*>(data), size);
+    if (waiting_.size() + size > at_a_time) flush();
+    if (size > at_a_time) return pass_on(bytes);
+    waiting_ += bytes;
+  }
+  WrittenBytes finish() {
+    flush();
+    number(written_.checksum);
+    flush();
+    return written_;
+  }
 
  private:
-  std::string bytes_;
+  static constexpr std::size_t at_a_time = std::size_t(1) << 20;
+
+  void flush() {
+    pass_on(waiting_);
+    waiting_.clear();
+  }
+  void pass_on(std::string_view bytes) {
+    written_.count += bytes.size();
+    written_.checksum = crc32c(bytes, written_.checksum);
+    sink_(bytes);
+  }
+
+  const ByteSink& sink_;
+  std::string waiting_;
+  WrittenBytes written_;
 };
 
 // Checks every length against the available bytes before allocating.
@@ -59,12 +86,19 @@ class Reader {
     const std::size_t size = count(1);
     return std::string(take(size), size);
   }
-  std::vector<double> numbers() {
-    const std::size_t size = count(sizeof(double));
-    std::vector<double> values(size);
-    const char* from = take(size * sizeof(double));
-    if (size > 0) std::memcpy(values.data(), from, size * sizeof(double));
+  template <class T>
+  std::vector<T> numbers() {
+    const std::size_t size = count(sizeof(T));
+    std::vector<T> values(size);
+    const char* from = take(size * sizeof(T));
+    if (size > 0) std::memcpy(values.data(), from, size * sizeof(T));
     return values;
+  }
+  PackedValues values() {
+    const auto size = number<std::uint64_t>();
+    auto packed = PackedValues::from_words(numbers<std::uint64_t>(), size);
+    if (!packed || packed->size() != size) throw Error(ExitCode::bad_checkpoint, "packed values are inconsistent");
+    return *std::move(packed);
   }
   std::size_t count(std::size_t bytes_each) {
     const auto n = number<std::uint64_t>();
@@ -88,15 +122,15 @@ void write_field(Writer& out, const FieldRecord& field) {
   out.text(field.name);
   for (const int i : field.lower) out.number(std::int32_t(i));
   for (const int i : field.upper) out.number(std::int32_t(i));
-  out.numbers(field.values);
+  out.values(field.values);
 }
 
-FieldRecord read_field(Reader& in) {
+FieldRecord read_field(Reader& in, std::uint32_t format) {
   FieldRecord field;
   field.name = in.text();
   for (int& i : field.lower) i = in.number<std::int32_t>();
   for (int& i : field.upper) i = in.number<std::int32_t>();
-  field.values = in.numbers();
+  field.values = format == 1 ? PackedValues(in.numbers<double>()) : in.values();
   return field;
 }
 
@@ -115,7 +149,7 @@ void write_data(Writer& out, const CheckpointData& data) {
   for (const FieldRecord& field : data.fields) write_field(out, field);
 }
 
-CheckpointData read_data(Reader& in) {
+CheckpointData read_data(Reader& in, std::uint32_t format) {
   CheckpointData data;
   for (std::size_t left = in.count(1); left > 0; --left) {
     const std::string name = in.text();
@@ -125,12 +159,12 @@ CheckpointData read_data(Reader& in) {
     const std::string name = in.text();
     data.texts[name] = in.text();
   }
-  for (std::size_t left = in.count(1); left > 0; --left) data.fields.push_back(read_field(in));
+  for (std::size_t left = in.count(1); left > 0; --left) data.fields.push_back(read_field(in, format));
   return data;
 }
 
-Header header_of(const std::string& bytes) {
-  Header header{};
+FixedHeader header_of(const std::string& bytes) {
+  FixedHeader header{};
   std::memcpy(&header, bytes.data(), sizeof header);
   return header;
 }
@@ -144,24 +178,29 @@ CheckpointDefect damaged(const std::string& text) {
 
 }  // namespace
 
-std::string encode_checkpoint_file(const CheckpointFile& file) {
-  Header header{{}, endianness_tag, checkpoint_format_version, precision, 0};
-  std::memcpy(header.magic, magic, sizeof magic);
-  Writer out;
-  out.raw(&header, sizeof header);
-  out.number(std::int32_t(file.dimension));
-  out.number(std::int32_t(file.rank));
-  out.number(std::int32_t(file.ranks));
-  out.number(file.step);
-  out.text(file.scene_hash);
-  out.text(file.creator);
-  write_data(out, file.data);
-  out.number(crc32c(out.bytes()));
-  return out.take();
+WrittenBytes write_checkpoint_file(const CheckpointHeader& header, const CheckpointData& data, const ByteSink& sink) {
+  FixedHeader fixed{{}, endianness_tag, checkpoint_format_version, precision, 0};
+  std::memcpy(fixed.magic, magic, sizeof magic);
+  Writer out(sink);
+  out.raw(&fixed, sizeof fixed);
+  out.number(std::int32_t(header.dimension));
+  out.number(std::int32_t(header.rank));
+  out.number(std::int32_t(header.ranks));
+  out.number(header.step);
+  out.text(header.scene_hash);
+  out.text(header.creator);
+  write_data(out, data);
+  return out.finish();
+}
+
+std::string unknown_format(std::uint32_t version) {
+  if (version >= oldest_checkpoint_format && version <= checkpoint_format_version) return {};
+  return fmt::format("it has checkpoint format {} and this program reads format {}", version,
+                     checkpoint_format_version);
 }
 
 CheckpointDefect examine_checkpoint_file(const std::string& bytes) {
-  if (bytes.size() < sizeof(Header) + 4) return damaged("it is too short");
+  if (bytes.size() < sizeof(FixedHeader) + 4) return damaged("it is too short");
   if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
     return damaged("it does not begin like a checkpoint of Seiche");
   const std::string_view covered(bytes.data(), bytes.size() - 4);
@@ -171,14 +210,11 @@ CheckpointDefect examine_checkpoint_file(const std::string& bytes) {
   const std::uint32_t little = stored[0] | stored[1] << 8 | stored[2] << 16 | std::uint32_t(stored[3]) << 24;
   const std::uint32_t big = stored[3] | stored[2] << 8 | stored[1] << 16 | std::uint32_t(stored[0]) << 24;
   if (sum != little && sum != big) return damaged("its checksum does not match its contents");
-  const Header header = header_of(bytes);
+  const FixedHeader header = header_of(bytes);
   if (header.endianness == __builtin_bswap32(endianness_tag)) {
     return foreign("it is big-endian and this machine is little-endian");
   }
-  if (header.version != checkpoint_format_version) {
-    return foreign(fmt::format("it has checkpoint format {} and this program reads format {}", header.version,
-                               checkpoint_format_version));
-  }
+  if (std::string text = unknown_format(header.version); !text.empty()) return foreign(text);
   if (header.endianness != endianness_tag) return foreign("its byte order is not this machine's (little-endian)");
   if (header.precision != precision) {
     return foreign(fmt::format("its numbers have {} bytes and this program's have {}", header.precision, precision));
@@ -189,15 +225,16 @@ CheckpointDefect examine_checkpoint_file(const std::string& bytes) {
 CheckpointFile decode_checkpoint_file(const std::string& bytes) {
   const CheckpointDefect defect = examine_checkpoint_file(bytes);
   if (defect.kind != CheckpointDefect::Kind::none) throw Error(ExitCode::bad_checkpoint, defect.text);
-  Reader in(std::string_view(bytes).substr(sizeof(Header), bytes.size() - sizeof(Header) - 4));
+  Reader in(std::string_view(bytes).substr(sizeof(FixedHeader), bytes.size() - sizeof(FixedHeader) - 4));
   CheckpointFile file;
-  file.dimension = in.number<std::int32_t>();
-  file.rank = in.number<std::int32_t>();
-  file.ranks = in.number<std::int32_t>();
-  file.step = in.number<std::int64_t>();
-  file.scene_hash = in.text();
-  file.creator = in.text();
-  file.data = read_data(in);
+  CheckpointHeader& header = file.header;
+  header.dimension = in.number<std::int32_t>();
+  header.rank = in.number<std::int32_t>();
+  header.ranks = in.number<std::int32_t>();
+  header.step = in.number<std::int64_t>();
+  header.scene_hash = in.text();
+  header.creator = in.text();
+  file.data = read_data(in, header_of(bytes).version);
   if (!in.at_end()) throw Error(ExitCode::bad_checkpoint, "data are left over at its end");
   return file;
 }

@@ -36,8 +36,8 @@ CheckpointDefect examine_file(const fs::path& folder, const CommittedFile& expec
     CheckpointDefect defect = examine_checkpoint_file(bytes);
     if (defect.kind == CheckpointDefect::Kind::none) {
       const CheckpointFile file = decode_checkpoint_file(bytes);
-      if (bytes.size() != expected.bytes || crc32c(bytes) != expected.checksum || file.rank != rank ||
-          file.step != step) {
+      if (bytes.size() != expected.bytes || crc32c(bytes) != expected.checksum || file.header.rank != rank ||
+          file.header.step != step) {
         defect = damaged("it is not the file that COMMIT lists");
       }
     }
@@ -52,10 +52,8 @@ CheckpointDefect examine_file(const fs::path& folder, const CommittedFile& expec
 CheckpointDefect examine_share(const fs::path& folder, const Communicator& ranks) {
   const std::optional<Commit> commit = read_commit(folder);
   if (!commit) return damaged("its COMMIT file is missing or damaged");
-  if (commit->format != checkpoint_format_version) {
-    return {CheckpointDefect::Kind::foreign, fmt::format("it has checkpoint format {} and this program reads format {}",
-                                                         commit->format, checkpoint_format_version)};
-  }
+  if (std::string text = unknown_format(commit->format); !text.empty())
+    return {CheckpointDefect::Kind::foreign, std::move(text)};
   for (int rank = ranks.rank(); rank < int(commit->files.size()); rank += ranks.size()) {
     CheckpointDefect defect = examine_file(folder, commit->files[std::size_t(rank)], commit->step, rank);
     if (defect.kind != CheckpointDefect::Kind::none) return defect;
@@ -120,8 +118,8 @@ FoundCheckpoint find_newest_checkpoint(const fs::path& folder, const Communicato
     found.folder = folder / name;
     agree(ranks, "reading a checkpoint", [&] {
       CheckpointFile first = read_rank_file(found.folder, 0);
-      found.label = {first.step, first.dimension, first.scene_hash};
-      found.ranks = first.ranks;
+      found.label = {first.header.step, first.header.dimension, first.header.scene_hash};
+      found.ranks = first.header.ranks;
       found.data = std::move(first.data);
     });
     if (ranks.is_root()) std::for_each(unusable.begin(), unusable.end(), remove_checkpoint);

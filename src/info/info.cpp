@@ -253,11 +253,11 @@ Lines describe_checkpoint(const fs::path& folder) {
   const CheckpointFile& first = verified.first;
   const auto time = first.data.scalars.find("run.time");
   Lines lines{fmt::format("{}: checkpoint of step {}, {}D, format {}, written by {}", folder.string(),
-                          verified.commit.step, first.dimension, verified.commit.format, first.creator)};
+                          verified.commit.step, first.header.dimension, verified.commit.format, first.header.creator)};
   if (time != first.data.scalars.end()) lines.push_back(fmt::format("  t = {:g} s", time->second));
-  lines.push_back(fmt::format("  {} rank{}, {} bytes, all checksums verified", first.ranks, first.ranks == 1 ? "" : "s",
+  lines.push_back(fmt::format("  {} rank{}, {} bytes, all checksums verified", first.header.ranks, first.header.ranks == 1 ? "" : "s",
                               verified.bytes));
-  lines.push_back("  scene hash " + first.scene_hash);
+  lines.push_back("  scene hash " + first.header.scene_hash);
   lines.push_back("  fields: " + describe_names(first.data.fields));
   lines.push_back(fmt::format("  {} numbers and {} texts besides", first.data.scalars.size(), first.data.texts.size()));
   return lines;

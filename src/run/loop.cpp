@@ -196,7 +196,7 @@ void RunLoop::checkpoint() {
   const PhaseFault fault = visit("checkpoint");
   tables_.sync();
   CheckpointData data = simulation_.save();
-  if (fault == PhaseFault::poison && !data.fields.empty()) data.fields[0].values.assign(1, std::nan(""));
+  if (fault == PhaseFault::poison && !data.fields.empty()) data.fields[0].values = {std::nan("")};
   store(state_, data);
   const CheckpointLabel label{state_.step, context_.scene.dimension, scene_hash(context_.scene)};
   write_checkpoint(context_.paths.checkpoints(), label, data, context_.ranks);

@@ -695,7 +695,7 @@ def swapped_rank_files(bench):
 def foreign_checkpoints(bench):
     """Another version, byte order or precision, otherwise intact: 6, both named."""
     out = stopped_run(bench)
-    for offset, value, words in ((12, 2, ("format 2", "format 1")), (12, 0, ("format 0", "format 1")),
+    for offset, value, words in ((12, 3, ("format 3", "format 2")), (12, 0, ("format 0", "format 2")),
                                  (8, 0x04030201, ("big-endian", "little-endian")), (16, 4, ("4 bytes", "8"))):
         copy = bench.path("copy")
         shutil.copytree(out, copy)

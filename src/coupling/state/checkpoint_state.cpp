@@ -84,7 +84,8 @@ class Loader : public FieldVisitor<Dim> {
         std::find_if(data_.fields.begin(), data_.fields.end(), [&](const auto& r) { return r.name == name; });
     if (found == data_.fields.end() || std::int64_t(found->values.size()) != box.size())
       throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks the field '" + name + "' of this rank");
-    auto next = found->values.begin();
+    const std::vector<double> values = found->values.unpack();
+    auto next = values.begin();
     for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>&) { set(s, *next++); });
   }
 
@@ -207,7 +208,9 @@ void visit_flow(const Domain<Dim>& domain, const Fluids& fluids, const std::stri
       {{"now", &flow.now}, {"before", &flow.before}, {"earlier", &flow.earlier}}};
   for (int n = 0; n < (visitor.loads() ? levels : 3); ++n) {
     const auto& [name, level] = all[std::size_t(n)];
-    auto visited = std::make_shared<TimeLevel<Dim>>(*level ? **level : empty_level(domain.layout, fluids.is_viscous()));
+    auto visited = *level && !visitor.loads() ? std::const_pointer_cast<TimeLevel<Dim>>(*level)
+                                              : std::make_shared<TimeLevel<Dim>>(
+                                                    *level ? **level : empty_level(domain.layout, fluids.is_viscous()));
     visit_level(domain, fluids, prefix + name, *visited, visitor);
     if (visitor.loads()) *level = std::move(visited);
   }
@@ -216,9 +219,8 @@ void visit_flow(const Domain<Dim>& domain, const Fluids& fluids, const std::stri
 template <int Dim>
 CheckpointData save_state(const Setup<Dim>& setup, const State<Dim>& state) {
   CheckpointData data;
-  State<Dim> saved = state;
   Saver<Dim> saver(setup.domain.layout, data);
-  visit_state(setup, saved, saver);
+  visit_state(setup, const_cast<State<Dim>&>(state), saver);  // a Saver only reads; a copy would be as large as the state
   return data;
 }
 

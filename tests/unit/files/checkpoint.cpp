@@ -51,6 +51,14 @@ bool equal(const CheckpointData& a, const CheckpointData& b) {
   return same;
 }
 
+std::string encoded(const CheckpointHeader& header) {
+  std::string bytes;
+  const WrittenBytes written = write_checkpoint_file(header, sample(), [&](std::string_view piece) { bytes += piece; });
+  CHECK(written.count == bytes.size());
+  CHECK(written.checksum == crc32c(bytes));
+  return bytes;
+}
+
 ExitCode code_of_finding(const std::filesystem::path& folder, std::vector<std::string>& warnings) {
   try {
     find_newest_checkpoint(folder, Communicator(), warnings);
@@ -77,17 +85,38 @@ TEST_CASE("CRC-32C gives the published check values") {
 }
 
 TEST_CASE("checkpoint bytes decode to the same data and encode to the same bytes") {
-  const CheckpointFile file{3, 1, 4, 77, "hash", "creator", sample()};
-  const std::string bytes = encode_checkpoint_file(file);
+  const std::string bytes = encoded({3, 1, 4, 77, "hash", "creator"});
   const CheckpointFile back = decode_checkpoint_file(bytes);
-  CHECK(equal(back.data, file.data));
-  CHECK(back.step == 77);
-  CHECK(back.rank == 1);
-  CHECK(encode_checkpoint_file(back) == bytes);
+  CHECK(equal(back.data, sample()));
+  CHECK(back.header.step == 77);
+  CHECK(back.header.rank == 1);
+  CHECK(encoded(back.header) == bytes);
+}
+
+// As programs before format 2 wrote it: the count of values, then each of them.
+TEST_CASE("a checkpoint file of format 1 is read") {
+  const auto put_in = [](std::string& bytes, const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  std::string bytes = "SEICHECP";
+  for (const std::uint32_t word : {0x01020304u, 1u, 8u, 0u}) put_in(bytes, word);
+  for (const std::int32_t number : {2, 0, 1}) put_in(bytes, number);
+  put_in(bytes, std::int64_t(9));
+  for (int text = 0; text < 2; ++text) put_in(bytes, std::uint64_t(0));
+  for (const std::uint64_t count : {0, 0, 1, 1}) put_in(bytes, count);  // scalars, texts, fields, length of a name
+  bytes += "p";
+  for (const std::int32_t bound : {0, 0, 0, 2, 2, 1}) put_in(bytes, bound);
+  put_in(bytes, std::uint64_t(4));
+  for (const double value : {0.5, 0.5, 0.5, -2.0}) put_in(bytes, value);
+  put_in(bytes, crc32c(bytes));
+  const CheckpointFile file = decode_checkpoint_file(bytes);
+  CHECK(file.header.step == 9);
+  REQUIRE(file.data.fields.size() == 1);
+  CHECK(file.data.fields[0].values.unpack() == std::vector<double>{0.5, 0.5, 0.5, -2});
 }
 
 TEST_CASE("every flipped byte and every shortening of a checkpoint file is noticed") {
-  const std::string bytes = encode_checkpoint_file({3, 0, 1, 5, "hash", "creator", sample()});
+  const std::string bytes = encoded({3, 0, 1, 5, "hash", "creator"});
   int unnoticed = 0;
   for (std::size_t n = 0; n < bytes.size(); ++n) {
     std::string changed = bytes;
@@ -99,14 +128,14 @@ TEST_CASE("every flipped byte and every shortening of a checkpoint file is notic
 }
 
 TEST_CASE("an intact checkpoint of another version, byte order or precision is foreign, with both named") {
-  const std::string bytes = encode_checkpoint_file({3, 0, 1, 5, "hash", "creator", sample()});
+  const std::string bytes = encoded({3, 0, 1, 5, "hash", "creator"});
   const auto defect = [&](std::size_t at, std::uint32_t value) {
     return examine_checkpoint_file(patched(bytes, at, value));
   };
   CHECK(defect(8, 0x04030201).kind == CheckpointDefect::Kind::foreign);
   CHECK(defect(12, 99).kind == CheckpointDefect::Kind::foreign);
   CHECK(defect(12, 99).text.find("format 99") != std::string::npos);
-  CHECK(defect(12, 99).text.find("format 1") != std::string::npos);
+  CHECK(defect(12, 99).text.find("format 2") != std::string::npos);
   CHECK(defect(16, 4).kind == CheckpointDefect::Kind::foreign);
 }
 
@@ -146,7 +175,7 @@ TEST_CASE("a damaged checkpoint is passed over for the one before; with none lef
     std::string bytes = contents(file);
     if (damage == "flip") bytes[bytes.size() / 2] ^= 1;
     if (damage == "truncate") bytes.resize(bytes.size() / 2);
-    if (damage == "swap") bytes = encode_checkpoint_file({3, 1, 2, 20, "h", "c", sample()});
+    if (damage == "swap") bytes = encoded({3, 1, 2, 20, "h", "c"});
     if (damage == "commit") put(commit, contents(commit) + "x");
     if (damage == "no commit") std::filesystem::remove(commit);
     put(file, bytes);
@@ -173,7 +202,9 @@ TEST_CASE("extra files in a checkpoint change nothing") {
 TEST_CASE("a checkpoint with a value that is not a number is not written") {
   const ScratchFolder folder;
   CheckpointData data = sample();
-  data.fields[0].values[5] = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values = data.fields[0].values.unpack();
+  values[5] = std::numeric_limits<double>::quiet_NaN();
+  data.fields[0].values = PackedValues(values);
   try {
     write_checkpoint(folder.path(), {10, 3, "h"}, data, Communicator());
     FAIL("was written");

@@ -57,7 +57,7 @@ class FakeSimulation : public Simulation {
   void load(const CheckpointData& data) override {
     time_ = data.scalars.at("time");
     step_ = std::int64_t(data.scalars.at("step"));
-    x_ = data.fields.at(0).values.at(0);
+    x_ = data.fields.at(0).values.unpack().at(0);
   }
   std::vector<FieldRecord> checkpoint_boxes() const override { return {{"x", {0, 0, 0}, {1, 1, 1}, {}}}; }
   const Timers& timers() const override { return timers_; }
