@@ -22,6 +22,7 @@ class Field {
   T* data() { return data_.data(); }
   const T* data() const { return data_.data(); }
   void fill(T value) { data_.fill(value); }
+  bool empty() const { return data_.empty(); }
 
  private:
   FieldValues<T> data_;

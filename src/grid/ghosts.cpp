@@ -1,5 +1,6 @@
 #include "grid/ghosts.h"
 
+#include "grid/field_values.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -26,19 +27,19 @@ struct Side {
 
 // Fills the sites beyond p, the outermost one inside or on the side. Values inside are p[0], p[inward], ...
 void extend_constant(double* p, const Side& side) {
-  for (int k = 1; k <= side.beyond; ++k) p[-k * side.inward] = p[0];
+  for (int k = 1; k <= side.beyond; ++k) set_if_other(p[-k * side.inward], p[0]);
 }
 
 void extend_linear(double* p, const Side& side, double steepest) {
   const double rise = side.inside > 1 ? std::clamp(p[0] - p[side.inward], -steepest, steepest) : 0;
-  for (int k = 1; k <= side.beyond; ++k) p[-k * side.inward] = p[0] + k * rise;
+  for (int k = 1; k <= side.beyond; ++k) set_if_other(p[-k * side.inward], p[0] + k * rise);
 }
 
 void extend_mirrored(double* p, const Side& side) {
   const int last = side.inside - 1;
   for (int k = 1; k <= side.beyond; ++k)
-    p[-k * side.inward] =
-        side.on_side == 0 ? 2 * p[0] - p[std::min(k, last) * side.inward] : p[std::min(k - 1, last) * side.inward];
+    set_if_other(p[-k * side.inward], side.on_side == 0 ? 2 * p[0] - p[std::min(k, last) * side.inward]
+                                                        : p[std::min(k - 1, last) * side.inward]);
 }
 
 template <int Dim>
@@ -82,12 +83,13 @@ void extend_edge(const Layout<Dim>& layout, double* f, Site s, const IVec<Dim>& 
     if (steps[a] != 0 && rules[a][steps[a] > 0] != Extension::linear) return;
     nearest -= steps[a] * layout.stride(a);
   }
-  f[s] = f[nearest];
+  double value = f[nearest];
   for (int a = 0; a < Dim; ++a) {
     const Site inward = steps[a] > 0 ? -layout.stride(a) : layout.stride(a);
     if (steps[a] != 0 && layout.geometry().cells[a] > 1)
-      f[s] += std::abs(steps[a]) * std::clamp(f[nearest] - f[nearest + inward], -steepest, steepest);
+      value += std::abs(steps[a]) * std::clamp(f[nearest] - f[nearest + inward], -steepest, steepest);
   }
+  set_if_other(f[s], value);
 }
 
 // Fills the sites beyond both a side of axis a and a side of axis b.

@@ -1,5 +1,6 @@
 #include "grid/halo.h"
 
+#include "grid/field_values.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -76,12 +77,12 @@ void Halo<Dim>::exchange(std::initializer_list<T*> fields) const {
               &requests.back());
   }
   for (T* f : fields)
-    for (std::size_t k = 0; k < copy_to_.size(); ++k) f[copy_to_[k]] = f[copy_from_[k]];
+    for (std::size_t k = 0; k < copy_to_.size(); ++k) set_if_other(f[copy_to_[k]], f[copy_from_[k]]);
   MPI_Waitall(int(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   for (std::size_t p = 0; p < peers_.size(); ++p) {
     std::size_t k = 0;
     for (T* f : fields)
-      for (Site s : peers_[p].receive) f[s] = incoming[p][k++];
+      for (Site s : peers_[p].receive) set_if_other(f[s], incoming[p][k++]);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -76,6 +78,16 @@ void for_each_index(const Layout<Dim>& layout, const Box<Dim>& box, const Body& 
   });
 }
 
+// Calls body(first site, its index, number of sites) for each row of a box along the first axis.
+template <int Dim, class Body>
+void for_each_row(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const IVec<Dim> i = rows.first(r);
+    body(layout.site(i), i, rows.length);
+  });
+}
+
 // Calls body(site, index) in order on one thread: for formulas and for filling lists.
 template <int Dim, class Body>
 void for_each_index_in_order(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
@@ -85,6 +97,52 @@ void for_each_index_in_order(const Layout<Dim>& layout, const Box<Dim>& box, con
     Site s = layout.site(i);
     for (int n = 0; n < rows.length; ++n, ++s, ++i[0]) body(s, i);
   }
+}
+
+namespace detail {
+
+// Calls body(s) for the marked of the sites begin <= s < end. Skips eight at a time where none is marked.
+template <class Body>
+void for_each_marked_of_row(const char* marks, Site begin, Site end, const Body& body) {
+  std::uint64_t eight = 0;
+  for (Site s = begin; s < end;) {
+    if (s + Site(sizeof eight) <= end) {
+      std::memcpy(&eight, marks + s, sizeof eight);
+      if (eight == 0) {
+        s += Site(sizeof eight);
+        continue;
+      }
+    }
+    for (const Site stop = std::min(end, s + Site(sizeof eight)); s < stop; ++s)
+      if (marks[s] != 0) body(s);
+  }
+}
+
+}  // namespace detail
+
+// Calls body(site) for the sites of a box whose mark is not 0. `marks`: one for each stored site.
+template <int Dim, class Body>
+void for_each_marked(const Layout<Dim>& layout, const Box<Dim>& box, const char* marks, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const Site begin = layout.site(rows.first(r));
+    detail::for_each_marked_of_row(marks, begin, begin + rows.length, body);
+  });
+}
+
+// Calls body(site, index) for the sites of a box whose mark is not 0.
+template <int Dim, class Body>
+void for_each_marked_index(const Layout<Dim>& layout, const Box<Dim>& box, const char* marks, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const IVec<Dim> first = rows.first(r);
+    const Site begin = layout.site(first);
+    detail::for_each_marked_of_row(marks, begin, begin + rows.length, [&](Site s) {
+      IVec<Dim> i = first;
+      i[0] += int(s - begin);
+      body(s, i);
+    });
+  });
 }
 
 // Calls body(site) for all sites of a list.

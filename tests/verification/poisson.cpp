@@ -41,7 +41,7 @@ class Problem {
       for_each_index(layout_, layout_.grown(1), [&](Site f, const IVec<Dim>& i) {
         const Vec<Dim> x = layout_.position(i, face_offset<Dim>(a));
         u.at(a, f) = velocity(a, x) + slope(a, x);
-        if (step_.faces.kind_at(a, f) == FaceKind::prescribed) step_.faces.prescribed.at(a, f) = velocity(a, x);
+        if (step_.faces.kind_at(a, f) == FaceKind::prescribed) step_.faces.prescribed.set(a, f, velocity(a, x));
       });
     const PressureRows<Dim> rows = number_rows(in);
     const NullSpace closed = find_closed_components(in, rows);

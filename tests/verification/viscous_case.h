@@ -113,13 +113,17 @@ class ViscousCase {
     assemble();
     solve();
     double change = 0;
-    const FaceField<Dim> closed = step.faces.closed_flux;
+    const PagedFaceField<Dim> closed = step.faces.closed_flux;
     std::vector<RigidField> motion;
     for (const auto& s : solids) motion.push_back(s.frame);
     for (int n = 0; n < turns; ++n) {
       const FaceField<Dim> before = u;
       step.faces.closed_flux = closed;
-      add_no_slip_flux(input(), *system.samples, motion, u, step.faces.closed_flux);
+      FaceField<Dim> added(layout_);
+      add_no_slip_flux(input(), *system.samples, motion, u, added);
+      for (int a = 0; a < Dim; ++a)
+        for_each_index_in_order(layout_, layout_.grown(1),
+                                [&](Site f, const IVec<Dim>&) { step.faces.closed_flux.add(a, f, added.at(a, f)); });
       assemble();
       solve();
       change = difference(before);

@@ -10,7 +10,7 @@ void set_twist(const Layout<Dim>& layout, int body, const Twist& twist, StepGeom
   if (present.at_rest() && twist.at_rest()) return;
   for (const FaceShare& s : *g.shares[body]) {
     const Vec3 x = extend<Dim>(layout.position(layout.index(s.face), face_offset<Dim>(s.axis)));
-    g.faces.closed_flux.at(s.axis, s.face) += s.closed * (twist.at(x)[s.axis] - present.at(x)[s.axis]);
+    g.faces.closed_flux.add(s.axis, s.face, s.closed * (twist.at(x)[s.axis] - present.at(x)[s.axis]));
   }
   present = twist;
 }
@@ -29,12 +29,12 @@ void set_node_velocity(const Layout<Dim>&, int body, const Eigen::VectorXd& velo
   for (std::size_t n = 0; n < shares.size(); ++n) {
     const int axis = shares[n].axis;
     const SurfaceWeights& weights = (*g.face_weights[body])[n];
-    g.faces.closed_flux.at(axis, shares[n].face) +=
-        shares[n].closed * (velocity_at<Dim>(weights, axis, velocity) - velocity_at<Dim>(weights, axis, present));
+    const double change = velocity_at<Dim>(weights, axis, velocity) - velocity_at<Dim>(weights, axis, present);
+    g.faces.closed_flux.add(axis, shares[n].face, shares[n].closed * change);
   }
   if (g.cell_fluxes[body])
     for (const CellFlux& c : *g.cell_fluxes[body])
-      g.faces.cell_flux[c.cell] += c.value * (velocity[c.column] - present[c.column]);
+      g.faces.cell_flux.add(c.cell, c.value * (velocity[c.column] - present[c.column]));
   present = velocity;
 }
 

@@ -166,15 +166,15 @@ void SolidGeometry<Dim>::measure_static() {
       const double open = open_part_of_face(layout_, still_.psi, a, f);
       const int sealing = seal.at(a, f);
       if (open == 1 && sealing < 0) return;
-      still_.faces.open.at(a, f) = open;
+      still_.faces.open.set(a, f, open);
       if (open < 1)
         for_each_static_share(layout_, still_, a, f, [&](int k, double part) { add_share(shares[k], {f, a, part}); });
       if (sealing >= 0) {
         add_share(shares[sealing], {f, a, open});
         still_.sealed.push_back({f, a, sealing});
-        still_.faces.open.at(a, f) = 0;
+        still_.faces.open.set(a, f, 0);
       }
-      still_.faces.kind.at(a, f) = char(still_.faces.open.at(a, f) == 0 ? FaceKind::closed : FaceKind::open);
+      still_.faces.kind.set(a, f, char(still_.faces.open.at(a, f) == 0 ? FaceKind::closed : FaceKind::open));
     });
   for (FaceShares& s : shares) still_.shares.push_back(std::make_shared<const FaceShares>(std::move(s)));
 }
@@ -229,9 +229,9 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const PlacedSolid<Dim>& solid, con
 // slits.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
-  FaceField<Dim> moving(layout_);
+  PagedFaceField<Dim> moving(layout_);
   for (const FaceShares& list : shares)
-    for (const FaceShare& s : list) moving.at(s.axis, s.face) += s.closed;
+    for (const FaceShare& s : list) moving.add(s.axis, s.face, s.closed);
   const NodeField<Dim, char> joints = mark_joints(layout_, bodies_, joints_, g.placed);
   for (FaceShares& list : shares)
     for (FaceShare& s : list) {
@@ -243,8 +243,8 @@ void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeomet
       const bool closes = gap <= 0 || (joined ? gap < joint_gap : !alone && gap < snap);
       if (closes) gap = 0;
       if (closes || joined) s.closed *= (room - gap) / wanted;
-      g.faces.open.at(s.axis, s.face) = gap;
-      g.faces.kind.at(s.axis, s.face) = char(closes ? FaceKind::closed : FaceKind::open);
+      g.faces.open.set(s.axis, s.face, gap);
+      g.faces.kind.set(s.axis, s.face, char(closes ? FaceKind::closed : FaceKind::open));
     }
 }
 
@@ -269,10 +269,13 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   g.face_weights.resize(bodies_.size());
   g.cell_fluxes.resize(bodies_.size());
   for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
-  NodeField<Dim> scratch(layout_, far_away);
+  NodeField<Dim> scratch;
   std::vector<FaceShares> shares(bodies_.size());
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (bodies_[k].kind().moves()) shares[k] = measure_moving(int(k), placed[k], scratch, g);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (!bodies_[k].kind().moves()) continue;
+    if (scratch.empty()) scratch = NodeField<Dim>(layout_, far_away);
+    shares[k] = measure_moving(int(k), placed[k], scratch, g);
+  }
   close_faces(shares, g);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     if (bodies_[k].kind().moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
@@ -296,9 +299,9 @@ void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
         if (g.faces.kind_at(a, s) == FaceKind::closed) return;
         const Vec<Dim> x = layout_.position(i, face_offset<Dim>(a));
         const bool outflow = sides_.is_outflow(a, side);
-        g.faces.kind.at(a, s) = char(outflow ? FaceKind::outflow : FaceKind::prescribed);
-        if (outflow) g.faces.side_pressure.at(a, s) = sides_.pressure(a, side, x, t);
-        if (!outflow) g.faces.prescribed.at(a, s) = sides_.velocity(a, side, a, x, t);
+        g.faces.kind.set(a, s, char(outflow ? FaceKind::outflow : FaceKind::prescribed));
+        if (outflow) g.faces.side_pressure.set(a, s, sides_.pressure(a, side, x, t));
+        if (!outflow) g.faces.prescribed.set(a, s, sides_.velocity(a, side, a, x, t));
       });
     }
 }

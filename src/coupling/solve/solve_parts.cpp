@@ -60,7 +60,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.report.iterations += earlier;
   for (std::size_t n = 0; n < coupling.cavities.size(); ++n)
     for (const int row : coupling.cavities[n].rows)
-      in.geometry.faces.cell_flux[r.rows.cells[std::size_t(row)]] += problem.missing_fluxes()[n];
+      in.geometry.faces.cell_flux.add(r.rows.cells[std::size_t(row)], problem.missing_fluxes()[n]);
   return std::move(m.velocity);
 }
 

@@ -136,12 +136,14 @@ ViscousStep<Dim>::ViscousStep(const Domain<Dim>& domain, const Solids<Dim>& all,
 }
 
 template <int Dim>
-void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux) {
+void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, PagedFaceField<Dim>& closed_flux) {
   const Layout<Dim>& layout = domain_.layout;
   FaceField<Dim> added(layout);
   add_no_slip_flux(input_, *system_.samples, motion_, flow, added);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(layout, layout.grown(1), [&](Site f) { closed_flux.at(a, f) += added.at(a, f); });
+    for_each_index_in_order(layout, layout.grown(1), [&](Site f, const IVec<Dim>&) {
+      if (added.at(a, f) != 0) closed_flux.add(a, f, added.at(a, f));
+    });
   const auto net = net_over_rows(
       layout, domain_.ranks, rows_, [](Site) { return 0.0; }, [&](int a, Site f) { return added.at(a, f); });
   for (std::size_t n = 0; n < net.size(); ++n) system_.q[n] -= net[n] * layout.geometry().face_area();

@@ -55,7 +55,7 @@ class ViscousStep {
   const BlockColumns& J_held() const { return J_held_; }
   // Adds the volume flux through cut faces at no-slip walls, to second order, to q and `closed_flux`. `flow`:
   // velocities at an earlier time.
-  void add_wall_flux(const FaceField<Dim>& flow, FaceField<Dim>& closed_flux);
+  void add_wall_flux(const FaceField<Dim>& flow, PagedFaceField<Dim>& closed_flux);
   // Copy between a face field and the rows of the system.
   Vector gather(const FaceField<Dim>& u) const;
   void scatter(const Vector& rows, FaceField<Dim>& u) const;

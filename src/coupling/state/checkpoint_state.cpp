@@ -193,7 +193,7 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   state.solids = s.solids.at_start;
   state.phi = CellField<Dim>(layout);
   state.pressure = CellField<Dim>(layout);
-  state.gap_flow = {FaceField<Dim>(layout), FaceField<Dim>(layout)};
+  state.gap_flow = GapFlow<Dim>(layout);
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(layout);
   return state;
@@ -208,9 +208,10 @@ void visit_flow(const Domain<Dim>& domain, const Fluids& fluids, const std::stri
       {{"now", &flow.now}, {"before", &flow.before}, {"earlier", &flow.earlier}}};
   for (int n = 0; n < (visitor.loads() ? levels : 3); ++n) {
     const auto& [name, level] = all[std::size_t(n)];
-    auto visited = *level && !visitor.loads() ? std::const_pointer_cast<TimeLevel<Dim>>(*level)
-                                              : std::make_shared<TimeLevel<Dim>>(
-                                                    *level ? **level : empty_level(domain.layout, fluids.is_viscous()));
+    auto visited =
+        *level && !visitor.loads()
+            ? std::const_pointer_cast<TimeLevel<Dim>>(*level)
+            : std::make_shared<TimeLevel<Dim>>(*level ? **level : empty_level(domain.layout, fluids.is_viscous()));
     visit_level(domain, fluids, prefix + name, *visited, visitor);
     if (visitor.loads()) *level = std::move(visited);
   }
@@ -220,7 +221,8 @@ template <int Dim>
 CheckpointData save_state(const Setup<Dim>& setup, const State<Dim>& state) {
   CheckpointData data;
   Saver<Dim> saver(setup.domain.layout, data);
-  visit_state(setup, const_cast<State<Dim>&>(state), saver);  // a Saver only reads; a copy would be as large as the state
+  visit_state(setup, const_cast<State<Dim>&>(state),
+              saver);  // a Saver only reads; a copy would be as large as the state
   return data;
 }
 

@@ -10,10 +10,13 @@
 
 namespace seiche {
 
-// Open fractions of the faces and their velocities (m/s), in slits as solved (thin/gap_flow.h).
+// Faces that are hardly open (thin/gap_flow.h): open fractions, and velocities as solved, m/s. 1 and 0 elsewhere.
 template <int Dim>
 struct GapFlow {
-  FaceField<Dim> open, u;
+  PagedFaceField<Dim> open, u;
+
+  GapFlow() = default;
+  explicit GapFlow(const Layout<Dim>& layout) : open(layout, 1.0), u(layout) {}
 };
 
 // The liquid's flow (now, before, earlier) and all else.

@@ -30,8 +30,14 @@ class FieldVisitor : public StateVisitor {
   template <class Array>
   void field(const std::string& name, const Box<Dim>& box, Array& f) {
     using Value = std::decay_t<decltype(f[Site()])>;
+    const auto set = [&](Site s, double x) {
+      if constexpr (requires { f.set(s, Value(x)); })
+        f.set(s, Value(x));
+      else
+        f[s] = Value(x);
+    };
     values(
-        name, box, [&](Site s) { return double(f[s]); }, [&](Site s, double x) { f[s] = Value(x); });
+        name, box, [&](Site s) { return double(f[s]); }, set);
   }
 
  private:

@@ -50,10 +50,17 @@ void inject(const Domain<Dim>& domain, PhaseFault fault, double* f) {
     f[domain.layout.site(domain.layout.cells().lower)] = std::numeric_limits<double>::quiet_NaN();
 }
 
+template <int Dim>
+void inject(const Domain<Dim>& domain, PhaseFault fault, PagedValues<double>& f) {
+  if (fault == PhaseFault::poison && !domain.layout.cells().empty())
+    f.set(domain.layout.site(domain.layout.cells().lower), std::numeric_limits<double>::quiet_NaN());
+}
+
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template std::string find_non_finite<D>(const Domain<D>&, const std::string&, const Box<D>&, const double*); \
   template std::string find_non_finite<D>(const Domain<D>&, const std::string&, const FaceField<D>&);          \
-  template void inject<D>(const Domain<D>&, PhaseFault, double*);
+  template void inject<D>(const Domain<D>&, PhaseFault, double*);                                              \
+  template void inject<D>(const Domain<D>&, PhaseFault, PagedValues<double>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -5,6 +5,7 @@
 #include "coupling/state/simulation.h"
 #include "fluid/boundary/domain.h"
 #include "grid/fields.h"
+#include "grid/paged_fields.h"
 
 namespace seiche {
 
@@ -16,8 +17,10 @@ std::string find_non_finite(const Domain<Dim>& domain, const std::string& name, 
 template <int Dim>
 std::string find_non_finite(const Domain<Dim>& domain, const std::string& name, const FaceField<Dim>& u);
 
-// Writes a NaN into the first owned cell where a test asks for one.
+// Writes a NaN into the first owned cell, or its low faces, where a test asks for one.
 template <int Dim>
 void inject(const Domain<Dim>& domain, PhaseFault fault, double* f);
+template <int Dim>
+void inject(const Domain<Dim>& domain, PhaseFault fault, PagedValues<double>& f);
 
 }  // namespace seiche

@@ -212,7 +212,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene.domain, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
-  state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u, state.now->u);
+  state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);
   check_fixed_step(s, state);
   return state;
 }

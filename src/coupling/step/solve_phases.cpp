@@ -126,9 +126,8 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, A
   out.divergence = max_divergence(liquid, solution.rows, level->u);
   set_viscous_acceleration(task, solution.u_star, *level);
   out.state.exterior->take(s, out.geometry, phi, *level);
-  const FaceField<Dim> solved = level->u;
+  out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, level->u);
   continue_level(s.domain, s.fluids, s.solids, out.geometry, faces_near_liquid(s.domain, phi), *level);
-  out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, solved, level->u);
   if (s.fluids.liquid.separates) {
     advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.separation);
     open_gaps(s.domain, out.state);

@@ -44,7 +44,7 @@ StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, 
   StepGeometry<Dim> geometry =
       s.solids.geometry.measure(times.leapfrog ? place_halfway(next, times.dt) : place_bodies(next), next.time);
   check_geometry_of_step(s.domain, s.solids, s.scene.domain, geometry, times.start, next.time);
-  inject(s.domain, fault, geometry.faces.closed_flux[0].data());
+  inject(s.domain, fault, geometry.faces.closed_flux[0]);
   return geometry;
 }
 

@@ -6,6 +6,16 @@
 namespace seiche {
 namespace {
 
+// Calls body(face, index) in order for the owned faces less open than least_open.
+template <int Dim, class Body>
+void for_each_narrow(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis, const Body& body) {
+  const Box<Dim> owned = layout.faces(axis);
+  faces.open[axis].for_each_stored([&](Site f, double open) {
+    if (open >= least_open) return;
+    if (const IVec<Dim> i = layout.index(f); owned.contains(i)) body(f, i);
+  });
+}
+
 // True for an open face in a slit: it and both neighbours along some other axis are less open than least_open. Walls of
 // the domain count as such neighbours.
 template <int Dim>
@@ -25,12 +35,12 @@ bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis
 }  // namespace
 
 template <int Dim>
-GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                              const FaceField<Dim>& continued) {
-  GapFlow<Dim> gap_flow{faces.open, continued};
+GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved) {
+  GapFlow<Dim> gap_flow(domain.layout);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (faces.open.at(a, f) < least_open) gap_flow.u.at(a, f) = solved.at(a, f);
+    for_each_narrow(domain.layout, faces, a, [&](Site f, const IVec<Dim>&) {
+      gap_flow.open.set(a, f, faces.open.at(a, f));
+      gap_flow.u.set(a, f, solved.at(a, f));
     });
   return gap_flow;
 }
@@ -41,7 +51,7 @@ template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
                       const Vec3& g, double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+    for_each_narrow(domain.layout, faces, a, [&](Site f, const IVec<Dim>& i) {
       const double before = gap_flow.open.at(a, f), open = faces.open.at(a, f);
       if (open <= before || !is_slit(domain.layout, faces, a, f, i)) return;
       u.at(a, f) = gap_flow.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
@@ -49,8 +59,7 @@ void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces,
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
-  template GapFlow<D> measure_gap_flow<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&,              \
-                                          const FaceField<D>&);                                                       \
+  template GapFlow<D> measure_gap_flow<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&);             \
   template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const Vec3&, double, \
                                     FaceField<D>&);
 SEICHE_INSTANTIATE(2)

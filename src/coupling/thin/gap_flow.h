@@ -10,10 +10,9 @@ namespace seiche {
 // extrapolated velocity there.
 constexpr double least_open = 0.2;
 
-// Open fractions with the velocity `solved` on faces less open than least_open and `continued` on all others.
+// Faces less open than least_open, with the velocities `solved` (m/s).
 template <int Dim>
-GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved,
-                              const FaceField<Dim>& continued);
+GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved);
 
 // On faces of slits that have widened,
 //   u = gap_flow.u sqrt(gap_flow.open/open) + dt g.

@@ -26,8 +26,8 @@ FaceField<Dim, char> faces_beside_solids(const Domain<Dim>& domain, const Solids
   constexpr double reach = 2;  // cells
   FaceField<Dim, char> beside(domain.layout);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (!near.at(a, f) || g.body[f] < 0) return;
+    for_each_marked(domain.layout, domain.layout.faces(a), near[a].data(), [&](Site f) {
+      if (g.body[f] < 0) return;
       if (distance_at_face(domain.layout, g.psi, a, f).psi >= reach * domain.layout.h()) return;
       beside.at(a, f) = !g.deforms(g.body[f]) && !solids.bodies[std::size_t(g.body[f])].is_thin();
     });

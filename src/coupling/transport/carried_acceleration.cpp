@@ -9,15 +9,17 @@
 namespace seiche {
 namespace {
 
-// One pass of the (1, 2, 1)/4 filter along every axis.
+// One pass of the (1, 2, 1)/4 filter along every axis, on the `reached` sites; f is 0 elsewhere. `scratch` as well.
 template <int Dim>
-void smooth(const Domain<Dim>& domain, FaceField<Dim>& f) {
+void smooth(const Domain<Dim>& domain, const CellField<Dim, char>& reached, FaceField<Dim>& f,
+            FaceField<Dim>& scratch) {
   for (int axis = 0; axis < Dim; ++axis) {
-    const FaceField<Dim> old = f;
+    std::swap(f, scratch);
     const Site d = domain.layout.stride(axis);
     for (int a = 0; a < Dim; ++a)
-      for_each_site(domain.layout, domain.layout.faces(a),
-                    [&](Site c) { f.at(a, c) = 0.25 * (old.at(a, c - d) + 2 * old.at(a, c) + old.at(a, c + d)); });
+      for_each_marked(domain.layout, domain.layout.faces(a), reached.data(), [&](Site c) {
+        f.at(a, c) = 0.25 * (scratch.at(a, c - d) + 2 * scratch.at(a, c) + scratch.at(a, c + d));
+      });
     fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);
   }
 }
@@ -27,7 +29,8 @@ void smooth(const Domain<Dim>& domain, FaceField<Dim>& f) {
 // exp(-i theta))/2, with F the filter's response. 2 C^2 passes of the filter keep |r| <= 1 up to the Courant number C =
 // 2; beyond it the trend is zero.
 template <int Dim>
-FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, const Flow<Dim>& flow, double dt) {
+FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, const Flow<Dim>& flow,
+                           const CellField<Dim, char>& reached, double dt) {
   FaceField<Dim> trend(domain.layout);
   if (!flow.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
   const double courant = fastest_component(domain, state) * dt / domain.layout.h();
@@ -35,12 +38,13 @@ FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, c
   const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before;
   const double ratio = (dt + state.dt_now) / (state.dt_now + state.dt_before);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+    for_each_marked(domain.layout, domain.layout.faces(a), reached.data(), [&](Site f) {
       if (l0.valid.at(a, f) == face_solved && l1.valid.at(a, f) == face_solved)
         trend.at(a, f) = ratio * (l0.q.at(a, f) - l1.q.at(a, f));
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, trend);
-  for (int n = 0; n < std::ceil(2 * courant * courant); ++n) smooth(domain, trend);
+  FaceField<Dim> scratch(domain.layout);
+  for (int n = 0; n < std::ceil(2 * courant * courant); ++n) smooth(domain, reached, trend, scratch);
   return trend;
 }
 
@@ -57,15 +61,16 @@ double largest_carried(double acceleration, double before, double h, double dt) 
 template <int Dim>
 FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                     const OperatorPerturbation& perturbation, const State<Dim>& state,
-                                    const Flow<Dim>& flow, const FaceField<Dim, char>& deep, double dt) {
+                                    const Flow<Dim>& flow, const CellField<Dim, char>& reached,
+                                    const FaceField<Dim, char>& deep, double dt) {
   FaceField<Dim> acc(domain.layout);
   if (state.dt_now == 0 || time.scheme == TimeScheme::first_order) return acc;
-  const FaceField<Dim> trend = slope_trend(domain, state, flow, dt);
+  const FaceField<Dim> trend = slope_trend(domain, state, flow, reached, dt);
   const TimeLevel<Dim>& level = *flow.now;
   const Vec3 g = perturbation.gravity * fluids.gravity.of_step(state.time + dt, dt);
   FaceField<Dim, char> known(domain.layout);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+    for_each_marked(domain.layout, domain.layout.faces(a), reached.data(), [&](Site f) {
       known.at(a, f) = level.valid.at(a, f) == face_prescribed;
       if (level.valid.at(a, f) != face_solved) return;
       const bool knows_before = flow.before && flow.before->valid.at(a, f) == face_solved;
@@ -83,7 +88,7 @@ FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& flu
 #define SEICHE_INSTANTIATE(D)                                                                                 \
   template FaceField<D> carried_acceleration<D>(const Domain<D>&, const Fluids&, const TimeSpec&,             \
                                                 const OperatorPerturbation&, const State<D>&, const Flow<D>&, \
-                                                const FaceField<D, char>&, double);
+                                                const CellField<D, char>&, const FaceField<D, char>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -11,10 +11,11 @@ namespace seiche {
 // Faces that are not `deep` in known flow, near a free surface say, take the minmod of A and that of the step before.
 // Flow that is smooth in time keeps A there, thin jets and drops do not
 // (docs/decisions/0030-transport-near-surfaces.md). A is continued beyond the fluid. Zero without an earlier step and
-// in first order. Ghosts filled. Collective.
+// in first order. `reached`: see reached_sites(); 0 elsewhere. Ghosts filled. Collective.
 template <int Dim>
 FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                     const OperatorPerturbation& perturbation, const State<Dim>& state,
-                                    const Flow<Dim>& flow, const FaceField<Dim, char>& deep, double dt);
+                                    const Flow<Dim>& flow, const CellField<Dim, char>& reached,
+                                    const FaceField<Dim, char>& deep, double dt);
 
 }  // namespace seiche

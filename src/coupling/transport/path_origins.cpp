@@ -68,8 +68,8 @@ template <int Dim>
 void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (!paths.near.at(a, f) || interior.at(a, f)) return;
+    for_each_marked_index(domain.layout, domain.layout.faces(a), paths.near[a].data(), [&](Site f, const IVec<Dim>& i) {
+      if (interior.at(a, f)) return;
       const Vec<Dim> from = departure_of_face(domain.layout, paths.velocity, a, f, i, paths.dt);
       Range range = valid_range(domain.layout, level, a, nearest_face(domain.layout, a, from));
       if (range.first > range.second) range = valid_range(domain.layout, level, a, f);

@@ -11,6 +11,7 @@
 #include "coupling/transport/transport.h"
 #include "coupling/transport/two_fluids.h"
 #include "fluid/boundary/domain.h"
+#include "grid/domain_faces.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
@@ -81,8 +82,8 @@ void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids
   const FaceField<Dim> old = u;
   const Layout<Dim>& l = domain.layout;
   for (int a = 0; a < Dim; ++a)
-    for_each_index(l, l.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (valid.at(a, f) || !reached.at(a, f) || g.psi[f] > 2 * l.h()) return;
+    for_each_marked_index(l, l.faces(a), reached[a].data(), [&](Site f, const IVec<Dim>& i) {
+      if (valid.at(a, f) || g.psi[f] > 2 * l.h()) return;
       const FaceDistance<Dim> d = distance_at_face(l, g.psi, a, f);
       const double norm = d.gradient.norm();
       if (d.psi > 0 || norm == 0) return;
@@ -105,18 +106,25 @@ void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, T
   for (int a = 0; a < Dim; ++a)
     for_each_site(layout, layout.faces(a), [&](Site f) {
       if (marked.at(a, f)) return;
-      level.valid.at(a, f) = 0;
-      level.u.at(a, f) = level.q.at(a, f) = 0;
-      if (!level.n[a].empty()) level.n.at(a, f) = 0;
+      set_if_other(level.valid.at(a, f), char(face_unknown_to_flow));
+      set_if_other(level.u.at(a, f), 0.0);
+      set_if_other(level.q.at(a, f), 0.0);
+      if (!level.n[a].empty()) set_if_other(level.n.at(a, f), 0.0);
     });
+}
+
+// Calls body(face) for the owned faces across an axis that lie on sides of the domain.
+template <int Dim, class Body>
+void for_each_on_sides(const Domain<Dim>& domain, int axis, const Body& body) {
+  for (const int side : {0, 1}) for_each_site(domain.layout, faces_of_side(domain.layout, axis, side), body);
 }
 
 // Sets the given velocity on walls and inflow sides, wet or dry. Fills ghosts. Collective.
 template <int Dim>
 void keep_prescribed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (g.faces.kind_at(a, f) == FaceKind::prescribed) u.at(a, f) = g.faces.prescribed.at(a, f);
+    for_each_on_sides(domain, a, [&](Site f) {
+      if (g.faces.kind_at(a, f) == FaceKind::prescribed) set_if_other(u.at(a, f), g.faces.prescribed.at(a, f));
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
 }
@@ -137,10 +145,10 @@ void continue_velocity(const Domain<Dim>& domain, const Fluids& fluids, const So
   const SolidVelocities<Dim> moving(domain, solids, g);
   for (int a = 0; a < Dim; ++a) {
     // Inflow also sets the velocity of the air in front of it.
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (valid.at(a, f)) reached.at(a, f) = 1;
+    for_each_marked(domain.layout, domain.layout.faces(a), valid[a].data(), [&](Site f) { reached.at(a, f) = 1; });
+    for_each_on_sides(domain, a, [&](Site f) {
       if (g.faces.kind_at(a, f) != FaceKind::prescribed) return;
-      u.at(a, f) = g.faces.prescribed.at(a, f);
+      set_if_other(u.at(a, f), g.faces.prescribed.at(a, f));
       if (u.at(a, f) != 0) reached.at(a, f) = 1;
     });
     for (const SealedFace& f : g.sealed)

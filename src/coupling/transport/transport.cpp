@@ -12,6 +12,7 @@
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/path_origins.h"
+#include "coupling/transport/reached_sites.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/shear_jump.h"
 #include "coupling/transport/sources.h"
@@ -35,19 +36,43 @@ std::array<double, 3> half_step_weights(double dt, double dt1, double dt2) {
           tau * (tau + dt1) / ((dt1 + dt2) * dt2)};
 }
 
+// to[n] &= from[n]
+void require_all(const char* from, int length, char* to) {
+  for (int n = 0; n < length; ++n) to[n] = char(to[n] & from[n]);
+}
+
+// to[n] &= (all within `reach` along the row are set), for a row of faces at index i0. Faces beyond the first and the
+// last of the domain do not count unless it is periodic.
+void require_along_row(const char* from, int i0, int length, int reach, bool periodic, int last, char* to) {
+  for (int k = -reach; k <= reach; ++k) {
+    const int begin = periodic ? 0 : std::max(0, -k - i0),
+              end = periodic ? length : std::min(length, last + 1 - k - i0);
+    if (begin < end) require_all(from + begin + k, end - begin, to + begin);
+  }
+}
+
 // 1 on faces around which all faces within `reach` cells along each axis are known.
 template <int Dim>
 FaceField<Dim, char> faces_within(const Domain<Dim>& domain, const FaceField<Dim, char>& known, int reach) {
-  FaceField<Dim, char> interior = known;
-  for (int a = 0; a < Dim; ++a)
+  const Layout<Dim>& layout = domain.layout;
+  FaceField<Dim, char> interior(layout);
+  for (int a = 0; a < Dim; ++a) {
+    for_each_marked(layout, layout.padded(), known[a].data(), [&](Site f) { interior.at(a, f) = 1; });
     for (int axis = 0; axis < Dim; ++axis) {
       const FieldValues<char> old = interior[a];
-      Box<Dim> box = domain.layout.faces(a);
+      const bool periodic = layout.geometry().periodic[axis];
+      const int last = layout.geometry().cells[axis] - (axis == a ? 0 : 1);
+      Box<Dim> box = layout.faces(a);
       for (int later = axis + 1; later < Dim; ++later) box.lower[later] -= reach, box.upper[later] += reach;
-      for_each_index(domain.layout, box.cut(domain.layout.padded()), [&](Site f, const IVec<Dim>& i) {
-        interior.at(a, f) = old[f] == 0 ? 0 : least_along(domain.layout, old, a, axis, reach, f, i);
+      for_each_row(layout, box.cut(layout.padded()), [&](Site f, const IVec<Dim>& i, int length) {
+        char* to = interior[a].data() + f;
+        if (axis == 0) return require_along_row(old.data() + f, i[0], length, reach, periodic, last, to);
+        const int from = periodic ? -reach : std::max(-reach, -i[axis]),
+                  until = periodic ? reach : std::min(reach, last - i[axis]);
+        for (int k = from; k <= until; ++k) require_all(old.data() + f + k * layout.stride(axis), length, to);
       });
     }
+  }
   return interior;
 }
 
@@ -57,9 +82,7 @@ FaceField<Dim, char> faces_known(const Domain<Dim>& domain, const FaceField<Dim,
                                  const FaceField<Dim, char>& beside) {
   FaceField<Dim, char> known = valid;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (beside.at(a, f)) known.at(a, f) = 1;
-    });
+    for_each_marked(domain.layout, domain.layout.faces(a), beside[a].data(), [&](Site f) { known.at(a, f) = 1; });
   domain.halo.fill_ghosts(known);
   return known;
 }
@@ -67,6 +90,7 @@ FaceField<Dim, char> faces_known(const Domain<Dim>& domain, const FaceField<Dim,
 // Faces of a flow that transport may read, and the order that holds there. `g`: geometry of the solve.
 template <int Dim>
 struct Surroundings {
+  CellField<Dim, char> reached;   // sites that the step may touch
   FaceField<Dim, char> beside;    // solids, where the flow is continued into them
   FaceField<Dim, char> interior;  // a step's path reads known faces: of second order
   FaceField<Dim, char> deep;      // the stencils at its end read known faces, too
@@ -74,7 +98,8 @@ struct Surroundings {
   FaceField<Dim, char> whole;     // of fourth order; only with plan.full
 
   Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
-               const FaceField<Dim, char>& near, const ViscousPlan& plan) {
+               const FaceField<Dim, char>& near, const ViscousPlan& plan)
+      : reached(reached_sites(s.domain, near)) {
     const int path = int(std::ceil(s.scene.time.cfl)), path_and_stencil = path + 2;
     const bool solids = !s.solids.bodies.empty();
     beside = solids ? faces_beside_solids(s.domain, s.solids, g, near) : FaceField<Dim, char>(s.domain.layout);
@@ -102,10 +127,9 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
   const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+    for_each_marked(domain.layout, domain.layout.faces(a), around.interior[a].data(), [&](Site f) {
       const bool knew = (l1.valid.at(a, f) && l2.valid.at(a, f)) || around.beside.at(a, f);
-      if (around.interior.at(a, f) && knew)
-        w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
+      if (knew && around.reached[f]) w.at(a, f) = c[0] * l0.u.at(a, f) + c[1] * l1.u.at(a, f) + c[2] * l2.u.at(a, f);
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, w);
   if (plan.full) continue_beyond_walls(domain.layout, domain.sides, state.time + dt / 2, FaceValues::means, w);
@@ -153,8 +177,8 @@ FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, cons
   advect_faces(domain.layout, now.u, state.dt_now, interior, interior, last, last, carried);
   const double limit = 0.25 * domain.layout.h() / (dt * dt);  // as for A
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (interior.at(a, f) && is_solved(now.valid.at(a, f)) && is_solved(flow.before->valid.at(a, f)))
+    for_each_marked(domain.layout, domain.layout.faces(a), interior[a].data(), [&](Site f) {
+      if (is_solved(now.valid.at(a, f)) && is_solved(flow.before->valid.at(a, f)))
         memory.at(a, f) = dt * std::clamp(present * now.n.at(a, f) + earlier * carried.at(a, f), -limit, limit);
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, memory);
@@ -164,8 +188,20 @@ FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, cons
 // Field to transport: `inner` where all data it needs are known, `outer` elsewhere.
 template <int Dim>
 struct Carried {
-  FaceField<Dim> inner, outer;
+  FaceField<Dim> inner;
+  const FaceField<Dim>& outer;
 };
+
+// u continued beyond the sides, m/s. Refers to u itself where nothing is continued, else to `own`.
+template <int Dim>
+const FaceField<Dim>& continued_flow(const Domain<Dim>& domain, const FaceField<Dim>& u, double t, bool beyond_walls,
+                                     FaceField<Dim>& own) {
+  if (!beyond_walls && !domain.sides.any_inflow()) return u;
+  own = u;
+  if (beyond_walls) continue_beyond_walls(domain.layout, domain.sides, t, FaceValues::means, own);
+  continue_beyond_inflows(domain.layout, domain.sides, t, own);
+  return own;
+}
 
 // u(x) <- u(x) + d + excess_of_mean(d), d = I[v](x_d) - v(x), with v the point values of the velocity. The discrete
 // flow consists of face means, while paths begin and end at points.
@@ -234,8 +270,9 @@ template <int Dim>
 FaceField<Dim, char> faces_near_liquid(const Domain<Dim>& domain, const CellField<Dim>& phi) {
   FaceField<Dim, char> near(domain.layout);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a),
-                  [&](Site f) { near.at(a, f) = phi[f] < 0 || phi[f - domain.layout.stride(a)] < 0; });
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (phi[f] < 0 || phi[f - domain.layout.stride(a)] < 0) near.at(a, f) = 1;
+    });
   return near;
 }
 
@@ -243,8 +280,9 @@ template <int Dim>
 FaceField<Dim, char> faces_near_gas(const Domain<Dim>& domain, const CellField<Dim>& phi) {
   FaceField<Dim, char> near(domain.layout);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a),
-                  [&](Site f) { near.at(a, f) = phi[f] >= 0 || phi[f - domain.layout.stride(a)] >= 0; });
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (phi[f] >= 0 || phi[f - domain.layout.stride(a)] >= 0) near.at(a, f) = 1;
+    });
   return near;
 }
 
@@ -257,13 +295,14 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, around, plan, dt),
                        memory = viscous_memory(s, state, flow, around, dt, plan);
   Transported<Dim> r;
-  r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, around.deep, dt);
+  r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, around.reached,
+                                        around.deep, dt);
   const FaceField<Dim>& acc = r.acceleration;
-  Carried<Dim> carried{flow.now->u, flow.now->u};
-  if (plan.full) continue_beyond_walls(s.domain.layout, s.domain.sides, state.time, FaceValues::means, carried.outer);
-  continue_beyond_inflows(s.domain.layout, s.domain.sides, state.time, carried.outer);
+  FaceField<Dim> own;
+  Carried<Dim> carried{FaceField<Dim>(s.domain.layout),
+                       continued_flow(s.domain, flow.now->u, state.time, plan.full, own)};
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.padded(), [&](Site f) {
+    for_each_marked(s.domain.layout, s.domain.layout.padded(), around.reached.data(), [&](Site f) {
       carried.inner.at(a, f) = carried.outer.at(a, f) + 0.5 * dt * acc.at(a, f) + memory.at(a, f);
     });
   // The viscous operator also couples faces beside those near liquid.
@@ -279,10 +318,9 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, around.whole, carried.outer, dt, u);
   const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
-      if (near.at(a, f) || s.fluids.is_viscous())
-        u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0));
-    });
+    for_each_marked(s.domain.layout, s.domain.layout.faces(a),
+                    s.fluids.is_viscous() ? around.reached.data() : near[a].data(),
+                    [&](Site f) { u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0)); });
   let_liquid_in(s.domain, s.fluids, s.scene.time, s.perturbation, *flow.now, paths, state.time, memory, u);
   return r;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Open fraction, kind and prescribed flux of each face of the grid during one step.
-#include "grid/fields.h"
+#include "grid/paged_fields.h"
 
 namespace seiche {
 
@@ -10,12 +10,12 @@ enum class FaceKind : char { closed, open, prescribed, outflow };
 
 template <int Dim>
 struct FaceGeometry {
-  FaceField<Dim> open;           // w, open fraction, 0..1
-  FaceField<Dim, char> kind;     // FaceKind
-  FaceField<Dim> closed_flux;    // (1 - w) v_solid: flux through the solid part, per face area, m/s
-  FaceField<Dim> prescribed;     // velocity of prescribed faces, m/s
-  FaceField<Dim> side_pressure;  // Pa, on outflow faces
-  CellField<Dim> cell_flux;      // flux out of a cell due to solids, not included in its faces, per face area, m/s
+  PagedFaceField<Dim> open;           // w, open fraction, 0..1
+  PagedFaceField<Dim, char> kind;     // FaceKind
+  PagedFaceField<Dim> closed_flux;    // (1 - w) v_solid: flux through the solid part, per face area, m/s
+  PagedFaceField<Dim> prescribed;     // velocity of prescribed faces, m/s
+  PagedFaceField<Dim> side_pressure;  // Pa, on outflow faces
+  PagedCellField<Dim> cell_flux;      // flux out of a cell due to solids, not included in its faces, per face area, m/s
 
   FaceGeometry() = default;
   explicit FaceGeometry(const Layout<Dim>& layout)

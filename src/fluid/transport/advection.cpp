@@ -79,8 +79,7 @@ void advect_faces(const Layout<Dim>& layout, const FaceField<Dim>& path, double 
                   FaceField<Dim>& result, Interpolation interpolation) {
   const bool six = interpolation == Interpolation::six_points;
   for (int a = 0; a < Dim; ++a)
-    for_each_index(layout, layout.faces(a), [&](Site s, const IVec<Dim>& i) {
-      if (!near.at(a, s)) return;
+    for_each_marked_index(layout, layout.faces(a), near[a].data(), [&](Site s, const IVec<Dim>& i) {
       const Vec<Dim> from = departure_of_face(layout, path, a, s, i, dt);
       const bool inside = interior.at(a, s);
       const double* carried = inside ? inner[a].data() : outer[a].data();

@@ -88,7 +88,9 @@ double velocity_in_slit(double w0, double w1) {
   const Setup<Dim> setup(s, Communicator());
   FaceGeometry<Dim> faces(setup.domain.layout);
   faces.open.fill(w1);
-  GapFlow<Dim> flow{FaceField<Dim>(setup.domain.layout, w0), FaceField<Dim>(setup.domain.layout, 3.0)};
+  GapFlow<Dim> flow(setup.domain.layout);
+  flow.open.fill(w0);
+  flow.u.fill(3.0);
   FaceField<Dim> u(setup.domain.layout, 7.0);
   set_gap_velocity(setup.domain, faces, flow, {2, 0, 0}, 0.5, u);
   return u.at(0, setup.domain.layout.site(IVec<Dim>::Unit(0) * 4));
