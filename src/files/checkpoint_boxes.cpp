@@ -18,8 +18,8 @@ std::size_t offset_in(const FieldRecord& field, const Index& i) {
          extent(0) * (std::size_t(i[1] - field.lower[1]) + extent(1) * std::size_t(i[2] - field.lower[2]));
 }
 
-// Copies the intersection of `from` and `to` row by row; returns its number of entries. Both hold `components` values an
-// entry.
+// Copies the intersection of `from` and `to` row by row; returns its number of entries. Both hold `components` values
+// an entry.
 std::int64_t copy_common(const FieldRecord& from, const FieldRecord& to, std::size_t components,
                          std::vector<double>& target) {
   FieldRecord common;

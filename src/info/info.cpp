@@ -255,8 +255,8 @@ Lines describe_checkpoint(const fs::path& folder) {
   Lines lines{fmt::format("{}: checkpoint of step {}, {}D, format {}, written by {}", folder.string(),
                           verified.commit.step, first.header.dimension, verified.commit.format, first.header.creator)};
   if (time != first.data.scalars.end()) lines.push_back(fmt::format("  t = {:g} s", time->second));
-  lines.push_back(fmt::format("  {} rank{}, {} bytes, all checksums verified", first.header.ranks, first.header.ranks == 1 ? "" : "s",
-                              verified.bytes));
+  lines.push_back(fmt::format("  {} rank{}, {} bytes, all checksums verified", first.header.ranks,
+                              first.header.ranks == 1 ? "" : "s", verified.bytes));
   lines.push_back("  scene hash " + first.header.scene_hash);
   lines.push_back("  fields: " + describe_names(first.data.fields));
   lines.push_back(fmt::format("  {} numbers and {} texts besides", first.data.scalars.size(), first.data.texts.size()));

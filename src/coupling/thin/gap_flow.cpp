@@ -6,7 +6,8 @@
 namespace seiche {
 namespace {
 
-// Calls body(face, index) in order for the owned faces less open than least_open.
+// Calls body(face, index) in order for the owned faces less open than least_open. Faces are open where nothing is
+// stored.
 template <int Dim, class Body>
 void for_each_narrow(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis, const Body& body) {
   const Box<Dim> owned = layout.faces(axis);

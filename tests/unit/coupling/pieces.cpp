@@ -87,7 +87,9 @@ double velocity_in_slit(double w0, double w1) {
   s.domain.upper[1] = s.domain.cell_size;
   const Setup<Dim> setup(s, Communicator());
   FaceGeometry<Dim> faces(setup.domain.layout);
-  faces.open.fill(w1);
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(setup.domain.layout, setup.domain.layout.padded(),
+                            [&](Site f, const IVec<Dim>&) { faces.open.set(a, f, w1); });
   GapFlow<Dim> flow(setup.domain.layout);
   flow.open.fill(w0);
   flow.u.fill(3.0);
