@@ -7,6 +7,8 @@ namespace seiche {
 // Smaller arrays are better off with the memory of operator new.
 bool is_large_field(std::size_t bytes);
 
+bool starts_page(const void* memory);
+
 // Memory of a large array, all zero. Throws std::bad_alloc.
 void* take_zeros(std::size_t bytes);
 
@@ -17,7 +19,7 @@ void* take_for_copy(const void* source, std::size_t bytes);
 // (docs/decisions/0033-memory-of-fields.md).
 void give_back(void* memory, std::size_t bytes);
 
-// Copies a part of a large array. Zeros are written only over other values.
-void copy_field_memory(const void* from, void* to, std::size_t bytes);
+// Copies a large array, both at the start of a page. Empty pages stay empty.
+void copy_large(const void* from, void* to, std::size_t bytes);
 
 }  // namespace seiche

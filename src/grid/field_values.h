@@ -106,13 +106,8 @@ class FieldValues {
   std::size_t bytes() const { return size_ * sizeof(T); }
   bool is_large() const { return is_large_field(bytes()); }
   void copy(const T* from) {
-    const bool pages = is_large();
-    in_pieces(size_, a_task, [&](std::size_t b, std::size_t e) {
-      if (pages)
-        copy_field_memory(from + b, data_ + b, (e - b) * sizeof(T));
-      else
-        std::copy(from + b, from + e, data_ + b);
-    });
+    if (is_large() && starts_page(from)) return copy_large(from, data_, bytes());
+    in_pieces(size_, a_task, [&](std::size_t b, std::size_t e) { std::copy(from + b, from + e, data_ + b); });
   }
 
   T* data_ = nullptr;
