@@ -1,5 +1,6 @@
 // Fields that are the same almost everywhere: memory of zeros, pages, and loops over marked sites.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <random>
 
 #include "grid/field_memory.h"
@@ -25,7 +26,27 @@ std::vector<double> listed(const FieldValues<double>& values) {
   return {values.begin(), values.end()};
 }
 
+// Memory of this process, bytes.
+double resident() {
+  std::ifstream statm("/proc/self/statm");
+  double whole = 0, pages = 0;
+  statm >> whole >> pages;
+  return pages * 4096;
+}
+
 }  // namespace
+
+// Each field has 80 MB and one page that is written to.
+TEST_CASE("large fields take memory only where they are not zero, and so do their copies") {
+  constexpr std::size_t size = 10000000, each = size * sizeof(double);
+  if (!is_large_field(each)) return;  // under AddressSanitizer
+  const double before = resident();
+  std::vector<FieldValues<double>> fields(1, FieldValues<double>(size));
+  fields[0][size / 2] = 1;
+  for (int n = 0; n < 20; ++n) fields.push_back(fields[std::size_t(n)]);
+  CHECK(std::all_of(fields.begin(), fields.end(), [](const auto& f) { return f[size / 2] == 1; }));
+  CHECK(resident() - before < 0.5 * each);  // the kernel's own tables, and other pages of this process
+}
 
 // Memory that is used again must not show what was there before.
 TEST_CASE("a new large field is zero, whatever its memory held before") {
