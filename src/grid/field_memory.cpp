@@ -46,10 +46,15 @@ void* map_memory(std::size_t bytes) {
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
+// The kernel's entries of this process, or -1: not there, or of pages of another size.
+int open_pagemap() {
+  return ::sysconf(_SC_PAGESIZE) == long(page) ? ::open("/proc/self/pagemap", O_RDONLY | O_CLOEXEC) : -1;
+}
+
 // The kernel's entry for each page of an array (Linux, admin-guide/mm/pagemap). All bits are set where it does not
 // tell.
 std::vector<std::uint64_t> page_entries(const void* memory, std::size_t bytes) {
-  static const int pagemap = ::open("/proc/self/pagemap", O_RDONLY | O_CLOEXEC);
+  static const int pagemap = open_pagemap();
   std::vector<std::uint64_t> entries((bytes + page - 1) / page);
   const std::size_t size = entries.size() * sizeof(entries[0]);
   const auto from = off_t(reinterpret_cast<std::uintptr_t>(memory) / page * sizeof(entries[0]));

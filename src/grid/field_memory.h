@@ -7,6 +7,7 @@ namespace seiche {
 // Smaller arrays are better off with the memory of operator new.
 bool is_large_field(std::size_t bytes);
 
+// True of all large arrays that were taken here.
 bool starts_page(const void* memory);
 
 // Memory of a large array, all zero. Throws std::bad_alloc.
@@ -16,7 +17,7 @@ void* take_zeros(std::size_t bytes);
 void* take_for_copy(const void* source, std::size_t bytes);
 
 // Keeps the memory for arrays of the same size: fresh pages cost more than those that are used again
-// (docs/decisions/0033-memory-of-fields.md).
+// (docs/decisions/0051-empty-space.md).
 void give_back(void* memory, std::size_t bytes);
 
 // Copies a large array, both at the start of a page. Empty pages stay empty.
