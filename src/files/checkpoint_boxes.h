@@ -23,7 +23,7 @@ class BoxFiller {
  private:
   std::vector<FieldRecord> fields_;
   std::vector<std::vector<double>> pieces_;  // of fields that come from more than one box
-  std::vector<std::int64_t> missing_;  // entries not yet filled
+  std::vector<std::int64_t> missing_;        // entries not yet filled
 };
 
 std::int64_t box_entries(const FieldRecord& field);

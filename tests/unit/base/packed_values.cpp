@@ -1,8 +1,8 @@
 // Packed values unpack to the same bits and take no room where values are repeated.
 #include "base/packed_values.h"
 
-#include <catch2/catch.hpp>
 #include <bit>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -57,8 +57,8 @@ TEST_CASE("the first packed value that is not finite is found") {
 TEST_CASE("words that are not packed values are refused") {
   const auto words = PackedValues{1, 1, 1, 2, 3}.words();
   CHECK(PackedValues::from_words(words, 5));
-  CHECK_FALSE(PackedValues::from_words(words, 4));                           // more values than allowed
+  CHECK_FALSE(PackedValues::from_words(words, 4));                             // more values than allowed
   CHECK_FALSE(PackedValues::from_words({words.begin(), words.end() - 1}, 5));  // the end is missing
-  CHECK_FALSE(PackedValues::from_words({0}, 5));                             // a block of nothing
-  CHECK_FALSE(PackedValues::from_words({~std::uint64_t(0), 1}, 5));          // a count beyond all bounds
+  CHECK_FALSE(PackedValues::from_words({0}, 5));                               // a block of nothing
+  CHECK_FALSE(PackedValues::from_words({~std::uint64_t(0), 1}, 5));            // a count beyond all bounds
 }
