@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "linalg/core/openmp_threads.h"
+
 namespace seiche {
 namespace {
 
@@ -38,6 +40,7 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 bool SparseCholesky::factor(const SparseMatrix& A) {
+  keep_openmp_to_this_thread();
   if (!factors_->knows(A)) {
     factors_->outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1);
     factors_->inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
@@ -48,10 +51,12 @@ bool SparseCholesky::factor(const SparseMatrix& A) {
 }
 
 Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& b) const {
+  keep_openmp_to_this_thread();
   return factors_->llt.solve(b);
 }
 
 Eigen::MatrixXd SparseCholesky::solve_columns(const Eigen::MatrixXd& B) const {
+  keep_openmp_to_this_thread();
   return factors_->llt.solve(B);
 }
 

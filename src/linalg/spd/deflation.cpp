@@ -250,7 +250,8 @@ bool Deflation::multiply_small() {
   for (const auto& t : jz_) JZ(t.row(), t.col()) += t.value();
   for (const auto& t : zaz_) E(t.row(), t.col()) += t.value();
   E.diagonal() += regularization(n);
-  E += JZ.transpose() * S_.weigh_columns(JZ);
+  weighed_ = S_.weigh_columns(JZ);
+  E += JZ.transpose() * weighed_;
   small_.emplace(0.5 * (E + E.transpose()));
   return small_->info() == Eigen::Success && E.allFinite();
 }
@@ -325,6 +326,15 @@ void Deflation::subtract(const Eigen::VectorXd& q, Vector& z) const {
   subtract_combination(Z_, std::span<const double>(q.data(), Z_.size()), z);
 }
 
+// (S Z)'z = (A Z)'z + (J'Z)' c H^-1 J'z: the last term, of w = J'z. Large factors of H are not asked again.
+Eigen::VectorXd Deflation::felt_by_columns(const Eigen::VectorXd& w) const {
+  if (small_) return weighed_.transpose() * w;
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(Eigen::Index(Z_.size()));
+  const Eigen::VectorXd weighed = S_.weigh(w);
+  for (const auto& t : jz_) f[t.col()] += t.value() * weighed[t.row()];
+  return f;
+}
+
 void Deflation::apply(const Vector& r, Vector& z) {
   B_.apply(r, z);
   S_.liquid().project(z);
@@ -333,10 +343,7 @@ void Deflation::apply(const Vector& r, Vector& z) {
   Eigen::VectorXd sums(n + m);  // (AZ)'z - Z'r, J'z
   sums << transposed(AZ_, z) - transposed(Z_, r), local_transposed(S_.columns(), z);
   S_.ranks().global_sum(std::span<double>(sums.data(), std::size_t(sums.size())));
-  // (S Z)' z = (A Z)' z + (J'Z)' c H^-1 J'z
-  Eigen::VectorXd f = sums.head(n);
-  const Eigen::VectorXd w = S_.weigh(sums.tail(m));
-  for (const auto& t : jz_) f[t.col()] += t.value() * w[t.row()];
+  Eigen::VectorXd f = sums.head(n) + felt_by_columns(sums.tail(m));
   Eigen::VectorXd q = solve_small(f);
   make_identical(q, S_.ranks());
   subtract(q, z);

@@ -64,6 +64,7 @@ class Deflation {
   void factor_own();
   bool factor_added_mass();
   Eigen::VectorXd solve_small(const Eigen::VectorXd& f) const;
+  Eigen::VectorXd felt_by_columns(const Eigen::VectorXd& w) const;
   void subtract(const Eigen::VectorXd& q, Vector& z) const;
 
   const CoupledSystem& S_;
@@ -75,6 +76,7 @@ class Deflation {
   std::vector<double> regularization_;            // of the diagonal of Z'AZ
   int applications_ = 0;
   std::optional<ScaledLdlt> small_;                 // of E
+  Eigen::MatrixXd weighed_;                         // c H^-1 J'Z
   Eigen::SimplicialLDLT<SparseMatrix> extended_;    // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
   std::optional<Eigen::LLT<Eigen::MatrixXd>> own_;  // or, where nearly all columns overlap: Z'AZ = LL',
   Eigen::MatrixXd W_, added_;                       // W = L^-1 (J'Z)', W'W,

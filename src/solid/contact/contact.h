@@ -48,7 +48,7 @@ struct ContactOptions {
   double usual_speed = 1;         // m/s: velocity scale of convergence tests when everything is at rest
   double speed_tolerance = 1e-5;  // m/s: Newton stops when its step moves no point faster
   int newton_limit = 200;         // Newton iterations for fixed friction forces
-  int friction_limit = 20;        // updates of the friction forces
+  int friction_limit = 30;        // updates of the friction forces
 };
 
 struct BodyImpulse {

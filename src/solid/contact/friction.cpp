@@ -1,5 +1,6 @@
 #include "solid/contact/friction.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace seiche::contact {
@@ -50,7 +51,6 @@ Eigen::Matrix<double, Dim - 1, 1> slip(const FrictionPoint<Dim>& at, const Veloc
   return at.tangent.transpose() * u;
 }
 
-// Hessian psi'/y (1 - tt') + psi'' tt', t = u/y.
 template <int Dim>
 SlipEnergy<Dim> slip_energy(const FrictionPoint<Dim>& at, const Eigen::Matrix<double, Dim - 1, 1>& u,
                             double creep_speed) {
@@ -60,12 +60,30 @@ SlipEnergy<Dim> slip_energy(const FrictionPoint<Dim>& at, const Eigen::Matrix<do
   e.value = at.bound * law.value;
   e.gradient = at.bound * law.over_speed * u;
   e.hessian = at.bound * law.over_speed * Eigen::Matrix<double, Dim - 1, Dim - 1>::Identity();
-  if (y > 0) e.hessian += at.bound * (law.curvature - law.over_speed) / (y * y) * u * u.transpose();
+  if (y == 0) return e;
+  const Eigen::Matrix<double, Dim - 1, Dim - 1> turned = at.direction * (u / y).transpose();
+  e.hessian -= 0.5 * at.bound * law.over_speed * law.slowness_change(y) * (turned + turned.transpose());
   return e;
+}
+
+// w = (u + du - w eta' t.du)/eta
+template <int Dim>
+Eigen::Matrix<double, Dim - 1, 1> next_direction(const FrictionPoint<Dim>& at,
+                                                 const Eigen::Matrix<double, Dim - 1, 1>& u,
+                                                 const Eigen::Matrix<double, Dim - 1, 1>& du, double creep_speed) {
+  const double y = u.norm();
+  const SlipLaw law = slip_law(y, creep_speed);
+  const double slower = y > 0 ? law.slowness_change(y) * u.dot(du) / y : 0;
+  const Eigen::Matrix<double, Dim - 1, 1> w = law.over_speed * (u + du - slower * at.direction);
+  return w / std::max(1.0, w.norm());
 }
 
 template Eigen::Matrix<double, 1, 1> slip<2>(const FrictionPoint<2>&, const Velocities<2>&);
 template Eigen::Matrix<double, 2, 1> slip<3>(const FrictionPoint<3>&, const Velocities<3>&);
+template Eigen::Matrix<double, 1, 1> next_direction<2>(const FrictionPoint<2>&, const Eigen::Matrix<double, 1, 1>&,
+                                                       const Eigen::Matrix<double, 1, 1>&, double);
+template Eigen::Matrix<double, 2, 1> next_direction<3>(const FrictionPoint<3>&, const Eigen::Matrix<double, 2, 1>&,
+                                                       const Eigen::Matrix<double, 2, 1>&, double);
 template SlipEnergy<2> slip_energy<2>(const FrictionPoint<2>&, const Eigen::Matrix<double, 1, 1>&, double);
 template SlipEnergy<3> slip_energy<3>(const FrictionPoint<3>&, const Eigen::Matrix<double, 2, 1>&, double);
 

@@ -1,6 +1,7 @@
 // Newton's method on e(v) + C(v) + P(v) with a collision-free line search (Li et al. 2020).
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "solid/contact/path.h"
 #include "solid/contact/system.h"
@@ -18,14 +19,16 @@ constexpr int stiffening_limit = 12;
 // Convergence of the lagged friction forces: their update moves no point faster than this share of the creep speed, or
 // of the velocity change by contact. Friction is then accurate to 1e-3.
 constexpr double settled_share = 0.1, settled_of_change = 1e-4;
-// Newton's tolerance relative to the velocity change by contact: with new friction forces, and with converged ones.
-constexpr double first_of_change = 1e-2, last_of_change = 1e-6;
+// Newton's tolerance relative to the velocity change by contact: before friction is known, and in the end. In between
+// it shrinks by `sharpening` with each update of friction, down to this share of the motion that the last update
+// caused: forces that will change need no accurate minimum.
+constexpr double first_of_change = 0.3, last_of_change = 1e-6, sharpening = 0.5, worth_resolving = 0.1;
 
-// Newton iterations before friction is smoothed, and the factor by which its creep speed then shrinks again.
-constexpr int patience = 12;
-constexpr double sharpening = 0.2;
+// Updates of friction after which normal forces are damped: two bodies may press in turns, for ever.
+constexpr int damped_from = 8;
+constexpr double negligible_bound = 1e-3;  // of the largest one
 
-enum class Outcome { converged, slow, failed };
+enum class Outcome { converged, failed };
 
 template <int Dim>
 class Solver {
@@ -115,33 +118,66 @@ class Solver {
     return report_.failure.empty() && take(inertia_.respond(v), e_) == Outcome::converged;
   }
 
-  // Alternates Newton's method and updates of the friction forces until these converge. If the transition from creep to
-  // slip is too sharp for Newton, the creep speed is first raised to the velocity change by contact and then lowered.
+  // Alternates Newton's method and updates of the friction forces until these converge.
   Outcome solve_with_friction() {
     report_.friction = FrictionState::none;
-    int limit = patience;
-    weights_.creep_speed = options_.creep_speed;
-    for (int i = 0; i < options_.friction_limit; ++i) {
-      friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
-      if (i > 0 && friction_.empty()) return Outcome::converged;
-      if (!friction_.empty()) ++report_.friction_updates;
-      const bool sharp = weights_.creep_speed <= options_.creep_speed;
-      const double share = may_rub() && (i == 0 || !sharp) ? first_of_change : last_of_change;
-      double first_step = 0;
-      const Outcome outcome = newton(share, friction_.empty() ? options_.newton_limit : limit, first_step);
-      if (outcome == Outcome::failed) return outcome;
-      if (!friction_.empty()) report_.friction = FrictionState::unsettled;
-      if (outcome == Outcome::slow && sharp && limit == patience) {
-        limit = options_.newton_limit;
-        weights_.creep_speed = std::max(options_.creep_speed, change());
-      } else if (!sharp) {
-        weights_.creep_speed = std::max(options_.creep_speed, sharpening * weights_.creep_speed);
-      } else if (i > 0 && first_step <= std::max(settled_share * options_.creep_speed, settled_of_change * change())) {
-        report_.friction = FrictionState::settled;
-        return Outcome::converged;
-      }
+    double share = may_rub() ? first_of_change : last_of_change;
+    for (int i = 0; i < options_.friction_limit; ++i, share = next_share(share)) {
+      const bool rubbed = !friction_.empty();
+      update_friction(i >= damped_from);
+      const bool rubs = !friction_.empty();
+      if (i > 0 && !rubs && !rubbed && last_step_ <= tolerance(last_of_change)) return Outcome::converged;
+      report_.friction_updates += rubs;
+      if (rubs) report_.friction = FrictionState::unsettled;
+      if (newton(share) == Outcome::failed) return Outcome::failed;
+      if (i == 0 || first_step_ > std::max(settled_share * options_.creep_speed, settled_of_change * change()))
+        continue;
+      if (rubs) report_.friction = FrictionState::settled;
+      break;
     }
-    return Outcome::converged;
+    return last_step_ > tolerance(last_of_change) ? newton(last_of_change) : Outcome::converged;
+  }
+
+  // Half the tolerance of before, but no less than a tenth of the change by the last update of friction.
+  double next_share(double share) const {
+    const double moved = change() > 0 ? worth_resolving * first_step_ / change() : 0;
+    return std::max(last_of_change, std::min(share, std::max(sharpening * share, moved)));
+  }
+
+  // Friction points for the present normal forces. Pairs that rubbed before keep the directions of their forces.
+  // Damped: bounds are the mean of those before, 0 for other pairs, and of the present ones.
+  void update_friction(bool damped) {
+    std::map<std::array<int, 5>, FrictionPoint<Dim>> known;
+    const auto key = [](const Candidate& p) {
+      return std::array<int, 5>{int(p.kind), p.points[0], p.points[1], p.points[2], p.points[3]};
+    };
+    for (FrictionPoint<Dim>& f : friction_) known.emplace(key(f.pair), std::move(f));
+    friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
+    double largest = 0;
+    for (FrictionPoint<Dim>& f : friction_) {
+      largest = std::max(largest, f.bound);
+      if (damped) f.bound *= 0.5;
+      const auto found = known.find(key(f.pair));
+      if (found == known.end()) continue;
+      f.direction = f.tangent.transpose() * (found->second.tangent * found->second.direction);
+      if (damped) f.bound += 0.5 * found->second.bound;
+      known.erase(found);
+    }
+    if (!damped) return;
+    for (auto& [pair, f] : known) {
+      f.bound *= 0.5;
+      if (f.bound > negligible_bound * largest) friction_.push_back(f);
+    }
+  }
+
+  // Directions of friction after the step to `goal`.
+  void turn_friction(const InertiaResponse& goal, const Velocities<Dim>& from) {
+    if (friction_.empty()) return;
+    const Velocities<Dim> to = velocities(goal.velocity, 1);
+    for (FrictionPoint<Dim>& f : friction_) {
+      const Eigen::Matrix<double, Dim - 1, 1> u = slip<Dim>(f, from);
+      f.direction = next_direction<Dim>(f, u, slip<Dim>(f, to) - u, weights_.creep_speed);
+    }
   }
 
   // Velocity change by contact (m/s); with a potential, the velocities' own size.
@@ -152,20 +188,25 @@ class Solver {
                        [](const auto& mu) { return mu.value_or(0) > 0; });
   }
 
-  Outcome newton(double share_of_change, int limit, double& first_step) {
-    for (int i = 0; i < limit; ++i) {
+  double tolerance(double share_of_change) const {
+    return std::max(options_.speed_tolerance, share_of_change * change());
+  }
+
+  // Until a step moves no point faster than tolerance(share_of_change).
+  Outcome newton(double share_of_change) {
+    for (int i = 0; i < options_.newton_limit; ++i) {
       ++report_.newton_iterations;
       InertiaResponse goal;
       if (aim(goal) == Outcome::failed) return Outcome::failed;
-      const double speed = fastest(goal.velocity - e_.velocity);
-      if (i == 0) first_step = speed;
-      const double tolerance = std::max(options_.speed_tolerance, share_of_change * change());
-      const bool last = speed <= tolerance && !under_way();
+      last_step_ = fastest(goal.velocity - e_.velocity);
+      if (i == 0) first_step_ = last_step_;
+      const bool last = last_step_ <= tolerance(share_of_change) && !under_way();
+      const Velocities<Dim> from = at_.velocities;
       const double step = search(goal);
+      turn_friction(goal, from);
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
     }
-    if (limit < options_.newton_limit) return Outcome::slow;
     return fail("contact: Newton's method does not converge");
   }
 
@@ -290,6 +331,7 @@ class Solver {
   std::vector<Candidate> pairs_;
   std::vector<FrictionPoint<Dim>> friction_;
   ContactTerms terms_;
+  double first_step_ = 0, last_step_ = 0;  // fastest points in Newton's first and last step with one friction, m/s
 };
 
 }  // namespace

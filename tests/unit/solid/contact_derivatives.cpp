@@ -40,6 +40,7 @@ struct Crowd {
     v.resize(2 * n);
     for (int i = 0; i < v.size(); ++i) v[i] = random(-1, 1);
     friction = contact::friction_points<Dim>(world.scene().data(), at(v), pairs(v), weights);
+    for (auto& f : friction) f.direction = truncate<Dim - 1>(random.vector(1)).normalized();
   }
   contact::Placement<Dim> at(const Eigen::VectorXd& u) {
     const auto& scene = world.scene().data();

@@ -1,4 +1,7 @@
 // Coulomb friction against closed forms (validation/README.md 6.11), in 2D and 3D.
+#include <Eigen/Eigenvalues>
+
+#include "solid/contact/friction.h"
 #include "unit/solid/contact_cases.h"
 
 using namespace seiche;
@@ -59,4 +62,60 @@ TEMPLATE_TEST_CASE_SIG("a sliding box stops after v^2/(2 mu g)", "", ((int Dim),
   const double way = world.bodies[0].pose.displacement[0] - start + 0.5 * v * dt;
   CHECK(way == Approx(v * v / (2 * mu * g)).epsilon(0.01));
   CHECK(std::abs(world.bodies[0].velocity[0]) < world.options.creep_speed);
+}
+
+// A tower of five boxes, each pushed by another speed: some rub, some come to stick within the step. Newton's method
+// does not feel how far the creep speed lies below these speeds.
+TEMPLATE_TEST_CASE_SIG("sticking and slipping are found in few iterations, however low the creep speed", "",
+                       ((int Dim), Dim), 2, 3) {
+  const auto iterations = [](double creep_speed) {
+    DryWorld<Dim> world;
+    world.gravity = -g * Vec3::UnitY();
+    world.walls = {{Vec3::Zero(), Vec3::UnitY()}};
+    world.options.creep_speed = creep_speed;
+    for (int i = 0; i < 5; ++i) {
+      auto& b = world.add_box(Vec3(0.1, 0.1, Dim == 2 ? 1e-9 : 0.1), Vec3(0.004 * i, 0.0506 + 0.1006 * i, 0), 1000);
+      b.contact.friction = 0.4;
+    }
+    for (int i = 0; i < 20; ++i) world.step(0.01);  // comes to rest
+    for (int i = 0; i < 5; ++i) world.bodies[std::size_t(i)].velocity[0] = 0.6 * std::sin(2.0 * i);
+    world.newton_iterations = 0;
+    for (int i = 0; i < 10; ++i) {
+      world.step(0.01);
+      REQUIRE(world.report.failure.empty());
+      CHECK(world.report.friction != FrictionState::unsettled);
+    }
+    return world.newton_iterations / 10.;
+  };
+  const double coarse = iterations(1e-2), fine = iterations(1e-4), finest = iterations(1e-6);
+  WARN(Dim << "D: " << coarse << ", " << fine << ", " << finest << " iterations a step at 1e-2, 1e-4, 1e-6 m/s");
+  CHECK(fine < 20);
+  CHECK(finest < 25);
+}
+
+// w = u/eta gives the exact Hessian; any other w of at most unit length a positive semi-definite one, and Newton's step
+// by du = 0 leads back to u/eta.
+TEST_CASE("the friction of a pair has a Hessian that is exact where force and slip agree") {
+  using Slip = Eigen::Vector2d;
+  contact::FrictionPoint<3> f{};
+  f.bound = 2;
+  for (double speed : {0.03, 0.09, 0.5}) {
+    const Slip u = speed * Slip(0.6, 0.8);
+    f.direction = contact::next_direction<3>(f, u, Slip::Zero(), 0.1);
+    CHECK(f.direction.norm() <= 1);
+    const auto gradient = [&](const Slip& at) { return contact::slip_energy<3>(f, at, 0.1).gradient; };
+    const double h = 1e-6;
+    Eigen::Matrix2d differences;
+    for (int i = 0; i < 2; ++i)
+      differences.col(i) = (gradient(u + h * Slip::Unit(i)) - gradient(u - h * Slip::Unit(i))) / (2 * h);
+    const Eigen::Matrix2d exact = contact::slip_energy<3>(f, u, 0.1).hessian;
+    CHECK((exact - differences).norm() < 1e-7 * exact.norm());  // round-off of differences over 1e-6
+    CHECK((contact::next_direction<3>(f, u, Slip::Zero(), 0.1) - f.direction).norm() < 1e-14);
+    for (double angle = 0; angle < 6.3; angle += 0.1) {
+      f.direction = Slip(std::cos(angle), std::sin(angle));
+      const Eigen::Vector2d values =
+          contact::slip_energy<3>(f, u, 0.1).hessian.selfadjointView<Eigen::Lower>().eigenvalues();
+      CHECK(values[0] > -1e-15 * values[1]);
+    }
+  }
 }

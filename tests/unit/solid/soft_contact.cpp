@@ -44,6 +44,10 @@ struct Crowd {
     v = Eigen::VectorXd::NullaryExpr(scene->data().size, [&] { return range(random); });
     v.segment(Dim, twist_size<Dim> - Dim).setZero();  // K neglects the derivative of the left Jacobian
     friction = contact::friction_points<Dim>(scene->data(), at(v), pairs(v), weights);
+    for (auto& f : friction) {  // where force and slip agree, as at the minimum
+      const auto u = contact::slip<Dim>(f, at(v).velocities);
+      f.direction = contact::next_direction<Dim>(f, u, 0 * u, weights.creep_speed);
+    }
   }
   contact::Placement<Dim> at(const Eigen::VectorXd& u, double share = 0.6) const {
     const auto& data = scene->data();
