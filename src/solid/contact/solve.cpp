@@ -1,10 +1,9 @@
 // Newton's method on e(v) + C(v) + P(v) with a collision-free line search (Li et al. 2020).
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "solid/contact/friction_updates.h"
 #include "solid/contact/path.h"
-#include "solid/contact/system.h"
 
 namespace seiche {
 namespace contact {
@@ -26,7 +25,6 @@ constexpr double first_of_change = 0.3, last_of_change = 1e-6, sharpening = 0.5,
 
 // Updates of friction after which normal forces are damped: two bodies may press in turns, for ever.
 constexpr int damped_from = 8;
-constexpr double negligible_bound = 1e-3;  // of the largest one
 
 enum class Outcome { converged, failed };
 
@@ -124,7 +122,7 @@ class Solver {
     double share = may_rub() ? first_of_change : last_of_change;
     for (int i = 0; i < options_.friction_limit; ++i, share = next_share(share)) {
       const bool rubbed = !friction_.empty();
-      update_friction(i >= damped_from);
+      update_friction<Dim>(scene_, at_, pairs_, weights_, i >= damped_from, friction_);
       const bool rubs = !friction_.empty();
       if (i > 0 && !rubs && !rubbed && last_step_ <= tolerance(last_of_change)) return Outcome::converged;
       report_.friction_updates += rubs;
@@ -142,42 +140,6 @@ class Solver {
   double next_share(double share) const {
     const double moved = change() > 0 ? worth_resolving * first_step_ / change() : 0;
     return std::max(last_of_change, std::min(share, std::max(sharpening * share, moved)));
-  }
-
-  // Friction points for the present normal forces. Pairs that rubbed before keep the directions of their forces.
-  // Damped: bounds are the mean of those before, 0 for other pairs, and of the present ones.
-  void update_friction(bool damped) {
-    std::map<std::array<int, 5>, FrictionPoint<Dim>> known;
-    const auto key = [](const Candidate& p) {
-      return std::array<int, 5>{int(p.kind), p.points[0], p.points[1], p.points[2], p.points[3]};
-    };
-    for (FrictionPoint<Dim>& f : friction_) known.emplace(key(f.pair), std::move(f));
-    friction_ = friction_points<Dim>(scene_, at_, pairs_, weights_);
-    double largest = 0;
-    for (FrictionPoint<Dim>& f : friction_) {
-      largest = std::max(largest, f.bound);
-      if (damped) f.bound *= 0.5;
-      const auto found = known.find(key(f.pair));
-      if (found == known.end()) continue;
-      f.direction = f.tangent.transpose() * (found->second.tangent * found->second.direction);
-      if (damped) f.bound += 0.5 * found->second.bound;
-      known.erase(found);
-    }
-    if (!damped) return;
-    for (auto& [pair, f] : known) {
-      f.bound *= 0.5;
-      if (f.bound > negligible_bound * largest) friction_.push_back(f);
-    }
-  }
-
-  // Directions of friction after the step to `goal`.
-  void turn_friction(const InertiaResponse& goal, const Velocities<Dim>& from) {
-    if (friction_.empty()) return;
-    const Velocities<Dim> to = velocities(goal.velocity, 1);
-    for (FrictionPoint<Dim>& f : friction_) {
-      const Eigen::Matrix<double, Dim - 1, 1> u = slip<Dim>(f, from);
-      f.direction = next_direction<Dim>(f, u, slip<Dim>(f, to) - u, weights_.creep_speed);
-    }
   }
 
   // Velocity change by contact (m/s); with a potential, the velocities' own size.
@@ -203,7 +165,7 @@ class Solver {
       const bool last = last_step_ <= tolerance(share_of_change) && !under_way();
       const Velocities<Dim> from = at_.velocities;
       const double step = search(goal);
-      turn_friction(goal, from);
+      turn_friction<Dim>(from, velocities(goal.velocity, 1), weights_.creep_speed, friction_);
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
     }
