@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -41,7 +42,10 @@ bool is_zero_page(const char* bytes, std::size_t count) {
   return is_zero(bytes, std::min<std::size_t>(count, 64)) && is_zero(bytes, count);
 }
 
+std::atomic<std::size_t> mapped{0};
+
 void* map_memory(std::size_t bytes) {
+  ++mapped;
   void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return memory == MAP_FAILED ? nullptr : memory;
 }
@@ -153,6 +157,10 @@ bool is_large_field(std::size_t bytes) {
 
 bool starts_page(const void* memory) {
   return reinterpret_cast<std::uintptr_t>(memory) % page == 0;
+}
+
+std::size_t large_fields_mapped() {
+  return mapped;
 }
 
 void* take_zeros(std::size_t bytes) {

@@ -20,6 +20,9 @@ void* take_for_copy(const void* source, std::size_t bytes);
 // (docs/decisions/0051-empty-space.md).
 void give_back(void* memory, std::size_t bytes);
 
+// Times that memory had to be asked of the system for a large array, since no array of its size was at hand.
+std::size_t large_fields_mapped();
+
 // Copies a large array, both at the start of a page. Empty pages stay empty.
 void copy_large(const void* from, void* to, std::size_t bytes);
 

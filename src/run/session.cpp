@@ -32,9 +32,11 @@ std::string end_of(const RunSummary& summary, const RunPaths& paths) {
                                  ended, summary.state.time, summary.state.step, summary.state.frame + 1,
                                  readable_seconds(summary.state.wall_seconds), summary.ranks,
                                  summary.ranks == 1 ? "" : "s", summary.threads, summary.threads == 1 ? "" : "s");
-  text += fmt::format("liquid volume {:.6g}, drift {:+.3g} %; worst residual {:.2e}; peak memory {}\n",
+  text += fmt::format("liquid volume {:.6g}, drift {:+.3g} %; worst residual {:.2e}; peak memory {}, {:.0f} B a cell\n",
                       summary.state.liquid_volume, 100 * volume_drift(summary.state), summary.state.worst_residual,
-                      readable_bytes(summary.peak_memory));
+                      readable_bytes(summary.peak_memory), bytes_per_cell(summary));
+  if (const std::string shares = phase_shares(summary.state); !shares.empty())
+    text += fmt::format("time: {}; {:.2e} cells/s\n", shares, cells_per_second(summary));
   text += "results in " + paths.folder.string();
   if (summary.code == ExitCode::stopped)
     text += fmt::format("\n`seiche resume {}` continues it", shell_word(paths.folder.string()));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/version.h"
 #include "files/json.h"
@@ -18,6 +20,25 @@ JsonMembers phases(const RunState& state) {
 }
 
 }  // namespace
+
+double cells_per_second(const RunSummary& s) {
+  return s.state.wall_seconds > 0 ? double(s.cells) * s.state.step / s.state.wall_seconds : 0;
+}
+
+double bytes_per_cell(const RunSummary& s) {
+  return s.cells > 0 ? s.peak_memory / double(s.cells) : 0;
+}
+
+std::string phase_shares(const RunState& state) {
+  std::vector<std::pair<double, std::string>> by_share;
+  for (const auto& [name, seconds] : state.phase_seconds) by_share.emplace_back(-seconds, name);
+  std::sort(by_share.begin(), by_share.end());
+  std::string text;
+  for (const auto& [seconds, name] : by_share)
+    if (const double percent = -100 * seconds / std::max(state.wall_seconds, 1e-9); percent >= 0.5)
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, percent);
+  return text;
+}
 
 double volume_drift(const RunState& state) {
   const double scale = std::max(std::abs(state.expected_volume), std::abs(state.initial_volume));
@@ -51,7 +72,9 @@ std::string format_summary(const RunSummary& s) {
                                  {"cells_liquid", s.state.cells_liquid},
                                  {"wall_seconds", s.state.wall_seconds},
                                  {"wall_seconds_by_phase", phases(s.state)},
+                                 {"cells_per_second", cells_per_second(s)},
                                  {"peak_memory_bytes", s.peak_memory},
+                                 {"bytes_per_cell", bytes_per_cell(s)},
                                  {"initial_volume", s.state.initial_volume},
                                  {"liquid_volume", s.state.liquid_volume},
                                  {"expected_volume", s.state.expected_volume},

@@ -18,6 +18,13 @@ struct RunSummary {
   std::string omp_num_threads;  // "" where unset
 };
 
+// Cells of the domain times steps over wall seconds; peak memory over cells of the domain. 0 where nothing ran.
+double cells_per_second(const RunSummary& summary);
+double bytes_per_cell(const RunSummary& summary);
+
+// "solve 61 %, surface 20 %": phases by their share of the wall time, the largest first, from 0.5 % on.
+std::string phase_shares(const RunState& state);
+
 // Volume drift relative to the volume expected from sources, inflow and outflow; zero for a run without liquid.
 double volume_drift(const RunState& state);
 

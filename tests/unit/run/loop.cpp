@@ -243,7 +243,15 @@ TEST_CASE("summaries are JSON with the drift relative to the expected volume") {
   summary.state.time = 0.1;
   summary.state.worst_residual = std::nan("");
   summary.state.phase_seconds = {{"solve", 1.5}, {"geometry", 2}};
+  summary.state.wall_seconds = 4;
+  summary.state.step = 2;
+  summary.cells = 100;
+  summary.peak_memory = 5000;
+  CHECK(phase_shares(summary.state) == "geometry 50 %, solve 38 %");
+  CHECK(phase_shares(RunState{}).empty());
   const std::string text = format_summary(summary);
+  CHECK(json_number(text, "cells_per_second") == 50);
+  CHECK(json_number(text, "bytes_per_cell") == 50);
   CHECK(json_number(text, "volume_drift") == -0.25);
   CHECK(json_number(text, "time") == 0.1);
   CHECK(json_value(text, "omp_num_threads") == "null");
@@ -256,6 +264,19 @@ TEST_CASE("summaries are JSON with the drift relative to the expected volume") {
     INFO(part << " in " << text);
     REQUIRE(at != std::string::npos);
     last = at;
+  }
+}
+
+TEST_CASE("docs/outputs.md lists every key of summary.json") {
+  std::ifstream file(fs::path(__FILE__).parent_path() / "../../../docs/outputs.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  std::istringstream lines(format_summary({}));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find('"'), last = line.find("\": ");
+    if (last == std::string::npos || line.starts_with("    ")) continue;
+    const std::string key = line.substr(first + 1, last - first - 1);
+    INFO(key);
+    CHECK(page.find("`" + key + "`") != std::string::npos);
   }
 }
 

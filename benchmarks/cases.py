@@ -1,0 +1,32 @@
+"""The scenes that benchmarks/run_cases times."""
+import pathlib
+from dataclasses import dataclass, field
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+
+
+@dataclass
+class Case:
+    name: str
+    what: str
+    path: str  # of the scene, from the top of the project
+    settings: dict = field(default_factory=dict)  # as of --set
+    skipped_steps: int = 0  # the first ones, which the median leaves out
+
+    @property
+    def scene(self):
+        return TOP / self.path
+
+
+CASES = {case.name: case for case in (
+    Case("dam_break_128", "dam break of 128^3 cells, no bodies", "benchmarks/cases/dam_break_128.toml", skipped_steps=1),
+    Case("dam_break_128_high", "the same under twice the height", "benchmarks/cases/dam_break_128.toml",
+         {"domain.upper": "[1.0,2.0,1.0]"}, skipped_steps=1),
+    Case("full_box_96", "a box of 96^3 cells full of liquid, no empty cell",
+         "benchmarks/cases/full_box_96.toml", skipped_steps=1),
+    Case("demo", "ducks, boxes and a soft ball: the default scene of ./demo, its first 0.3 s",
+         "scenes/ducks_and_ball.toml", {"time.end": 0.3}),
+    Case("soft_balls", "two soft balls and a crate that meet above water, 0.227 s",
+         "benchmarks/cases/two_soft_balls_and_crate.toml", {"time.end": 0.2274}, skipped_steps=7),
+    Case("immersed_block", "an elastic block under water, one step", "benchmarks/cases/immersed_block.toml"),
+)}
