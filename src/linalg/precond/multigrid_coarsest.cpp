@@ -1,6 +1,6 @@
 #include "linalg/precond/multigrid_coarsest.h"
 
-#include <Eigen/Eigenvalues>
+#include "linalg/core/symmetric_eigen.h"
 
 namespace seiche {
 namespace {
@@ -45,11 +45,11 @@ CoarsestSolve<Dim>::CoarsestSolve(const MultigridLevel<Dim>& level, const std::v
   // Scaled to a unit diagonal: coefficients of gas are 1000 times those of liquid.
   const Eigen::MatrixXd A = dense(level, excess, cell_);
   const Eigen::VectorXd s = A.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(s.asDiagonal() * A * s.asDiagonal());
+  const SymmetricEigen eigen = symmetric_eigen(s.asDiagonal() * A * s.asDiagonal());
   constexpr double zero = 1e-11;
-  const Eigen::VectorXd kept = eigen.eigenvalues().unaryExpr([](double v) { return v > zero ? 1 / v : 0.0; });
+  const Eigen::VectorXd kept = eigen.values.unaryExpr([](double v) { return v > zero ? 1 / v : 0.0; });
   Eigen::Map<Eigen::MatrixXd>(inverse_.data(), n, n) =
-      s.asDiagonal() * eigen.eigenvectors() * kept.asDiagonal() * eigen.eigenvectors().transpose() * s.asDiagonal();
+      s.asDiagonal() * eigen.vectors * kept.asDiagonal() * eigen.vectors.transpose() * s.asDiagonal();
 }
 
 template <int Dim>

@@ -1,7 +1,6 @@
 #include "linalg/precond/rigid_motion_deflation.h"
 
-#include <Eigen/Eigenvalues>
-
+#include "linalg/core/symmetric_eigen.h"
 #include "linalg/krylov/krylov.h"
 
 namespace seiche {
@@ -94,11 +93,11 @@ void RigidMotionDeflation::invert_energies(Eigen::MatrixXd E) {
   if (E.size() == 0) return;
   const Eigen::VectorXd scale = E.diagonal().cwiseSqrt().cwiseInverse();
   E = (scale.asDiagonal() * E * scale.asDiagonal()).eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(E);
+  const SymmetricEigen modes = symmetric_eigen(E);
   for (Eigen::Index k = 0; k < E.rows(); ++k) {
-    if (modes.eigenvalues()[k] <= next_to_nothing) continue;
-    const Eigen::VectorXd mode = scale.cwiseProduct(modes.eigenvectors().col(k));
-    inverse_ += mode * mode.transpose() / modes.eigenvalues()[k];
+    if (modes.values[k] <= next_to_nothing) continue;
+    const Eigen::VectorXd mode = scale.cwiseProduct(modes.vectors.col(k));
+    inverse_ += mode * mode.transpose() / modes.values[k];
   }
 }
 

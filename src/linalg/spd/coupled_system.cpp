@@ -1,6 +1,6 @@
 #include "linalg/spd/coupled_system.h"
 
-#include <Eigen/Eigenvalues>
+#include "linalg/core/symmetric_eigen.h"
 
 namespace seiche {
 namespace {
@@ -57,11 +57,11 @@ void CoupledSystem::find_sensed() {
   A_.ranks().global_sum(sensed_rows_);
   Eigen::MatrixXd C(felt.sums.rows(), n);
   for (int k = 0; k < n; ++k) C.col(k) = felt.sums.col(sensed_[k]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(C.transpose() * C);
+  const SymmetricEigen eigen = symmetric_eigen(C.transpose() * C);
   int zeros = 0;
   // Eigenvalues are squares of sums with a relative round-off of 1e-11.
-  while (zeros < n && eigen.eigenvalues()[zeros] <= 1e-20 * eigen.eigenvalues()[n - 1]) ++zeros;
-  combinations_ = eigen.eigenvectors().leftCols(zeros);
+  while (zeros < n && eigen.values[zeros] <= 1e-20 * eigen.values[n - 1]) ++zeros;
+  combinations_ = eigen.vectors.leftCols(zeros);
 }
 
 Eigen::VectorXd CoupledSystem::weigh(const Eigen::VectorXd& w) const {

@@ -3,8 +3,7 @@
 #include <limits>
 #include <map>
 
-#include <Eigen/Eigenvalues>
-
+#include "linalg/core/symmetric_eigen.h"
 #include "solid/contact/deformable.h"
 
 namespace seiche::contact {
@@ -18,13 +17,11 @@ using PairMatrix = Eigen::Matrix<double, 2 * twist_size<Dim>, 2 * twist_size<Dim
 
 // Nearest positive semi-definite matrix, where negative eigenvalues become zero, in unknowns of one unit: velocities,
 // and rotations times the given lengths (1 for velocities).
-template <class Matrix, class Lengths>
-Matrix without_negative(const Matrix& symmetric, const Lengths& lengths) {
-  const Matrix units = lengths * lengths.transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(symmetric.cwiseQuotient(units));
-  if (eigen.eigenvalues()[0] >= 0) return symmetric;
-  const Matrix positive =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+Eigen::MatrixXd without_negative(const Eigen::MatrixXd& symmetric, const Eigen::VectorXd& lengths) {
+  const Eigen::MatrixXd units = lengths * lengths.transpose();
+  const SymmetricEigen eigen = symmetric_eigen(symmetric.cwiseQuotient(units));
+  if (eigen.values[0] >= 0) return symmetric;
+  const Eigen::MatrixXd positive = eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
   return positive.cwiseProduct(units);
 }
 
@@ -53,7 +50,8 @@ class Assembly {
   void add(const PairDofs<Dim>& dofs, const typename PairDofs<Dim>::Vector& gradient,
            const typename PairDofs<Dim>::Matrix& exact) {
     const typename PairDofs<Dim>::Matrix hessian =
-        curvature_ == HessianProjection::exact ? exact : without_negative(exact, dofs.lengths);
+        curvature_ == HessianProjection::exact ? exact
+                                               : typename PairDofs<Dim>::Matrix(without_negative(exact, dofs.lengths));
     const typename PairDofs<Dim>::Vector drag = hessian * (left_ * dofs.prescribed);
     for (int i = 0; i < dofs.count; ++i) {
       if (dofs.dof[i] < 0) continue;
@@ -68,7 +66,7 @@ class Assembly {
     std::vector<Eigen::Triplet<double>>& entries = entries_;
     for (const auto& [bodies, sum] : hessians_) {
       const PairMatrix<Dim> hessian =
-          curvature_ == HessianProjection::exact ? sum : without_negative(sum, lengths(bodies));
+          curvature_ == HessianProjection::exact ? sum : PairMatrix<Dim>(without_negative(sum, lengths(bodies)));
       const std::array<int, 2> body{bodies.first, bodies.second};
       for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) scatter(body[i], body[j], hessian.template block<n, n>(n * i, n * j), entries);

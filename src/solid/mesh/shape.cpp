@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "linalg/core/symmetric_eigen.h"
+
 namespace seiche::elastic {
 namespace {
 
@@ -42,11 +44,11 @@ std::vector<QuadraturePoint> second_degree(int dim) {
 std::vector<QuadraturePoint> gauss(int count) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(count, count);
   for (int k = 1; k < count; ++k) T(k, k - 1) = T(k - 1, k) = k / std::sqrt(4. * k * k - 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(T);
+  const SymmetricEigen eigen = symmetric_eigen(T);
   std::vector<QuadraturePoint> r;
   for (int k = 0; k < count; ++k) {
-    const double first = eigen.eigenvectors()(0, k);
-    r.push_back({ReferencePoint::Constant(1, (eigen.eigenvalues()[k] + 1) / 2), first * first});
+    const double first = eigen.vectors(0, k);
+    r.push_back({ReferencePoint::Constant(1, (eigen.values[k] + 1) / 2), first * first});
   }
   return r;
 }

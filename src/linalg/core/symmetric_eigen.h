@@ -1,0 +1,16 @@
+#pragma once
+// Eigenvalues of dense symmetric matrices, in one place: Eigen's solver takes long to compile.
+#include <Eigen/Dense>
+
+namespace seiche {
+
+// A = V diag(values) V', values ascending, a column of V each.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+
+// Reads the lower triangle of A.
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
+
+}  // namespace seiche
