@@ -15,6 +15,7 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 #include "coupling/step/initial_state.h"
+#include "coupling/step/side_flow.h"
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/liquid_beside.h"
@@ -123,12 +124,17 @@ class FlowSimulation : public Simulation {
   }
 
  private:
-  // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
   Attempt<Dim> attempt(double dt) {
-    const bool solved = !setup_.fluids.has_prescribed_flow() && setup_.scene.time.scheme == TimeScheme::second_order;
-    if (state_.step > 0 || !solved) return budgeted_step(state_, dt);
+    if (state_.step > 0 || setup_.fluids.has_prescribed_flow()) return budgeted_step(state_, dt);
+    Attempt<Dim> first = first_step(dt);
+    if (first.failure.empty()) book_first_flow(setup_, state_, geometry_, dt, phases_, first.state);
+    return first;
+  }
+
+  // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
+  Attempt<Dim> first_step(double dt) {
     Attempt<Dim> trial = budgeted_step(state_, dt);
-    if (!trial.failure.empty()) return trial;
+    if (!trial.failure.empty() || setup_.scene.time.scheme != TimeScheme::second_order) return trial;
     Attempt<Dim> informed = budgeted_step(inform(trial.state, dt), dt);
     informed.state.earlier = informed.state.exterior->flow.earlier = nullptr;
     informed.state.dt_before = 0;

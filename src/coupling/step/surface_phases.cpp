@@ -5,6 +5,7 @@
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/step/checks.h"
 #include "coupling/step/leapfrog.h"
+#include "coupling/step/side_flow.h"
 #include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
 #include "coupling/transport/formula_checks.h"
@@ -46,28 +47,6 @@ StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, 
   check_geometry_of_step(s.domain, s.solids, s.scene.domain, geometry, times.start, next.time);
   inject(s.domain, fault, geometry.faces.closed_flux[0]);
   return geometry;
-}
-
-// Volume that flows in through the sides per time, m^Dim/s: through a side that feeds liquid all of it, elsewhere the
-// share of the cell beside it that phi counts as liquid.
-template <int Dim>
-double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
-                  const FaceField<Dim>& u) {
-  double sum = 0;
-  for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2; ++side) {
-      Box<Dim> box = domain.layout.faces(a);
-      if (box.empty() || !(side == 0 ? domain.layout.at_lower(a) : domain.layout.at_upper(a))) continue;
-      (side == 0 ? box.upper[a] : box.lower[a]) = side == 0 ? box.lower[a] + 1 : box.upper[a] - 1;
-      for_each_index_in_order(domain.layout, box, [&](Site f, const IVec<Dim>&) {
-        const Site inside = side == 0 ? f : f - domain.layout.stride(a);
-        const double inward = (side == 0 ? 1 : -1) * g.faces.open.at(a, f) * u.at(a, f);
-        const bool fed = domain.sides.type(a, side) == SideType::inflow && inward > 0;
-        const double share = std::clamp(0.5 - phi[inside] / domain.layout.h(), 0.0, 1.0);
-        sum += inward * (fed ? 1 : share);
-      });
-    }
-  return domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
 }
 
 // Empty volume at walls that phi still counts as liquid, m^Dim.
