@@ -169,13 +169,6 @@ FixedHeader header_of(const std::string& bytes) {
   return header;
 }
 
-CheckpointDefect foreign(const std::string& text) {
-  return {CheckpointDefect::Kind::foreign, text};
-}
-CheckpointDefect damaged(const std::string& text) {
-  return {CheckpointDefect::Kind::damaged, text};
-}
-
 }  // namespace
 
 WrittenBytes write_checkpoint_file(const CheckpointHeader& header, const CheckpointData& data, const ByteSink& sink) {
@@ -200,24 +193,26 @@ std::string unknown_format(std::uint32_t version) {
 }
 
 CheckpointDefect examine_checkpoint_file(const std::string& bytes) {
-  if (bytes.size() < sizeof(FixedHeader) + 4) return damaged("it is too short");
+  if (bytes.size() < sizeof(FixedHeader) + 4) return CheckpointDefect::damaged("it is too short");
   if (std::memcmp(bytes.data(), magic, sizeof magic) != 0)
-    return damaged("it does not begin like a checkpoint of Seiche");
+    return CheckpointDefect::damaged("it does not begin like a checkpoint of Seiche");
   const std::string_view covered(bytes.data(), bytes.size() - 4);
   unsigned char stored[4];
   std::memcpy(stored, bytes.data() + covered.size(), 4);
   const std::uint32_t sum = crc32c(covered);
   const std::uint32_t little = stored[0] | stored[1] << 8 | stored[2] << 16 | std::uint32_t(stored[3]) << 24;
   const std::uint32_t big = stored[3] | stored[2] << 8 | stored[1] << 16 | std::uint32_t(stored[0]) << 24;
-  if (sum != little && sum != big) return damaged("its checksum does not match its contents");
+  if (sum != little && sum != big) return CheckpointDefect::damaged("its checksum does not match its contents");
   const FixedHeader header = header_of(bytes);
   if (header.endianness == __builtin_bswap32(endianness_tag)) {
-    return foreign("it is big-endian and this machine is little-endian");
+    return CheckpointDefect::foreign("it is big-endian and this machine is little-endian");
   }
-  if (std::string text = unknown_format(header.version); !text.empty()) return foreign(text);
-  if (header.endianness != endianness_tag) return foreign("its byte order is not this machine's (little-endian)");
+  if (std::string text = unknown_format(header.version); !text.empty()) return CheckpointDefect::foreign(text);
+  if (header.endianness != endianness_tag)
+    return CheckpointDefect::foreign("its byte order is not this machine's (little-endian)");
   if (header.precision != precision) {
-    return foreign(fmt::format("its numbers have {} bytes and this program's have {}", header.precision, precision));
+    return CheckpointDefect::foreign(
+        fmt::format("its numbers have {} bytes and this program's have {}", header.precision, precision));
   }
   return {};
 }

@@ -36,6 +36,9 @@ WrittenBytes write_checkpoint_file(const CheckpointHeader& header, const Checkpo
 struct CheckpointDefect {
   enum class Kind { none, damaged, foreign } kind = Kind::none;  // foreign: intact, but of another version or machine
   std::string text;
+
+  static CheckpointDefect damaged(const std::string& text) { return {Kind::damaged, text}; }
+  static CheckpointDefect foreign(const std::string& text) { return {Kind::foreign, text}; }
 };
 
 // Text if this program does not read that format, else empty.

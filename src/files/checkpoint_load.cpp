@@ -26,10 +26,6 @@ std::optional<Commit> read_commit(const fs::path& folder) {
   }
 }
 
-CheckpointDefect damaged(const std::string& text) {
-  return {CheckpointDefect::Kind::damaged, text};
-}
-
 CheckpointDefect examine_file(const fs::path& folder, const CommittedFile& expected, std::int64_t step, int rank) {
   try {
     const std::string bytes = read_whole_file(folder / expected.name);
@@ -38,20 +34,20 @@ CheckpointDefect examine_file(const fs::path& folder, const CommittedFile& expec
       const CheckpointFile file = decode_checkpoint_file(bytes);
       if (bytes.size() != expected.bytes || crc32c(bytes) != expected.checksum || file.header.rank != rank ||
           file.header.step != step) {
-        defect = damaged("it is not the file that COMMIT lists");
+        defect = CheckpointDefect::damaged("it is not the file that COMMIT lists");
       }
     }
     if (!defect.text.empty()) defect.text = expected.name + ": " + defect.text;
     return defect;
   } catch (const Error& error) {
-    return damaged(expected.name + ": " + error.what());
+    return CheckpointDefect::damaged(expected.name + ": " + error.what());
   }
 }
 
 // Examines this rank's share of a checkpoint's files.
 CheckpointDefect examine_share(const fs::path& folder, const Communicator& ranks) {
   const std::optional<Commit> commit = read_commit(folder);
-  if (!commit) return damaged("its COMMIT file is missing or damaged");
+  if (!commit) return CheckpointDefect::damaged("its COMMIT file is missing or damaged");
   if (std::string text = unknown_format(commit->format); !text.empty())
     return {CheckpointDefect::Kind::foreign, std::move(text)};
   for (int rank = ranks.rank(); rank < int(commit->files.size()); rank += ranks.size()) {

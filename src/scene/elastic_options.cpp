@@ -12,7 +12,7 @@ namespace {
 using T = OptionType;
 using S = ElasticSpec;
 
-std::vector<std::string> model_names() {
+std::vector<std::string> elastic_models() {
   std::vector<std::string> names;
   for (const auto& material : elastic_materials<3>()) names.emplace_back(material.name);
   return names;
@@ -40,7 +40,7 @@ Section<S> material_section() {
   Section<S> s;
   const Range not_negative = between(0, number_limit);
   s.keys = {
-      value_key<S>({.key = "model", .type = T::choice, .choices = model_names(), .doc = "energy of deformation"},
+      value_key<S>({.key = "model", .type = T::choice, .choices = elastic_models(), .doc = "energy of deformation"},
                    &S::model),
       value_key<S>({.key = "youngs_modulus",
                     .unit = "Pa",

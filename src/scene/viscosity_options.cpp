@@ -11,7 +11,7 @@ namespace {
 
 using T = OptionType;
 
-std::vector<std::string> model_names() {
+std::vector<std::string> viscosity_models() {
   std::vector<std::string> names;
   for (const RheologyModel& model : rheology_models()) names.emplace_back(model.name);
   return names;
@@ -82,7 +82,7 @@ Section<RheologySpec> rheology_section() {
   Section<RheologySpec> s;
   s.keys = {value_key<RheologySpec>({.key = "model",
                                      .type = T::choice,
-                                     .choices = model_names(),
+                                     .choices = viscosity_models(),
                                      .presence = Presence::required,
                                      .doc = "how viscosity depends on the shear rate r = sqrt(2 D:D)"},
                                     &RheologySpec::model)};

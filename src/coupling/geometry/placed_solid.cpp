@@ -9,7 +9,7 @@ namespace seiche {
 namespace {
 
 // Layer (cells) around a body of known radius in which its distance is computed.
-constexpr int margin = 4;
+constexpr int cells_around_body = 4;
 // Radius (cells) around a sealed face over which the surface velocity of a thin body is averaged.
 constexpr double spread = 1.5;
 
@@ -34,14 +34,14 @@ class PosedSolid : public PlacedSolid<Dim> {
   }
 
  private:
-  // Nodes in the bounding box of the body plus `margin`. All stored nodes if the radius is unknown (0).
+  // Nodes in the bounding box of the body plus `cells_around_body`. All stored nodes if the radius is unknown (0).
   Box<Dim> reach() const {
     Box<Dim> box = layout_.padded();
     if (body_.radius() == 0) return box;
     const Vec<Dim> center = truncate<Dim>(pose_.apply(pose_.pivot));
     for (int a = 0; a < Dim; ++a) {
       const double x = (center[a] - layout_.geometry().lower[a]) / layout_.h();
-      const double r = body_.radius() / layout_.h() + margin, lowest = box.lower[a], highest = box.upper[a];
+      const double r = body_.radius() / layout_.h() + cells_around_body, lowest = box.lower[a], highest = box.upper[a];
       box.lower[a] = int(std::clamp(std::floor(x - r), lowest, highest));
       box.upper[a] = int(std::clamp(std::ceil(x + r) + 1, lowest, highest));
       // A body near a periodic side also acts at the opposite side.

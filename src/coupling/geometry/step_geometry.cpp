@@ -17,7 +17,7 @@ constexpr double far_away = 1e30;
 constexpr double snap = 1e-3;
 // Gap tolerance (cells) at joints. It is larger because contact requires 2.5e-3 cells between edges at the start.
 constexpr double joint_gap = 1e-2;
-constexpr int margin = 4;  // cells around the domain within which a body counts as near it
+constexpr int cells_around_domain = 4;  // cells around the domain within which a body counts as near it
 
 // Bound of the distance (m) from the pivot to points of the body at rest within the domain: sampled on at most 128
 // nodes per axis, plus one sample spacing.
@@ -253,7 +253,7 @@ template <int Dim>
 bool SolidGeometry<Dim>::is_leaving(const Placement& placed, double radius) const {
   const Geometry<Dim>& g = layout_.geometry();
   const Vec3 center = placed.pose.apply(placed.pose.pivot), v = placed.twist.linear;
-  const double clear = radius + margin * g.h;
+  const double clear = radius + cells_around_domain * g.h;
   for (int a = 0; a < Dim; ++a) {
     if (g.periodic[a]) continue;
     if (v[a] <= 0 && center[a] < g.lower[a] - clear) return true;

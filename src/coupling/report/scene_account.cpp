@@ -20,7 +20,7 @@ constexpr std::size_t most_lines = 20;        // of solids
 constexpr double nothing = 1e-6, all = 1e-3;  // tolerances as shares of a volume: for none, and for losses
 
 template <int Dim>
-std::string place_text(const Vec3& x) {
+std::string rounded_place(const Vec3& x) {
   const Vec<Dim> v = truncate<Dim>(x);
   return fmt::format("({:.4g})", fmt::join(v.begin(), v.end(), ", "));
 }
@@ -104,14 +104,14 @@ void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount
   std::string line = fmt::format("{}: {}", name, volume_text<Dim>(volume));
   if (body.kind().is_free())
     line += fmt::format(", {:.5g} kg{}, centre of mass {}", body.mass().mass, Dim == 2 ? "/m" : "",
-                        place_text<Dim>(body.mass().center));
-  line += fmt::format(", from {} to {} m", place_text<Dim>(box.min()), place_text<Dim>(box.max()));
+                        rounded_place<Dim>(body.mass().center));
+  line += fmt::format(", from {} to {} m", rounded_place<Dim>(box.min()), rounded_place<Dim>(box.max()));
   if (share < 1 - all) line += fmt::format("; {:.3g} % of it lies outside of the domain", 100 * (1 - share));
   account.lines.push_back(line);
   if (share < nothing && !spec.kind.is_prescribed())
     account.warnings.push_back(fmt::format("{}: solid '{}' lies outside of the domain, from {} to {} m",
-                                           spec.shape.where, spec.name, place_text<Dim>(box.min()),
-                                           place_text<Dim>(box.max())));
+                                           spec.shape.where, spec.name, rounded_place<Dim>(box.min()),
+                                           rounded_place<Dim>(box.max())));
 }
 
 }  // namespace

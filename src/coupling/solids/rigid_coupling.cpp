@@ -71,7 +71,7 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
 }
 
 // Net areas below this are round-off. A body closes the cells inside it alike on all sides, and they have no row.
-constexpr double rounding = 1e-12;
+constexpr double smallest_face = 1e-12;
 
 // The body's block of J. Also sets sums.surface and sums.wet; gas counts as wet by its density over the liquid's.
 template <int Dim>
@@ -84,7 +84,7 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
   for (const auto& [cell, mode] : sums.cells) {
     const double area = mode.template head<Dim>().norm();
     const bool wet = rows.has_pressure(cell);
-    if (area > rounding) sums.surface += area, sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
+    if (area > smallest_face) sums.surface += area, sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
     for (int k = 0; k < block.width && rows.row[cell] >= 0; ++k)
       if (wet)
         block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);

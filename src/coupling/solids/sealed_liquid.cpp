@@ -15,7 +15,7 @@ namespace seiche {
 namespace {
 
 // The surface of sealed liquid lies at least this many cells inside the wall, so that no shift of phi exposes it.
-constexpr double depth = 2;
+constexpr double sealed_depth = 2;
 
 template <int Dim>
 bool has_corner_inside(const Layout<Dim>& layout, const NodeField<Dim>& distance, Site cell) {
@@ -50,7 +50,7 @@ void fill_cavity(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, int 
   if (holds_air(domain, exterior, distance, cells)) return;
   for_each_site(domain.layout, cells, [&](Site c) {
     if (has_corner_inside(domain.layout, distance, c))
-      phi[c] = std::min(phi[c], distance[c] - depth * domain.layout.h());
+      phi[c] = std::min(phi[c], distance[c] - sealed_depth * domain.layout.h());
   });
 }
 

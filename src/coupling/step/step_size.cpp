@@ -48,7 +48,7 @@ double limit_of_flow(const Domain<Dim>& domain, const Fluids& fluids, const Time
   return given < span ? given : limit;
 }
 
-constexpr double rounding = 1e-9;  // relative, for motions that use the whole reach
+constexpr double relative_rounding = 1e-9;  // relative, for motions that use the whole reach
 
 std::string pinned_step(const TimeSpec& time, double t, double dt) {
   return fmt::format("time.fixed_step = {:g} s: the step of {:.6g} s from time {:.6g} s carries", *time.fixed_step, dt,
@@ -144,7 +144,7 @@ std::string fault_of_pinned_flow(const Domain<Dim>& domain, const Fluids& fluids
                            ? fastest_prescribed(domain, fluids, state.phi, state.time + 0.5 * dt)
                            : fastest_component(domain, state);
   const double crossed = speed * dt / h;
-  if (crossed <= most * (1 + rounding)) return {};
+  if (crossed <= most * (1 + relative_rounding)) return {};
   return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",
                      pinned_step(time, state.time, dt), crossed, h, most, cfl, cfl < 8 ? " or raise cfl" : "");
 }
@@ -154,7 +154,7 @@ template <int Dim>
 std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                    const std::vector<Placement>& placed, double t, double dt) {
   const double h = domain.layout.h(), crossed = solids.geometry.largest_displacement(placed, dt) / h;
-  if (crossed <= 1 + rounding) return {};
+  if (crossed <= 1 + relative_rounding) return {};
   return fmt::format(
       "{} a solid {:.3g} cells of {:g} m; at most 1 is possible; lower fixed_step or slow the solid down",
       pinned_step(time, t, dt), crossed, h);

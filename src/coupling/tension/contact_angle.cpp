@@ -11,7 +11,7 @@
 namespace seiche {
 namespace {
 
-constexpr int depth = 3;  // layers (cells) behind a wall that curvature stencils next to it read
+constexpr int wall_layers = 3;  // layers (cells) behind a wall that curvature stencils next to it read
 
 double cotangent(double degrees) {
   return degrees == 90 ? 0 : 1 / std::tan(degrees * 3.14159265358979323846 / 180);
@@ -91,7 +91,7 @@ template <int Dim>
 void continue_beyond_walls(const Domain<Dim>& domain, const Fluids& fluids, CellField<Dim>& phi) {
   const double shift = cotangent(fluids.liquid.contact_angle);
   for (int a = 0; a < Dim; ++a)
-    for (int layer = 1; layer <= depth; ++layer) {
+    for (int layer = 1; layer <= wall_layers; ++layer) {
       for (int side = 0; side < 2; ++side)
         if (is_wall(domain.sides.type(a, side))) BeyondSide<Dim>(domain.layout, a, side, shift, phi).fill(layer);
       domain.halo.fill_ghosts(phi);
@@ -119,10 +119,10 @@ std::vector<Buried<Dim>> buried_cells(const Domain<Dim>& domain, const Fluids& f
                                       const StepGeometry<Dim>& g, const CellField<Dim>& phi) {
   std::vector<Buried<Dim>> cells;
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (std::abs(phi[c]) > (depth + 2) * domain.layout.h()) return;
+    if (std::abs(phi[c]) > (wall_layers + 2) * domain.layout.h()) return;
     const auto [psi, slope] = distance_at_cell<Dim>(domain.layout, g.psi, c);
     const double d = -psi / domain.layout.h();
-    if (d <= 0 || d > depth || slope.norm() == 0 || g.body[c] < 0) return;
+    if (d <= 0 || d > wall_layers || slope.norm() == 0 || g.body[c] < 0) return;
     const Vec<Dim> out = slope.normalized(), x = i.template cast<double>();
     const double up = std::min(2 * d, 1.0);
     const Tangent<Dim> t = tangent_at<Dim>(domain.layout, phi.data(), x + (std::min(d, 1.0) + 1) * out, out);
@@ -135,7 +135,7 @@ std::vector<Buried<Dim>> buried_cells(const Domain<Dim>& domain, const Fluids& f
 template <int Dim>
 void continue_into_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                           const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  constexpr int passes = 2 * depth;
+  constexpr int passes = 2 * wall_layers;
   const std::vector<Buried<Dim>> cells = buried_cells(domain, fluids, solids, g, phi);
   std::vector<double> straight(cells.size()), next(cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n) straight[n] = phi[cells[n].site];

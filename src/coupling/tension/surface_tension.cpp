@@ -1,5 +1,7 @@
 #include "coupling/tension/surface_tension.h"
 
+#include <numbers>
+
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/tension/contact_angle.h"
@@ -11,8 +13,6 @@
 
 namespace seiche {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Sum of both densities: the inertia of capillary waves.
 double density_at_surface(const Fluids& fluids) {
@@ -130,7 +130,7 @@ double capillary_step(const Domain<Dim>& domain, const Fluids& fluids) {
   if (!fluids.has_surface_tension() || liquid.tension_scheme == TensionScheme::semi_implicit)
     return std::numeric_limits<double>::infinity();
   const double h = domain.layout.h();
-  return std::sqrt(density_at_surface(fluids) * h * h * h / (4 * pi * liquid.surface_tension));
+  return std::sqrt(density_at_surface(fluids) * h * h * h / (4 * std::numbers::pi * liquid.surface_tension));
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                              \

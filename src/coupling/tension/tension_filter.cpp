@@ -1,13 +1,13 @@
 #include "coupling/tension/tension_filter.h"
 
+#include <numbers>
+
 #include "coupling/tension/surface_graph.h"
 #include "fluid/boundary/domain.h"
 #include "linalg/krylov/krylov.h"
 
 namespace seiche {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // The operator 1 + l^4 K^2, and Jacobi's preconditioner for it. K: Laplacian of the graph.
 template <int Dim>
@@ -57,7 +57,7 @@ Vector mean_at_cells(const Layout<Dim>& layout, const std::vector<Site>& cells, 
 // s^2 = 1.4. On surfaces along grid diagonals the graph's Laplacian is half that of the surface. The largest (omega
 // dt)^2, that of s^2 x^3/(1 + x^4/4) with x = l k, is then 1.5^2.
 double filter_length(double sigma, double density, double h, double dt) {
-  if (dt * dt * 4 * pi * sigma <= density * h * h * h) return 0;
+  if (dt * dt * 4 * std::numbers::pi * sigma <= density * h * h * h) return 0;
   return std::cbrt(sigma * dt * dt / (1.4 * density)) / h;
 }
 

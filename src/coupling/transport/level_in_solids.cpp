@@ -11,21 +11,21 @@
 namespace seiche {
 namespace {
 
-constexpr double depth = 1.5;  // cells; psi of deforming bodies is exact to two
-constexpr int layers = 4;      // a wall moves less in a step
+constexpr double filled_depth = 1.5;  // cells; psi of deforming bodies is exact to two
+constexpr int layers = 4;             // a wall moves less in a step
 
 template <int Dim>
 bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
   return g.body[cell] >= 0 && g.deforms(g.body[cell]);
 }
 
-// 1 in the cells of the domain, except those deeper than `depth` in deforming bodies.
+// 1 in the cells of the domain, except those deeper than `filled_depth` in deforming bodies.
 template <int Dim>
 FieldValues<char> cells_near_outside(const Domain<Dim>& domain, const StepGeometry<Dim>& g) {
   FieldValues<char> near(std::size_t(domain.layout.size()), 0);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
     const bool deep =
-        is_in_deformed(g, c) && distance_at_cell(domain.layout, g.psi, c).first <= -depth * domain.layout.h();
+        is_in_deformed(g, c) && distance_at_cell(domain.layout, g.psi, c).first <= -filled_depth * domain.layout.h();
     near[std::size_t(c)] = deep ? 0 : 1;
   });
   return near;

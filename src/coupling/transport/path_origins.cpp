@@ -12,12 +12,12 @@
 namespace seiche {
 namespace {
 
-using Range = std::pair<double, double>;
+using VelocityRange = std::pair<double, double>;
 
 // Range of velocity of the valid faces among a face and its neighbours, m/s; first > second if none is valid.
 template <int Dim>
-Range valid_range(const Layout<Dim>& layout, const TimeLevel<Dim>& level, int axis, Site f) {
-  Range range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+VelocityRange valid_range(const Layout<Dim>& layout, const TimeLevel<Dim>& level, int axis, Site f) {
+  VelocityRange range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
   constexpr int neighbours = Dim == 2 ? 9 : 27;
   for (int n = 0; n < neighbours; ++n) {
     Site at = f;
@@ -71,7 +71,7 @@ void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, c
     for_each_marked_index(domain.layout, domain.layout.faces(a), paths.near[a].data(), [&](Site f, const IVec<Dim>& i) {
       if (interior.at(a, f)) return;
       const Vec<Dim> from = departure_of_face(domain.layout, paths.velocity, a, f, i, paths.dt);
-      Range range = valid_range(domain.layout, level, a, nearest_face(domain.layout, a, from));
+      VelocityRange range = valid_range(domain.layout, level, a, nearest_face(domain.layout, a, from));
       if (range.first > range.second) range = valid_range(domain.layout, level, a, f);
       if (range.first <= range.second) u.at(a, f) = std::clamp(u.at(a, f), range.first, range.second);
     });

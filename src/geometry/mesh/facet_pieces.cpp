@@ -10,7 +10,7 @@ namespace seiche {
 namespace {
 
 template <int Dim>
-using Part = std::vector<FacetWeights<Dim>>;
+using FacetPart = std::vector<FacetWeights<Dim>>;
 
 // Columns are the facet's corners, in cells from the grid's lower corner.
 template <int Dim>
@@ -30,7 +30,8 @@ Vec<3> area_normal(const Corners<3>& p) {
 
 // Splits a part at the plane where the coordinate along an axis equals `plane` (cells).
 template <int Dim>
-void split(const Corners<Dim>& p, int axis, double plane, const Part<Dim>& part, Part<Dim>& below, Part<Dim>& above) {
+void split(const Corners<Dim>& p, int axis, double plane, const FacetPart<Dim>& part, FacetPart<Dim>& below,
+           FacetPart<Dim>& above) {
   const auto height = [&](const FacetWeights<Dim>& w) { return p.row(axis).dot(w) - plane; };
   const std::size_t sides = Dim == 2 ? part.size() - 1 : part.size();
   for (std::size_t n = 0; n < part.size(); ++n) {
@@ -50,13 +51,13 @@ void split(const Corners<Dim>& p, int axis, double plane, const Part<Dim>& part,
 
 // Cuts a part at all planes between cells along an axis.
 template <int Dim>
-void cut_along(const Corners<Dim>& p, int axis, const Part<Dim>& part, std::vector<Part<Dim>>& pieces) {
+void cut_along(const Corners<Dim>& p, int axis, const FacetPart<Dim>& part, std::vector<FacetPart<Dim>>& pieces) {
   double low = 1e300, high = -1e300;
   for (const FacetWeights<Dim>& w : part)
     low = std::min(low, p.row(axis).dot(w)), high = std::max(high, p.row(axis).dot(w));
-  Part<Dim> rest = part;
+  FacetPart<Dim> rest = part;
   for (double plane = std::floor(low) + 1; plane < high; plane += 1) {
-    Part<Dim> below, above;
+    FacetPart<Dim> below, above;
     split(p, axis, plane, rest, below, above);
     if (below.size() >= Dim) pieces.push_back(std::move(below));
     rest = std::move(above);
@@ -66,19 +67,19 @@ void cut_along(const Corners<Dim>& p, int axis, const Part<Dim>& part, std::vect
 
 // Cuts a facet along all axes.
 template <int Dim>
-std::vector<Part<Dim>> cut(const Corners<Dim>& p) {
-  std::vector<Part<Dim>> parts(1);
+std::vector<FacetPart<Dim>> cut(const Corners<Dim>& p) {
+  std::vector<FacetPart<Dim>> parts(1);
   for (int i = 0; i < Dim; ++i) parts[0].push_back(FacetWeights<Dim>::Unit(i));
   for (int a = 0; a < Dim; ++a) {
-    std::vector<Part<Dim>> finer;
-    for (const Part<Dim>& part : parts) cut_along(p, a, part, finer);
+    std::vector<FacetPart<Dim>> finer;
+    for (const FacetPart<Dim>& part : parts) cut_along(p, a, part, finer);
     parts = std::move(finer);
   }
   return parts;
 }
 
 template <int Dim>
-IVec<Dim> cell_beside(const Corners<Dim>& p, const Part<Dim>& part, const Vec<Dim>& normal) {
+IVec<Dim> cell_beside(const Corners<Dim>& p, const FacetPart<Dim>& part, const Vec<Dim>& normal) {
   FacetWeights<Dim> middle = FacetWeights<Dim>::Zero();
   for (const FacetWeights<Dim>& w : part) middle += w / double(part.size());
   const Vec<Dim> x = p * middle + outward * normal;
@@ -107,7 +108,7 @@ std::vector<FacetPiece<Dim>> cut_at_cells(const Geometry<Dim>& grid, const Box<D
     for (int i = 0; i < Dim; ++i) p.col(i) = (points[std::size_t(facets[n][std::size_t(i)])] - grid.lower) / grid.h;
     const Vec<Dim> normal = area_normal(p);
     if (normal.norm() == 0 || !may_meet(p, box)) continue;
-    for (Part<Dim>& part : cut(p)) {
+    for (FacetPart<Dim>& part : cut(p)) {
       const IVec<Dim> cell = cell_beside<Dim>(p, part, normal.normalized());
       if (box.contains(cell)) pieces.push_back({cell, int(n), normal.normalized(), std::move(part)});
     }

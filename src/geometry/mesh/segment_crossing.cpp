@@ -5,10 +5,8 @@
 namespace seiche {
 namespace {
 
-constexpr double slack = crossing_slack;
-
 bool within(double share) {
-  return share >= -slack && share <= 1 + slack;
+  return share >= -crossing_slack && share <= 1 + crossing_slack;
 }
 
 double cross(const Vec<2>& a, const Vec<2>& b) {
@@ -22,7 +20,7 @@ template <>
 std::optional<double> crossing<2>(const Vec<2>& p, const Vec<2>& q, const std::array<Vec<2>, 2>& facet) {
   const Vec<2> d = q - p, e = facet[1] - facet[0], from = facet[0] - p;
   const double det = cross(d, e);
-  if (std::abs(det) <= slack * d.norm() * e.norm()) return {};
+  if (std::abs(det) <= crossing_slack * d.norm() * e.norm()) return {};
   const double s = cross(from, e) / det;
   if (!within(s) || !within(cross(from, d) / det)) return {};
   return s;
@@ -33,7 +31,7 @@ template <>
 std::optional<double> crossing<3>(const Vec<3>& p, const Vec<3>& q, const std::array<Vec<3>, 3>& facet) {
   const Vec<3> d = q - p, e = facet[1] - facet[0], f = facet[2] - facet[0], n = e.cross(f), from = p - facet[0];
   const double det = -d.dot(n);
-  if (std::abs(det) <= slack * d.norm() * n.norm()) return {};
+  if (std::abs(det) <= crossing_slack * d.norm() * n.norm()) return {};
   const Vec<3> m = from.cross(d);
   const double s = from.dot(n) / det, u = f.dot(m) / det, v = -e.dot(m) / det;
   if (!within(s) || !within(u) || !within(v) || !within(u + v)) return {};

@@ -118,16 +118,16 @@ struct Flood {
   }
 };
 
-struct Piece {
+struct MeshPiece {
   std::vector<int> triangles;
   double volume = 0;  // six times the signed volume
   Vec3 lower = Vec3::Constant(INFINITY), upper = Vec3::Constant(-INFINITY);
 };
 
-std::vector<Piece> collect(const SurfaceMesh& mesh, const std::vector<int>& piece_of) {
-  std::vector<Piece> result(1 + *std::max_element(piece_of.begin(), piece_of.end()));
+std::vector<MeshPiece> collect(const SurfaceMesh& mesh, const std::vector<int>& piece_of) {
+  std::vector<MeshPiece> result(1 + *std::max_element(piece_of.begin(), piece_of.end()));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Piece& piece = result[piece_of[t]];
+    MeshPiece& piece = result[piece_of[t]];
     piece.triangles.push_back(int(t));
     piece.volume += signed_volume(mesh, mesh.triangles[t]);
     for (const int corner : mesh.triangles[t]) {
@@ -139,7 +139,7 @@ std::vector<Piece> collect(const SurfaceMesh& mesh, const std::vector<int>& piec
 }
 
 // Winding number of a closed piece about x, by solid angles: 0 outside, +-1 inside (van Oosterom, Strackee 1983).
-double winding(const SurfaceMesh& mesh, const Piece& piece, const Vec3& x) {
+double winding(const SurfaceMesh& mesh, const MeshPiece& piece, const Vec3& x) {
   double sum = 0;
   for (const int t : piece.triangles) {
     const Vec3 a = mesh.points[mesh.triangles[t][0]] - x, b = mesh.points[mesh.triangles[t][1]] - x,
@@ -150,7 +150,7 @@ double winding(const SurfaceMesh& mesh, const Piece& piece, const Vec3& x) {
   return sum / (4 * 3.14159265358979323846);
 }
 
-bool encloses(const SurfaceMesh& mesh, const Piece& outer, const Piece& inner) {
+bool encloses(const SurfaceMesh& mesh, const MeshPiece& outer, const MeshPiece& inner) {
   const bool within =
       (outer.lower.array() < inner.lower.array()).all() && (inner.upper.array() < outer.upper.array()).all();
   if (!within) return false;
@@ -163,13 +163,13 @@ bool encloses(const SurfaceMesh& mesh, const Piece& outer, const Piece& inner) {
   return true;
 }
 
-int depth(const SurfaceMesh& mesh, const std::vector<Piece>& all, const Piece& piece) {
+int depth(const SurfaceMesh& mesh, const std::vector<MeshPiece>& all, const MeshPiece& piece) {
   int result = 0;
-  for (const Piece& other : all) result += &other != &piece && encloses(mesh, other, piece);
+  for (const MeshPiece& other : all) result += &other != &piece && encloses(mesh, other, piece);
   return result;
 }
 
-void require_volume(const SurfaceMesh& mesh, const Piece& piece) {
+void require_volume(const SurfaceMesh& mesh, const MeshPiece& piece) {
   const double extent = (piece.upper - piece.lower).maxCoeff();
   if (std::abs(piece.volume) > 1e-14 * extent * extent * extent) return;
   throw Error(ExitCode::bad_input, "the piece of the surface at " +
@@ -274,8 +274,8 @@ void orient(SurfaceMesh& mesh, std::vector<std::string>& notes) {
   for (std::size_t t = 0; t < piece_of.size(); ++t) {
     if (flood.turned[t]) turn(mesh.triangles[t]);
   }
-  const std::vector<Piece> all = collect(mesh, piece_of);
-  for (const Piece& piece : all) {
+  const std::vector<MeshPiece> all = collect(mesh, piece_of);
+  for (const MeshPiece& piece : all) {
     require_volume(mesh, piece);
     const bool cavity = depth(mesh, all, piece) % 2 == 1;
     if ((piece.volume > 0) != cavity) continue;

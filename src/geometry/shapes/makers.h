@@ -37,6 +37,10 @@ SurfaceMesh read_shape_mesh(const ShapeSpec& spec, const ShapeOptions& options);
 // throws Error(bad_input) if the axis is zero.
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> rotation(const RotationSpec& rotate);
+template <>
+Eigen::Matrix2d rotation<2>(const RotationSpec& rotate);
+template <>
+Eigen::Matrix3d rotation<3>(const RotationSpec& rotate);
 
 // Throws Error(bad_input).
 [[noreturn]] void refuse(const std::string& message);

@@ -132,9 +132,7 @@ Eigen::Matrix3d rotation<3>(const RotationSpec& rotate) {
   if (!(length > 0)) refuse("the axis of rotate is zero; use for example [0, 1, 0]");
   const Vec3 a = rotate.axis / length;
   const auto [c, s] = cos_sin(rotate.degrees);
-  Eigen::Matrix3d cross;
-  cross << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return c * Eigen::Matrix3d::Identity() + s * cross + (1 - c) * a * a.transpose();
+  return c * Eigen::Matrix3d::Identity() + s * cross_matrix(a) + (1 - c) * a * a.transpose();
 }
 
 }  // namespace shape

@@ -11,14 +11,13 @@
 namespace seiche {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int fewest_round = 16, most_round_2d = 256, most_round_cylinder = 128, most_round_capsule = 48;
 constexpr int fewest_levels = 1, most_levels = 3;  // subdivisions of icospheres: 42 to 642 points
 
 // The smallest multiple of four n with r (1 - cos(pi/n)) <= chord, within bounds.
 int count_round(double radius, double chord, int most) {
   const double cosine = std::max(1 - chord / radius, 0.0);
-  const double wanted = cosine < 1 ? pi / std::acos(cosine) : double(most);
+  const double wanted = cosine < 1 ? std::numbers::pi / std::acos(cosine) : double(most);
   return int(std::ceil(std::clamp(wanted, double(fewest_round), double(most)) / 4)) * 4;
 }
 
@@ -33,7 +32,7 @@ SurfaceMesh outline(std::vector<Vec3> points) {
 // 2D: adds `count` points on a circle, from angle `begin` (rad) in steps of 2 pi / round.
 void add_arc(const Vec3& center, double radius, double begin, int count, int round, std::vector<Vec3>& points) {
   for (int i = 0; i < count; ++i) {
-    const double angle = begin + 2 * pi * i / round;
+    const double angle = begin + 2 * std::numbers::pi * i / round;
     points.push_back(center + radius * Vec3(std::cos(angle), std::sin(angle), 0));
   }
 }
@@ -93,13 +92,13 @@ using Profile = std::vector<std::array<double, 2>>;
 
 // Adds the triangles between two rings of `round` points, or a ring and a pole. `low` and `high` are their first
 // points.
-enum class Part { lower_cap, band, upper_cap };
-void add_part(Part part, int low, int high, int round, SurfaceMesh& mesh) {
+enum class SpherePart { lower_cap, band, upper_cap };
+void add_part(SpherePart part, int low, int high, int round, SurfaceMesh& mesh) {
   for (int j = 0; j < round; ++j) {
     const int next = (j + 1) % round;
-    if (part == Part::lower_cap) mesh.triangles.push_back({low, high + next, high + j});
-    if (part == Part::upper_cap) mesh.triangles.push_back({low + j, low + next, high});
-    if (part != Part::band) continue;
+    if (part == SpherePart::lower_cap) mesh.triangles.push_back({low, high + next, high + j});
+    if (part == SpherePart::upper_cap) mesh.triangles.push_back({low + j, low + next, high});
+    if (part != SpherePart::band) continue;
     mesh.triangles.push_back({low + j, low + next, high + next});
     mesh.triangles.push_back({low + j, high + next, high + j});
   }
@@ -113,14 +112,14 @@ SurfaceMesh revolve(const Vec3& from, const Vec3& axis, const Profile& profile, 
     const auto [along, across] = profile[k];
     const int ring = int(mesh.points.size());
     for (int j = 0; j < round; ++j) {
-      const double angle = 2 * pi * j / round;
+      const double angle = 2 * std::numbers::pi * j / round;
       mesh.points.push_back(from + along * axis + across * (std::cos(angle) * u + std::sin(angle) * v));
     }
-    add_part(k == 1 ? Part::lower_cap : Part::band, k == 1 ? 0 : ring - round, ring, round, mesh);
+    add_part(k == 1 ? SpherePart::lower_cap : SpherePart::band, k == 1 ? 0 : ring - round, ring, round, mesh);
   }
   const int pole = int(mesh.points.size());
   mesh.points.push_back(from + profile.back()[0] * axis);
-  add_part(Part::upper_cap, pole - round, pole, round, mesh);
+  add_part(SpherePart::upper_cap, pole - round, pole, round, mesh);
   return mesh;
 }
 
@@ -129,7 +128,7 @@ Profile capsule_profile(double length, double radius, int quarter) {
   Profile profile{{-radius, 0}};
   for (int end = 0; end < 2; ++end) {
     for (int k = 1 - end; k <= quarter - end; ++k) {
-      const double angle = pi / 2 * (k + (end - 1) * quarter) / quarter;
+      const double angle = std::numbers::pi / 2 * (k + (end - 1) * quarter) / quarter;
       profile.push_back({end * length + radius * std::sin(angle), radius * std::cos(angle)});
     }
   }
@@ -214,10 +213,10 @@ template <>
 SurfaceMesh tessellate_capsule<2>(const ShapeSpec& s, double chord) {
   const Axis<2> a(s);
   const int round = count_round(s.radius, chord, most_round_2d), ends = a.length > 0 ? 1 : 0;
-  const double begin = std::atan2(a.direction[1], a.direction[0]) - pi / 2;
+  const double begin = std::atan2(a.direction[1], a.direction[0]) - std::numbers::pi / 2;
   std::vector<Vec3> points;
   add_arc(a.to, s.radius, begin, round / 2 + ends, round, points);
-  add_arc(a.from, s.radius, begin + pi, round / 2 + ends, round, points);
+  add_arc(a.from, s.radius, begin + std::numbers::pi, round / 2 + ends, round, points);
   return outline(std::move(points));
 }
 

@@ -14,17 +14,17 @@ namespace seiche {
 namespace {
 
 #ifdef SEICHE_CHOLMOD
-struct Method : Eigen::CholmodSupernodalLLT<SparseMatrix> {
-  Method() { cholmod().print = 0; }  // no output for indefinite matrices
+struct Llt : Eigen::CholmodSupernodalLLT<SparseMatrix> {
+  Llt() { cholmod().print = 0; }  // no output for indefinite matrices
 };
 #else
-using Method = Eigen::SimplicialLLT<SparseMatrix>;
+using Llt = Eigen::SimplicialLLT<SparseMatrix>;
 #endif
 
 }  // namespace
 
 struct SparseCholesky::Factors {
-  Method llt;
+  Llt llt;
   std::vector<int> outer, inner;  // pattern of the current ordering
 
   bool knows(const SparseMatrix& A) const {

@@ -11,7 +11,7 @@
 namespace seiche {
 namespace {
 
-AmgSettings settings_of(const std::string& strength) {
+AmgSettings kkt_amg_settings(const std::string& strength) {
   AmgSettings settings;
   settings.aggressive_levels = 0;
   settings.sweeps = strength == "strong" ? 3 : 2;
@@ -54,7 +54,7 @@ KktSolver::Residual KktSolver::measure(const Problem& problem, const Vector& x) 
 }
 
 std::string KktSolver::attempt(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report) {
-  KktPreconditioner B(*K_, bodies_, settings_of(strength));
+  KktPreconditioner B(*K_, bodies_, kkt_amg_settings(strength));
   if (!B.failure().empty()) return B.failure();
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {

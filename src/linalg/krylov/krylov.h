@@ -9,6 +9,8 @@
 
 namespace seiche {
 
+enum class Start { warm, cold };  // from the last solution, or from zero
+
 struct KrylovLimits {
   double target = 0;  // stop at |r| <= target; r is the residual of the recurrence
   int iterations = 0;

@@ -12,8 +12,7 @@
 namespace seiche {
 namespace {
 
-enum class Method { gmres, minres };
-enum class Start { warm, cold };
+enum class Krylov { gmres, minres };
 
 // hypre counts rows in 32 bits.
 const SaddleSystem& checked_size(const SaddleSystem& s) {
@@ -26,7 +25,7 @@ const SaddleSystem& checked_size(const SaddleSystem& s) {
 
 // BoomerAMG on faces and cells: "standard", or "strong", which costs more and fails less. Aggressive coarsening would
 // nearly double the iterations.
-AmgSettings settings_of(const std::string& strength) {
+AmgSettings saddle_amg_settings(const std::string& strength) {
   AmgSettings settings;
   settings.aggressive_levels = 0;
   if (strength == "strong") settings.sweeps = 2;
@@ -41,12 +40,12 @@ Vector multiplied(const Vector& a, Vector b) {
 }  // namespace
 
 struct SaddleSolver::Fallback {
-  Method method;
+  Krylov method;
   std::string pressure, strength;
   Start start;
 
   std::string label() const {
-    return fmt::format("{} with {} {}, {} start", method == Method::minres ? "MINRES" : "GMRES", strength, pressure,
+    return fmt::format("{} with {} {}, {} start", method == Krylov::minres ? "MINRES" : "GMRES", strength, pressure,
                        start == Start::warm ? "warm" : "cold");
   }
 };
@@ -80,7 +79,7 @@ SaddlePreconditioner& SaddleSolver::build(const std::string& pressure, const std
   const std::string key = pressure + ", " + strength;
   for (auto& [name, made] : built_)
     if (name == key) return *made;
-  built_.emplace_back(key, std::make_unique<SaddlePreconditioner>(K_, pressure, settings_of(strength)));
+  built_.emplace_back(key, std::make_unique<SaddlePreconditioner>(K_, pressure, saddle_amg_settings(strength)));
   return *built_.back().second;
 }
 
@@ -208,16 +207,16 @@ SaddleSolver::Outcome SaddleSolver::reduce_residual(SaddlePreconditioner& B, con
 // GMRES with the triangular preconditioner takes half the iterations of MINRES with the diagonal one, but stores a
 // vector for each iteration.
 std::vector<SaddleSolver::Fallback> SaddleSolver::make_fallback_chain() const {
-  return {{Method::gmres, options_.preconditioner, "standard", Start::warm},
-          {Method::minres, "boomeramg", "strong", Start::cold},
-          {Method::gmres, "boomeramg", "strong", Start::cold}};
+  return {{Krylov::gmres, options_.preconditioner, "standard", Start::warm},
+          {Krylov::minres, "boomeramg", "strong", Start::cold},
+          {Krylov::gmres, "boomeramg", "strong", Start::cold}};
 }
 
 SaddleSolver::Outcome SaddleSolver::attempt(const Fallback& fallback, const Problem& problem, Vector& x) {
   if (fallback.start == Start::cold) std::fill(x.begin(), x.end(), 0.0);
   SaddlePreconditioner& B = build(fallback.pressure, fallback.strength);
   if (std::string failure = B.refresh(); !failure.empty()) return {0, failure};
-  return fallback.method == Method::minres ? minimise(B, problem, x) : reduce_residual(B, problem, x);
+  return fallback.method == Krylov::minres ? minimise(B, problem, x) : reduce_residual(B, problem, x);
 }
 
 // x holds the best vector so far.

@@ -18,7 +18,6 @@ namespace seiche {
 namespace {
 
 enum class Method { conjugate_gradients, flexible_gmres, direct };
-enum class Start { warm, cold };
 
 const char* name(Method method) {
   switch (method) {

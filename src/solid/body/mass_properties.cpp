@@ -15,7 +15,6 @@ namespace seiche {
 namespace {
 
 using Matrix = Eigen::Matrix3d;
-constexpr double pi = std::numbers::pi;
 
 // Volume, centre and second moments  C = int (x - c)(x - c)' dV  of a shape. C determines the inertia and is easily
 // scaled and rotated. Components along z are zero in 2D.
@@ -62,7 +61,7 @@ double axis_length(const ShapeSpec& s) {
 // A disc has C = V r^2/4 (1), a ball V r^2/5 (1).
 template <int Dim>
 double ball_volume(double r) {
-  return Dim == 2 ? pi * r * r : 4 * pi / 3 * r * r * r;
+  return Dim == 2 ? std::numbers::pi * r * r : 4 * std::numbers::pi / 3 * r * r * r;
 }
 template <int Dim>
 double ball_second(double r) {
@@ -80,7 +79,7 @@ Moments sphere_moments(const ShapeSpec& s) {
 template <int Dim>
 Moments cylinder_moments(const ShapeSpec& s) {
   const double l = axis_length<Dim>(s), r = s.radius;
-  const double volume = Dim == 2 ? 2 * r * l : pi * r * r * l;
+  const double volume = Dim == 2 ? 2 * r * l : std::numbers::pi * r * r * l;
   return about_axis<Dim>(s, volume, volume * l * l / 12, volume * r * r / (Dim == 2 ? 3 : 4));
 }
 
@@ -90,7 +89,7 @@ template <int Dim>
 Moments capsule_moments(const ShapeSpec& s) {
   const double l = axis_length<Dim>(s), r = s.radius, ball = ball_volume<Dim>(r);
   const Moments middle = cylinder_moments<Dim>(s);
-  const double offset = Dim == 2 ? 4 * r / (3 * pi) : 3 * r / 8;
+  const double offset = Dim == 2 ? 4 * r / (3 * std::numbers::pi) : 3 * r / 8;
   // int (l/2 + x)^2 over both halves
   const double ends = ball * l * l / 4 + ball * l * offset + ball_second<Dim>(r);
   const double along = middle.volume * l * l / 12 + ends;

@@ -34,12 +34,6 @@ Mollifier mollify(const PairPoints<3>& x, double at_rest) {
 template <int Dim>
 using PointVector = Eigen::Matrix<double, 4 * Dim, 1>;  // the four points, stacked
 
-Eigen::Matrix3d cross_matrix(const Vec3& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return m;
-}
-
 // Derivatives of c by the four points. With J = d(u x v): grad c = 2 J'w and H = 2 J'J + 2 w . d2(u x v), w = u x v.
 struct CrossDerivatives {
   PointVector<3> gradient;

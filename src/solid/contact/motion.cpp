@@ -7,12 +7,6 @@ namespace seiche {
 namespace contact {
 namespace {
 
-Eigen::Matrix3d cross_matrix(const Vec3& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return m;
-}
-
 // Rotation vector of R.
 template <int Dim>
 Turn<Dim> angle_of(const Eigen::Matrix3d& R) {

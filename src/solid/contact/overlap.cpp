@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,8 +13,6 @@
 namespace seiche {
 namespace contact {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 template <int Dim>
 using Corners = std::array<Vec<Dim>, Dim>;
@@ -123,7 +122,7 @@ class Overlaps {
       for (Vec<Dim>& corner : c) corner -= x;
       angle += seen_angle(c);
     }
-    return angle / (Dim == 2 ? 2 * pi : 4 * pi) + (inverted(body) ? 1 : 0) > 0.5;
+    return angle / (Dim == 2 ? 2 * std::numbers::pi : 4 * std::numbers::pi) + (inverted(body) ? 1 : 0) > 0.5;
   }
   bool inverted(int body) const { return scene_.surfaces[body].volume < 0; }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/expression.h"
@@ -16,7 +17,6 @@ namespace seiche {
 namespace {
 
 constexpr double on_surface = 1e-6;  // of an element's edge: a pin that ends on a face includes the face's nodes
-constexpr double pi = 3.14159265358979323846;
 
 // Nodes within the pin's shape (value not positive).
 template <int Dim>
@@ -147,7 +147,7 @@ template <int Dim>
 Pins pins_at(const ElasticSolid<Dim>& solid, double t) {
   std::vector<std::pair<int, Vec<Dim>>> held;
   for (const PinnedNodes& pin : solid.pins) {
-    const double angle = Expression(pin.motion.degrees)(Vec3::Zero(), t) * pi / 180;
+    const double angle = Expression(pin.motion.degrees)(Vec3::Zero(), t) * std::numbers::pi / 180;
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, pin.motion.axis.normalized()).toRotationMatrix();
     const Vec3 moved = VectorExpression(pin.motion.translate)(Vec3::Zero(), t);
     for (const int n : pin.nodes) {

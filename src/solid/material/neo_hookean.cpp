@@ -10,7 +10,7 @@ namespace seiche::elastic {
 namespace {
 
 template <int Dim>
-double energy(const Lame& m, const Gradient<Dim>& F) {
+double neo_hookean_energy(const Lame& m, const Gradient<Dim>& F) {
   const double j = volume_change<Dim>(F);
   if (!(j > -1)) return std::numeric_limits<double>::infinity();
   const double log_J = std::log1p(j);
@@ -19,13 +19,13 @@ double energy(const Lame& m, const Gradient<Dim>& F) {
 
 // P = mu F + (lambda log J - mu) / J dJ/dF
 template <int Dim>
-Gradient<Dim> stress(const Lame& m, const Gradient<Dim>& F) {
+Gradient<Dim> neo_hookean_stress(const Lame& m, const Gradient<Dim>& F) {
   const double j = volume_change<Dim>(F);
   return m.mu * F + (m.lambda * std::log1p(j) - m.mu) / (1 + j) * cofactor<Dim>(F);
 }
 
 template <int Dim>
-Hessian<Dim> stiffness(const Lame& m, const Gradient<Dim>& F) {
+Hessian<Dim> neo_hookean_stiffness(const Lame& m, const Gradient<Dim>& F) {
   const double j = volume_change<Dim>(F), J = 1 + j, pull = m.lambda * std::log1p(j) - m.mu;
   const Flat<Dim> c = flat<Dim>(cofactor<Dim>(F));
   Hessian<Dim> H = pull / J * cofactor_derivative<Dim>(F) + (m.lambda - pull) / (J * J) * c * c.transpose();
@@ -37,7 +37,7 @@ Hessian<Dim> stiffness(const Lame& m, const Gradient<Dim>& F) {
 
 template <int Dim>
 ElasticMaterial<Dim> neo_hookean() {
-  return {"neo_hookean", energy<Dim>, stress<Dim>, stiffness<Dim>};
+  return {"neo_hookean", neo_hookean_energy<Dim>, neo_hookean_stress<Dim>, neo_hookean_stiffness<Dim>};
 }
 
 template ElasticMaterial<2> neo_hookean<2>();

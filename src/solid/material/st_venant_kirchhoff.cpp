@@ -19,20 +19,20 @@ Gradient<Dim> second_stress(const Lame& m, const Gradient<Dim>& E) {
 }
 
 template <int Dim>
-double energy(const Lame& m, const Gradient<Dim>& F) {
+double svk_energy(const Lame& m, const Gradient<Dim>& F) {
   const Gradient<Dim> E = green_strain<Dim>(F);
   return m.mu * E.squaredNorm() + m.lambda / 2 * E.trace() * E.trace();
 }
 
 // P = F S
 template <int Dim>
-Gradient<Dim> stress(const Lame& m, const Gradient<Dim>& F) {
+Gradient<Dim> svk_stress(const Lame& m, const Gradient<Dim>& F) {
   return F * second_stress<Dim>(m, green_strain<Dim>(F));
 }
 
 // dP = dF S + F S(dE), dE = sym(F' dF), one column for each entry of dF
 template <int Dim>
-Hessian<Dim> stiffness(const Lame& m, const Gradient<Dim>& F) {
+Hessian<Dim> svk_stiffness(const Lame& m, const Gradient<Dim>& F) {
   const Gradient<Dim> S = second_stress<Dim>(m, green_strain<Dim>(F));
   Hessian<Dim> H;
   for (int k = 0; k < Dim * Dim; ++k) {
@@ -48,7 +48,7 @@ Hessian<Dim> stiffness(const Lame& m, const Gradient<Dim>& F) {
 
 template <int Dim>
 ElasticMaterial<Dim> st_venant_kirchhoff() {
-  return {"st_venant_kirchhoff", energy<Dim>, stress<Dim>, stiffness<Dim>};
+  return {"st_venant_kirchhoff", svk_energy<Dim>, svk_stress<Dim>, svk_stiffness<Dim>};
 }
 
 template ElasticMaterial<2> st_venant_kirchhoff<2>();

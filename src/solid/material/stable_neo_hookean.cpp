@@ -15,21 +15,21 @@ Lame primed(const Lame& m) {
 
 // With I = |F|^2 - 3 and j = J - 1: mu'/2 (I - log(1 + I/4)) - 3/4 mu' j + lambda'/2 j^2.
 template <int Dim>
-double energy(const Lame& material, const Gradient<Dim>& F) {
+double stable_energy(const Lame& material, const Gradient<Dim>& F) {
   const auto [mu, lambda] = primed(material);
   const double I = stretch_excess<Dim>(F), j = volume_change<Dim>(F);
   return mu / 2 * (I - std::log1p(I / 4)) - 0.75 * mu * j + lambda / 2 * j * j;
 }
 
 template <int Dim>
-Gradient<Dim> stress(const Lame& material, const Gradient<Dim>& F) {
+Gradient<Dim> stable_stress(const Lame& material, const Gradient<Dim>& F) {
   const auto [mu, lambda] = primed(material);
   const double I = stretch_excess<Dim>(F), j = volume_change<Dim>(F);
   return mu * (1 - 1 / (I + 4)) * F + (lambda * j - 0.75 * mu) * cofactor<Dim>(F);
 }
 
 template <int Dim>
-Hessian<Dim> stiffness(const Lame& material, const Gradient<Dim>& F) {
+Hessian<Dim> stable_stiffness(const Lame& material, const Gradient<Dim>& F) {
   const auto [mu, lambda] = primed(material);
   const double I = stretch_excess<Dim>(F), j = volume_change<Dim>(F);
   const Flat<Dim> f = flat<Dim>(F), c = flat<Dim>(cofactor<Dim>(F));
@@ -42,7 +42,7 @@ Hessian<Dim> stiffness(const Lame& material, const Gradient<Dim>& F) {
 
 template <int Dim>
 ElasticMaterial<Dim> stable_neo_hookean() {
-  return {"stable_neo_hookean", energy<Dim>, stress<Dim>, stiffness<Dim>};
+  return {"stable_neo_hookean", stable_energy<Dim>, stable_stress<Dim>, stable_stiffness<Dim>};
 }
 
 template ElasticMaterial<2> stable_neo_hookean<2>();

@@ -18,9 +18,9 @@
 namespace seiche {
 namespace {
 
-constexpr double most_elements = 2e6;    // above it the factors of a body exceed the memory of any machine
-constexpr double sample_share = 0.25;    // of an element: sampling distance of a shape before meshing
-constexpr double most_samples = 5e7;     // samples of a formula in search of its surface: some 10 s
+constexpr double most_elements = 2e6;            // above it the factors of a body exceed the memory of any machine
+constexpr double sample_share = 0.25;            // of an element: sampling distance of a shape before meshing
+constexpr double most_samples_of_formula = 5e7;  // samples of a formula in search of its surface: some 10 s
 constexpr double fitted_distance = 0.1;  // of an element: largest error of Mesh_3's surface where nodes are fitted,
 constexpr double kept_distance = 0.05;   // and for surfaces from files, where they are not
 constexpr double whole_blocks = 1e-9;    // relative: tolerance for an extent of a whole number of elements in decimals
@@ -120,7 +120,7 @@ bool is_sampled(const ShapeSpec& s) {
 template <int Dim>
 double sampling(const SolidSpec& spec, const Vec<Dim>& domain) {
   const double spacing = sample_share * spec.elastic.element_size;
-  if (is_sampled(spec.shape) && (domain / spacing).prod() > most_samples) {
+  if (is_sampled(spec.shape) && (domain / spacing).prod() > most_samples_of_formula) {
     fail(spec, fmt::format("element_size = {:g} m is too small: the shape has no bounds of its own and would be "
                            "sampled every {:g} m all over the domain; raise element_size",
                            spec.elastic.element_size, spacing));

@@ -16,7 +16,7 @@ struct Reading {
   std::unordered_map<long long, int> place;  // of a node's tag
 };
 
-CellKind kind_of(long long type) {
+CellKind gmsh_cell_kind(long long type) {
   switch (type) {
     case 2:
       return CellKind::triangle;
@@ -74,7 +74,7 @@ void read_elements_2(Reading& r, Tokens& tokens) {
   const long long count = count_token(r.source, tokens, "elements");
   for (long long e = 0; e < count; ++e) {
     integer_token(r.source, tokens);
-    const CellKind kind = kind_of(integer_token(r.source, tokens));
+    const CellKind kind = gmsh_cell_kind(integer_token(r.source, tokens));
     const long long tags = count_token(r.source, tokens, "tags");
     for (long long i = 0; i < tags; ++i) integer_token(r.source, tokens);
     read_cell(r, tokens, kind);
@@ -105,7 +105,7 @@ void read_elements_4(Reading& r, Tokens& tokens) {
   for (long long b = 0; b < blocks; ++b) {
     integer_token(r.source, tokens);
     integer_token(r.source, tokens);
-    const CellKind kind = kind_of(integer_token(r.source, tokens));
+    const CellKind kind = gmsh_cell_kind(integer_token(r.source, tokens));
     const long long count = count_token(r.source, tokens, "elements");
     for (long long e = 0; e < count; ++e) {
       integer_token(r.source, tokens);

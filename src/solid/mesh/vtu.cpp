@@ -16,7 +16,7 @@ const VtkArray& need(const VtkDocument& document, const std::string& section, co
                         "<" + section + "> has no array" + (name.empty() ? "" : " '" + name + "'"));
 }
 
-CellKind kind_of(long long type) {
+CellKind vtk_cell_kind(long long type) {
   switch (type) {
     case 5:
       return CellKind::triangle;
@@ -56,7 +56,7 @@ void add_cells(const VtkDocument& document, RawMesh& r) {
   if (types.size() != offsets.size()) fail("there are not as many types as offsets");
   long long first = 0;
   for (size_t c = 0; c < types.size(); first = offsets[c++]) {
-    const CellKind kind = kind_of(types[c]);
+    const CellKind kind = vtk_cell_kind(types[c]);
     if (offsets[c] < first || offsets[c] > (long long)(nodes.size())) fail("an offset is out of range");
     if (kind == CellKind::other) {
       ++r.others;

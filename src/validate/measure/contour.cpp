@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 
 namespace seiche {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // A sample of the level set and its position in cells.
 struct Corner {
@@ -65,7 +64,7 @@ double circularity(const vdb::Frame& frame) {
       for (std::size_t k = 0; k < 4; ++k) add_segment({square[k], square[(k + 1) % 4], middle}, length, twice_area);
     }
   if (length == 0) throw Error(ExitCode::cannot_continue, "a frame holds no surface");
-  return 2 * std::sqrt(pi * std::abs(twice_area) / 2) / length;
+  return 2 * std::sqrt(std::numbers::pi * std::abs(twice_area) / 2) / length;
 }
 
 }  // namespace seiche

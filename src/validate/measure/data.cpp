@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -139,14 +140,13 @@ double slope_during(const Points& points, double from, double to) {
 }
 
 double settled_mean(const Points& points, double from, double to) {
-  constexpr double pi = 3.14159265358979323846;
   const double slack = 1e-9 * (to - from);
   // The first sample may have no value (pressure at t = 0), where the weight is almost zero.
   const double sample = points.size() > 1 ? points[1].first - points[0].first : 0;
   if (points.empty() || points.front().first > from + sample + slack || points.back().first < to - slack)
     fail(fmt::format("no mean: the run does not reach from {:g} s to {:g} s", from, to));
   const auto weight = [&](double t) {
-    return std::pow(std::sin(pi * (std::clamp(t, from, to) - from) / (to - from)), 2);
+    return std::pow(std::sin(std::numbers::pi * (std::clamp(t, from, to) - from) / (to - from)), 2);
   };
   double sum = 0, weights = 0;
   for (std::size_t n = 1; n < points.size(); ++n) {

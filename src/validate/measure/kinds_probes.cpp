@@ -33,7 +33,7 @@ Measurement probe_mean(const MeasureSpec& spec, const RunPaths& run) {
   return against(settled_mean(component_of_probe(spec, run), spec.from, spec.to), constant(spec.reference));
 }
 
-std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run) {
+std::pair<double, double> probe_extremes(const MeasureSpec& spec, const RunPaths& run) {
   return extremes_during(component_of_probe(spec, run), spec.from, spec.to);
 }
 
@@ -73,13 +73,13 @@ Measurement probe_arrival(const MeasureSpec& spec, const RunPaths& run) {
 
 // Half the difference of the extremes.
 Measurement probe_amplitude(const MeasureSpec& spec, const RunPaths& run) {
-  const auto [low, high] = extremes(spec, run);
+  const auto [low, high] = probe_extremes(spec, run);
   return against(0.5 * (high - low), constant(spec.reference));
 }
 
 // Mean of the extremes.
 Measurement probe_middle(const MeasureSpec& spec, const RunPaths& run) {
-  const auto [low, high] = extremes(spec, run);
+  const auto [low, high] = probe_extremes(spec, run);
   return against(0.5 * (high + low), constant(spec.reference));
 }
 

@@ -35,19 +35,19 @@ Measurement solid_period(const MeasureSpec& spec, const RunPaths& run) {
   return against(mean_period(solid_during(spec, run), constant(spec.level)), constant(spec.reference));
 }
 
-std::pair<double, double> extremes(const MeasureSpec& spec, const RunPaths& run) {
+std::pair<double, double> solid_extremes(const MeasureSpec& spec, const RunPaths& run) {
   return extremes_during(solid_series(spec, run), spec.from, spec.to);
 }
 
 // Half the difference of the extremes.
 Measurement solid_amplitude(const MeasureSpec& spec, const RunPaths& run) {
-  const auto [low, high] = extremes(spec, run);
+  const auto [low, high] = solid_extremes(spec, run);
   return against(0.5 * (high - low), constant(spec.reference));
 }
 
 // Mean of the extremes.
 Measurement solid_middle(const MeasureSpec& spec, const RunPaths& run) {
-  const auto [low, high] = extremes(spec, run);
+  const auto [low, high] = solid_extremes(spec, run);
   return against(0.5 * (high + low), constant(spec.reference));
 }
 

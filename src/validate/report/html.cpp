@@ -34,7 +34,7 @@ std::string verdict_cell(const CaseResult& r) {
   return fmt::format("<td class='{}'>{}</td>", r.verdict == Verdict::passed ? "pass" : "miss", verdict_name(r.verdict));
 }
 
-std::string table_of(const std::vector<ReportedResult>& rows) {
+std::string html_table(const std::vector<ReportedResult>& rows) {
   const std::string& unit = rows[0].unit;
   std::string text = "<table><tr><th>run</th><th>cell size, m</th><th>measured" +
                      escape_html(unit.empty() ? "" : ", " + unit) +
@@ -86,7 +86,7 @@ std::string section_of(const Report& report, const std::vector<ReportedResult>& 
   const CaseSpec& one = rows[0].one;
   std::string text = fmt::format("<h2 id='{0}'>{1}</h2>\n<p><code>{2}</code></p>\n", one.name, escape_html(one.title),
                                  escape_html(command_of(report, one)));
-  text += table_of(rows);
+  text += html_table(rows);
   const bool passed =
       std::ranges::all_of(rows, [](const ReportedResult& row) { return row.result.verdict == Verdict::passed; });
   if (const std::string why = words_on_misses(rows); !why.empty())

@@ -92,7 +92,7 @@ std::string time_of(const CaseResult& r) {
                               : fmt::format("{:.0f} min", r.wall_seconds / 60);
 }
 
-std::string table_of(const Rows& rows) {
+std::string markdown_table(const Rows& rows) {
   std::string text = "| run | cell size, m | measured | reference | error | bar | order | fit | | time |\n";
   text += "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const ReportedResult& row : rows) {
@@ -181,7 +181,7 @@ std::string markdown_section(const PageContext& page, const Rows& rows) {
   text += readme_of(one);
   text +=
       fmt::format("{} {}\n\n    {}\n\n", words_on_measure(rows), words_on_scenes(rows), command_of(page.report, one));
-  text += table_of(rows) + "\n" + list_of_settings(rows);
+  text += markdown_table(rows) + "\n" + list_of_settings(rows);
   if (one.min_order) text += fmt::format("- Least order of the fit: {:g}.\n", *one.min_order);
   text += list_of_origins(page, rows) + list_of_others(rows) + list_of_failures(rows);
   if (const std::string why = words_on_misses(rows); !why.empty())
