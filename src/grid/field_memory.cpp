@@ -26,6 +26,10 @@ constexpr std::size_t large = std::size_t(1) << 20;
 #endif
 constexpr std::size_t page = 4096;
 
+std::size_t page_count(std::size_t bytes) {
+  return (bytes + page - 1) / page;
+}
+
 bool is_zero(const char* bytes, std::size_t count) {
   std::uint64_t any = 0, word = 0;
   std::size_t n = 0;
@@ -59,7 +63,7 @@ int open_pagemap() {
 // tell.
 std::vector<std::uint64_t> page_entries(const void* memory, std::size_t bytes) {
   static const int pagemap = open_pagemap();
-  std::vector<std::uint64_t> entries((bytes + page - 1) / page);
+  std::vector<std::uint64_t> entries(page_count(bytes));
   const std::size_t size = entries.size() * sizeof(entries[0]);
   const auto from = off_t(reinterpret_cast<std::uintptr_t>(memory) / page * sizeof(entries[0]));
   if (pagemap < 0 || ::pread(pagemap, entries.data(), size, from) != ssize_t(size))
@@ -82,18 +86,27 @@ bool is_dense(const void* memory, std::size_t bytes) {
   return 5 * std::size_t(in_use) > 4 * entries.size();
 }
 
+constexpr std::size_t pages_a_piece = 128;
+
+// The kernel's entries for pages begin to end of an array.
+std::vector<std::uint64_t> entries_of(const void* memory, std::size_t bytes, std::size_t begin, std::size_t end) {
+  return page_entries(static_cast<const char*>(memory) + begin * page, std::min(bytes, end * page) - begin * page);
+}
+
 // `drop`: gives pages back to the system that are zero already.
 void make_zero(void* memory, std::size_t bytes, bool drop) {
-  const std::vector<std::uint64_t> entries = page_entries(memory, bytes);
-  for (std::size_t n = 0; n < entries.size(); ++n) {
-    if (is_untouched(entries[n])) continue;
-    char* at = static_cast<char*>(memory) + n * page;
-    const std::size_t count = std::min(page, bytes - n * page);
-    if (!is_zero_page(at, count))
-      std::memset(at, 0, count);
-    else if (drop)
-      ::madvise(at, count, MADV_DONTNEED);
-  }
+  parallel_pieces(page_count(bytes), pages_a_piece, [&](std::size_t begin, std::size_t end) {
+    const std::vector<std::uint64_t> entries = entries_of(memory, bytes, begin, end);
+    for (std::size_t n = begin; n < end; ++n) {
+      if (is_untouched(entries[n - begin])) continue;
+      char* at = static_cast<char*>(memory) + n * page;
+      const std::size_t count = std::min(page, bytes - n * page);
+      if (!is_zero_page(at, count))
+        std::memset(at, 0, count);
+      else if (drop)
+        ::madvise(at, count, MADV_DONTNEED);
+    }
+  });
 }
 
 // Unused memory by size. Arrays that are mostly zero are kept apart from the others, so that their empty pages last.
@@ -178,15 +191,16 @@ void give_back(void* memory, std::size_t bytes) {
 }
 
 void copy_large(const void* from, void* to, std::size_t bytes) {
-  const std::vector<std::uint64_t> of_source = page_entries(from, bytes), of_target = page_entries(to, bytes);
-  parallel_pieces(of_source.size(), 16, [&](std::size_t begin, std::size_t end) {
+  parallel_pieces(page_count(bytes), pages_a_piece, [&](std::size_t begin, std::size_t end) {
+    const std::vector<std::uint64_t> of_source = entries_of(from, bytes, begin, end),
+                                     of_target = entries_of(to, bytes, begin, end);
     for (std::size_t n = begin; n < end; ++n) {
       const std::size_t count = std::min(page, bytes - n * page);
       const char* source = static_cast<const char*>(from) + n * page;
       char* target = static_cast<char*>(to) + n * page;
-      if (!is_untouched(of_source[n]) && !is_zero_page(source, count))
+      if (!is_untouched(of_source[n - begin]) && !is_zero_page(source, count))
         std::memcpy(target, source, count);
-      else if (!is_untouched(of_target[n]) && !is_zero_page(target, count))
+      else if (!is_untouched(of_target[n - begin]) && !is_zero_page(target, count))
         std::memset(target, 0, count);
     }
   });

@@ -22,7 +22,7 @@ Site base_site(const Layout<Dim>& layout, const Vec<Dim>& g, int low, int high, 
   for (int a = 0; a < Dim; ++a) {
     const int first = layout.padded().lower[a] + low, last = layout.padded().upper[a] - 1 - high;
     const double x = std::min(std::max(double(first), g[a]), double(last) + 1);  // `first` if g is NaN
-    const int i = std::min(int(std::floor(x)), last);
+    const int whole = int(x), i = std::min(whole - (x < whole ? 1 : 0), last);   // the floor; std::floor is a call
     t[a] = x - i;
     s += (i - layout.padded().lower[a]) * layout.stride(a);
   }
@@ -50,24 +50,29 @@ double interpolate_linear(const Layout<Dim>& layout, const double* f, const Vec<
   return sum;
 }
 
-// Tensor product of four-point Lagrange polynomials: fourth order, exact for cubics.
+// Tensor product of four-point Lagrange polynomials: fourth order, exact for cubics. Rows along the first axis are
+// summed as vectors.
 template <int Dim>
 double interpolate_cubic(const Layout<Dim>& layout, const double* f, const Vec<Dim>& g) {
   Vec<Dim> t;
   const Site s = detail::base_site<Dim>(layout, g, 1, 2, t);
   std::array<std::array<double, 4>, Dim> w;
   for (int a = 0; a < Dim; ++a) w[a] = lagrange_weights(t[a]);
-  const auto row = [&](const double* p) { return w[0][0] * p[-1] + w[0][1] * p[0] + w[0][2] * p[1] + w[0][3] * p[2]; };
-  const auto plane = [&](const double* p) {
+  using Row = Eigen::Array4d;
+  const auto row = [](const double* p) { return Eigen::Map<const Row>(p - 1); };
+  const auto plane = [&](const double* p) -> Row {
     const Site d = layout.stride(1);
     return w[1][0] * row(p - d) + w[1][1] * row(p) + w[1][2] * row(p + d) + w[1][3] * row(p + 2 * d);
   };
-  if constexpr (Dim == 2) return plane(f + s);
-  if constexpr (Dim == 3) {
+  Row sum;
+  if constexpr (Dim == 2) {
+    sum = plane(f + s);
+  } else {
     const Site d = layout.stride(2);
     const double* p = f + s;
-    return w[2][0] * plane(p - d) + w[2][1] * plane(p) + w[2][2] * plane(p + d) + w[2][3] * plane(p + 2 * d);
+    sum = w[2][0] * plane(p - d) + w[2][1] * plane(p) + w[2][2] * plane(p + d) + w[2][3] * plane(p + 2 * d);
   }
+  return (sum * Eigen::Map<const Row>(w[0].data())).sum();
 }
 
 // Six-point Lagrange weights at fraction t in [0, 1) between the third and the fourth point.

@@ -168,20 +168,21 @@ std::vector<Site> listed_sites(const Layout<Dim>& layout, const Box<Dim>& box, c
   return all;
 }
 
-// Sum of body(site, index) over a box on this rank only.
+// Sum of body(site, index), numbers or a type with += and zero {}, over a box on this rank only.
 template <int Dim, class Body>
-double local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+auto local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {
+  using Sum = std::decay_t<decltype(body(Site{}, IVec<Dim>{}))>;
   const detail::Rows<Dim> rows(layout, box);
-  std::vector<double> partial(std::size_t(rows.count), 0.0);
+  std::vector<Sum> partial(std::size_t(rows.count), Sum{});
   detail::for_each_row(rows, [&](std::int64_t r) {
     IVec<Dim> i = rows.first(r);
     Site s = layout.site(i);
-    double sum = 0;
+    Sum sum{};
     for (int n = 0; n < rows.length; ++n, ++s, ++i[0]) sum += body(s, i);
     partial[std::size_t(r)] = sum;
   });
-  double total = 0;
-  for (double p : partial) total += p;
+  Sum total{};
+  for (const Sum& p : partial) total += p;
   return total;
 }
 

@@ -16,28 +16,37 @@ struct ValueAndGradient {
   Vec<Dim> gradient = Vec<Dim>::Zero();
 };
 
+// Weights along each axis of the values and of the slopes.
+template <int Dim>
+struct CubicWeights {
+  std::array<std::array<double, 4>, Dim> value, slope;
+};
+
+// Sums over the stencil along the axes up to Axis, one axis at a time; `at`: its second point along each of them.
+template <int Axis, int Dim>
+ValueAndGradient<Dim> contract(const Layout<Dim>& layout, const CubicWeights<Dim>& w, const double* at) {
+  ValueAndGradient<Dim> r;
+  if constexpr (Axis < 0) {
+    r.value = *at;
+  } else {
+    for (int k = 0; k < 4; ++k) {
+      const auto part = contract<Axis - 1>(layout, w, at + (k - 1) * layout.stride(Axis));
+      r.value += w.value[Axis][k] * part.value;
+      for (int b = 0; b < Axis; ++b) r.gradient[b] += w.value[Axis][k] * part.gradient[b];
+      r.gradient[Axis] += w.slope[Axis][k] * part.value;
+    }
+  }
+  return r;
+}
+
 // Value and gradient of the cubic interpolant at index coordinates x.
 template <int Dim>
 ValueAndGradient<Dim> interpolate(const Layout<Dim>& layout, const double* f, const Vec<Dim>& x) {
   Vec<Dim> t;
   const Site base = detail::base_site<Dim>(layout, x, 1, 2, t);
-  std::array<std::array<double, 4>, Dim> w, dw;
-  for (int a = 0; a < Dim; ++a) w[a] = lagrange_weights(t[a]), dw[a] = lagrange_slopes(t[a]);
-  ValueAndGradient<Dim> r;
-  for (unsigned n = 0; n < 1u << (2 * Dim); ++n) {
-    Site at = base;
-    for (int a = 0; a < Dim; ++a) at += (int(n >> (2 * a) & 3u) - 1) * layout.stride(a);
-    double all = f[at];
-    Vec<Dim> slopes = Vec<Dim>::Constant(f[at]);
-    for (int a = 0; a < Dim; ++a) {
-      const std::size_t k = n >> (2 * a) & 3u;
-      all *= w[a][k];
-      for (int b = 0; b < Dim; ++b) slopes[b] *= a == b ? dw[a][k] : w[a][k];
-    }
-    r.value += all;
-    r.gradient += slopes;
-  }
-  return r;
+  CubicWeights<Dim> w;
+  for (int a = 0; a < Dim; ++a) w.value[a] = lagrange_weights(t[a]), w.slope[a] = lagrange_slopes(t[a]);
+  return contract<Dim - 1>(layout, w, f + base);
 }
 
 // True if the interpolant at x does not read phi across a medial axis. Tests the second differences at the inner points

@@ -1,5 +1,7 @@
 #include "levelset/fractions.h"
 
+#include <optional>
+
 #include "grid/loops.h"
 
 namespace seiche {
@@ -23,6 +25,34 @@ void visit_negative(const CutSimplex<N>& s, const Visit& visit) {
   near_high.measure = (1 - t) * s.measure;
   visit_negative(near_low, visit);
   visit_negative(near_high, visit);
+}
+
+// f at the corners, those with f < 0 first.
+template <int N>
+struct SortedCorners {
+  std::array<double, N + 1> f;
+  int negative = 0;
+
+  explicit SortedCorners(const std::array<double, N + 1>& values) {
+    int last = N;
+    for (const double v : values) (v < 0 ? f[negative++] : f[last--]) = v;
+  }
+  // Share of the edge from corner i to corner j on which f has the sign of corner i; corner j has the other sign.
+  double share(int i, int j) const { return f[i] / (f[i] - f[j]); }
+  // Share of the simplex cut off around corner i, the only one of its sign.
+  double around(int i) const {
+    double product = 1;
+    for (int j = 0; j <= N; ++j)
+      if (j != i) product *= share(i, j);
+    return product;
+  }
+};
+
+// Share of a tetrahedron with f < 0 at corners 0 and 1 only. The wedge is three tetrahedra, with ij the zero of the
+// edge from i to j: (0, 1, 12, 13), (0, 02, 03, 13) and (0, 02, 12, 13).
+double wedge(const SortedCorners<3>& s) {
+  const double to02 = s.share(0, 2), to03 = s.share(0, 3), to12 = s.share(1, 2), to13 = s.share(1, 3);
+  return to12 * to13 + to02 * to03 * (1 - to13) + to02 * (1 - to12) * to13;
 }
 
 template <class Values>
@@ -84,6 +114,46 @@ double cube_part(const Cube<3>& c) {
   return sum;
 }
 
+// phi (f) and -psi (g) at the corners of a cell, and phi at its centre.
+template <int Dim>
+Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
+  constexpr int corners = 1 << Dim;
+  Cube<Dim> c;
+  for (int k = 0; k < corners; ++k) {
+    Site node = cell;
+    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * layout.stride(a);
+    double sum = 0;
+    for (int m = 0; m < corners; ++m) {
+      Site around = node;
+      for (int a = 0; a < Dim; ++a) around -= ((m >> a) & 1) * layout.stride(a);
+      sum += phi[around];
+    }
+    c.f[k] = sum / corners;
+    c.g[k] = -psi[node];
+  }
+  c.f_center = phi[cell];
+  return c;
+}
+
+// Share with f < 0 and g < 0. Sets g_center.
+template <int Dim>
+double share_of(Cube<Dim>& c) {
+  if (none_negative(c.g) || (none_negative(c.f) && c.f_center >= 0)) return 0;
+  if (all_negative(c.f) && c.f_center < 0 && all_negative(c.g)) return 1;
+  c.g_center = mean<(1 << Dim)>(c.g);
+  return cube_part(c);
+}
+
+// The share of a cell that no surface comes near.
+template <int Dim>
+std::optional<double> plain_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                                  Site cell) {
+  const double far = 2 * layout.h();  // farther than any corner of the cell from its centre
+  if (phi[cell] > far) return 0;
+  if (phi[cell] < -far && psi[cell] > far) return 1;
+  return {};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -103,17 +173,22 @@ double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, i
 
 template <int N>
 double negative_measure(const CutSimplex<N>& s) {
-  double sum = 0;
-  visit_negative(s, [&](const CutSimplex<N>& part) { sum += part.measure; });
-  return sum;
+  const SortedCorners<N> corners(s.f);
+  if (corners.negative == 0) return 0;
+  if (corners.negative == N + 1) return s.measure;
+  if (corners.negative == 1) return s.measure * corners.around(0);
+  if (corners.negative == N) return s.measure * (1 - corners.around(N));
+  if constexpr (N == 3) return s.measure * wedge(corners);
+  return 0;  // no other count in one or two dimensions
 }
 
 template <int N>
 double negative_measure_both(const CutSimplex<N>& s) {
+  if (none_negative(s.f) || none_negative(s.g)) return 0;
+  if (all_negative(s.g)) return negative_measure(s);
   double sum = 0;
   visit_negative(s, [&](const CutSimplex<N>& part) {
-    CutSimplex<N> swapped{part.g, part.f, part.measure};
-    sum += negative_measure(swapped);
+    sum += negative_measure(CutSimplex<N>{part.g, part.f, part.measure});
   });
   return sum;
 }
@@ -129,34 +204,30 @@ void open_fractions(const Layout<Dim>& layout, const NodeField<Dim>& psi, FaceFi
 
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
-  constexpr int corners = 1 << Dim;
-  const double far = 2 * layout.h();  // farther than any corner of the cell from its centre
-  if (phi[cell] > far) return 0;
-  if (phi[cell] < -far && psi[cell] > far) return 1;
-  Cube<Dim> c;
-  for (int k = 0; k < corners; ++k) {
-    Site node = cell;
-    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * layout.stride(a);
-    double sum = 0;
-    for (int m = 0; m < corners; ++m) {
-      Site around = node;
-      for (int a = 0; a < Dim; ++a) around -= ((m >> a) & 1) * layout.stride(a);
-      sum += phi[around];
-    }
-    c.f[k] = sum / corners;
-    c.g[k] = -psi[node];
-  }
-  c.f_center = phi[cell];
-  if (none_negative(c.g) || (none_negative(c.f) && c.f_center >= 0)) return 0;
-  if (all_negative(c.f) && c.f_center < 0 && all_negative(c.g)) return 1;
-  c.g_center = mean<corners>(c.g);
-  return cube_part(c);
+  if (const std::optional<double> plain = plain_share(layout, phi, psi, cell)) return *plain;
+  Cube<Dim> c = corners_of(layout, phi, psi, cell);
+  return share_of(c);
 }
 
 template <int Dim>
 double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
   return layout.geometry().cell_volume() *
          local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) { return liquid_share(layout, phi, psi, s); });
+}
+
+template <int Dim>
+VolumeAndArea local_volume_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
+  const double probe = 1e-3 * layout.h();
+  VolumeAndArea sum = local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) -> VolumeAndArea {
+    if (const std::optional<double> plain = plain_share(layout, phi, psi, s)) return {*plain, 0};
+    Cube<Dim> c = corners_of(layout, phi, psi, s);
+    const double share = share_of(c);
+    for (double& f : c.f) f -= probe;
+    c.f_center -= probe;
+    return {share, (share_of(c) - share) / probe};
+  });
+  const double cell = layout.geometry().cell_volume();
+  return {cell * sum.volume, cell * sum.area};
 }
 
 template double negative_measure<1>(const CutSimplex<1>&);
@@ -172,5 +243,7 @@ template double liquid_share<2>(const Layout<2>&, const CellField<2>&, const Nod
 template double liquid_share<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
 template double local_liquid_volume<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
 template double local_liquid_volume<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
+template VolumeAndArea local_volume_and_area<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
+template VolumeAndArea local_volume_and_area<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
 
 }  // namespace seiche

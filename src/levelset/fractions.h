@@ -37,4 +37,17 @@ double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const 
 template <int Dim>
 double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi);
 
+// Liquid volume of the owned cells, m^Dim, and area of its free surface there, m^(Dim-1): the volume gained a metre by
+// which phi falls.
+struct VolumeAndArea {
+  double volume = 0, area = 0;
+  VolumeAndArea& operator+=(const VolumeAndArea& other) {
+    volume += other.volume;
+    area += other.area;
+    return *this;
+  }
+};
+template <int Dim>
+VolumeAndArea local_volume_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi);
+
 }  // namespace seiche

@@ -185,13 +185,17 @@ class Relaxation {
     return c;
   }
 
-  // One-sided slope along the axis. The difference ends at the interface (phi = 0) if it lies between.
-  double slope(const BandCell<Dim>& c, int axis, int side) const {
-    const Site d = side == 0 ? -layout_.stride(axis) : layout_.stride(axis);
-    const double* f = phi_.data() + c.site;
-    const double reach = c.reach[axis][side];
-    const double rise = reach < 1 ? -f[0] : f[d] - f[0];
-    return rise / reach - 0.5 * reach * minmod(second(f, d), second(f + d, d));
+  // Values in a row of five cells along an axis, from the second before to the second behind the middle one.
+  using Row = std::array<double, 5>;
+
+  // One-sided slopes along the axis, below and above. A difference ends at the interface (phi = 0) if it lies between.
+  static std::array<double, 2> slopes(const Row& f, const std::array<double, 2>& reach) {
+    const double low = f[0] + f[2] - 2 * f[1], middle = f[1] + f[3] - 2 * f[2], high = f[2] + f[4] - 2 * f[3];
+    const double bends[] = {0.5 * minmod(middle, low), 0.5 * minmod(middle, high)};
+    std::array<double, 2> slope{f[1] - f[2] - bends[0], f[3] - f[2] - bends[1]};
+    for (int side = 0; side < 2; ++side)
+      if (reach[side] < 1) slope[side] = -f[2] / reach[side] - reach[side] * bends[side];
+    return slope;
   }
 
   // Godunov's |grad phi| for a front moving away from the interface.
@@ -201,8 +205,11 @@ class Relaxation {
   };
   Gradient gradient(const BandCell<Dim>& c) const {
     Gradient g;
+    const double* f = phi_.data() + c.site;
     for (int a = 0; a < Dim; ++a) {
-      const double backward = -slope(c, a, 0) * c.sign, forward = slope(c, a, 1) * c.sign;
+      const Site d = layout_.stride(a);
+      const auto [below, above] = slopes({f[-2 * d], f[-d], f[0], f[d], f[2 * d]}, c.reach[a]);
+      const double backward = -below * c.sign, forward = above * c.sign;
       const double steepest = std::max({backward, -forward, 0.0});
       g.norm += steepest * steepest;
       g.enters = g.enters || (steepest > 0 && (c.sides >> (2 * a + (steepest == backward ? 0 : 1)) & 1u));

@@ -76,25 +76,28 @@ Verified verify_solids(const Scene& scene, bool set_up) {
   return found;
 }
 
-// Number of steps for liquid in free fall through the domain: v = sqrt(2 g H), dt = cfl h / v. At least one step a
-// frame.
-double expected_steps(const Scene& scene) {
+// Speed of liquid that falls freely through the domain, sqrt(2 g H), m/s. 0 without gravity.
+double fall_speed(const Scene& scene) {
   const Gravity gravity(scene.gravity);
   const Vec3 start = gravity.at(0);
   const double g = gravity.largest(0, scene.time.end), first = start.norm();
   const Vec3 extent = scene.domain.upper - scene.domain.lower;
   const double height = first > 0 ? std::abs(extent.dot(start)) / first : g > 0 ? extent.maxCoeff() : 0;
-  const double speed = std::sqrt(2 * g * height);
+  return std::sqrt(2 * g * height);
+}
+
+// Number of steps dt = cfl h / speed, at least one a frame.
+double expected_steps(const Scene& scene, double speed) {
   double dt = speed > 0 ? scene.time.cfl * scene.domain.cell_size / speed : 1 / scene.time.frame_rate;
   if (scene.time.max_step) dt = std::min(dt, *scene.time.max_step);
   if (scene.time.fixed_step) dt = *scene.time.fixed_step;
-  return std::max(scene.time.end / dt, double(last_frame(scene.time)));
+  return std::ceil(std::max({0.0, scene.time.end / dt, double(last_frame(scene.time))}));
 }
 
 std::string report(const Scene& scene, const Cost& cost, int ranks) {
   const auto& n = scene.domain.cells;
   const int frames = last_frame(scene.time) + 1;
-  const double steps = std::max(0.0, expected_steps(scene));
+  const double speed = fall_speed(scene), steps = expected_steps(scene, speed);
   const double seconds = steps * double(cost.cells) / (cells_a_core_second * ranks);
   // A frame holds at most a level set and three velocity components a cell, 4 bytes each.
   const double frame_bytes = 16.0 * double(cost.cells);
@@ -103,7 +106,9 @@ std::string report(const Scene& scene, const Cost& cost, int ranks) {
   text += fmt::format(")\nmemory  about {}\n", readable_bytes(cost.bytes));
   text += fmt::format("frames  {} (0 to {:g} s, {:g} a second), at most {} on disk\n", frames, scene.time.end,
                       scene.time.frame_rate, readable_bytes(frames * frame_bytes));
-  text += fmt::format("steps   about {:.0f}, if the liquid falls through the whole domain\n", steps);
+  text += fmt::format("steps   {} {:.0f}, {}\n", speed > 0 ? "about" : "at least", steps,
+                      speed > 0 ? "if the liquid falls through the whole domain"
+                                : "one a frame; without gravity it depends on how fast the liquid flows");
   return text + fmt::format("time    about {} on {} core{}, within a factor of three", readable_seconds(seconds), ranks,
                             ranks == 1 ? "" : "s");
 }

@@ -110,7 +110,7 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const DomainBoundar
   still_.faces = FaceGeometry<Dim>(layout);
   joints_ = find_joints(bodies, joint_gap * layout.h());
   for (const Body<Dim>& body : bodies)
-    radius_.push_back(body.kind().moves() && !body.elements() ? surface_radius(layout, body) : 0);
+    radius_.push_back(body.moves() && !body.elements() ? surface_radius(layout, body) : 0);
   measure_static();
 }
 
@@ -133,7 +133,7 @@ template <int Dim>
 FaceField<Dim, std::int16_t> SolidGeometry<Dim>::seal_static() const {
   FaceField<Dim, std::int16_t> seal(layout_, -1);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (!bodies_[k].is_thin() || bodies_[k].kind().moves()) continue;
+    if (!bodies_[k].is_thin() || bodies_[k].moves()) continue;
     const std::unique_ptr<PlacedSolid<Dim>> solid = place_solid(layout_, bodies_[k], {});
     for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(layout_, measured_faces(layout_), [&](Site f, const IVec<Dim>& i) {
@@ -149,7 +149,7 @@ template <int Dim>
 void SolidGeometry<Dim>::measure_static() {
   bool any = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (bodies_[k].kind().moves()) continue;
+    if (bodies_[k].moves()) continue;
     any = true;
     for_each_index_in_order(layout_, layout_.padded(), [&](Site s, const IVec<Dim>& i) {
       const double d = snapped(
@@ -272,13 +272,13 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   NodeField<Dim> scratch;
   std::vector<FaceShares> shares(bodies_.size());
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    if (!bodies_[k].kind().moves()) continue;
+    if (!bodies_[k].moves()) continue;
     if (scratch.empty()) scratch = NodeField<Dim>(layout_, far_away);
     shares[k] = measure_moving(int(k), placed[k], scratch, g);
   }
   close_faces(shares, g);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
-    if (bodies_[k].kind().moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
+    if (bodies_[k].moves()) g.shares[k] = std::make_shared<const FaceShares>(std::move(shares[k]));
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     g.pivots.push_back(placed[k].pose.apply(bodies_[k].reference_point()));
     set_motion(layout_, int(k), placed[k], g);
@@ -314,7 +314,7 @@ double SolidGeometry<Dim>::largest_displacement(const std::vector<Placement>& pl
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const Twist& v = placed[k].twist;
     largest = std::max(largest, dt * fastest_node<Dim>(placed[k].velocity));
-    if (bodies_[k].kind().is_free() && is_leaving(placed[k], radius_[k])) continue;
+    if (bodies_[k].is_free() && is_leaving(placed[k], radius_[k])) continue;
     largest = std::max(largest, dt * (v.linear.norm() + v.angular.norm() * radius_[k]));
   }
   return largest;

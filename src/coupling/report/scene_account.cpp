@@ -102,7 +102,7 @@ void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount
   const double volume = mass_of_surface<Dim>(mesh, 1).volume;
   const double share = volume > 0 ? clipped_volume<Dim>(mesh, extent.lower, extent.upper) / volume : 1;
   std::string line = fmt::format("{}: {}", name, volume_text<Dim>(volume));
-  if (body.kind().is_free())
+  if (body.is_free())
     line += fmt::format(", {:.5g} kg{}, centre of mass {}", body.mass().mass, Dim == 2 ? "/m" : "",
                         rounded_place<Dim>(body.mass().center));
   line += fmt::format(", from {} to {} m", rounded_place<Dim>(box.min()), rounded_place<Dim>(box.max()));

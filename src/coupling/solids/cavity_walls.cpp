@@ -205,7 +205,7 @@ bool is_fed(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeom
   fed = domain.ranks.any(fed);
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Body<Dim>& body = solids.bodies[k];
-    if (!body.kind().is_prescribed()) continue;
+    if (!body.is_prescribed()) continue;
     fed = fed || (!ends_at(cavity.walls, body.spec().motion) && feeds(domain, g, component, cavity.components, k));
   }
   return fed;

@@ -46,7 +46,7 @@ BlockColumns scaled(BlockColumns J, double by) {
 template <int Dim>
 bool sticks_to_what_it_moves(const Solids<Dim>& solids) {
   return std::any_of(solids.bodies.begin(), solids.bodies.end(),
-                     [](const Body<Dim>& b) { return b.kind().is_free() && b.spec().slip == Slip::no_slip; });
+                     [](const Body<Dim>& b) { return b.is_free() && b.spec().slip == Slip::no_slip; });
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ bool any_body(const Solids<Dim>& solids, bool (*holds)(const Body<Dim>&)) {
 
 template <int Dim>
 bool has_kinematic(const Solids<Dim>& solids) {
-  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.kind().is_prescribed(); });
+  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.is_prescribed(); });
 }
 
 template <int Dim>

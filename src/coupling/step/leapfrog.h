@@ -41,7 +41,7 @@ std::vector<Placement> place_halfway(const State<Dim>& state, double dt);
 // True if any solid moves.
 template <int Dim>
 bool any_moves(const Solids<Dim>& solids) {
-  return std::any_of(solids.bodies.begin(), solids.bodies.end(), [](const Body<Dim>& b) { return b.kind().moves(); });
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(), [](const Body<Dim>& b) { return b.moves(); });
 }
 
 // The geometry of the solve with the distances psi and the poses of the end of the step.

@@ -39,7 +39,7 @@ std::vector<char> unmoved_bodies(const Solids<Dim>& solids, const StepGeometry<D
     const Body<Dim>& body = solids.bodies[k];
     const Pose start = body.pose(0), &now = g.placed[k].pose;
     const bool same = start.displacement == now.displacement && start.rotation == now.rotation;
-    unmoved.push_back(same && g.placed[k].twist.at_rest() && !body.kind().is_free());
+    unmoved.push_back(same && g.placed[k].twist.at_rest() && !body.is_free());
   }
   return unmoved;
 }

@@ -338,18 +338,15 @@ template <int Dim>
 double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, double expected, double limit,
                       CellField<Dim>& phi) {
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
-  const double volume = liquid_volume(domain, phi, psi);
-  const double missing = expected - volume, probe = 1e-3 * domain.layout.h();
-  CellField<Dim> shifted = phi;
-  const auto shift = [&](double by) {
-    for_each_site(domain.layout, domain.layout.padded(),
-                  [&](Site c) { shifted[c] = std::abs(phi[c]) < domain.band() ? phi[c] - by : phi[c]; });
-  };
-  shift(probe);
-  const double area = (liquid_volume(domain, shifted, psi) - volume) / probe;  // of the free surface
+  const VolumeAndArea own = local_volume_and_area(domain.layout, phi, psi);
+  std::array<double, 2> sums{own.volume, own.area};
+  domain.ranks.global_sum(sums);
+  const auto [volume, area] = sums;
   if (area <= 0) return 0;
-  shift(std::clamp(missing / area, -limit, limit));
-  phi = shifted;
+  const double by = std::clamp((expected - volume) / area, -limit, limit);
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) {
+    if (std::abs(phi[c]) < domain.band()) phi[c] -= by;
+  });
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
   return liquid_volume(domain, phi, psi) - volume;
 }

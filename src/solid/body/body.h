@@ -38,6 +38,9 @@ class Body {
 
   const SolidSpec& spec() const { return spec_; }
   const SolidKind& kind() const { return spec_.kind; }
+  bool moves() const { return spec_.kind.moves(); }
+  bool is_prescribed() const { return spec_.kind.is_prescribed(); }
+  bool is_free() const { return spec_.kind.is_free(); }                 // forces move it: it has mass and unknowns
   const ElasticSolid<Dim>* elements() const { return elastic_.get(); }  // null: not elastic
   const ElasticSolid<Dim>& elastic() const { return *elastic_; }        // of an elastic solid only
   const MassProperties& mass() const { return mass_; }                  // at rest; zero unless forces move it

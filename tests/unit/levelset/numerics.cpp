@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "grid/loops.h"
 #include "levelset/closest_point.h"
@@ -55,6 +56,29 @@ TEST_CASE("cut simplices: halves, corners, and two cuts at once") {
   CHECK(negative_measure_both(CutSimplex<2>{{-1, 1, -1}, {-1, -1, 1}, 1.0}) == Approx(0.5));
 }
 
+// The share of a simplex with f < 0, f linear and distinct at the corners: the sum over corners i with f_i < 0 of the
+// products of f_i/(f_i - f_j) over the other corners (Curry, Schoenberg 1966: a B-spline's integral).
+TEST_CASE("tetrahedra are cut as the integral of a B-spline says") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (int n = 0; n < 200; ++n) {
+    CutSimplex<3> s{{}, {-1, -1, -1, -1}, 1.0};
+    double exact = 0;
+    for (double& f : s.f) f = value(random);
+    for (int i = 0; i < 4; ++i) {
+      double product = s.f[std::size_t(i)] < 0 ? 1 : 0;
+      for (int j = 0; j < 4; ++j)
+        if (j != i) product *= s.f[std::size_t(i)] / (s.f[std::size_t(i)] - s.f[std::size_t(j)]);
+      exact += product;
+    }
+    // The terms of the sum grow as 1/(f_i - f_j) and cancel: 1e-9 leaves room for values that nearly agree.
+    CHECK(negative_measure(s) == Approx(exact).margin(1e-9));
+    CHECK(negative_measure_both(s) == negative_measure(s));
+    const CutSimplex<3> both{s.f, s.f, 1.0};
+    CHECK(negative_measure_both(both) == Approx(exact).margin(1e-9));
+  }
+}
+
 TEMPLATE_TEST_CASE_SIG("liquid volume: exact under planes, second order for balls, cut by solids", "", ((int Dim), Dim),
                        2, 3) {
   const auto everywhere = [](const Vec<Dim>&) { return 1e30; };
@@ -66,6 +90,9 @@ TEMPLATE_TEST_CASE_SIG("liquid volume: exact under planes, second order for ball
   const auto wall = [](const Vec<Dim>& x) { return x[0] - 0.37; };
   const auto pool = [](const Vec<Dim>& x) { return x[1] - 0.61; };
   CHECK(local_liquid_volume(f.layout, f.cells(pool), f.nodes(wall)) == Approx(0.63 * 0.61).margin(1e-12));
+  const VolumeAndArea beside = local_volume_and_area(f.layout, f.cells(pool), f.nodes(wall));
+  CHECK(beside.volume == Approx(0.63 * 0.61).margin(1e-12));
+  CHECK(beside.area == Approx(0.63).epsilon(1e-9));  // what the wall leaves open of the pool's surface
 
   std::array<double, 2> error;
   for (int k = 0; k < 2; ++k) {
