@@ -12,14 +12,14 @@ PairKey key(const Candidate& p) {
   return {int(p.kind), p.points[0], p.points[1], p.points[2], p.points[3]};
 }
 
-// Points that no longer press, with half their bounds. Bounds below a thousandth of the largest one end.
+// Points that no longer press, with a share of their bounds. Bounds below a thousandth of the largest one end.
 template <int Dim>
-void keep_fading(const std::map<PairKey, FrictionPoint<Dim>>& gone, double largest,
+void keep_fading(const std::map<PairKey, FrictionPoint<Dim>>& gone, double share, double largest,
                  std::vector<FrictionPoint<Dim>>& points) {
   for (const auto& [pair, f] : gone) {
-    if (0.5 * f.bound <= 1e-3 * largest) continue;
+    if (share * f.bound <= 1e-3 * largest) continue;
     points.push_back(f);
-    points.back().bound *= 0.5;
+    points.back().bound *= share;
   }
 }
 
@@ -27,21 +27,25 @@ void keep_fading(const std::map<PairKey, FrictionPoint<Dim>>& gone, double large
 
 template <int Dim>
 void update_friction(const Scene<Dim>& scene, const Placement<Dim>& at, const std::vector<Candidate>& pairs,
-                     const Weights& weights, bool damped, std::vector<FrictionPoint<Dim>>& points) {
+                     const Weights& weights, double taken, std::vector<FrictionPoint<Dim>>& points) {
   std::map<PairKey, FrictionPoint<Dim>> known;
   for (const FrictionPoint<Dim>& f : points) known.emplace(key(f.pair), f);
   points = friction_points<Dim>(scene, at, pairs, weights);
   double largest = 0;
   for (FrictionPoint<Dim>& f : points) {
     largest = std::max(largest, f.bound);
-    if (damped) f.bound *= 0.5;
+    f.bound *= taken;
     const auto before = known.find(key(f.pair));
     if (before == known.end()) continue;
-    f.direction = f.tangent.transpose() * (before->second.tangent * before->second.direction);
-    if (damped) f.bound += 0.5 * before->second.bound;
+    const double bound = f.bound + (1 - taken) * before->second.bound;
+    if (taken < 1)
+      f = before->second;
+    else
+      f.direction = f.tangent.transpose() * (before->second.tangent * before->second.direction);
+    f.bound = bound;
     known.erase(before);
   }
-  if (damped) keep_fading<Dim>(known, largest, points);
+  keep_fading<Dim>(known, 1 - taken, largest, points);
 }
 
 template <int Dim>
@@ -55,7 +59,7 @@ void turn_friction(const Velocities<Dim>& from, const Velocities<Dim>& to, doubl
 
 #define SEICHE_INSTANTIATE(Dim)                                                                               \
   template void update_friction<Dim>(const Scene<Dim>&, const Placement<Dim>&, const std::vector<Candidate>&, \
-                                     const Weights&, bool, std::vector<FrictionPoint<Dim>>&);                 \
+                                     const Weights&, double, std::vector<FrictionPoint<Dim>>&);               \
   template void turn_friction<Dim>(const Velocities<Dim>&, const Velocities<Dim>&, double,                    \
                                    std::vector<FrictionPoint<Dim>>&);
 SEICHE_INSTANTIATE(2)

@@ -23,8 +23,11 @@ constexpr double settled_share = 0.1, settled_of_change = 1e-4;
 // caused: forces that will change need no accurate minimum.
 constexpr double first_of_change = 0.3, last_of_change = 1e-6, sharpening = 0.5, worth_resolving = 0.1;
 
-// Updates of friction after which normal forces are damped: two bodies may press in turns, for ever.
+// Updates of friction after which normal forces are damped, since bodies may press in turns, for ever; and after which
+// friction keeps its points, since these may leap to and fro along edges that are nearly parallel. Half of an update is
+// taken, and half of that share again where an update moves more than `stalled` times what the one before moved.
 constexpr int damped_from = 8;
+constexpr double stalled = 0.95, least_taken = 1.0 / 32;
 
 enum class Outcome { converged, failed };
 
@@ -119,17 +122,20 @@ class Solver {
   // Alternates Newton's method and updates of the friction forces until these converge.
   Outcome solve_with_friction() {
     report_.friction = FrictionState::none;
-    double share = may_rub() ? first_of_change : last_of_change;
+    double share = may_rub() ? first_of_change : last_of_change, taken = 1, moved = 0;
     for (int i = 0; i < options_.friction_limit; ++i, share = next_share(share)) {
       const bool rubbed = !friction_.empty();
-      update_friction<Dim>(scene_, at_, pairs_, weights_, i >= damped_from, friction_);
+      if (i == damped_from || (i > damped_from && first_step_ > stalled * moved))
+        taken = std::max(least_taken, taken / 2);
+      moved = first_step_;
+      update_friction<Dim>(scene_, at_, pairs_, weights_, taken, friction_);
       const bool rubs = !friction_.empty();
       if (i > 0 && !rubs && !rubbed && last_step_ <= tolerance(last_of_change)) return Outcome::converged;
       report_.friction_updates += rubs;
       if (rubs) report_.friction = FrictionState::unsettled;
       if (newton(share) == Outcome::failed) return Outcome::failed;
-      if (i == 0 || first_step_ > std::max(settled_share * options_.creep_speed, settled_of_change * change()))
-        continue;
+      const double settled = std::max(settled_share * options_.creep_speed, settled_of_change * change());
+      if (i == 0 || first_step_ > taken * settled) continue;
       if (rubs) report_.friction = FrictionState::settled;
       break;
     }
