@@ -43,7 +43,13 @@ std::vector<Column> columns(const StepStats& s) {
           {"rheology_iterations", std::int64_t(s.rheology_iterations)},
           {"gas_volume", s.gas_volume},
           {"bubbles", s.bubbles},
-          {"air_lost", s.air_lost}};
+          {"air_lost", s.air_lost},
+          {"work_gravity", s.work.gravity},
+          {"work_tension", s.work.tension},
+          {"work_sides", s.work.sides},
+          {"work_solids", s.work.solids},
+          {"lost_viscous", s.work.lost_viscous},
+          {"lost_numerical", s.work.lost_numerical}};
 }
 
 std::vector<Column> columns(const SolidState& s) {

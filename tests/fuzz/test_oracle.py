@@ -15,7 +15,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 from fuzzing import damage, oracle, registry, scene_mode, scenes, tables, toml  # noqa: E402
-from fuzzing.program import Done, kill_session, session_members  # noqa: E402
+from fuzzing.program import Done, kill_session, refused_by_sanitizer, session_members  # noqa: E402
 
 SCENE = {"dimension": 2, "domain": {"lower": [0, 0], "upper": [1, 1], "cell_size": 0.1}, "liquid": {"density": 1000.0}}
 COLUMNS = ("step", "time", "liquid_volume", "kinetic_energy", "potential_energy", "elastic_energy", "wall_seconds")
@@ -46,6 +46,12 @@ class Ends(unittest.TestCase):
             with self.assertRaises(tables.Fault) as found:
                 oracle.check_end(done, (0, 2, 3), "run")
             self.assertEqual(found.exception.what, what)
+
+
+    def test_allocation_beyond_the_sanitizer(self):
+        done = refused_by_sanitizer(ended(1, "==7==ERROR: AddressSanitizer: requested allocation size 0x43233746e6900"))
+        oracle.check_end(done, (0, 2), "run")
+        self.assertEqual(done.code, 2)
 
 
 class Kills(unittest.TestCase):

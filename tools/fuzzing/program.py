@@ -68,9 +68,18 @@ class Program:
             process = self.start(*arguments, folder=folder, ranks=ranks, heap=heap, out=out, err=err)
             code, usage = wait(process, started + 8 * self.cpu)
             printed = os.fstat(out.fileno()).st_size + os.fstat(err.fileno()).st_size
-            return Done(code, tail(out), tail(err), printed, time.monotonic() - started,
-                        usage.ru_utime + usage.ru_stime if usage else self.cpu,
-                        usage.ru_maxrss * 1024 if usage else 0)
+            return refused_by_sanitizer(
+                Done(code, tail(out), tail(err), printed, time.monotonic() - started,
+                     usage.ru_utime + usage.ru_stime if usage else self.cpu,
+                     usage.ru_maxrss * 1024 if usage else 0))
+
+
+def refused_by_sanitizer(done):
+    """The address sanitizer aborts where a damaged file asks for terabytes at once. Without it the allocation throws,
+    and the program refuses the file."""
+    if "AddressSanitizer: requested allocation size" in done.errors:
+        done.code, done.errors = 2, "seiche: asks for more memory than the address sanitizer has"
+    return done
 
 
 def tail(stream):

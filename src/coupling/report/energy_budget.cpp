@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/report/energy_account.h"
 #include "coupling/report/measures.h"
 #include "coupling/state/attempt.h"
 #include "coupling/state/fluids.h"
@@ -10,7 +11,6 @@
 #include "coupling/tension/surface_tension.h"
 #include "coupling/transport/given_motion.h"
 #include "fluid/boundary/domain.h"
-#include "grid/domain_faces.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -57,23 +57,6 @@ double fastest_led(const Solids<Dim>& solids, const Attempt<Dim>& attempt, doubl
   return std::max(fastest, solids.geometry.largest_displacement(placed, 1));
 }
 
-// p.b/A of the sides on this rank: volume flux into the domain times the pressure that it enters against.
-template <int Dim>
-double pushed_by_sides(const Domain<Dim>& domain, const Attempt<Dim>& attempt) {
-  const FaceGeometry<Dim>& faces = attempt.geometry.faces;
-  double sum = 0;
-  for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2; ++side)
-      for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>&) {
-        const Site inside = side == 0 ? f : f - domain.layout.stride(a);
-        const double inward = (side == 0 ? 1 : -1) * faces.open.at(a, f);
-        const FaceKind kind = faces.kind_at(a, f);
-        if (kind == FaceKind::prescribed) sum += inward * faces.prescribed.at(a, f) * attempt.state.pressure[inside];
-        if (kind == FaceKind::outflow) sum += inward * attempt.state.now->u.at(a, f) * faces.side_pressure.at(a, f);
-      });
-  return sum;
-}
-
 // p.b/A of prescribed body k on this rank. For an elastic body with moving pins it is an upper bound: all of its
 // surface moves at their speed.
 template <int Dim>
@@ -97,13 +80,15 @@ double pushed_by_body(const Domain<Dim>& domain, const Attempt<Dim>& attempt, st
 
 // dt p.b, J, at least 0. Collective.
 template <int Dim>
-double pushed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Attempt<Dim>& attempt, double t, double dt) {
-  double sum = pushed_by_sides(domain, attempt);
+double pushed(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& before,
+              const Attempt<Dim>& attempt, double t, double dt) {
+  double sum = 0;
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const double pinned = attempt.state.solids[k].fastest_prescribed_part(t, dt);
     sum += pushed_by_body(domain, attempt, k, pinned);
   }
-  return std::max(0.0, dt * domain.ranks.global_sum(sum) * domain.layout.geometry().face_area());
+  const double by_bodies = domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
+  return std::max(0.0, dt * (pressure_power_of_sides(domain, before, attempt) + by_bodies));
 }
 
 // sqrt(f'M^-1 f) with lumped M, f the tractions and body forces.
@@ -137,7 +122,7 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
   b.given = still * s.domain.layout.h() / dt + fastest_led(s.solids, attempt, t, span) +
             std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt);
   b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
-  b.pushed = pushed(s.domain, s.solids, attempt, t, dt);
+  b.pushed = pushed(s.domain, s.solids, before, attempt, t, dt);
   return b;
 }
 

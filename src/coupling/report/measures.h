@@ -29,9 +29,10 @@ template <int Dim>
 std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                        const State<Dim>& state, const StepGeometry<Dim>& geometry);
 
-// One sample of a probe. Collective; equal on all ranks.
+// One sample of a probe. `geometry`: of the last solve. Collective; equal on all ranks.
 template <int Dim>
-ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const ProbeSpec& probe);
+ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry,
+                          const ProbeSpec& probe);
 
 // Material points of displacement probes, by name of the probe. Throws Error(bad_input) if one lies outside its solid.
 template <int Dim>

@@ -1,5 +1,6 @@
 // Probes: pressure and velocity at a point, surface height above it, front along x, displacement of an elastic solid.
 #include "coupling/report/measures.h"
+#include "coupling/report/pressure_beside_solids.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -52,12 +53,15 @@ bool has_pressure(const Domain<Dim>& domain, const State<Dim>& state, const Vec<
                            state.exterior->has_pressure(domain.layout.site(cell_of(domain.layout, x)))));
 }
 
-// Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall.
+// Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall, one
+// on a solid that of the solid's side.
 template <int Dim>
-double pressure_at(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
+double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& geometry, const Vec<Dim>& x) {
+  const Domain<Dim>& domain = s.domain;
+  const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
+  if (const auto beside = pressure_beside_solids(s, state, geometry, x, in_liquid)) return *beside;
   FieldValues<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
   FieldValues<char> known(p.size(), 0);
-  const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
   for_each_site(domain.layout, domain.layout.cells(),
                 [&](Site c) { known[c] = (state.phi[c] < 0) == in_liquid && p[c] != 0; });
   extrapolate(domain.layout, domain.halo, domain.layout.cells(), {2, 2}, p, known);
@@ -158,7 +162,8 @@ Vec3 velocity_at(const Domain<Dim>& domain, const Fluids& fluids, const State<Di
 }
 
 template <int Dim>
-ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const ProbeSpec& probe) {
+ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& geometry,
+                          const ProbeSpec& probe) {
   ProbeSample out;
   out.name = probe.name;
   const Vec<Dim> x = truncate<Dim>(probe.position);
@@ -169,7 +174,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
   switch (probe.kind) {
     case ProbeKind::pressure:
       out.defined = has_pressure(s.domain, state, x);
-      if (out.defined) out.value = pressure_at(s.domain, state, x);
+      if (out.defined) out.value = pressure_at(s, state, geometry, x);
       break;
     case ProbeKind::velocity:
       out.is_vector = true;
@@ -192,7 +197,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const Pr
 
 template std::map<std::string, MaterialPoint> find_followed_points<2>(const std::vector<ProbeSpec>&, const Solids<2>&);
 template std::map<std::string, MaterialPoint> find_followed_points<3>(const std::vector<ProbeSpec>&, const Solids<3>&);
-template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const ProbeSpec&);
-template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const ProbeSpec&);
+template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const StepGeometry<2>&, const ProbeSpec&);
+template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const StepGeometry<3>&, const ProbeSpec&);
 
 }  // namespace seiche

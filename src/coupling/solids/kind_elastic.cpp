@@ -101,6 +101,7 @@ void ElasticParticipant<Dim>::take(const SolidCoupling<Dim>& c, int block, const
 template <int Dim>
 void ElasticParticipant<Dim>::take_reactions(const Eigen::VectorXd& forces) {
   motion_.reaction = total_load(elements(), motion_.state.u, forces);
+  pin_forces_ = forces;
 }
 
 template <int Dim>
@@ -201,6 +202,15 @@ void ElasticParticipant<Dim>::add_loads(SolidState& out) const {
   add_load(motion_.reaction, out.position, out.pin_force, out.pin_torque);
 }
 
+// Forces belong to the ends of the way, the velocities to all of it: W = span v.(f(t) + f(t + span))/2.
+template <int Dim>
+double ElasticParticipant<Dim>::driven_work(const Participant<Dim>& before, double t, double span) const {
+  const auto along = [&](const Eigen::VectorXd& f) { return f.size() == 0 ? 0 : f.dot(motion_.velocity); };
+  const auto& earlier = static_cast<const ElasticParticipant&>(before);
+  const Eigen::VectorXd from = applied_force_at(elements(), t), to = applied_force_at(elements(), t + span);
+  return 0.5 * span * (along(earlier.pin_forces_) + along(pin_forces_) + along(from) + along(to));
+}
+
 // With the lumped mass; f: tractions and body forces.
 template <int Dim>
 double ElasticParticipant<Dim>::pull(double t) const {
@@ -240,6 +250,7 @@ void ElasticParticipant<Dim>::visit(StateVisitor& visitor) {
   visitor.vector(prefix + "kept_volume", motion_.kept_volume);
   visitor.vector(prefix + "extra_load", motion_.extra_load);
   visitor.vector(prefix + "reaction", motion_.reaction);
+  if (visitor.has(prefix + "pin_forces")) visitor.vector(prefix + "pin_forces", pin_forces_);
 }
 
 template <int Dim>

@@ -11,7 +11,9 @@ template <int Dim>
 class ElasticParticipant : public Participant<Dim> {
  public:
   ElasticParticipant(const Body<Dim>& body, int index)
-      : Participant<Dim>(body, index), motion_(initial_elastic_motion(body)) {}
+      : Participant<Dim>(body, index),
+        motion_(initial_elastic_motion(body)),
+        pin_forces_(Eigen::VectorXd::Zero(motion_.velocity.size())) {}
   using Participant<Dim>::body;
   std::unique_ptr<Participant<Dim>> copy() const override { return std::make_unique<ElasticParticipant>(*this); }
   const ElasticMotion& motion() const { return motion_; }
@@ -41,6 +43,7 @@ class ElasticParticipant : public Participant<Dim> {
   void measure(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state, StepStats& stats) const override;
   void describe(const TimeSpec& time, const State<Dim>& state, SolidState& out) const override;
   void add_loads(SolidState& out) const override;
+  double driven_work(const Participant<Dim>& before, double t, double span) const override;
   double pull(double t) const override;
 
   void place_points(const Placement& placed, std::vector<Vec3>& points) const override;
@@ -53,6 +56,7 @@ class ElasticParticipant : public Participant<Dim> {
   ElasticState as_solved(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state) const;
 
   ElasticMotion motion_;
+  Eigen::VectorXd pin_forces_;  // of the last solve on each unknown, N
 };
 
 // One pointer a solid; null: not elastic.

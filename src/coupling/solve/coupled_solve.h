@@ -34,7 +34,8 @@ struct CoupledSolution {
   Eigen::VectorXd solids;                // velocities of the bodies' unknowns
   Eigen::VectorXd reactions;             // N: constraint forces on the unknowns, 0 for free ones
   std::vector<SolidLoad> viscous_loads;  // one a solid; empty: inviscid liquid
-  double dissipation = 0;                // by viscosity, W
+  ViscousPower viscous;                  // of viscous stress
+  double contact_power = 0;              // of prescribed solids on those that they touch, W
   double separation_error = 0;           // SeparationSearch::error
   std::string failure;                   // empty: accepted
 };

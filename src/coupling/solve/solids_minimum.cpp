@@ -98,6 +98,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;
+  r.impulses = std::move(contact.impulses);
   r.velocity = std::move(contact.velocity);
   if (coupling.potential && r.failure.empty()) r.reaction = held_part(coupling, std::move(contact.residual));
   return r;

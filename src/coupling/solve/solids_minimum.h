@@ -10,7 +10,8 @@ struct SolidsMinimum {
   Eigen::VectorXd velocity;
   Eigen::VectorXd reaction;  // N s: constraint impulse of each unknown, 0 if it is free
   int newton_iterations = 0, contacts = 0;
-  std::string failure;  // empty: found
+  std::vector<BodyImpulse> impulses;  // N s: of contact, one a solid; empty without contact
+  std::string failure;                // empty: found
 };
 
 // Inviscid liquid: its pressure solver and its problem. Null in viscous liquid.

@@ -192,8 +192,8 @@ std::vector<SolidLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Ei
 }
 
 template <int Dim>
-double ViscousStep<Dim>::dissipation(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
-  return viscous_dissipation(input_, system_, u, v);
+ViscousPower ViscousStep<Dim>::power(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
+  return viscous_power(input_, system_, u, v);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \

@@ -61,7 +61,7 @@ class ViscousStep {
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
   // Loads of the viscous stress on each solid, about its reference point, N and N m. Collective.
   std::vector<SolidLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
-  double dissipation(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;  // W
+  ViscousPower power(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
 
  private:
   void separate_held();

@@ -61,7 +61,7 @@ ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometr
 template <int Dim>
 void take_loads(const ViscousStep<Dim>& viscous, const FaceField<Dim>& u, CoupledSolution<Dim>& r) {
   r.viscous_loads = viscous.loads(u, r.solids);
-  r.dissipation = viscous.dissipation(u, r.solids);
+  r.viscous = viscous.power(u, r.solids);
 }
 
 // Drag of the velocities u on the unknowns of the solids, N, the same on all ranks.

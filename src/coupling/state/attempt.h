@@ -7,6 +7,14 @@
 
 namespace seiche {
 
+// Powers in the solve of a step, W (2D: W/m).
+struct SolvePowers {
+  ViscousPower viscous;
+  double viscous_transport = 0;  // of viscosity of fourth order, on the fluid (Transported::viscous_power)
+  double tension = 0;            // of surface tension on both fluids
+  double contact = 0;            // of prescribed solids on those that they touch
+};
+
 // Outcome of an attempted step. `state` is valid only if `failure` is empty.
 template <int Dim>
 struct Attempt {
@@ -17,7 +25,7 @@ struct Attempt {
   SolveReport solve;
   double divergence = 0;  // largest |net flux|/volume of a cell, 1/s
   int newton_iterations = 0, contacts = 0;
-  double dissipation = 0;       // by viscosity, W
+  SolvePowers powers;
   int rheology_iterations = 0;  // solves until viscosity and flow agree
   double separation_error = 0;  // SeparationSearch::error
 };

@@ -57,7 +57,9 @@ class Loader : public FieldVisitor<Dim> {
  public:
   Loader(const Layout<Dim>& layout, const CheckpointData& data) : layout_(layout), data_(data) {}
   bool loads() const override { return true; }
-  bool has(const std::string& name) const override { return data_.scalars.count(name) > 0; }
+  bool has(const std::string& name) const override {
+    return data_.scalars.count(name) > 0 || data_.texts.count(name) > 0;
+  }
   void number(const std::string& name, double& value) override {
     const auto found = data_.scalars.find(name);
     if (found == data_.scalars.end()) throw Error(ExitCode::bad_checkpoint, "the checkpoint lacks '" + name + "'");
@@ -135,7 +137,21 @@ void visit_loads(const std::string& cause, std::vector<SolidLoad>& loads, FieldV
     }
 }
 
-// Checkpoints of earlier versions have neither since_solve nor convected loads.
+void visit_work(Work& work, StateVisitor& visitor) {
+  visitor.number("work.gravity", work.gravity);
+  visitor.number("work.tension", work.tension);
+  visitor.number("work.sides", work.sides);
+  visitor.number("work.solids", work.solids);
+  visitor.number("work.lost_viscous", work.lost_viscous);
+  visitor.number("work.lost_numerical", work.lost_numerical);
+}
+
+void visit_power(ViscousPower& power, StateVisitor& visitor) {
+  visitor.number("viscous.dissipation", power.dissipation);
+  visitor.number("viscous.sides", power.sides);
+}
+
+// Checkpoints of earlier versions have neither since_solve nor convected loads nor work.
 template <int Dim>
 void visit_numbers(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visitor) {
   double step = double(state.step);
@@ -146,6 +162,8 @@ void visit_numbers(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& vi
   if (visitor.has("since_solve")) visitor.number("since_solve", state.since_solve);
   visitor.number("horizon", state.horizon);
   visitor.number("viscous_rate", state.viscous_rate);
+  if (visitor.has("work.gravity")) visit_work(state.work, visitor);
+  if (visitor.has("viscous.dissipation")) visit_power(state.viscous_power, visitor);
   visitor.number("expected_volume", state.expected_volume);
   visitor.number("corrected_volume", state.corrected_volume);
   state.step = std::int64_t(step);

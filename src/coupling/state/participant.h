@@ -104,6 +104,9 @@ class Participant {
   virtual void measure(const Gravity&, const TimeSpec&, const State<Dim>&, StepStats&) const {}
   virtual void describe(const TimeSpec&, const State<Dim>&, SolidState&) const {}
   virtual void add_loads(SolidState&) const {}
+  // Work (J) of pins, and of the forces that the scene applies, gravity excluded, over the way of the last solve from t
+  // to t + span. `before`: the participant before that solve.
+  virtual double driven_work(const Participant& /*before*/, double /*t*/, double /*span*/) const { return 0; }
   // sum f^2/m of the forces (N) that the scene applies at time t, gravity excluded.
   virtual double pull(double /*t*/) const { return 0; }
 

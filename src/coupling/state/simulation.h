@@ -15,6 +15,17 @@ namespace seiche {
 
 struct Scene;
 
+// Work done on the fluids and the solids that forces move, and the energy they lost since the start, J.
+//   kinetic + elastic energy - that of the start = gravity + tension + sides + solids - lost_viscous - lost_numerical
+struct Work {
+  double gravity = 0;
+  double tension = 0;       // of surface tension
+  double sides = 0;         // of sides and sources: pressure, shear, energy of the liquid that enters less that leaves
+  double solids = 0;        // of prescribed solids, pins and forces that the scene applies
+  double lost_viscous = 0;  // heat from viscosity
+  double lost_numerical = 0;  // all else: transport, the step's rule; impacts, friction and dampers too
+};
+
 // One row of stats.csv; docs/outputs.md names the columns. 2D: per metre of depth.
 struct StepStats {
   std::int64_t step = 0;
@@ -35,6 +46,7 @@ struct StepStats {
   std::int64_t bubbles = 0;        // enclosed air regions that keep their volume
   double air_lost = 0;             // volume of regions that became too small for the grid, since the start, m^3
   int rheology_iterations = 0;     // solves until viscosity and flow agree; 0 for Newtonian liquid
+  Work work;
   // Separating walls: largest violation by a cell on the wrong side of the unilateral condition, over the largest
   // pressure. Suction in attached cells or squeeze in separated ones; 0: none.
   double separation_error = 0;

@@ -15,6 +15,7 @@ namespace seiche {
 class StateVisitor {
  public:
   virtual ~StateVisitor() = default;
+  virtual bool has(const std::string& /*name*/) const { return true; }  // false: no such number or vector to load
   virtual void number(const std::string& name, double& value) = 0;
   virtual void vector(const std::string& name, Eigen::VectorXd& value) = 0;  // keeps its size
 };
@@ -24,7 +25,6 @@ template <int Dim>
 class FieldVisitor : public StateVisitor {
  public:
   virtual bool loads() const = 0;                                                  // true if it sets what it visits
-  virtual bool has(const std::string& /*name*/) const { return true; }             // false: no such number to load
   virtual void numbers(const std::string& name, std::vector<double>& values) = 0;  // of any size
   // An array by site, within a box of indices. Entries must be exact as doubles.
   template <class Array>

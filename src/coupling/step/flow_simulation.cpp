@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/time_spec.h"
+#include "coupling/report/energy_account.h"
 #include "coupling/report/energy_budget.h"
 #include "coupling/report/measures.h"
 #include "coupling/report/scene_account.h"
@@ -54,7 +55,7 @@ class FlowSimulation : public Simulation {
     warn_of_long_steps();
     account_ = account_scene(setup_.domain, setup_.fluids, setup_.solids, setup_.scene.domain, state_, geometry_.psi);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
-    refresh(measure(state_, geometry_));
+    refresh_from_state();
   }
 
   void set_fault_hook(FaultHook hook) override { phases_.hook = std::move(hook); }
@@ -63,7 +64,9 @@ class FlowSimulation : public Simulation {
   StepStats stats() const override { return stats_; }
   std::vector<SolidState> solids() const override { return solids_; }
   double expected_volume() const override { return state_.expected_volume; }
-  ProbeSample probe(std::size_t k) const override { return measure_probe(setup_, state_, setup_.scene.probes.at(k)); }
+  ProbeSample probe(std::size_t k) const override {
+    return measure_probe(setup_, state_, geometry_, setup_.scene.probes.at(k));
+  }
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_.domain, setup_.fluids, state_, name);
   }
@@ -103,7 +106,7 @@ class FlowSimulation : public Simulation {
     phases_.warnings.clear();
     warn_of_long_steps();
     geometry_ = measure_geometry();
-    refresh(measure(state_, geometry_));
+    refresh_from_state();
   }
 
   SurfaceMesh solid_surface(std::size_t k) const override {
@@ -185,19 +188,22 @@ class FlowSimulation : public Simulation {
   }
 
   void accept(Attempt<Dim> a) {
+    const std::vector<SolidState> solids =
+        measure_solids(setup_.domain, setup_.solids, setup_.scene.time, a.state, a.geometry);
+    if (!setup_.fluids.has_prescribed_flow()) a.state.work = work_after(setup_, state_, stats_, solids, a);
+    a.state.viscous_power = a.powers.viscous;
     state_ = std::move(a.state);
     geometry_ = std::move(a.geometry);
     solve_ = a.solve;
     divergence_ = a.divergence;
     newton_iterations_ = a.newton_iterations;
     contacts_ = a.contacts;
-    dissipation_ = a.dissipation;
     rheology_iterations_ = a.rheology_iterations;
     separation_error_ = a.separation_error;
     warn_of_separation();
     for (const std::string& line : a.solve.failed_attempts)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
-    refresh(a.stats);
+    refresh(a.stats, solids);
   }
 
   // Advice after a failed step: keys that a resumed run may change.
@@ -236,17 +242,23 @@ class FlowSimulation : public Simulation {
   }
 
   // Updates the answers of stats() and solids() to the present state.
-  void refresh(const StepStats& measured) {
+  void refresh(const StepStats& measured, std::vector<SolidState> solids) {
     stats_ = measured;
+    stats_.work = state_.work;
     stats_.max_divergence = divergence_;
     stats_.newton_iterations = newton_iterations_;
     stats_.contacts = contacts_;
-    stats_.viscous_dissipation = dissipation_;
+    stats_.viscous_dissipation = state_.viscous_power.dissipation;
     stats_.rheology_iterations = rheology_iterations_;
     stats_.separation_error = separation_error_;
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
-    solids_ = measure_solids(setup_.domain, setup_.solids, setup_.scene.time, state_, geometry_);
+    solids_ = std::move(solids);
+  }
+
+  void refresh_from_state() {
+    refresh(measure(state_, geometry_),
+            measure_solids(setup_.domain, setup_.solids, setup_.scene.time, state_, geometry_));
   }
 
   std::vector<SurfaceMesh> rest_surfaces() const {
@@ -265,7 +277,7 @@ class FlowSimulation : public Simulation {
   SolveReport solve_;
   double divergence_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
-  double dissipation_ = 0, separation_error_ = 0;
+  double separation_error_ = 0;
   bool told_of_separation_ = false;
   StepStats stats_;
   std::vector<SolidState> solids_;

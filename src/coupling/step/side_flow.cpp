@@ -7,18 +7,6 @@
 #include "grid/loops.h"
 
 namespace seiche {
-namespace {
-
-template <int Dim>
-bool any_side_passes(const DomainBoundary<Dim>& sides) {
-  for (int a = 0; a < Dim; ++a)
-    for (int side : {0, 1})
-      if (sides.type(a, side) == SideType::inflow || sides.type(a, side) == SideType::outflow) return true;
-  return false;
-}
-
-}  // namespace
-
 template <int Dim>
 double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
                   const FaceField<Dim>& u) {
@@ -38,7 +26,7 @@ double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const C
 template <int Dim>
 void book_first_flow(const Setup<Dim>& s, const State<Dim>& start, const StepGeometry<Dim>& geometry, double dt,
                      Phases& phases, State<Dim>& end) {
-  if (!any_side_passes(s.domain.sides)) return;
+  if (!s.domain.sides.any_passes()) return;
   constexpr double next_to_nothing = 1e-3;  // of the step; the mean errs by this share of what forces do in it
   const std::vector<std::string> told = phases.warnings;
   const Attempt<Dim> at_once = attempt_step(s, start, next_to_nothing * dt, phases);

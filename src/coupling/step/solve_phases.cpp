@@ -101,6 +101,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
       CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
                         task.predicted.convected, out.state.horizon, viscosity, fault});
   out.state.convected_loads = task.predicted.convected.loads;
+  out.powers.contact = solution.contact_power;
   out.solve = solution.report;
   out.solve.iterations += earlier.iterations;
   out.newton_iterations = solution.newton_iterations;
@@ -109,6 +110,20 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   out.failure = solution.failure;
   out.state.pressure = solution.pressure;
   return solution;
+}
+
+// Power of the jumps of the pressure at the surface, with the mean of two velocities, W. Collective.
+template <int Dim>
+double tension_power(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, const FaceField<Dim>& from,
+                     const FaceField<Dim>& to) {
+  if (!in.surface_jump) return 0;
+  double sum = 0;
+  for (int a = 0; a < Dim; ++a)
+    sum -= local_sum(in.layout, in.layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      if (!in.faces.is_unknown(a, f) || !rows.touch_pressure(f - in.layout.stride(a), f)) return 0.0;
+      return 0.5 * jump_over(in, a, f) * in.faces.open.at(a, f) * (from.at(a, f) + to.at(a, f));
+    });
+  return in.ranks.global_sum(sum) * in.layout.geometry().face_area();
 }
 
 // Sets the velocity of `out` from the pressure.
@@ -136,7 +151,10 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, A
   out.failure = find_non_finite(s.domain, "u", level->u);
   out.state.now = level;
   out.state.viscous_loads = solution.viscous_loads;
-  out.dissipation = solution.dissipation / task.predicted.viscosity.implicit;
+  const double implicit = task.predicted.viscosity.implicit;
+  out.powers.viscous = {solution.viscous.dissipation / implicit, solution.viscous.sides / implicit};
+  out.powers.viscous_transport = task.predicted.viscous_power;
+  out.powers.tension = tension_power(liquid, solution.rows, task.before.now->u, level->u);
 }
 
 // One solve from where surface and solids stand, with a given viscosity (null: none).
@@ -188,6 +206,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.convected = convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported,
                                    before.since_solve + times.lead);
   p.u_star = std::move(transported.u);
+  p.viscous_power = transported.viscous_power;
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
                    s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);

@@ -8,6 +8,7 @@
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
+#include "levelset/fractions.h"
 #include "levelset/redistance.h"
 
 namespace seiche {
@@ -32,6 +33,33 @@ double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source,
   return distance;
 }
 
+// Joins phi with the liquid of one source. Sets |v|^2/2 of its velocity where it may bring liquid.
+template <int Dim>
+void join(const Domain<Dim>& domain, const Source<Dim>& source, const OpenTime& open, CellField<Dim>& phi,
+          CellField<Dim>& half_square) {
+  const double near = std::sqrt(double(Dim)) * domain.layout.h();
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
+    const double distance = distance_to_brought(domain.layout, source, open, x);
+    phi[c] = std::min(phi[c], distance);
+    if (distance > near) return;
+    const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), open.begin));
+    if (v.allFinite()) half_square[c] = 0.5 * v.squaredNorm();
+  });
+}
+
+// Kinetic energy over the density of the liquid that `after` has more than `before`. Collective.
+template <int Dim>
+double kinetic_energy_brought(const Domain<Dim>& domain, const CellField<Dim>& before, const CellField<Dim>& after,
+                              const CellField<Dim>& half_square, const NodeField<Dim>& psi) {
+  const double sum = local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
+    if (half_square[c] == 0) return 0.0;
+    const double added = liquid_share(domain.layout, after, psi, c) - liquid_share(domain.layout, before, psi, c);
+    return added * half_square[c];
+  });
+  return domain.ranks.global_sum(sum) * domain.layout.geometry().cell_volume();
+}
+
 }  // namespace
 
 std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, double t1) {
@@ -41,23 +69,19 @@ std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, 
 }
 
 template <int Dim>
-double add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
-                   const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
+Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+                    const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
   const bool any = std::any_of(sources.begin(), sources.end(),
                                [&](const auto& x) { return open_in_step(x.spec, t0, t1).has_value(); });
-  if (!any) return 0;
+  if (!any) return {};
   const NodeField<Dim> psi = solids.geometry.measure(place_bodies(state), t0).psi;
   const double before = liquid_volume(domain, phi, psi);
-  for (const Source<Dim>& source : sources) {
-    const auto open = open_in_step(source.spec, t0, t1);
-    if (!open) continue;
-    for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-      const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
-      phi[c] = std::min(phi[c], distance_to_brought(domain.layout, source, *open, x));
-    });
-  }
+  const CellField<Dim> phi_before = phi;
+  CellField<Dim> half_square(domain.layout);
+  for (const Source<Dim>& source : sources)
+    if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
-  return liquid_volume(domain, phi, psi) - before;
+  return {liquid_volume(domain, phi, psi) - before, kinetic_energy_brought(domain, phi_before, phi, half_square, psi)};
 }
 
 template <int Dim>
@@ -93,11 +117,11 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
   return fault;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template double add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&, const State<D>&, \
-                                 double, double, CellField<D>&);                                                     \
-  template void set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double,              \
-                                       FaceField<D>&);                                                               \
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template Brought add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&, const State<D>&, \
+                                  double, double, CellField<D>&);                                                     \
+  template void set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double,               \
+                                       FaceField<D>&);                                                                \
   template std::string fault_of_source<D>(const Domain<D>&, const std::vector<Source<D>>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

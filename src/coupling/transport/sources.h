@@ -17,11 +17,16 @@ struct OpenTime {
 };
 std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, double t1);
 
-// Joins phi at t1 with the liquid that sources bring from t0 to t1. Returns the volume added, m^Dim, with the solids as
-// in `before`. Fills ghosts. Collective.
+// Liquid that sources brought: its volume (m^Dim) and its kinetic energy over the density, m^(Dim+2)/s^2.
+struct Brought {
+  double volume = 0, kinetic = 0;
+};
+
+// Joins phi at t1 with the liquid that sources bring from t0 to t1, with the solids as in `before`. Fills ghosts.
+// Collective.
 template <int Dim>
-double add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
-                   const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
+Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+                    const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
 // Sets the velocity u (m/s) of the liquid that sources bring from t0 to t1.
 template <int Dim>

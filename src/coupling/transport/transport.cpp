@@ -239,8 +239,8 @@ double liquid_volume(const Domain<Dim>& domain, const CellField<Dim>& phi, const
 }
 
 template <int Dim>
-double transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
-                         CellField<Dim>& phi) {
+Brought transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
+                          CellField<Dim>& phi) {
   check_forces_of_step(s.domain, s.fluids, s.sources, t, t + dt);
   CellField<Dim> joined = phi;
   if (s.domain.sides.any_inflow())
@@ -315,7 +315,7 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
                  carried.outer, u);
   const FacePaths<Dim> paths{path, near, s.perturbation.velocity_advection * dt};
   limit_at_surfaces(s.domain, *flow.now, paths, interior, u);
-  if (plan.full) add_missing_viscosity(s.domain, s.fluids, state, around.whole, carried.outer, dt, u);
+  if (plan.full) r.viscous_power = add_missing_viscosity(s.domain, s.fluids, state, around.whole, carried.outer, dt, u);
   const Vec3 g = s.perturbation.gravity * s.fluids.gravity.of_step(state.time + dt, dt);
   for (int a = 0; a < Dim; ++a)
     for_each_marked(s.domain.layout, s.domain.layout.faces(a),
@@ -351,18 +351,19 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
   return liquid_volume(domain, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                        \
-  template double transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double, CellField<D>&); \
-  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,                   \
-                                 const CellField<D, char>&, CellField<D>&);                                            \
-  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                             \
-  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                                \
-  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                          \
-                                            const FaceField<D, char>&, double, const ViscousPlan&,                     \
-                                            const StepGeometry<D>&);                                                   \
-  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,         \
-                                                const ViscousPlan&, const StepGeometry<D>&);                           \
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                \
+  template Brought transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double,        \
+                                        CellField<D>&);                                                        \
+  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,           \
+                                 const CellField<D, char>&, CellField<D>&);                                    \
+  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                     \
+  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                        \
+  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                  \
+                                            const FaceField<D, char>&, double, const ViscousPlan&,             \
+                                            const StepGeometry<D>&);                                           \
+  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double, \
+                                                const ViscousPlan&, const StepGeometry<D>&);                   \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

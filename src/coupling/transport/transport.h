@@ -3,17 +3,18 @@
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/transport/sources.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
 
 // Transports phi from time t to t + dt (s) with the velocity `path` (m/s). Joins it with inflow and sources. `state`
-// gives the positions of the solids. Returns the volume that sources brought, m^Dim. Throws as check_forces_of_step()
-// does. Fills ghosts. Collective.
+// gives the positions of the solids. Returns what sources brought. Throws as check_forces_of_step() does. Fills ghosts.
+// Collective.
 template <int Dim>
-double transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
-                         CellField<Dim>& phi);
+Brought transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
+                          CellField<Dim>& phi);
 
 // Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells. `closed`: see
 // redistance_beside_solids(). Collective.
@@ -31,6 +32,7 @@ double closest_point_band(const Fluids& fluids);
 template <int Dim>
 struct Transported {
   FaceField<Dim> u, acceleration, gas_acceleration;
+  double viscous_power = 0;  // of viscosity of fourth order beyond the viscous operator, W
 };
 
 // u before the projection on all faces next to liquid: the transported velocity plus

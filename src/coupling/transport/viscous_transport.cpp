@@ -57,14 +57,20 @@ FaceField<Dim> points_of_means(const Domain<Dim>& domain, const FaceField<Dim, c
 }
 
 template <int Dim>
-void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                           const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt, FaceField<Dim>& u) {
-  if (!fluids.constant_viscosity()) return;
+double add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                             const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt,
+                             FaceField<Dim>& u) {
+  if (!fluids.constant_viscosity()) return 0;
   const double reach = state.viscous_rate * dt;  // mu dt/(rho h^2)
+  double sum = 0;
   for (int a = 0; a < Dim; ++a)
-    for_each_index(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
-      if (whole.at(a, f)) u.at(a, f) += reach * missing_laplacian(domain.layout, domain.sides, now, a, f, i);
+    sum += local_sum(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
+      if (!whole.at(a, f)) return 0.0;
+      const double added = reach * missing_laplacian(domain.layout, domain.sides, now, a, f, i);
+      u.at(a, f) += added;
+      return added * state.now->u.at(a, f);
     });
+  return fluids.density() * domain.layout.geometry().cell_volume() * domain.ranks.global_sum(sum) / dt;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
@@ -73,8 +79,8 @@ void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, cons
                                          const State<D>&, const CellField<D>&, double);                               \
   template FaceField<D, char> uncut_faces<D>(const Domain<D>&, const StepGeometry<D>&, const FaceField<D, char>&);    \
   template FaceField<D> points_of_means<D>(const Domain<D>&, const FaceField<D, char>&, const FaceField<D>&, double); \
-  template void add_missing_viscosity<D>(const Domain<D>&, const Fluids&, const State<D>&, const FaceField<D, char>&, \
-                                         const FaceField<D>&, double, FaceField<D>&);
+  template double add_missing_viscosity<D>(const Domain<D>&, const Fluids&, const State<D>&,                          \
+                                           const FaceField<D, char>&, const FaceField<D>&, double, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

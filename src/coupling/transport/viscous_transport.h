@@ -43,9 +43,11 @@ FaceField<Dim> points_of_means(const Domain<Dim>& domain, const FaceField<Dim, c
                                double t);
 
 // u += dt nu times the part of the Laplacian that the viscous operator lacks to fourth order, on the `whole` faces.
-// `now`: velocities at the start of the step, extrapolated beyond walls. Does nothing if viscosity varies.
+// `now`: velocities at the start of the step, extrapolated beyond walls. Does nothing if viscosity varies. Returns its
+// power, W. Collective.
 template <int Dim>
-void add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                           const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt, FaceField<Dim>& u);
+double add_missing_viscosity(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
+                             const FaceField<Dim, char>& whole, const FaceField<Dim>& now, double dt,
+                             FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -1,5 +1,7 @@
 #include "fluid/boundary/domain_boundary.h"
 
+#include <algorithm>
+
 #include "grid/loops.h"
 
 namespace seiche {
@@ -35,11 +37,21 @@ double DomainBoundary<Dim>::inward_speed(int axis, int side, const Vec<Dim>& x, 
 }
 
 template <int Dim>
-bool DomainBoundary<Dim>::any_inflow() const {
+bool DomainBoundary<Dim>::any(std::initializer_list<SideType> wanted) const {
   for (const auto& axis : types_)
-    for (SideType s : axis)
-      if (s == SideType::inflow) return true;
+    for (const SideType s : axis)
+      if (std::find(wanted.begin(), wanted.end(), s) != wanted.end()) return true;
   return false;
+}
+
+template <int Dim>
+bool DomainBoundary<Dim>::any_inflow() const {
+  return any({SideType::inflow});
+}
+
+template <int Dim>
+bool DomainBoundary<Dim>::any_passes() const {
+  return any({SideType::inflow, SideType::outflow});
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #pragma once
 // The sides of the domain: boundary conditions, and the values beyond the sides.
+#include <initializer_list>
 #include <vector>
 
 #include "base/domain_spec.h"
@@ -26,6 +27,7 @@ class DomainBoundary {
   // Speed into the domain through an inflow side, m/s; 0 if the flow points outward or the side is of another type.
   double inward_speed(int axis, int side, const Vec<Dim>& x, double t) const;
   bool any_inflow() const;
+  bool any_passes() const;  // an inflow or an outflow side
 
   // True if liquid has the tangential velocity of this side.
   bool sticks(int axis, int side) const;
@@ -34,6 +36,8 @@ class DomainBoundary {
   Extensions<Dim> velocity_extensions(int component) const;
 
  private:
+  bool any(std::initializer_list<SideType> wanted) const;
+
   std::array<std::array<SideType, 2>, Dim> types_{};
   WallFlow flow_;
   std::vector<VectorExpression> velocity_;

@@ -104,9 +104,15 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
                                       const FaceField<Dim>& u, const Eigen::VectorXd& v,
                                       const std::vector<Vec3>& about);
 
-// Viscous dissipation rate z'Vz, W (2D: W/m). Collective.
+// Powers of viscous stress, W (2D: W/m).
+struct ViscousPower {
+  double dissipation = 0;  // z'Vz
+  double sides = 0;        // of the domain's sides on the fluid: sum of given velocities times the forces there
+};
+
+// For face velocities u (ghosts filled) and body unknowns v. Collective.
 template <int Dim>
-double viscous_dissipation(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
+ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
                            const Eigen::VectorXd& v);
 
 }  // namespace seiche

@@ -59,21 +59,29 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
   return loads;
 }
 
+// A slot without row and solid reads a side. The side pushes the fluid with the slope of the term.
 template <int Dim>
-double viscous_dissipation(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
+ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
                            const Eigen::VectorXd& v) {
-  double sum = 0;
-  for_each_valued(in, system, u, v, [&](const auto&, const ViscousTerm<Dim>& t, const auto& s) {
-    for (int i = 0; i < t.slots; ++i) sum += s[i] * slope(t, s, i);
+  std::vector<double> sum(2);
+  for_each_valued(in, system, u, v, [&](const auto& terms, const ViscousTerm<Dim>& t, const auto& s) {
+    for (int i = 0; i < t.slots; ++i) {
+      const Slot& slot = t.slot[i];
+      const double force = slope(t, s, i);
+      sum[0] += s[i] * force;
+      if (terms.row(slot) < 0 && terms.solid(slot) < 0)
+        sum[1] += system.samples->given.at(slot.axis, slot.face) * force;
+    }
   });
-  return in.ranks.global_sum(sum);
+  in.ranks.global_sum(sum);
+  return {sum[0], sum[1]};
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template std::vector<SolidLoad> viscous_forces<D>(const ViscousInput<D>&, const ViscousSystem<D>&,           \
                                                     const FaceField<D>&, const Eigen::VectorXd&,               \
                                                     const std::vector<Vec3>&);                                 \
-  template double viscous_dissipation<D>(const ViscousInput<D>&, const ViscousSystem<D>&, const FaceField<D>&, \
+  template ViscousPower viscous_power<D>(const ViscousInput<D>&, const ViscousSystem<D>&, const FaceField<D>&, \
                                          const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

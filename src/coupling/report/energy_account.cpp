@@ -1,0 +1,142 @@
+#include "coupling/report/energy_account.h"
+
+#include <algorithm>
+
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
+#include "grid/domain_faces.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Calls visit(axis, face, inside, inward) for the faces of the domain's sides: the cell inside, and +1 on low sides, -1
+// on high ones.
+template <int Dim, class Visit>
+void for_each_side_face(const Domain<Dim>& domain, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1})
+      for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>&) {
+        visit(a, f, side == 0 ? f : f - domain.layout.stride(a), side == 0 ? 1.0 : -1.0);
+      });
+}
+
+// rho |u|^2/2 of what is in a cell at a side, with the velocity of the face along its axis, J/m^Dim.
+template <int Dim>
+double kinetic_density(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
+                       const FaceField<Dim>& u, int axis, Site face, Site inside) {
+  const double share = std::clamp(0.5 - phi[inside] / domain.layout.h(), 0.0, 1.0);
+  double square = std::pow(u.at(axis, face), 2);
+  for (int a = 0; a < Dim; ++a)
+    if (a != axis) square += std::pow(0.5 * (u.at(a, inside) + u.at(a, inside + domain.layout.stride(a))), 2);
+  return 0.5 * square * (share * fluids.density() + (1 - share) * fluids.gas_density());
+}
+
+// Kinetic energy that enters through the sides with the velocity of a state, less that which leaves, W.
+template <int Dim>
+double kinetic_inflow(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const State<Dim>& state) {
+  if (!s.domain.sides.any_passes()) return 0;
+  const auto level = state.exterior->joined_level(s.domain, s.fluids, state);
+  const FaceField<Dim>& u = level->u;
+  double sum = 0;
+  for_each_side_face(s.domain, [&](int a, Site f, Site inside, double inward) {
+    const FaceKind kind = faces.kind_at(a, f);
+    if (kind != FaceKind::prescribed && kind != FaceKind::outflow) return;
+    const double flow = inward * faces.open.at(a, f) * u.at(a, f);
+    if (flow != 0) sum += flow * kinetic_density(s.domain, s.fluids, state.phi, u, a, f, inside);
+  });
+  return s.domain.ranks.global_sum(sum) * s.domain.layout.geometry().face_area();
+}
+
+// F v + T omega, W, with the torque about `position`.
+double power(const SolidLoad& load, const Vec3& position, const Twist& twist) {
+  return load.force.dot(twist.at(position)) + load.torque.dot(twist.angular);
+}
+
+// Load of the fluids on solid k in the step: that of the solve, with the viscous one a mean over the step.
+template <int Dim>
+SolidLoad mean_load(const State<Dim>& before, const State<Dim>& state, const SolidState& solid, std::size_t k) {
+  SolidLoad load{solid.force, solid.torque};
+  if (before.viscous_loads.empty() || state.viscous_loads.empty()) return load;
+  load.force += 0.5 * (before.viscous_loads[k].force - state.viscous_loads[k].force);
+  load.torque += 0.5 * (before.viscous_loads[k].torque - state.viscous_loads[k].torque);
+  return load;
+}
+
+// Power of prescribed solids against the loads of the fluids, W. Their velocities are means over a step; the loads
+// belong to its start, where two of them meet.
+template <int Dim>
+double power_of_prescribed(const State<Dim>& before, const State<Dim>& state, const StepGeometry<Dim>& geometry,
+                           const std::vector<SolidState>& solids) {
+  const std::vector<Placement> earlier = place_bodies(before);
+  double sum = 0;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    const Participant<Dim>& solid = state.solids[k];
+    const SolidLoad load = mean_load(before, state, solids[k], k);
+    for (const Placement& placed : {earlier[k], geometry.placed[k]})
+      sum -= 0.5 * power(load, solids[k].position, solid.prescribed_part(placed).twist);
+  }
+  return sum;
+}
+
+// Work of pins and of forces that the scene applies, J.
+template <int Dim>
+double driven_work(const State<Dim>& before, const State<Dim>& state, double dt) {
+  const double span = state.horizon > 0 ? state.horizon : dt;
+  double sum = 0;
+  for (std::size_t k = 0; k < state.solids.size(); ++k)
+    sum += state.solids[k].driven_work(before.solids[k], state.time, span);
+  return sum;
+}
+
+}  // namespace
+
+template <int Dim>
+double pressure_power_of_sides(const Domain<Dim>& domain, const State<Dim>& before, const Attempt<Dim>& attempt) {
+  const FaceGeometry<Dim>& faces = attempt.geometry.faces;
+  const FaceField<Dim>&from = before.now->u, &to = attempt.state.now->u;
+  double sum = 0;
+  for_each_side_face(domain, [&](int a, Site f, Site inside, double inward) {
+    const double flow = 0.5 * inward * faces.open.at(a, f) * (from.at(a, f) + to.at(a, f));
+    const FaceKind kind = faces.kind_at(a, f);
+    if (kind == FaceKind::prescribed) sum += flow * attempt.state.pressure[inside];
+    if (kind == FaceKind::outflow) sum += flow * faces.side_pressure.at(a, f);
+  });
+  return domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
+}
+
+// Pressure and tension of the solve times the mean of the velocities before and after it; the trapezoidal rule for the
+// rest. The first step is not counted, since a sudden start has no work of its own.
+template <int Dim>
+Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
+                const std::vector<SolidState>& solids, const Attempt<Dim>& a) {
+  if (before.step == 0) return {};
+  const double dt = a.state.time - before.time;
+  const SolvePowers& powers = a.powers;
+  Work w = a.state.work;
+  w.gravity += 0.5 * dt * s.fluids.gravity.of_step(a.state.time, dt).dot(start.momentum + a.stats.momentum);
+  w.tension += dt * powers.tension;
+  const double entering =
+      0.5 * (kinetic_inflow(s, a.geometry.faces, before) + kinetic_inflow(s, a.geometry.faces, a.state));
+  const double shear = 0.5 * (before.viscous_power.sides + powers.viscous.sides);
+  w.sides += dt * (pressure_power_of_sides(s.domain, before, a) + shear + entering);
+  w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
+              driven_work(before, a.state, dt);
+  w.lost_viscous +=
+      dt * (0.5 * (before.viscous_power.dissipation + powers.viscous.dissipation) - powers.viscous_transport);
+  const Work& old = before.work;
+  const double done = w.gravity - old.gravity + w.tension - old.tension + w.sides - old.sides + w.solids - old.solids;
+  const double gained = a.stats.kinetic_energy + a.stats.elastic_energy - start.kinetic_energy - start.elastic_energy;
+  w.lost_numerical += done - gained - (w.lost_viscous - old.lost_viscous);
+  return w;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template double pressure_power_of_sides<D>(const Domain<D>&, const State<D>&, const Attempt<D>&);               \
+  template Work work_after<D>(const Setup<D>&, const State<D>&, const StepStats&, const std::vector<SolidState>&, \
+                              const Attempt<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

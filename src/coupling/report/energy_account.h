@@ -1,0 +1,20 @@
+#pragma once
+// The account of energy: work done in a step, and the energy lost.
+#include "coupling/state/attempt.h"
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// Power of the pressure on what flows through the sides of the domain, inwards, in the attempt that started from
+// `before`: p u A with the mean u of both ends, W (2D: W/m). Collective.
+template <int Dim>
+double pressure_power_of_sides(const Domain<Dim>& domain, const State<Dim>& before, const Attempt<Dim>& attempt);
+
+// Work at the end of the attempt that started from `before`. `start`: measured of `before`; `solids`: of the attempt.
+// Collective.
+template <int Dim>
+Work work_after(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
+                const std::vector<SolidState>& solids, const Attempt<Dim>& attempt);
+
+}  // namespace seiche
