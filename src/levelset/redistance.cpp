@@ -189,9 +189,12 @@ class Relaxation {
   using Row = std::array<double, 5>;
 
   // One-sided slopes along the axis, below and above. A difference ends at the interface (phi = 0) if it lies between.
+  // Bends of a distance with radii of curvature above a cell are at most 1/2. At a steep peak of two cells larger ones
+  // would turn slopes round, and the peak would grow through zero.
   static std::array<double, 2> slopes(const Row& f, const std::array<double, 2>& reach) {
     const double low = f[0] + f[2] - 2 * f[1], middle = f[1] + f[3] - 2 * f[2], high = f[2] + f[4] - 2 * f[3];
-    const double bends[] = {0.5 * minmod(middle, low), 0.5 * minmod(middle, high)};
+    const double bends[] = {std::clamp(0.5 * minmod(middle, low), -0.5, 0.5),
+                            std::clamp(0.5 * minmod(middle, high), -0.5, 0.5)};
     std::array<double, 2> slope{f[1] - f[2] - bends[0], f[3] - f[2] - bends[1]};
     for (int side = 0; side < 2; ++side)
       if (reach[side] < 1) slope[side] = -f[2] / reach[side] - reach[side] * bends[side];

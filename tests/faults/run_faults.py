@@ -128,11 +128,14 @@ def scene_is_accounted_for(bench):
     block = '[[solid]]\nname = "block"\nkind = "static"\nshape = "box"\nlower = [0.6, 0.25]\nupper = [1.4, 0.75]\n'
     far = '[[solid]]\nname = "far"\nkind = "static"\nshape = "sphere"\ncenter = [3.0, 0.5]\nradius = 0.2\n'
     ball = '[[solid]]\nname = "ball"\nkind = "rigid"\nshape = "box"\nlower = [0.2, 0.6]\nupper = [0.4, 0.8]\ndensity = 250.0\n'
-    text = box_scene([16, 16], pool + lost, block + far + ball)
+    sheet = ('[[solid]]\nname = "sheet"\nkind = "static"\nshape = "expression"\n'
+             'phi = "max(abs(x+0.3*y-0.5)-0.008,abs(y-0.8)-0.15)"\n')
+    text = box_scene([16, 16], pool + lost, block + far + ball + sheet)
     said = ("solid   'block', static: 0.4 m^2, from (0.6, 0.25) to (1.4, 0.75) m; 50 % of it lies outside of the domain",
             "solid   'ball', rigid: 0.04 m^2, 10 kg/m, centre of mass (0.3, 0.7), from (0.2, 0.6) to (0.4, 0.8) m",
             "liquid.region.1 holds no liquid: all of its", "liquid.region.2 holds no liquid: it lies outside",
-            "solid 'far' lies outside of the domain, from (2.8, 0.3)")
+            "solid 'far' lies outside of the domain, from (2.8, 0.3)",
+            "solid 'sheet' has parts thinner than a cell of 0.0625 m")
     for ranks in (0, 2):
         for result in (bench.run("check", bench.scene(text), ranks=ranks),
                        bench.simulate("--frames", "0", "--overwrite", text=text, ranks=ranks)):

@@ -59,6 +59,11 @@ struct StepGeometry {
   std::vector<Placement> placed;
   std::vector<Vec3> pivots;  // reference point of each body at the solve, m
 
+  // One a body: it deforms, and moves by less than a tenth of a cell in the step. Empty: none is known to.
+  std::vector<char> slow;
+
+  // True if the flow is continued into body k to second order (docs/decisions/0049-flow-beside-solids.md).
+  bool continues_flow(int k) const { return !deforms(k) || (!slow.empty() && slow[std::size_t(k)]); }
   bool deforms(int k) const { return face_weights[std::size_t(k)] != nullptr; }
 };
 

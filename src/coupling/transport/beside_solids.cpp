@@ -29,7 +29,7 @@ FaceField<Dim, char> faces_beside_solids(const Domain<Dim>& domain, const Solids
     for_each_marked(domain.layout, domain.layout.faces(a), near[a].data(), [&](Site f) {
       if (g.body[f] < 0) return;
       if (distance_at_face(domain.layout, g.psi, a, f).psi >= reach * domain.layout.h()) return;
-      beside.at(a, f) = !g.deforms(g.body[f]) && !solids.bodies[std::size_t(g.body[f])].is_thin();
+      beside.at(a, f) = g.continues_flow(g.body[f]) && !solids.bodies[std::size_t(g.body[f])].is_thin();
     });
   return beside;
 }

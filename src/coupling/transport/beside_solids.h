@@ -19,7 +19,7 @@ FaceDistance<Dim> distance_at_face(const Layout<Dim>& layout, const NodeField<Di
 // 1 on the owned faces within two cells of a solid that are `near` the fluid (1: fluid on at least one side). Velocity
 // and acceleration continued into the solid are of second order there, so transport may read these faces whether liquid
 // touches them or not. Two cells are more than a solid moves in a step. Solids thinner than a cell do not count:
-// beyond them lies other liquid. Nor do deforming ones (docs/decisions/0049-flow-beside-solids.md).
+// beyond them lies other liquid. Nor do deforming ones that move fast (docs/decisions/0049-flow-beside-solids.md).
 template <int Dim>
 FaceField<Dim, char> faces_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                          const StepGeometry<Dim>& geometry, const FaceField<Dim, char>& near);

@@ -71,9 +71,9 @@ bool liquid_sticks_to(const Fluids& fluids, const Solids<Dim>& solids, int body)
 
 // At the nearest point s of the surface, x - psi n, the normal velocity is the solid's, v. In solids the extrapolated
 // velocity is shifted by the same amount, u(x) += ((v - u(s)).n) n: it keeps its slope across the surface, so transport
-// beside it is of second order. Beside gas, enclosed air and deforming solids u is shifted at x itself, so that its
-// normal part is constant (docs/decisions/0049-flow-beside-solids.md). Solved faces keep theirs. If liquid sticks to
-// the solid, linear extrapolation already passes through the solid's velocity at its surface. Deeper than
+// beside it is of second order. Beside gas, enclosed air and fast deforming solids u is shifted at x itself, so that
+// its normal part is constant (docs/decisions/0049-flow-beside-solids.md). Solved faces keep theirs. If liquid sticks
+// to the solid, linear extrapolation already passes through the solid's velocity at its surface. Deeper than
 // straight_layers, u is then the solid's velocity.
 template <int Dim>
 void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
@@ -93,7 +93,7 @@ void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids
         if (d.psi < -straight_layers * l.h()) u.at(a, f) = (*v)[a];
         return;
       }
-      const bool constant = fluids.has_gas() || fluids.keeps_air() || g.deforms(g.body[f]);
+      const bool constant = fluids.has_gas() || fluids.keeps_air() || !g.continues_flow(g.body[f]);
       const double depth = constant ? 0 : std::min(-d.psi, straight_layers * l.h());
       const Vec<Dim> surface = l.position(i, face_offset<Dim>(a)) + depth * n;
       if (v) u.at(a, f) += (*v - velocity_at_point(l, old, surface)).dot(n) * n[a];
