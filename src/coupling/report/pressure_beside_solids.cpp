@@ -11,6 +11,7 @@ namespace {
 
 constexpr int reach = 2;              // cells on each side of the point's cell
 constexpr double passable = 1e-2;     // least open part of a face that joins two cells
+constexpr double deepest = 0.5;       // cells: centres of cut cells may lie so deep in the solid
 constexpr double farthest_fit = 2.0;  // cells: the fit's cells lie nearer to the point, where there are enough
 
 // The cells around a point, numbered within a cube of 2 reach + 1 cells.
@@ -74,7 +75,7 @@ Samples<Dim> gather(const Domain<Dim>& domain, const State<Dim>& state, const St
     const Site c = domain.layout.site(i);
     double* const v = &values[std::size_t(n) * (2 + Dim)];
     v[0] = state.pressure[c];
-    v[1] = (state.phi[c] < 0) == liquid && v[0] != 0 && distance_at_centre(g, domain.layout, c) >= 0;
+    v[1] = (state.phi[c] < 0) == liquid && v[0] != 0 && distance_at_centre(g, domain.layout, c) >= -deepest * domain.layout.h();
     for (int a = 0; a < Dim; ++a) {
       v[2 + a] = g.faces.open.at(a, c);
       if (v[2 + a] < 1) values.back() = 1;
@@ -146,8 +147,8 @@ std::vector<char> joined(const Neighbourhood<Dim>& around, const Samples<Dim>& s
   return found;
 }
 
-// Least squares for a + b.(x_c - x)/h over the cells, with weights 1/(1/4 + |x_c - x|^2/h^2). Directions without cells
-// get no slope.
+// Least squares for a + b.(x_c - x)/h over the cells, with weights 1/(1/10 + |x_c - x|^2/h^2)^2, which leave next to
+// nothing of the curvature that a line through far cells would see. Directions without cells get no slope.
 template <int Dim>
 double fit(const Layout<Dim>& layout, const Neighbourhood<Dim>& around, const Samples<Dim>& s,
            const std::vector<char>& cells, const Vec<Dim>& x, double farthest) {
@@ -156,7 +157,7 @@ double fit(const Layout<Dim>& layout, const Neighbourhood<Dim>& around, const Sa
   for (int n = 0; n < around.count; ++n) {
     const Vec<Dim> way = (layout.position(around.index(n), cell_offset<Dim>()) - x) / layout.h();
     if (!cells[n] || way.norm() > farthest) continue;
-    const double weight = 1 / std::sqrt(0.25 + way.squaredNorm());
+    const double weight = 1 / (0.1 + way.squaredNorm());  // its square is the weight
     Eigen::Matrix<double, Dim + 1, 1> row;
     row << 1, way;
     rows.push_back(weight * row);
