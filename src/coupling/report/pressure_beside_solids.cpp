@@ -75,7 +75,8 @@ Samples<Dim> gather(const Domain<Dim>& domain, const State<Dim>& state, const St
     const Site c = domain.layout.site(i);
     double* const v = &values[std::size_t(n) * (2 + Dim)];
     v[0] = state.pressure[c];
-    v[1] = (state.phi[c] < 0) == liquid && v[0] != 0 && distance_at_centre(g, domain.layout, c) >= -deepest * domain.layout.h();
+    v[1] = (state.phi[c] < 0) == liquid && v[0] != 0 &&
+           distance_at_centre(g, domain.layout, c) >= -deepest * domain.layout.h();
     for (int a = 0; a < Dim; ++a) {
       v[2 + a] = g.faces.open.at(a, c);
       if (v[2 + a] < 1) values.back() = 1;
