@@ -11,9 +11,11 @@
 namespace seiche {
 namespace {
 
-// Displacement d and velocity v, Dim unknowns. The implicit midpoint rule keeps the spring's energy and is stable for
-// any step. With d where the solve finds the body:
-//   m (v' - v)/dt = m g - k (d + dt/4 (v' - v)) - c (v + v')/2 + loads.
+// Displacement d and velocity v, Dim unknowns. With d where the solve finds the body:
+//   m (v' - v)/dt = m g - k (d + dt (a v' - b v)) - c (v + v')/2 + loads.
+// In leapfrog steps a = b = 1/4, the implicit midpoint rule: it keeps the spring's energy and is stable for any step.
+// In others the body moves by dt v' next. The same a and b are stable while steps are equal; where the step exceeds the
+// spring's time 1/omega, a and b go over to 1 and 0, implicit Euler, which damps what it does not resolve.
 template <int Dim>
 class SprungParticipant : public Participant<Dim> {
  public:
@@ -37,16 +39,26 @@ class SprungParticipant : public Participant<Dim> {
     const int first = c.first[std::size_t(block)];
     const double dt = step.dt, m = mass(), k = stiffness(), damping = number("spring_damping");
     const Vec<Dim> g = truncate<Dim>(step.setup.fluids.gravity.of_step(step.state.time, dt));
-    const double kept = m + dt * dt * k / 4, damped = dt * damping / 2;
-    for (int a = 0; a < Dim; ++a) parts.mass.emplace_back(first + a, first + a, kept + damped);
-    c.push.segment(first, Dim) = (kept - damped) * velocity_ + dt * (m * g - k * displacement_);
-    c.free.segment(first, Dim) = c.push.segment(first, Dim) / (kept + damped);
+    const bool leapfrog = step.state.since_solve > 0;
+    const double unresolved = leapfrog ? 0 : std::clamp(dt * std::sqrt(k / m) - 1, 0.0, 1.0);
+    const double after = 0.25 + 0.75 * unresolved, before = 0.25 * (1 - unresolved), damped = dt * damping / 2;
+    const double mass = m + dt * dt * k * after + damped;
+    for (int a = 0; a < Dim; ++a) parts.mass.emplace_back(first + a, first + a, mass);
+    c.push.segment(first, Dim) = (m + dt * dt * k * before - damped) * velocity_ + dt * (m * g - k * displacement_);
+    c.free.segment(first, Dim) = c.push.segment(first, Dim) / mass;
     c.J.blocks[std::size_t(block)] = translation_columns(step, this->index(), c.freedom, first);
   }
   void take(const SolidCoupling<Dim>&, int, const Eigen::VectorXd& v, double) override { velocity_ = v; }
   void advance(const Stride<Dim>& stride) override { displacement_ += stride.lead * velocity_; }
   void go_on(const Participant<Dim>& leading, double dt) override {
     displacement_ += dt * Vec<Dim>(leading.velocity());
+  }
+
+  // The first step advances with the initial velocity: k (dt v)^2/2 <= 1e-3 m v^2/2.
+  double limit_of_start(double dt) const override {
+    constexpr double share = 1e-3;
+    if (velocity_.isZero(0) || stiffness() == 0) return dt;
+    return std::min(dt, std::sqrt(share * mass() / stiffness()));
   }
 
   // One node carries the whole surface.
@@ -62,11 +74,13 @@ class SprungParticipant : public Participant<Dim> {
     solid.surface = [](int axis, Site, std::vector<std::pair<int, double>>& weights) { weights = {{axis, 1.0}}; };
   }
 
+  // v belongs to the middle of the way that it leads, which after a leapfrog step is the present place.
   void measure(const Gravity& gravity, const TimeSpec& /*time*/, const State<Dim>& state,
                StepStats& stats) const override {
     const Vec3 x = body().mass().center + extend<Dim>(displacement_);
+    const double to_middle = state.since_solve > 0 ? 0 : 0.5 * state.dt_now;
     stats.kinetic_energy += 0.5 * mass() * velocity_.squaredNorm();
-    stats.elastic_energy += 0.5 * stiffness() * displacement_.squaredNorm();
+    stats.elastic_energy += 0.5 * stiffness() * (displacement_ + to_middle * velocity_).squaredNorm();
     stats.potential_energy -= mass() * gravity.at(state.time).dot(x);
     stats.momentum += mass() * extend<Dim>(velocity_);
   }
