@@ -54,6 +54,17 @@ class Ends(unittest.TestCase):
         self.assertEqual(done.code, 2)
 
 
+class CutOff(unittest.TestCase):
+    def test_many_short_steps(self):
+        """Only a run that advances in short steps is slow; one that stands still hangs."""
+        for steps, wall, expected in ((200, 0.3, True), (200, 30.0, False), (20, 0.3, False)):
+            with tempfile.TemporaryDirectory() as folder:
+                rows = [f"{n},{n * 0.01},0.01,{wall}" for n in range(steps)]
+                (pathlib.Path(folder) / "stats.csv").write_text("\n".join(["step,time,dt,wall_seconds", *rows]) + "\n")
+                self.assertEqual(oracle.goes_on(pathlib.Path(folder)), expected)
+        self.assertFalse(oracle.goes_on(pathlib.Path("/nonexistent")))
+
+
 class Kills(unittest.TestCase):
     def test_ranks_in_process_groups_of_their_own(self):
         """As `mpirun` starts them: the death of their parent's group leaves them alive."""

@@ -15,6 +15,8 @@ DEEPEST = 0.02        # cells; frames show faceted surfaces, while contact is ex
 LOST_VOLUME = 0.05    # relative; LOST_CELLS is allowed in addition, since tiny scenes are mostly surface
 LOST_CELLS = 3
 MEMORY = 2 << 30      # bytes, for a scene of a few hundred cells
+MANY_STEPS, LONG_STEP = 100, 15.0   # a run that made so many steps, each within so many seconds, does not hang
+CUT_OFF = -1          # such a run, at the end of its processor time
 
 
 def check_end(done, codes, verb):
@@ -144,6 +146,21 @@ def check_result(scene, folder):
     check_frames(scene, folder)
 
 
+def goes_on(folder):
+    """True if a run that was cut off advanced in many short steps: stiff springs and thin surfaces need thousands."""
+    if not (folder / "stats.csv").exists():
+        return False
+    stats = read_stats(folder)
+    return len(stats["time"]) > MANY_STEPS and stats["wall_seconds"].max() < LONG_STEP and stats["dt"][-1] > 0
+
+
+def check_cut_off(scene, folder):
+    """Checks the tables of a run that was cut off."""
+    check_finite(folder / "stats.csv")
+    if not is_fed(scene):
+        check_energy(scene, read_stats(folder))
+
+
 def check_repeated(program, folder, name):
     """A second run with other values in fresh memory must take the same steps, bit for bit."""
     done = program.run("run", name, "--out", "again", "--threads", "1", folder=folder, heap=OTHER_HEAP)
@@ -152,10 +169,13 @@ def check_repeated(program, folder, name):
 
 
 def judge(program, scene, folder, name="scene.toml", twice=False):
-    """Checks and runs a scene; returns the exit code, or raises the first fault."""
+    """Checks and runs a scene; returns the exit code or CUT_OFF, or raises the first fault."""
     checked = program.run("check", name, folder=folder, ranks=1)
     check_end(checked, (0, 2), "check")
     done = program.run("run", name, "--out", "out", "--threads", "1", folder=folder)
+    if done.code is None and goes_on(folder / "out"):
+        check_cut_off(scene, folder / "out")
+        return CUT_OFF
     check_end(done, (0, 3) if checked.code == 0 else (2,), "run")
     if done.code in (0, 3):
         check_result(scene, folder / "out")

@@ -3,13 +3,13 @@ import copy
 import shutil
 
 from fuzzing.assets import make_assets
-from fuzzing.oracle import judge
+from fuzzing.oracle import CUT_OFF, judge
 from fuzzing.registry import read_registry
 from fuzzing.scenes import make_scene
 from fuzzing.tables import Fault
 from fuzzing.toml import to_toml
 
-NAMES = {0: "done", 2: "refused", 3: "stopped with figures"}
+NAMES = {0: "done", 2: "refused", 3: "stopped with figures", CUT_OFF: "cut off in many steps"}
 REPEATED = 5      # every fifth scene is run twice
 MOST_TRIES = 80   # attempts to shrink one scene
 
