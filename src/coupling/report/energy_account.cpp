@@ -93,9 +93,9 @@ double driven_work(const State<Dim>& before, const State<Dim>& state, double dt)
 }  // namespace
 
 template <int Dim>
-double pressure_power_of_sides(const Domain<Dim>& domain, const State<Dim>& before, const Attempt<Dim>& attempt) {
+double pressure_power_of_sides(const Domain<Dim>& domain, const FaceField<Dim>& from, const Attempt<Dim>& attempt) {
   const FaceGeometry<Dim>& faces = attempt.geometry.faces;
-  const FaceField<Dim>&from = before.now->u, &to = attempt.state.now->u;
+  const FaceField<Dim>& to = attempt.state.now->u;
   double sum = 0;
   for_each_side_face(domain, [&](int a, Site f, Site inside, double inward) {
     const double flow = 0.5 * inward * faces.open.at(a, f) * (from.at(a, f) + to.at(a, f));
@@ -120,7 +120,7 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
   const double entering =
       0.5 * (kinetic_inflow(s, a.geometry.faces, before) + kinetic_inflow(s, a.geometry.faces, a.state));
   const double shear = 0.5 * (before.viscous_power.sides + powers.viscous.sides);
-  w.sides += dt * (pressure_power_of_sides(s.domain, before, a) + shear + entering);
+  w.sides += dt * (pressure_power_of_sides(s.domain, before.now->u, a) + shear + entering);
   w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
               driven_work(before, a.state, dt);
   w.lost_viscous +=
@@ -133,7 +133,7 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                     \
-  template double pressure_power_of_sides<D>(const Domain<D>&, const State<D>&, const Attempt<D>&);               \
+  template double pressure_power_of_sides<D>(const Domain<D>&, const FaceField<D>&, const Attempt<D>&);           \
   template Work work_after<D>(const Setup<D>&, const State<D>&, const StepStats&, const std::vector<SolidState>&, \
                               const Attempt<D>&);
 SEICHE_INSTANTIATE(2)
