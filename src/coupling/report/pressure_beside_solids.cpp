@@ -148,6 +148,14 @@ std::vector<char> joined(const Neighbourhood<Dim>& around, const Samples<Dim>& s
   return found;
 }
 
+// True if no usable cell lies on another side of a solid.
+template <int Dim>
+bool all_joined(const Samples<Dim>& s, const std::vector<char>& joined) {
+  for (std::size_t n = 0; n < joined.size(); ++n)
+    if (s.usable[n] != 0 && !joined[n]) return false;
+  return true;
+}
+
 // Least squares for a + b.(x_c - x)/h over the cells, with weights 1/(1/10 + |x_c - x|^2/h^2)^2, which leave next to
 // nothing of the curvature that a line through far cells would see. Directions without cells get no slope.
 template <int Dim>
@@ -183,6 +191,7 @@ std::optional<double> pressure_beside_solids(const Setup<Dim>& s, const State<Di
   const int start = nearest_usable(layout, around, samples, Vec<Dim>(x + 0.5 * layout.h() * normal_at(s, g, x)));
   if (start < 0) return {};
   const std::vector<char> cells = joined(around, samples, start);
+  if (all_joined(samples, cells)) return {};
   const double to_start = (layout.position(around.index(start), cell_offset<Dim>()) - x).norm() / layout.h();
   return fit(layout, around, samples, cells, x, std::max(farthest_fit, to_start + 1));
 }

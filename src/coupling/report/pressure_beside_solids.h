@@ -9,8 +9,8 @@
 namespace seiche {
 
 // Fit p(x) = a + b.x to the cells around x whose centres lie in the point's fluid, at most half a cell deep in a solid,
-// and which open faces join to the cell that the nearest solid's normal leads to. Pa; empty if no solid is near, or no
-// such cell. `liquid`: the point's fluid. Collective; equal on all ranks.
+// and which open faces join to the cell that the nearest solid's normal leads to. Pa; empty if there is no such cell,
+// or none near that a solid parts from it. `liquid`: the point's fluid. Collective; equal on all ranks.
 template <int Dim>
 std::optional<double> pressure_beside_solids(const Setup<Dim>& setup, const State<Dim>& state,
                                              const StepGeometry<Dim>& geometry, const Vec<Dim>& x, bool liquid);
