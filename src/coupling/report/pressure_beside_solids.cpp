@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 
+#include "coupling/geometry/cell_distance.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
@@ -51,18 +52,6 @@ struct Samples {
   bool any_solid = false;
 };
 
-template <int Dim>
-double distance_at_centre(const StepGeometry<Dim>& g, const Layout<Dim>& layout, Site cell) {
-  double sum = 0;
-  for (int corner = 0; corner < (1 << Dim); ++corner) {
-    Site node = cell;
-    for (int a = 0; a < Dim; ++a)
-      if (corner >> a & 1) node += layout.stride(a);
-    sum += g.psi[node];
-  }
-  return sum / (1 << Dim);
-}
-
 // Each rank fills in the cells that it owns. Collective.
 template <int Dim>
 Samples<Dim> gather(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g,
@@ -76,7 +65,7 @@ Samples<Dim> gather(const Domain<Dim>& domain, const State<Dim>& state, const St
     double* const v = &values[std::size_t(n) * (2 + Dim)];
     v[0] = state.pressure[c];
     v[1] = (state.phi[c] < 0) == liquid && v[0] != 0 &&
-           distance_at_centre(g, domain.layout, c) >= -deepest * domain.layout.h();
+           distance_at_cell(domain.layout, g.psi, c).first >= -deepest * domain.layout.h();
     for (int a = 0; a < Dim; ++a) {
       v[2 + a] = g.faces.open.at(a, c);
       if (v[2 + a] < 1) values.back() = 1;

@@ -118,9 +118,9 @@ void warn_of_missed_parts(const DomainSpec& extent, const Body<Dim>& body, doubl
   const double there = sampled_volume(extent, body);
   if (found > (1 - notable) * there) return;
   account.warnings.push_back(fmt::format(
-      "{}: solid '{}' has parts thinner than a cell of {:g} m, which its formula hides from the grid: it finds {} of "
-      "{}, "
-      "and liquid passes through the rest; take smaller cells, or a shape that has distances (box, capsule, mesh)",
+      "{}: solid '{}' has parts thinner than a cell of {:g} m, which its formula hides from the grid: it finds {} "
+      "of {}, and liquid passes through the rest; take smaller cells, or a shape that has distances (box, capsule, "
+      "mesh)",
       body.spec().shape.where, body.spec().name, extent.cell_size, volume_text<Dim>(found), volume_text<Dim>(there)));
 }
 

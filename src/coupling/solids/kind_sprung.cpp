@@ -14,8 +14,8 @@ namespace {
 // Displacement d and velocity v, Dim unknowns. With d where the solve finds the body:
 //   m (v' - v)/dt = m g - k (d + dt (a v' - b v)) - c (v + v')/2 + loads.
 // In leapfrog steps a = b = 1/4, the implicit midpoint rule: it keeps the spring's energy and is stable for any step.
-// In others the body moves by dt v' next. The same a and b are stable while steps are equal; where the step exceeds the
-// spring's time 1/omega, a and b go over to 1 and 0, implicit Euler, which damps what it does not resolve.
+// In others the body moves by dt v' next, and the same a and b are stable only while steps are equal. Steps beyond the
+// spring's time 1/omega go over to a = 1, b = 0. This is implicit Euler, which damps an oscillation it cannot resolve.
 template <int Dim>
 class SprungParticipant : public Participant<Dim> {
  public:

@@ -25,7 +25,7 @@ void refuse(const Solids<Dim>& solids, const StepGeometry<Dim>& g, const VolumeM
 
 // Impulses of contact act about the pivots of prescribed solids.
 template <int Dim>
-double power_of_prescribed(const std::vector<BodyImpulse>& impulses, const CoupledInput<Dim>& in) {
+double contact_power(const std::vector<BodyImpulse>& impulses, const CoupledInput<Dim>& in) {
   double sum = 0;
   for (std::size_t k = 0; k < impulses.size(); ++k) {
     const Placement& placed = in.geometry.placed[k];
@@ -67,7 +67,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.failure = m.failure;
   r.newton_iterations = m.newton_iterations;
   r.contacts = m.contacts;
-  r.contact_power = power_of_prescribed(m.impulses, in);
+  r.contact_power = contact_power(m.impulses, in);
   r.reactions = m.reaction / in.liquid.dt;
   const int earlier = r.report.iterations;
   r.report = problem.report();

@@ -15,8 +15,9 @@ namespace seiche {
 
 struct Scene;
 
-// Work done on the fluids and the solids that forces move, and the energy they lost since the start, J.
-//   kinetic + elastic energy - that of the start = gravity + tension + sides + solids - lost_viscous - lost_numerical
+// Work done on the fluids and the solids that forces move, and the energy they lost, since the end of the first step,
+// J.
+//   kinetic + elastic energy - that of then = gravity + tension + sides + solids - lost_viscous - lost_numerical
 struct Work {
   double gravity = 0;
   double tension = 0;       // of surface tension

@@ -36,7 +36,7 @@ struct State : Flow<Dim> {
   double horizon = 0;           // interval ahead for which the solids' velocities were solved, s
   Separation<Dim> separation;   // only with separating walls
   double viscous_rate = 0;      // largest mu/(rho h^2) of the last solve, 1/s
-  Work work;                    // since the start
+  Work work;                    // since the end of the first step
   ViscousPower viscous_power;   // of the last solve, W
   CellField<Dim, char> sealed;  // cells sealed by elastic walls, their pins and the solids under these; may be empty
   // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if no solid
