@@ -81,7 +81,7 @@ struct Projection {
     const FaceField<Dim> slope(setup.domain.layout);
     const ConvectedPressure<Dim> convected;
     const auto solution = solve_coupled(CoupledInput<Dim>{setup, input(), geometry, state, guess, slope, u_star, u_star,
-                                                          convected, dt, nullptr, PhaseFault::none});
+                                                          convected, nullptr, dt, nullptr, PhaseFault::none});
     INFO(solution.failure << " " << fmt::format("{}", fmt::join(solution.report.failed_attempts, "; ")));
     REQUIRE(solution.failure.empty());
     state.pressure = solution.pressure;

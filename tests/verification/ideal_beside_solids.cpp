@@ -112,9 +112,9 @@ TEST_CASE("ideal liquid goes on turning in a round container of a solid") {
 }
 
 // Energy lost on a way of 1.1 diameters, after the first step, which sets the liquid in motion. Before, the pressure of
-// the step before did not move along, and 26 and 15 % were lost (drag pi rho V^3 dt).
+// the step before did not move along, and 26 and 15 % were lost (drag pi rho V^3 dt). Measured 2.2 and -0.2 %.
 TEST_CASE("a disc glides through ideal liquid at rest") {
-  const double bars[]{0.07, 0.02};
+  const double bars[]{0.035, 0.005};
   for (int k = 0; k < 2; ++k) {
     Scene s = disc_in_box(10 << k);
     s.solids[0].rigid.velocity = {0.6, 0, 0};
@@ -126,6 +126,74 @@ TEST_CASE("a disc glides through ideal liquid at rest") {
     WARN((10 << k) << " cells across: " << 100 * lost << " % of the energy lost, bar " << 100 * bars[k] << " %");
     CHECK(std::abs(lost) <= bars[k]);
   }
+}
+
+namespace {
+
+// Liquid that turns at 1 rad/s about z in a round container of radius 1 m, and a body half-way out that it carries.
+Scene turning_drum(int dimension, int cells, double height) {
+  Scene s = test::box_scene(dimension, cells, 2.5);
+  for (int a = 0; a < 2; ++a) s.domain.lower[a] -= 1.25, s.domain.upper[a] -= 1.25;
+  if (dimension == 3) s.domain.upper[2] = height;
+  test::add_liquid(s, "-1");
+  s.liquid.velocity = {"-y", "x", "0"};
+  s.solids.push_back(test::rigid_ball("drum", 1, {0, 0, 0}, 1000));
+  s.solids[0].kind = SolidKind::fixed;
+  s.solids[0].shape.invert = true;
+  if (dimension == 3) {
+    s.solids[0].shape.kind = "cylinder";
+    s.solids[0].shape.lower = s.solids[0].shape.upper = {0, 0, 0};
+    s.solids[0].shape.from = {0, 0, -1};
+    s.solids[0].shape.to = {0, 0, height + 1};
+  }
+  s.solids.push_back(test::rigid_ball("body", 0.25, {0.5, 0, 0.5 * height}, 1000));
+  s.solids[1].rigid.velocity = {0, 0.5, 0};
+  s.solids[1].rigid.angular_velocity = {0, 0, 1};
+  return s;
+}
+
+struct Carried {
+  double lag, drift, lost;  // rad behind the liquid, share of the radius, share of the energy
+};
+
+Carried carry(const Scene& scene, double end) {
+  const auto sim = make_simulation(scene, Communicator());
+  const double energy = sim->stats().kinetic_energy;
+  while (sim->time() < end) sim->step(end);
+  const Vec3 x = sim->solids()[1].position;
+  const double behind = end - std::atan2(x[1], x[0]);
+  return {std::remainder(behind, 2 * test::pi), 2 * std::hypot(x[0], x[1]) - 1,
+          1 - sim->stats().kinetic_energy / energy};
+}
+
+void report(const std::string& what, const Carried& c) {
+  WARN(what << ": " << c.lag << " rad behind, " << 100 * c.drift << " % farther out, " << 100 * c.lost
+            << " % of the energy lost");
+}
+
+}  // namespace
+
+// Ideal liquid that turns as a whole carries a body of its density along on a circle: an exact solution. Velocities
+// that fit the body's place half-way through the step are late by half a step's motion; the body was thrown outwards,
+// by 23 and 9 % of its distance, and fell 0.42 and 0.23 rad behind. Bars: twice what is left, of second order.
+TEST_CASE("turning liquid carries a disc round with it, to second order") {
+  const Carried coarse = carry(turning_drum(2, 40, 0), 2 * test::pi),
+                fine = carry(turning_drum(2, 80, 0), 2 * test::pi);
+  report("8 cells across", coarse);
+  report("16 cells across", fine);
+  CHECK(std::abs(coarse.lag) <= 0.05);
+  CHECK(std::abs(fine.lag) <= 0.02);
+  CHECK(coarse.drift <= 0.2);
+  CHECK(fine.drift <= 0.06);
+  CHECK(test::order(coarse.drift, fine.drift) >= 1.5);
+  CHECK(std::abs(fine.lost) <= 0.005);
+}
+
+TEST_CASE("turning liquid carries a ball round with it") {
+  const Carried c = carry(turning_drum(3, 30, 0.75), 0.5 * test::pi);
+  report("6 cells across, a quarter turn", c);
+  CHECK(std::abs(c.lag) <= 0.03);
+  CHECK(std::abs(c.drift) <= 0.06);
 }
 
 // The mean drag of a disc that is carried at constant speed V, over pi rho V^3 dt, which it had before.

@@ -9,7 +9,7 @@ from fuzzing.scenes import make_scene
 from fuzzing.tables import Fault
 from fuzzing.toml import to_toml
 
-NAMES = {0: "done", 2: "refused", 3: "stopped with figures", CUT_OFF: "cut off in many steps"}
+NAMES = {0: "done", 2: "refused", 3: "stopped with figures", CUT_OFF: "cut off, going on"}
 REPEATED = 5      # every fifth scene is run twice
 MOST_TRIES = 80   # attempts to shrink one scene
 

@@ -268,7 +268,7 @@ StepGeometry<Dim> SolidGeometry<Dim>::measure(const std::vector<Placement>& plac
   g.placed = placed;
   g.face_weights.resize(bodies_.size());
   g.cell_fluxes.resize(bodies_.size());
-  for (Placement& p : g.placed) p.twist = {}, p.velocity.setZero();
+  for (Placement& p : g.placed) p.twist = {{0, 0, 0}, {0, 0, 0}, p.twist.about}, p.velocity.setZero();
   NodeField<Dim> scratch;
   std::vector<FaceShares> shares(bodies_.size());
   for (std::size_t k = 0; k < bodies_.size(); ++k) {

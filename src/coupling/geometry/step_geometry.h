@@ -54,8 +54,8 @@ struct StepGeometry {
   std::vector<std::shared_ptr<const FaceWeights>> face_weights;  // per deforming body, one entry per share; else null
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;    // per deforming body, once coupled; else null
   std::vector<SealedFace> sealed;  // of all thin bodies; owned faces and two layers around
-  // Placement of each body at the solve. After a leapfrog step, poses and psi are at the end of the step. Shares, faces
-  // and the velocities of twists are at its middle.
+  // Placement of each body at the solve. After a leapfrog step, poses, psi and body are at the end of the step. Shares,
+  // faces and the velocities of twists are at its middle.
   std::vector<Placement> placed;
   std::vector<Vec3> pivots;  // reference point of each body at the solve, m
 

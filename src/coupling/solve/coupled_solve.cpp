@@ -1,6 +1,7 @@
 #include "coupling/solve/coupled_solve.h"
 
 #include "base/solver_spec.h"
+#include "coupling/solids/end_of_step.h"
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solve/solve_parts.h"
 #include "coupling/solve/viscous_solve.h"
@@ -60,6 +61,7 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   push_by(input.convected, s.domain, r.rows, input.liquid.dt, coupling);
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
+  if (input.flux_of_end) add_flux_of_end(s.domain, r.rows, liquid.closed, *input.flux_of_end, input.geometry.faces);
   const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, s.scene.solver.viscosity,
                                                             *input.viscosity, input.liquid.dt)
                                              : ViscousRoute::none;
@@ -103,9 +105,9 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   do {
     input.geometry = still;
     state.solids = solids;
-    CoupledSolution<Dim> trial =
-        solve_once(CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow,
-                                     input.u_star, input.convected, input.horizon, input.viscosity, input.fault});
+    CoupledSolution<Dim> trial = solve_once(
+        CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow, input.u_star,
+                          input.convected, input.flux_of_end, input.horizon, input.viscosity, input.fault});
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);
     r = std::move(trial);

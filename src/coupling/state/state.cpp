@@ -46,8 +46,16 @@ std::vector<Placement> place_bodies(const State<Dim>& state) {
   return placed;
 }
 
-#define SEICHE_INSTANTIATE(D)                                       \
-  template std::vector<Placement> place_bodies<D>(const State<D>&); \
+template <int Dim>
+std::vector<Placement> place_moving_bodies(const State<Dim>& state) {
+  std::vector<Placement> placed = place_bodies(state);
+  for (std::size_t k = 0; k < placed.size(); ++k) state.solids[k].set_velocity(placed[k]);
+  return placed;
+}
+
+#define SEICHE_INSTANTIATE(D)                                              \
+  template std::vector<Placement> place_bodies<D>(const State<D>&);        \
+  template std::vector<Placement> place_moving_bodies<D>(const State<D>&); \
   template double fastest_component<D>(const Domain<D>&, const State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -32,12 +32,13 @@ struct State : Flow<Dim> {
   double expected_volume = 0;   // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim
   Participants<Dim> solids;
-  double since_solve = 0;       // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
-  double horizon = 0;           // interval ahead for which the solids' velocities were solved, s
-  Separation<Dim> separation;   // only with separating walls
-  double viscous_rate = 0;      // largest mu/(rho h^2) of the last solve, 1/s
-  Work work;                    // since the end of the first step
-  ViscousPower viscous_power;   // of the last solve, W
+  double since_solve = 0;  // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
+  std::shared_ptr<const State> trial = {};  // after a trial of the first step, for the step itself; else null
+  double horizon = 0;                       // interval ahead for which the solids' velocities were solved, s
+  Separation<Dim> separation;               // only with separating walls
+  double viscous_rate = 0;                  // largest mu/(rho h^2) of the last solve, 1/s
+  Work work;                                // since the end of the first step
+  ViscousPower viscous_power;               // of the last solve, W
   CellField<Dim, char> sealed;  // cells sealed by elastic walls, their pins and the solids under these; may be empty
   // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if no solid
   // moves).
@@ -48,6 +49,9 @@ struct State : Flow<Dim> {
 // zero.
 template <int Dim>
 std::vector<Placement> place_bodies(const State<Dim>& state);
+// The same with the velocities of their unknowns.
+template <int Dim>
+std::vector<Placement> place_moving_bodies(const State<Dim>& state);
 
 // Largest |u_a| on the valid faces of both fluids and on inflow faces, m/s, over all ranks. Collective.
 template <int Dim>

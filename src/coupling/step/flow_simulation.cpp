@@ -138,7 +138,9 @@ class FlowSimulation : public Simulation {
   Attempt<Dim> first_step(double dt) {
     Attempt<Dim> trial = budgeted_step(state_, dt);
     if (!trial.failure.empty() || setup_.scene.time.scheme != TimeScheme::second_order) return trial;
-    Attempt<Dim> informed = budgeted_step(inform(trial.state, dt), dt);
+    State<Dim> start = inform(trial.state, dt);
+    start.trial = std::make_shared<const State<Dim>>(std::move(trial.state));
+    Attempt<Dim> informed = budgeted_step(start, dt);
     informed.state.earlier = informed.state.exterior->flow.earlier = nullptr;
     informed.state.dt_before = 0;
     return informed;
@@ -155,13 +157,7 @@ class FlowSimulation : public Simulation {
   }
 
   StepGeometry<Dim> measure_geometry() const {
-    StepGeometry<Dim> g = setup_.solids.geometry.measure(place_bodies(state_), state_.time);
-    for (std::size_t k = 0; k < state_.solids.size(); ++k) {
-      Placement moving = g.placed[k];
-      state_.solids[k].set_velocity(moving);
-      set_motion(setup_.domain.layout, int(k), moving, g);
-    }
-    return g;
+    return setup_.solids.geometry.measure(place_moving_bodies(state_), state_.time);
   }
 
   // The initial state as if a step of dt had led to it: pressure slope, viscous acceleration and cavities of the trial,

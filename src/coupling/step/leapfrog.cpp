@@ -2,6 +2,7 @@
 
 #include "base/time_spec.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/solids/end_of_step.h"
 #include "coupling/state/features.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
@@ -56,12 +57,8 @@ std::vector<Placement> place_halfway(const State<Dim>& state, double dt) {
 template <int Dim>
 StepGeometry<Dim> placed_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved) {
   const std::vector<Placement> placed = place_bodies(end);
-  StepGeometry<Dim> g = solids.geometry.measure(placed, end.time);
-  solved.psi = std::move(g.psi);
-  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
-    solved.placed[k].pose = g.placed[k].pose;
-    solved.placed[k].twist.about = placed[k].twist.about;
-  }
+  const StepGeometry<Dim> g = solids.geometry.measure(placed, end.time);
+  place_at(g, solved);
   return solved;
 }
 

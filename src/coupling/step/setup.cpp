@@ -199,7 +199,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(s.domain.layout);
   state.solids = s.solids.at_start;
   refuse_overlaps(s.domain, s.solids, s.scene.domain, state);
-  const StepGeometry<Dim> g = s.solids.geometry.measure(place_bodies(state), 0);
+  const StepGeometry<Dim> g = s.solids.geometry.measure(place_moving_bodies(state), 0);
   state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);
   if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, state, g, state.phi);
   state.expected_volume = liquid_volume(s.domain, state.phi, g.psi) - volume_beyond(s.domain, s.solids, g, state.phi);

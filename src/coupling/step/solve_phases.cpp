@@ -89,7 +89,7 @@ ViscosityField<Dim> implicit_part(const Layout<Dim>& layout, ViscosityField<Dim>
 // Sets pressure, solids and counts of `out`.
 template <int Dim>
 CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>* viscosity, const Solves<Dim>& earlier,
-                           Attempt<Dim>& out) {
+                           const EndOfStep<Dim>* end, Attempt<Dim>& out) {
   const Setup<Dim>& s = task.s;
   const PhaseFault fault = task.phases.enter("solve");
   const auto timed = task.phases.timers.measure("solve");
@@ -99,7 +99,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
   CoupledSolution<Dim> solution = solve_coupled(
       CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
-                        task.predicted.convected, out.state.horizon, viscosity, fault});
+                        task.predicted.convected, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault});
   out.state.convected_loads = task.predicted.convected.loads;
   out.powers.contact = solution.contact_power;
   out.solve = solution.report;
@@ -126,9 +126,10 @@ double tension_power(const ProjectionInput<Dim>& in, const PressureRows<Dim>& ro
   return in.ranks.global_sum(sum) * in.layout.geometry().face_area();
 }
 
-// Sets the velocity of `out` from the pressure.
+// Sets the velocity of `out` from the pressure. `end`: where the solids will be that it fits; null: where they are.
 template <int Dim>
-void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, Attempt<Dim>& out) {
+void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, const EndOfStep<Dim>* end,
+             Attempt<Dim>& out) {
   const Setup<Dim>& s = task.s;
   const PhaseFault fault = task.phases.enter("restore");
   const auto timed = task.phases.timers.measure("restore");
@@ -142,6 +143,7 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, A
   set_viscous_acceleration(task, solution.u_star, *level);
   out.state.exterior->take(s, out.geometry, phi, *level);
   out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, level->u);
+  if (end) place_at(end->geometry, out.geometry);
   continue_level(s.domain, s.fluids, s.solids, out.geometry, faces_near_liquid(s.domain, phi), *level);
   if (s.fluids.liquid.separates) {
     advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.separation);
@@ -164,8 +166,8 @@ Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const Visc
   Attempt<Dim> out;
   out.state = std::move(moved.state);
   out.geometry = std::move(moved.geometry);
-  const CoupledSolution<Dim> solution = solve(task, viscosity, earlier, out);
-  if (out.failure.empty()) restore(task, solution, out);
+  const CoupledSolution<Dim> solution = solve(task, viscosity, earlier, moved.end.get(), out);
+  if (out.failure.empty()) restore(task, solution, moved.end.get(), out);
   return out;
 }
 
@@ -193,6 +195,14 @@ Attempt<Dim> solve_for_horizon(const SolveTask<Dim>& task, Moved<Dim> moved, Sol
   return solve_once<Dim>(task, std::move(moved), nullptr, solves);
 }
 
+// Time from the place of the solids that the present flow fits to that of the solve, s; 0 for forces that are those of
+// the middle of the step.
+template <int Dim>
+double since_flow_fitted(const Solids<Dim>& solids, const State<Dim>& before, const StepTimes& times) {
+  if (!fits_end_of_step(solids)) return before.since_solve + times.lead;
+  return times.leapfrog ? 0 : times.dt;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -203,8 +213,10 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
   Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
-  p.convected = convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported,
-                                   before.since_solve + times.lead);
+  const double way = since_flow_fitted(s.solids, before, times);
+  if (way > 0)
+    p.convected =
+        convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported, way);
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,

@@ -21,6 +21,7 @@ namespace {
 template <int Dim>
 State<Dim> shifted_levels(const State<Dim>& before, double dt) {
   State<Dim> next = before;
+  next.trial = nullptr;
   next.time = before.time + dt;
   next.step = before.step + 1;
   age(next);
@@ -62,6 +63,16 @@ StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, 
   check_geometry_of_step(s.domain, s.solids, s.scene.domain, geometry, times.start, next.time);
   inject(s.domain, fault, geometry.faces.closed_flux[0]);
   return geometry;
+}
+
+// Null in the first step, unless a trial of it tells how the flow starts.
+template <int Dim>
+std::shared_ptr<const EndOfStep<Dim>> find_end(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
+                                               const Moved<Dim>& moved, Phases& phases) {
+  if (!times.leapfrog || (before.step == 0 && !before.trial)) return nullptr;
+  const auto timed = phases.timers.measure("geometry");
+  const State<Dim>& known = before.trial ? *before.trial : before;
+  return end_of_step(s.domain, s.solids, known, moved.state, moved.geometry, times.dt);
 }
 
 // Empty volume at walls that phi still counts as liquid, m^Dim.
@@ -135,6 +146,7 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   moved.state.since_solve = times.dt - times.lead;
   move_solids(s, before, times, moved.state.solids);
   moved.geometry = measure_geometry(s, moved.state, times, phases);
+  moved.end = find_end(s, before, times, moved, phases);
   carry_surface(s, before, times, phases, moved);
   keep_volumes(s, before, times, phases, moved);
   const auto timed = phases.timers.measure("surface");

@@ -2,6 +2,7 @@
 // Phases of a step around its solve that move surface and solids.
 #include <optional>
 
+#include "coupling/solids/end_of_step.h"
 #include "coupling/state/attempt.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -24,6 +25,7 @@ struct Moved {
   State<Dim> state;
   StepGeometry<Dim> geometry;
   std::optional<SurfaceTension<Dim>> tension;
+  std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
 };
 
 // Moves solids and surface, measures the geometry between them, and keeps the volumes of liquid and enclosed air.

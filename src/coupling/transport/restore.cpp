@@ -26,7 +26,7 @@ template <int Dim>
 Vec<Dim> velocity_at_point(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec<Dim>& x) {
   Vec<Dim> v;
   for (int b = 0; b < Dim; ++b)
-    v[b] = interpolate_linear<Dim>(layout, u[b].data(), index_coordinates<Dim>(layout, x, face_offset<Dim>(b)));
+    v[b] = interpolate_cubic<Dim>(layout, u[b].data(), index_coordinates<Dim>(layout, x, face_offset<Dim>(b)));
   return v;
 }
 

@@ -265,7 +265,7 @@ namespace {
 template <int Dim>
 std::vector<double> given_sizes(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows) {
   const auto of_cell = [&](Site cell) {
-    double sum = 0;
+    double sum = std::abs(in.faces.cell_flux[cell]);
     for_each_face_of(in.layout, cell, [&](int a, Site f, int, Site) {
       sum += std::abs(in.faces.open.at(a, f) * in.faces.prescribed.at(a, f) + in.faces.closed_flux.at(a, f));
     });
