@@ -45,19 +45,27 @@ TEST_CASE("a sphere of density ratio 1e-9 moves as one of the least ratio, and t
                     [](const std::string& n) { return n.find("is taken as") != std::string::npos; }));
 }
 
-TEST_CASE("a massless sphere rises on without blowing up") {
+// Its speed is what gravity's work gives: 1/2 m_a v^2, m_a the added mass, half its displacement in unbounded liquid and
+// less as it comes out. Bar for energy from nowhere: twice the error of single steps, 2.9 % of the largest kinetic
+// energy. On the way up 3 % may be lost (measured: 1.7 %); liquid that braked it took 26 %.
+TEST_CASE("a massless sphere rises on by the work of gravity alone") {
   const auto sim = make_simulation(ball_in_water(24, 0.15, 0.25, 0.75, 1e-6), Communicator());
-  double height = 0, fastest = 0;
+  double height = 0, fastest = 0, kinetic = 0, least_lost = 0, lost_below = 0;
   while (sim->time() < 0.4) {
-    (void)sim->step(0.4);
+    const StepStats stats = sim->step(0.4);
     const SolidState ball = sim->solids()[0];
     REQUIRE(std::isfinite(ball.velocity.norm()));
     fastest = std::max(fastest, ball.velocity.norm());
     height = std::max(height, ball.position[1]);
+    kinetic = std::max(kinetic, stats.kinetic_energy);
+    least_lost = std::min(least_lost, stats.work.lost_numerical);
+    if (ball.position[1] < 0.75) lost_below = stats.work.lost_numerical;
   }
-  WARN("ratio 1e-6: rises to " << height << " m, at most " << fastest << " m/s");
+  WARN("ratio 1e-6: rises to " << height << " m, at most " << fastest << " m/s and " << kinetic << " J; lost at least "
+                               << least_lost << " J, " << lost_below << " J up to the surface");
   CHECK(height > 0.5);
-  CHECK(fastest <= std::sqrt(2 * 2 * 9.81 * 0.75));  // speed after accelerating at 2 g over the depth
+  CHECK(least_lost >= -0.06 * kinetic);
+  CHECK(std::abs(lost_below) <= 0.03 * kinetic);
 }
 
 // x = v t - g t^2/2 up to round-off, with steps of any length.
