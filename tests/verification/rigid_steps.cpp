@@ -45,8 +45,8 @@ TEST_CASE("a sphere of density ratio 1e-9 moves as one of the least ratio, and t
                     [](const std::string& n) { return n.find("is taken as") != std::string::npos; }));
 }
 
-// Its speed is what gravity's work gives: 1/2 m_a v^2, m_a the added mass, half its displacement in unbounded liquid and
-// less as it comes out. Bar for energy from nowhere: twice the error of single steps, 2.9 % of the largest kinetic
+// Its speed is what gravity's work gives: 1/2 m_a v^2, m_a the added mass, half its displacement in unbounded liquid
+// and less as it comes out. Bar for energy from nowhere: twice the error of single steps, 2.9 % of the largest kinetic
 // energy. On the way up 3 % may be lost (measured: 1.7 %); liquid that braked it took 26 %.
 TEST_CASE("a massless sphere rises on by the work of gravity alone") {
   const auto sim = make_simulation(ball_in_water(24, 0.15, 0.25, 0.75, 1e-6), Communicator());
