@@ -85,6 +85,24 @@ int grow_tree(SurfaceTree<Dim>& s, int first, int last) {
   return node;
 }
 
+// The sides of an element run along it: 1 at its end and -1 at its start, or the edges of a triangle in its direction.
+// In a closed surface those of all elements cancel.
+bool is_closed(const SurfaceTree<2>& s) {
+  std::vector<int> ends(s.points.size(), 0);
+  for (const auto& [from, to] : s.elements) --ends[std::size_t(from)], ++ends[std::size_t(to)];
+  return std::all_of(ends.begin(), ends.end(), [](int n) { return n == 0; });
+}
+
+bool is_closed(const SurfaceTree<3>& s) {
+  std::map<std::array<int, 2>, int> sides;
+  for (const std::array<int, 3>& element : s.elements)
+    for (int side = 0; side < 3; ++side) {
+      const int a = element[std::size_t(side)], b = element[std::size_t((side + 1) % 3)];
+      sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  return std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 0; });
+}
+
 // By the divergence theorem, relative to the first point.
 template <int Dim>
 double signed_volume(const SurfaceTree<Dim>& s) {
@@ -109,7 +127,8 @@ SurfaceTree<Dim> build_surface_tree(const SurfaceMesh& mesh, const std::string& 
   s.order.resize(s.elements.size());
   for (size_t e = 0; e < s.order.size(); ++e) s.order[e] = static_cast<int>(e);
   grow_tree(s, 0, static_cast<int>(s.order.size()));
-  s.volume = signed_volume(s);
+  s.closed = is_closed(s);
+  s.volume = s.closed ? signed_volume(s) : 0;
   return s;
 }
 

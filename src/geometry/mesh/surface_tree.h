@@ -24,7 +24,8 @@ struct SurfaceTree {
   std::vector<std::vector<int>> own_points, own_edges;  // assigned to each element
   std::vector<int> order;
   std::vector<SurfaceTreeNode> nodes;
-  double volume = 0;  // m^3 (2D: m^2); negative: the solid is outside the surface
+  bool closed = true;  // each side of an element joins exactly one other; else the surface is a sheet
+  double volume = 0;   // m^3 (2D: m^2) of a closed surface; negative: the solid is outside. 0 for a sheet
 };
 
 // `name` is for messages. Throws Error(bad_input) if an element uses a point that the mesh does not have.

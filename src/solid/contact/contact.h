@@ -16,7 +16,7 @@ namespace seiche {
 enum class BodyControl { free, prescribed, deformable };
 
 struct ContactBody {
-  SurfaceMesh surface;  // closed, in the rest pose; empty: the body touches nothing
+  SurfaceMesh surface;  // in the rest pose: closed, or a sheet that is touched on both sides; empty: touches nothing
   BodyControl control = BodyControl::free;
   double mass = 0;                 // kg (kg/m in 2D) of a free or deformable body
   std::optional<double> friction;  // Coulomb's coefficient

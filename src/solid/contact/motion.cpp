@@ -46,7 +46,8 @@ Eigen::Matrix3d left_jacobian<3>(const Turn<3>& angle) {
 
 namespace {
 
-// Centroid of the volume within a closed surface, by the divergence theorem. Without volume: the mean of its points.
+// Centroid of the volume within a closed surface, by the divergence theorem. Sheets, and surfaces without volume: the
+// mean of its points.
 template <int Dim>
 Vec<Dim> center_of(const Surface<Dim>& surface, const Vec<Dim>* points) {
   Vec<Dim> mean = Vec<Dim>::Zero(), sum = Vec<Dim>::Zero();
@@ -59,7 +60,7 @@ Vec<Dim> center_of(const Surface<Dim>& surface, const Vec<Dim>* points) {
     volume += part;
     sum += part * corners.rowwise().sum() / (Dim + 1);
   }
-  return volume > 0 ? Vec<Dim>(mean + sum / volume) : mean;
+  return surface.closed && volume > 0 ? Vec<Dim>(mean + sum / volume) : mean;
 }
 
 template <int Dim>

@@ -114,8 +114,9 @@ class Overlaps {
     return false;
   }
 
-  // Winding number: 1 in a solid; for an inverted solid -1 in its cavity and 0 outside.
+  // Winding number: 1 in a solid; for an inverted solid -1 in its cavity and 0 outside. A sheet has no inside.
   bool in_solid(int body, const Vec<Dim>& x) const {
+    if (!scene_.surfaces[body].closed) return false;
     double angle = 0;
     for (size_t e = 0; e < scene_.surfaces[body].elements.size(); ++e) {
       Corners<Dim> c = corners(body, static_cast<int>(e));
