@@ -1,5 +1,7 @@
 #include "coupling/geometry/placed_solid.h"
 
+#include <limits>
+
 #include "coupling/geometry/periodic_places.h"
 #include "geometry/mesh/segment_crossing.h"
 #include "grid/loops.h"
@@ -21,7 +23,10 @@ class PosedSolid : public PlacedSolid<Dim> {
 
   Box<Dim> fill(NodeField<Dim>& field) const override {
     const Box<Dim> box = reach();
+    const Vec<Dim> center = truncate<Dim>(pose_.apply(pose_.pivot));
+    const double far = farthest();
     for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>& i) {
+      if ((layout_.position(i, node_offset<Dim>()) - center).squaredNorm() > far * far) return;
       field[s] = least_distance(layout_, i, [&](const Vec<Dim>& x) { return distance(x); });
     });
     return box;
@@ -34,6 +39,14 @@ class PosedSolid : public PlacedSolid<Dim> {
   }
 
  private:
+  // Distance from the body's centre beyond which nodes of reach() are far from it, m. A body that a periodic side may
+  // repeat has no such distance, nor has one of unknown radius.
+  double farthest() const {
+    bool periodic = body_.radius() == 0;
+    for (int a = 0; a < Dim; ++a) periodic = periodic || layout_.geometry().periodic[a];
+    return periodic ? std::numeric_limits<double>::infinity() : body_.radius() + cells_around_body * layout_.h();
+  }
+
   // Nodes in the bounding box of the body plus `cells_around_body`. All stored nodes if the radius is unknown (0).
   Box<Dim> reach() const {
     Box<Dim> box = layout_.padded();
