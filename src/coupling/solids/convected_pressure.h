@@ -15,8 +15,8 @@ namespace seiche {
 // flow -rho A, is
 //   (p_n(x - S) - p_n(x))/2 = rho S.A/2.
 // Without it a disc that glides at speed V through ideal liquid feels the drag pi rho V^3 dt. Hydrostatic pressure is
-// not part of A and does not move along. Leapfrog steps of solids that move freely need none: p acts half-way between
-// the places that p_n and p_(n+1) fit (end_of_step.h).
+// not part of A and does not move along. Leapfrog steps of solids that move freely in ideal liquid need none: p acts
+// half-way between the places that p_n and p_(n+1) fit (end_of_step.h).
 template <int Dim>
 struct ConvectedPressure {
   CellField<Dim> value;          // beside solids that carry it, else 0; ghosts filled; empty if there are none

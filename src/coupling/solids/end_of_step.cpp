@@ -86,8 +86,8 @@ void add_solid(const Layout<Dim>& layout, const FaceField<Dim>& u, const FaceSha
 }  // namespace
 
 template <int Dim>
-bool fits_end_of_step(const Solids<Dim>& solids) {
-  return std::any_of(solids.bodies.begin(), solids.bodies.end(), moves_freely<Dim>);
+bool fits_end_of_step(const Fluids& fluids, const Solids<Dim>& solids) {
+  return !fluids.is_viscous() && std::any_of(solids.bodies.begin(), solids.bodies.end(), moves_freely<Dim>);
 }
 
 template <int Dim>
@@ -139,7 +139,7 @@ void place_at(const StepGeometry<Dim>& end, StepGeometry<Dim>& g) {
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
-  template bool fits_end_of_step<D>(const Solids<D>&);                                                             \
+  template bool fits_end_of_step<D>(const Fluids&, const Solids<D>&);                                              \
   template std::shared_ptr<const EndOfStep<D>> end_of_step<D>(const Domain<D>&, const Solids<D>&, const State<D>&, \
                                                               const State<D>&, const StepGeometry<D>&, double);    \
   template void add_flux_of_end<D>(const Domain<D>&, const PressureRows<D>&, const NullSpace&,                     \

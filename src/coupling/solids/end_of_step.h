@@ -2,6 +2,7 @@
 // The place of solids at the end of a leapfrog step, which the velocities of its solve have to fit.
 #include <memory>
 
+#include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -23,10 +24,11 @@ struct EndOfStep {
   PagedFaceField<Dim> flux;    // m/s
 };
 
-// True if velocities fit the solids' places at the end of leapfrog steps: those of solids that move freely. Prescribed
-// ones are given the mean velocity of the step, which fits its middle.
+// True if velocities fit the solids' places at the end of leapfrog steps: those of solids that move freely in ideal
+// liquid. Prescribed ones are given the mean velocity of the step, which fits its middle. Viscous stress acts half-way,
+// and velocities that stick to solids there must not pass through them elsewhere.
 template <int Dim>
-bool fits_end_of_step(const Solids<Dim>& solids);
+bool fits_end_of_step(const Fluids& fluids, const Solids<Dim>& solids);
 
 // `next`: solids half-way, `half`: their geometry. `known`: the state before, or that after a trial of the step. dt:
 // the step, s. Null if no such solid moves. Collective.

@@ -198,8 +198,9 @@ Attempt<Dim> solve_for_horizon(const SolveTask<Dim>& task, Moved<Dim> moved, Sol
 // Time from the place of the solids that the present flow fits to that of the solve, s; 0 for forces that are those of
 // the middle of the step.
 template <int Dim>
-double since_flow_fitted(const Solids<Dim>& solids, const State<Dim>& before, const StepTimes& times) {
-  if (!fits_end_of_step(solids)) return before.since_solve + times.lead;
+double since_flow_fitted(const Fluids& fluids, const Solids<Dim>& solids, const State<Dim>& before,
+                         const StepTimes& times) {
+  if (!fits_end_of_step(fluids, solids)) return before.since_solve + times.lead;
   return times.leapfrog ? 0 : times.dt;
 }
 
@@ -213,7 +214,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
   Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
-  const double way = since_flow_fitted(s.solids, before, times);
+  const double way = since_flow_fitted(s.fluids, s.solids, before, times);
   if (way > 0)
     p.convected =
         convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported, way);

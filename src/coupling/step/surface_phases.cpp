@@ -69,7 +69,8 @@ StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, 
 template <int Dim>
 std::shared_ptr<const EndOfStep<Dim>> find_end(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                                                const Moved<Dim>& moved, Phases& phases) {
-  if (!times.leapfrog || (before.step == 0 && !before.trial)) return nullptr;
+  if (!times.leapfrog || !fits_end_of_step(s.fluids, s.solids)) return nullptr;
+  if (before.step == 0 && !before.trial) return nullptr;
   const auto timed = phases.timers.measure("geometry");
   const State<Dim>& known = before.trial ? *before.trial : before;
   return end_of_step(s.domain, s.solids, known, moved.state, moved.geometry, times.dt);
