@@ -22,9 +22,9 @@ COLUMNS = ("step", "time", "liquid_volume", "kinetic_energy", "potential_energy"
 SQUARE = numpy.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 
 
-def stats(kinetic, potential=0.0):
-    rows = {"time": [0, 1], "liquid_volume": [0.5, 0.5], "kinetic_energy": [10, kinetic],
-            "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0]}
+def stats(kinetic, potential=0.0, moved=0.0):
+    rows = {"time": [0, 1], "liquid_volume": [0.5, 0.5], "kinetic_energy": [10, kinetic], "max_speed": [0.2, 0.3],
+            "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0], "volume_corrected": [0, moved]}
     return {name: numpy.array(values, dtype=float) for name, values in rows.items()}
 
 
@@ -56,13 +56,13 @@ class Ends(unittest.TestCase):
 
 class CutOff(unittest.TestCase):
     def test_many_short_steps(self):
-        """Only a run that advances in short steps is slow; one that stands still hangs."""
-        for steps, wall, expected in ((200, 0.3, True), (200, 30.0, False), (20, 0.3, False)):
+        """Only a run that advances to the end in short steps is slow; one that stands still hangs."""
+        for steps, wall, expected in ((200, 0.3, True), (20, 3.0, True), (200, 30.0, False), (20, 0.3, False)):
             with tempfile.TemporaryDirectory() as folder:
                 rows = [f"{n},{n * 0.01},0.01,{wall}" for n in range(steps)]
                 (pathlib.Path(folder) / "stats.csv").write_text("\n".join(["step,time,dt,wall_seconds", *rows]) + "\n")
-                self.assertEqual(oracle.goes_on(pathlib.Path(folder)), expected)
-        self.assertFalse(oracle.goes_on(pathlib.Path("/nonexistent")))
+                self.assertEqual(oracle.goes_on(pathlib.Path(folder), 60.0), expected)
+        self.assertFalse(oracle.goes_on(pathlib.Path("/nonexistent"), 60.0))
 
 
 class Kills(unittest.TestCase):
@@ -81,6 +81,10 @@ class Results(unittest.TestCase):
     def test_energy(self):
         oracle.check_energy(SCENE, stats(9))
         oracle.check_energy(SCENE, stats(260, -251))          # falling matter
+        still = {**SCENE, "gravity": [0, 0]}
+        with self.assertRaisesRegex(tables.Fault, "energy"):
+            oracle.check_energy(still, stats(11))
+        oracle.check_energy(still, stats(11, moved=0.02))      # 0.9 J of liquid that the volume control put back
         with self.assertRaisesRegex(tables.Fault, "energy"):
             oracle.check_energy(SCENE, stats(10000))
 

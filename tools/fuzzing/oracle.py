@@ -15,7 +15,8 @@ DEEPEST = 0.02        # cells; frames show faceted surfaces, while contact is ex
 LOST_VOLUME = 0.05    # relative; LOST_CELLS is allowed in addition, since tiny scenes are mostly surface
 LOST_CELLS = 3
 MEMORY = 2 << 30      # bytes, for a scene of a few hundred cells
-MANY_STEPS, LONG_STEP = 10, 15.0    # a run that made so many steps, each within so many seconds, does not hang
+MANY_STEPS, LONG_STEP = 10, 15.0    # a run that goes on to make so many steps, each within so many s, does not hang
+STARTUP = 10.0        # seconds outside of steps
 CUT_OFF = -1          # such a run, at the end of its processor time
 
 
@@ -149,13 +150,15 @@ def check_result(scene, folder):
     check_frames(scene, folder)
 
 
-def goes_on(folder):
-    """True if a run that was cut off advanced steadily: stiff springs and thin surfaces need thousands of steps, and
-    walls that separate from viscous liquid beside elastic solids up to fifty solves a step."""
+def goes_on(folder, seconds):
+    """True if a run that was cut off after so many seconds advanced to the end: stiff springs and thin surfaces need
+    thousands of steps, walls that separate from viscous liquid beside elastic solids up to fifty solves a step."""
     if not (folder / "stats.csv").exists():
         return False
     stats = read_stats(folder)
-    return len(stats["time"]) > MANY_STEPS and stats["wall_seconds"].max() < LONG_STEP and stats["dt"][-1] > 0
+    longest, since = stats["wall_seconds"].max(), seconds - stats["wall_seconds"].sum()
+    advances = stats["dt"][-1] > 0 and since < 2 * longest + STARTUP
+    return advances and len(stats["time"]) > MANY_STEPS and longest < LONG_STEP
 
 
 def check_cut_off(scene, folder):
@@ -177,7 +180,7 @@ def judge(program, scene, folder, name="scene.toml", twice=False):
     checked = program.run("check", name, folder=folder, ranks=1)
     check_end(checked, (0, 2), "check")
     done = program.run("run", name, "--out", "out", "--threads", "1", folder=folder)
-    if done.code is None and goes_on(folder / "out"):
+    if done.code is None and goes_on(folder / "out", done.seconds):
         check_cut_off(scene, folder / "out")
         return CUT_OFF
     check_end(done, (0, 3) if checked.code == 0 else (2,), "run")
