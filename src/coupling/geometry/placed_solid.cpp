@@ -42,9 +42,9 @@ class PosedSolid : public PlacedSolid<Dim> {
   // Distance from the body's centre beyond which nodes of reach() are far from it, m. A body that a periodic side may
   // repeat has no such distance, nor has one of unknown radius.
   double farthest() const {
-    bool periodic = body_.radius() == 0;
-    for (int a = 0; a < Dim; ++a) periodic = periodic || layout_.geometry().periodic[a];
-    return periodic ? std::numeric_limits<double>::infinity() : body_.radius() + cells_around_body * layout_.h();
+    bool unbounded = body_.radius() == 0;
+    for (int a = 0; a < Dim; ++a) unbounded = unbounded || layout_.geometry().periodic[a];
+    return unbounded ? std::numeric_limits<double>::infinity() : body_.radius() + cells_around_body * layout_.h();
   }
 
   // Nodes in the bounding box of the body plus `cells_around_body`. All stored nodes if the radius is unknown (0).

@@ -40,8 +40,8 @@ struct State : Flow<Dim> {
   Work work;                                // since the end of the first step
   ViscousPower viscous_power;               // of the last solve, W
   CellField<Dim, char> sealed;  // cells sealed by elastic walls, their pins and the solids under these; may be empty
-  // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if no solid
-  // moves).
+  // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if none
+  // carries it).
   std::vector<SolidLoad> viscous_loads, convected_loads;
 };
 

@@ -56,9 +56,7 @@ std::vector<Placement> place_halfway(const State<Dim>& state, double dt) {
 
 template <int Dim>
 StepGeometry<Dim> placed_at_end(const Solids<Dim>& solids, const State<Dim>& end, StepGeometry<Dim> solved) {
-  const std::vector<Placement> placed = place_bodies(end);
-  const StepGeometry<Dim> g = solids.geometry.measure(placed, end.time);
-  place_at(g, solved);
+  place_at(solids.geometry.measure(place_bodies(end), end.time), solved);
   return solved;
 }
 
