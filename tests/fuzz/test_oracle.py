@@ -24,7 +24,9 @@ SQUARE = numpy.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 
 def stats(kinetic, potential=0.0, moved=0.0):
     rows = {"time": [0, 1], "liquid_volume": [0.5, 0.5], "kinetic_energy": [10, kinetic], "max_speed": [0.2, 0.3],
-            "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0], "volume_corrected": [0, moved]}
+            "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0], "volume_corrected": [0, moved],
+            "work_gravity": [0, -potential], "work_tension": [0, 0], "work_sides": [0, 0], "work_solids": [0, 0],
+            "lost_viscous": [0, 0], "lost_numerical": [0, 10 - kinetic - potential]}
     return {name: numpy.array(values, dtype=float) for name, values in rows.items()}
 
 
@@ -87,6 +89,19 @@ class Results(unittest.TestCase):
         oracle.check_energy(still, stats(11, moved=0.02))      # 0.9 J of liquid that the volume control put back
         with self.assertRaisesRegex(tables.Fault, "energy"):
             oracle.check_energy(SCENE, stats(10000))
+
+    def test_speeds_that_nothing_explains(self):
+        """Little liquid that the volume control moved does not excuse an explosion."""
+        wild = {**stats(1e6, moved=0.02), "max_speed": numpy.array([0.2, 1e5])}
+        with self.assertRaisesRegex(tables.Fault, "energy"):
+            oracle.check_energy({**SCENE, "gravity": [0, 0]}, wild)
+
+    def test_energy_from_nowhere(self):
+        fed = {**SCENE, "domain": {**SCENE["domain"], "boundary": {"x_lower": {"type": "inflow"}}}}
+        oracle.check_created(fed, stats(9))
+        oracle.check_created(fed, {**stats(900), "work_sides": numpy.array([0.0, 890.0]), "lost_numerical": numpy.zeros(2)})
+        with self.assertRaisesRegex(tables.Fault, "created"):
+            oracle.check_created({**fed, "gravity": [0, 0]}, stats(900))
 
     def test_what_feeds_energy(self):
         self.assertFalse(oracle.is_fed(SCENE))

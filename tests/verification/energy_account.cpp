@@ -1,6 +1,7 @@
 // Work and losses of energy in stats.csv against exact answers.
 #include <catch2/catch.hpp>
 
+#include "elastic_scenes.h"
 #include "scenes.h"
 
 using namespace seiche;
@@ -253,4 +254,79 @@ TEST_CASE("energy account: a source brings its liquid's energy") {
   const double brought = 0.5 * 1000 * (last.liquid_volume - first.liquid_volume);
   WARN("sides " << last.work.sides << ", brought " << brought << ", lost " << last.work.lost_numerical);
   CHECK(last.work.sides == Approx(brought).epsilon(0.01));
+}
+
+// A pressure difference p along a box of length L drives all that is in it alike: U = p t/(rho L), work p U t A/2.
+template <int Dim>
+void check_driven_gas(double gas_density) {
+  Scene s = test::box_scene(Dim, 8);
+  s.gravity = {0, 0, 0};
+  s.domain.sides[0][0] = {SideType::outflow, {"0", "0", "0"}, "1000"};
+  s.domain.sides[0][1].type = SideType::outflow;
+  s.gas.present = true;
+  s.gas.density = gas_density;
+  s.time.end = 0.1;
+  s.time.max_step = 0.02;
+  test::add_liquid(s, gas_density == 1000 ? "0.25-abs(x-0.5)" : "1");
+  const auto sim = make_simulation(s, Communicator());
+  const StepStats first = sim->step(s.time.end);
+  StepStats last;
+  while (sim->time() < s.time.end * (1 - 1e-9)) {
+    last = sim->step(s.time.end);
+    CHECK(last.rejected == 0);
+  }
+  check_closed(first, last);
+  CHECK(last.max_speed == Approx(1000 * 0.1 / gas_density).epsilon(1e-6));  // the solver's tolerance is 1e-8
+  CHECK(last.work.sides == Approx(last.kinetic_energy - first.kinetic_energy).epsilon(1e-6));
+}
+
+TEST_CASE("energy account: gas that a pressure drives has the work of the sides") {
+  for (const double density : {1000.0, 100.0}) {
+    check_driven_gas<2>(density);
+    check_driven_gas<3>(density);
+  }
+}
+
+// A jet into empty space brings rho v^3/2 an area and a time, and no work of pressure.
+TEST_CASE("energy account: a jet into an empty box brings its energy") {
+  for (const int dim : {2, 3}) {
+    Scene s = test::box_scene(dim, 16);
+    s.gravity = {0, 0, 0};
+    s.domain.sides[0][0] = {SideType::inflow, {"y > 0.25 && y < 0.75 ? 2 : 0", "0", "0"}, "0"};
+    s.time.end = 0.3;
+    s.time.max_step = 0.02;
+    const auto sim = make_simulation(s, Communicator());
+    const StepStats first = sim->step(s.time.end);
+    const double begun = sim->time();
+    StepStats last;
+    while (sim->time() < s.time.end * (1 - 1e-9)) last = sim->step(s.time.end);
+    check_closed(first, last);
+    WARN(dim << "D: " << last.work.sides / (2000 * (s.time.end - begun)) << " of the energy, lost "
+             << last.work.lost_numerical);
+    CHECK(last.work.sides == Approx(2000 * (s.time.end - begun)).epsilon(0.01));
+  }
+}
+
+// Viscosity that acts before the pressure sees a light body's free flight; the heat is that of the flow in the end.
+TEST_CASE("energy account: heat beside a light elastic body does not depend on the way of the solve") {
+  std::array<double, 2> heat;
+  for (const ViscousSolve way : {ViscousSolve::split, ViscousSolve::coupled}) {
+    Scene s = test::box_scene(2, 20);
+    s.domain.sides[0][1].type = SideType::outflow;
+    s.gravity = {0, 0, 0};
+    s.liquid.viscosity = "1";
+    s.time.max_step = 0.1;
+    s.solver.viscosity = way;
+    test::add_liquid(s, "-1");
+    SolidSpec body = test::elastic_solid("body", 13, {2000, 0.45}, 0.15);
+    body.shape = disc_of(2, 0.23, SolidKind::elastic).shape;
+    body.shape.where = "test";
+    body.elastic.body_force[0] = "500";
+    test::pin(body, {0.6, 0, 0}, {1, 1, 0});
+    s.solids.push_back(body);
+    const auto sim = make_simulation(s, Communicator());
+    heat[way == ViscousSolve::split ? 0 : 1] = sim->step(0.1).viscous_dissipation;
+  }
+  WARN("split " << heat[0] << ", coupled " << heat[1] << " W/m");
+  CHECK(heat[0] == Approx(heat[1]).epsilon(0.2));  // viscosity reaches over 0.04 of a cell in the step
 }

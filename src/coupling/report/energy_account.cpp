@@ -22,31 +22,43 @@ void for_each_side_face(const Domain<Dim>& domain, const Visit& visit) {
       });
 }
 
-// rho |u|^2/2 of what is in a cell at a side, with the velocity of the face along its axis, J/m^Dim.
+// |u|^2/2 in a cell at a side, with the velocity of the face along its axis, m^2/s^2.
 template <int Dim>
-double kinetic_density(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
-                       const FaceField<Dim>& u, int axis, Site face, Site inside) {
-  const double share = std::clamp(0.5 - phi[inside] / domain.layout.h(), 0.0, 1.0);
+double half_square(const Domain<Dim>& domain, const FaceField<Dim>& u, int axis, Site face, Site inside) {
   double square = std::pow(u.at(axis, face), 2);
   for (int a = 0; a < Dim; ++a)
     if (a != axis) square += std::pow(0.5 * (u.at(a, inside) + u.at(a, inside + domain.layout.stride(a))), 2);
-  return 0.5 * square * (share * fluids.density() + (1 - share) * fluids.gas_density());
+  return 0.5 * square;
 }
 
-// Kinetic energy that enters through the sides with the velocity of a state, less that which leaves, W.
-template <int Dim>
-double kinetic_inflow(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const State<Dim>& state) {
-  if (!s.domain.sides.any_passes()) return 0;
-  const auto level = state.exterior->joined_level(s.domain, s.fluids, state);
-  const FaceField<Dim>& u = level->u;
+// Kinetic energy over the density that one fluid brings through the sides with the velocity u, less that which it takes
+// out, m^(Dim+2)/s^3. share(axis, inside, inward, flow): its share of what flows. Local.
+template <int Dim, class Share>
+double kinetic_inflow_of(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& u,
+                         const Share& share) {
   double sum = 0;
-  for_each_side_face(s.domain, [&](int a, Site f, Site inside, double inward) {
+  for_each_side_face(domain, [&](int a, Site f, Site inside, double inward) {
     const FaceKind kind = faces.kind_at(a, f);
     if (kind != FaceKind::prescribed && kind != FaceKind::outflow) return;
     const double flow = inward * faces.open.at(a, f) * u.at(a, f);
-    if (flow != 0) sum += flow * kinetic_density(s.domain, s.fluids, state.phi, u, a, f, inside);
+    if (flow != 0) sum += flow * share(a, inside, inward, flow) * half_square(domain, u, a, f, inside);
   });
-  return s.domain.ranks.global_sum(sum) * s.domain.layout.geometry().face_area();
+  return sum * domain.layout.geometry().face_area();
+}
+
+// Kinetic energy that enters through the sides with the velocities of a state, less that which leaves, W. Each fluid
+// flows with its own velocity. An inflow side feeds liquid; elsewhere the cell inside tells the shares. Collective.
+template <int Dim>
+double kinetic_inflow(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const State<Dim>& state) {
+  const auto liquid = [&](int a, Site inside, double inward, double flow) {
+    const bool fed = flow > 0 && s.domain.sides.type(a, inward > 0 ? 0 : 1) == SideType::inflow;
+    return fed ? 1.0 : std::clamp(0.5 - state.phi[inside] / s.domain.layout.h(), 0.0, 1.0);
+  };
+  const auto gas = [&](int a, Site inside, double inward, double flow) { return 1 - liquid(a, inside, inward, flow); };
+  double sum = s.fluids.density() * kinetic_inflow_of(s.domain, faces, state.now->u, liquid);
+  if (state.exterior->flows())
+    sum += s.fluids.gas_density() * kinetic_inflow_of(s.domain, faces, state.exterior->flow.now->u, gas);
+  return s.domain.ranks.global_sum(sum);
 }
 
 // F v + T omega, W, with the torque about `position`.
@@ -90,12 +102,23 @@ double driven_work(const State<Dim>& before, const State<Dim>& state, double dt)
   return sum;
 }
 
+// Power of pressure, shear and what enters, on the fluids through the sides, W: means over the step.
+template <int Dim>
+double power_of_sides(const Setup<Dim>& s, const State<Dim>& before, const Attempt<Dim>& a) {
+  if (!s.domain.sides.any_passes()) return 0.5 * (before.viscous_power.sides + a.powers.viscous.sides);
+  const auto from = before.exterior->joined_level(s.domain, s.fluids, before);
+  const auto to = a.state.exterior->joined_level(s.domain, s.fluids, a.state);
+  const double entering = kinetic_inflow(s, a.geometry.faces, before) + kinetic_inflow(s, a.geometry.faces, a.state);
+  return pressure_power_of_sides(s.domain, from->u, to->u, a) +
+         0.5 * (before.viscous_power.sides + a.powers.viscous.sides + entering);
+}
+
 }  // namespace
 
 template <int Dim>
-double pressure_power_of_sides(const Domain<Dim>& domain, const FaceField<Dim>& from, const Attempt<Dim>& attempt) {
+double pressure_power_of_sides(const Domain<Dim>& domain, const FaceField<Dim>& from, const FaceField<Dim>& to,
+                               const Attempt<Dim>& attempt) {
   const FaceGeometry<Dim>& faces = attempt.geometry.faces;
-  const FaceField<Dim>& to = attempt.state.now->u;
   double sum = 0;
   for_each_side_face(domain, [&](int a, Site f, Site inside, double inward) {
     const double flow = 0.5 * inward * faces.open.at(a, f) * (from.at(a, f) + to.at(a, f));
@@ -117,10 +140,7 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
   Work w = a.state.work;
   w.gravity += 0.5 * dt * s.fluids.gravity.of_step(a.state.time, dt).dot(start.momentum + a.stats.momentum);
   w.tension += dt * powers.tension;
-  const double entering =
-      0.5 * (kinetic_inflow(s, a.geometry.faces, before) + kinetic_inflow(s, a.geometry.faces, a.state));
-  const double shear = 0.5 * (before.viscous_power.sides + powers.viscous.sides);
-  w.sides += dt * (pressure_power_of_sides(s.domain, before.now->u, a) + shear + entering);
+  w.sides += dt * power_of_sides(s, before, a);
   w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
               driven_work(before, a.state, dt);
   w.lost_viscous +=
@@ -133,7 +153,8 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                     \
-  template double pressure_power_of_sides<D>(const Domain<D>&, const FaceField<D>&, const Attempt<D>&);           \
+  template double pressure_power_of_sides<D>(const Domain<D>&, const FaceField<D>&, const FaceField<D>&,          \
+                                             const Attempt<D>&);                                                  \
   template Work work_after<D>(const Setup<D>&, const State<D>&, const StepStats&, const std::vector<SolidState>&, \
                               const Attempt<D>&);
 SEICHE_INSTANTIATE(2)

@@ -80,14 +80,16 @@ double pushed_by_body(const Domain<Dim>& domain, const Attempt<Dim>& attempt, st
 
 // dt p.b, J, at least 0. Collective.
 template <int Dim>
-double pushed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Attempt<Dim>& attempt, double t, double dt) {
+double pushed(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const Attempt<Dim>& attempt,
+              double t, double dt) {
   double sum = 0;
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const double pinned = attempt.state.solids[k].fastest_prescribed_part(t, dt);
     sum += pushed_by_body(domain, attempt, k, pinned);
   }
   const double by_bodies = domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
-  return std::max(0.0, dt * (pressure_power_of_sides(domain, attempt.state.now->u, attempt) + by_bodies));
+  const auto flow = attempt.state.exterior->joined_level(domain, fluids, attempt.state);
+  return std::max(0.0, dt * (pressure_power_of_sides(domain, flow->u, flow->u, attempt) + by_bodies));
 }
 
 // sqrt(f'M^-1 f) with lumped M, f the tractions and body forces.
@@ -121,7 +123,7 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
   b.given = still * s.domain.layout.h() / dt + fastest_led(s.solids, attempt, t, span) +
             std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt);
   b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
-  b.pushed = pushed(s.domain, s.solids, attempt, t, dt);
+  b.pushed = pushed(s.domain, s.fluids, s.solids, attempt, t, dt);
   return b;
 }
 

@@ -1,5 +1,7 @@
 #include "coupling/solve/coupled_solve.h"
 
+#include <optional>
+
 #include "base/solver_spec.h"
 #include "coupling/solids/end_of_step.h"
 #include "coupling/solids/sealed_liquid.h"
@@ -68,8 +70,10 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
   } else {
-    if (route == ViscousRoute::split) act_before_pressure(input, liquid, coupling, r);
+    std::optional<SplitViscosity<Dim>> viscosity;
+    if (route == ViscousRoute::split) viscosity.emplace(input, coupling, r).act(liquid, coupling, r);
     if (r.failure.empty()) solve_pressure(input, liquid, coupling, r);
+    if (viscosity && r.failure.empty()) viscosity->measure(r);
   }
   if (r.failure.empty()) {
     set_velocities(s.domain, s.solids, coupling, r.solids, input.horizon, input.geometry, input.state);

@@ -196,6 +196,14 @@ ViscousPower ViscousStep<Dim>::power(const FaceField<Dim>& u, const Eigen::Vecto
   return viscous_power(input_, system_, u, v);
 }
 
+template <int Dim>
+void ViscousStep<Dim>::keep_samples_only() {
+  auto samples = std::move(system_.samples);
+  system_ = {};
+  system_.samples = std::move(samples);
+  J_ = G_held_ = J_held_ = {};
+}
+
 #define SEICHE_INSTANTIATE(D)                                                                                   \
   template EdgeField<D> mean_at_edges<D>(const Layout<D>&, const CellField<D>&);                                \
   template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const OperatorPerturbation&, \

@@ -62,6 +62,8 @@ class ViscousStep {
   // Loads of the viscous stress on each solid, about its reference point, N and N m. Collective.
   std::vector<SolidLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
   ViscousPower power(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
+  // Frees all but what loads() and power() read.
+  void keep_samples_only();
 
  private:
   void separate_held();

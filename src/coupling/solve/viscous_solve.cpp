@@ -59,9 +59,9 @@ ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometr
 }
 
 template <int Dim>
-void take_loads(const ViscousStep<Dim>& viscous, const FaceField<Dim>& u, CoupledSolution<Dim>& r) {
-  r.viscous_loads = viscous.loads(u, r.solids);
-  r.viscous = viscous.power(u, r.solids);
+FaceGeometry<Dim> without_side_pressures(FaceGeometry<Dim> faces) {
+  faces.side_pressure.fill(0);
+  return faces;
 }
 
 // Drag of the velocities u on the unknowns of the solids, N, the same on all ranks.
@@ -76,20 +76,26 @@ Eigen::VectorXd drag_on_solids(const ViscousStep<Dim>& viscous, const Vector& u,
 }  // namespace
 
 template <int Dim>
-void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling,
-                         CoupledSolution<Dim>& r) {
+SplitViscosity<Dim>::SplitViscosity(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupling,
+                                    const CoupledSolution<Dim>& r)
+    : in_(in),
+      faces_(without_side_pressures(in.liquid.faces)),
+      unpressed_(with_faces(in.liquid, faces_)),
+      pressed_(shifted(in, in.u_star, -in.liquid.dt)),
+      viscous_(in.setup.domain, in.setup.solids, unpressed_, r.rows, in.geometry, in.state, coupling, *in.viscosity,
+               pressed_) {
+  viscous_.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
+}
+
+template <int Dim>
+void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling,
+                              CoupledSolution<Dim>& r) {
+  const CoupledInput<Dim>& in = in_;
   const double dt = in.liquid.dt;
-  const FaceField<Dim> pressed = shifted(in, in.u_star, -dt);
-  FaceGeometry<Dim> faces = in.liquid.faces;
-  faces.side_pressure.fill(0);  // side pressures are part of the slope
-  const ProjectionInput<Dim> unpressed = with_faces(in.liquid, faces);
-  ViscousStep<Dim> viscous(in.setup.domain, in.setup.solids, unpressed, r.rows, in.geometry, in.state, coupling,
-                           *in.viscosity, pressed);
-  viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
-  const ViscousSystem<Dim>& system = viscous.system();
-  SaddleSolver solver = make_solver(in, liquid, system, system.G, viscous.J());
-  Vector p = guessed_pressure(in, r.rows), u = viscous.gather(pressed);
-  Eigen::VectorXd impulse = dt * multiply_transposed(viscous.J(), p, in.setup.domain.ranks);
+  const ViscousSystem<Dim>& system = viscous_.system();
+  SaddleSolver solver = make_solver(in, liquid, system, system.G, viscous_.J());
+  Vector p = guessed_pressure(in, r.rows), u = viscous_.gather(pressed_);
+  Eigen::VectorXd impulse = dt * multiply_transposed(viscous_.J(), p, in.setup.domain.ranks);
   make_identical(impulse, in.setup.domain.ranks);
   Eigen::VectorXd push = coupling.push + impulse + system.g, v = coupling.free;
   BodyMatrix H(in.setup.domain.ranks);
@@ -105,13 +111,28 @@ void act_before_pressure(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                             report.iterations);
     return;
   }
-  coupling.push += system.g - system.Hvv * v - drag_on_solids(viscous, u, in.setup.domain.ranks);
-  FaceField<Dim> moved = pressed;
-  viscous.scatter(u, moved);
+  coupling.push += system.g - system.Hvv * v - drag_on_solids(viscous_, u, in.setup.domain.ranks);
+  FaceField<Dim> moved = pressed_;
+  viscous_.scatter(u, moved);
   fill_velocity_ghosts(in.liquid.layout, in.liquid.halo, in.setup.domain.sides, moved);
   r.u_star = shifted(in, moved, dt);
   r.solids = v;
-  take_loads(viscous, moved, r);
+  r.viscous_loads = viscous_.loads(moved, v);
+  viscous_.keep_samples_only();
+}
+
+// u = u* - dt grad p/rho
+template <int Dim>
+void SplitViscosity<Dim>::measure(CoupledSolution<Dim>& r) const {
+  const Domain<Dim>& domain = in_.setup.domain;
+  FaceField<Dim> u = r.u_star;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (in_.liquid.faces.is_unknown(a, f))
+        u.at(a, f) -= in_.liquid.dt * face_pressure_slope(in_.liquid, r.rows, r.pressure, a, f);
+    });
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
+  r.viscous = viscous_.power(u, r.solids);
 }
 
 template <int Dim>
@@ -142,7 +163,8 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   viscous.scatter(u, solved);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, solved);
   if (!r.failure.empty()) return;
-  take_loads(viscous, solved, r);
+  r.viscous_loads = viscous.loads(solved, r.solids);
+  r.viscous = viscous.power(solved, r.solids);
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
       r.u_star.at(a, f) = solved.at(a, f);
@@ -153,8 +175,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \
-  template void act_before_pressure<D>(const CoupledInput<D>&, const PressureProblem<D>&, SolidCoupling<D>&,        \
-                                       CoupledSolution<D>&);                                                        \
+  template class SplitViscosity<D>;                                                                                 \
   template void solve_with_viscosity<D>(const CoupledInput<D>&, const PressureProblem<D>&, const SolidCoupling<D>&, \
                                         CoupledSolution<D>&);
 SEICHE_INSTANTIATE(2)

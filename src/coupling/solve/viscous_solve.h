@@ -1,15 +1,30 @@
 #pragma once
 // Viscosity in the solve of a step: split or coupled.
 #include "coupling/solve/solve_parts.h"
+#include "coupling/solve/viscous_coupling.h"
 
 namespace seiche {
 
 // Split: viscosity first, with the pressure of the last step:
 //   F u + G v = M (u* - dt grad p/rho) + f,   G'u + (M + H_vv) v = push + dt A_f J'p + g.
-// Adds its effect to r.u_star and coupling.push; the solve for pressure follows.
+// Keeps references.
 template <int Dim>
-void act_before_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
-                         SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r);
+class SplitViscosity {
+ public:
+  SplitViscosity(const CoupledInput<Dim>& input, const SolidCoupling<Dim>& coupling, const CoupledSolution<Dim>& r);
+
+  // Adds the effect of viscosity to r.u_star and coupling.push; the solve for pressure follows.
+  void act(const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r);
+  // Sets r.viscous from the velocities that the solve for pressure found. Collective.
+  void measure(CoupledSolution<Dim>& r) const;
+
+ private:
+  const CoupledInput<Dim>& in_;
+  FaceGeometry<Dim> faces_;  // side pressures are part of the slope
+  ProjectionInput<Dim> unpressed_;
+  FaceField<Dim> pressed_;  // u* - dt grad p/rho, m/s
+  ViscousStep<Dim> viscous_;
+};
 
 // Coupled: pressure, viscosity and bodies in one solve.
 template <int Dim>
