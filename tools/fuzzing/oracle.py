@@ -5,6 +5,7 @@ import pathlib
 
 import numpy
 
+from fuzzing.energy import check_created, check_energy, is_fed
 from fuzzing.program import OTHER_HEAP
 from fuzzing.tables import Fault, check_finite, overlap, read_stats, read_summary, read_surfaces, same_stats
 
@@ -17,8 +18,6 @@ LOST_CELLS = 3
 MEMORY = 2 << 30      # bytes, for a scene of a few hundred cells
 MANY_STEPS, LONG_STEP = 10, 15.0    # a run that goes on to make so many steps, each within so many s, does not hang
 STARTUP = 10.0        # seconds outside of steps
-WORKS = ("work_gravity", "work_tension", "work_sides", "work_solids", "lost_viscous")
-CREATED = 0.25        # relative; the first steps of bodies a few cells across set liquid going with blows
 CUT_OFF = -1          # such a run, at the end of its processor time
 
 
@@ -39,92 +38,6 @@ def check_end(done, codes, verb):
         raise Fault("message", f"{verb} ended with {done.code} and no message")
     if done.code == 3 and not re.search(r"\d", messages[0]):
         raise Fault("message", f"no figure in: {messages[0]}")
-
-
-def is_constant(value):
-    return all(not isinstance(v, str) or re.fullmatch(r"[-+.\de]+", v) for v in value)
-
-
-def is_fed(scene):
-    """True if energy may enter from outside."""
-    sides = scene["domain"].get("boundary", {})
-    kinds = {s if isinstance(s, str) else s["type"] for s in sides.values()}
-    liquid = scene.get("liquid", {})
-    if kinds & {"inflow", "outflow", "moving_wall"} or "source" in liquid or "prescribed_velocity" in liquid:
-        return True
-    if not is_constant(scene.get("gravity", [0.0])):
-        return True
-    for solid in scene.get("solid", []):
-        pins = solid.get("pinned", [])
-        moved = any("motion" in p for p in (pins if isinstance(pins, list) else [pins]))
-        if moved or solid["kind"] == "kinematic" or "body_force" in solid or "traction" in solid:
-            return True
-    return False
-
-
-def periodic_along(scene, g):
-    sides = scene["domain"].get("boundary", {})
-    return any(g[n] != 0 and "periodic" in str(sides.get(f"{axis}_lower", ""))
-               for n, axis in enumerate("xyz"[:scene["dimension"]]))
-
-
-def fastest(scene, stats, given):
-    """A bound of the speed, m/s, in each step: three times that of a fall through the domain from the highest speed at
-    the start with the energy `given` (J) in the liquid, or of a capillary wave of one cell if that is more."""
-    liquid = {"density": 1000.0, **scene.get("liquid", {})}
-    g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0]) if is_constant([v])]
-    extent = numpy.subtract(scene["domain"]["upper"], scene["domain"]["lower"])
-    fall = 2 * float(numpy.linalg.norm(g)) * float(extent.sum())
-    capillary = 2 * liquid.get("surface_tension", 0) / (liquid["density"] * scene["domain"]["cell_size"])
-    cell = scene["domain"]["cell_size"] ** scene["dimension"]
-    mass = liquid["density"] * numpy.maximum(stats["liquid_volume"], cell)
-    return 3 * numpy.sqrt(stats["max_speed"][0] ** 2 + fall + capillary + 2 * given / mass)
-
-
-def energy_margin(scene, stats, given):
-    """Energy, J, that the finite cells leave open in each step.
-
-    A twentieth of the initial kinetic energy, plus the following. The surface is known to about a cell: all mass is
-    lifted by half a cell, and the volume error is lifted through the domain. Liquid that transport adds or the volume
-    control puts back moves at most at the run's highest speed, as far as that is possible: features below a cell gain
-    or lose a share of their energy with their volume. Surface tension adds at most sigma per cell face."""
-    g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0]) if is_constant([v])]
-    h, gravity = scene["domain"]["cell_size"], float(numpy.linalg.norm(g))
-    extent = numpy.subtract(scene["domain"]["upper"], scene["domain"]["lower"])
-    volume, liquid = float(numpy.prod(extent)), {"density": 1000.0, **scene.get("liquid", {})}
-    mass = liquid["density"] * float(stats["liquid_volume"].max())
-    mass += sum(s.get("density", 0) * volume * 0.3 for s in scene.get("solid", []))
-    amiss = numpy.abs(stats["liquid_volume"] - stats["liquid_volume"][0])
-    moved = liquid["density"] * (amiss + numpy.abs(stats["volume_corrected"]))
-    speed = numpy.minimum(stats["max_speed"], fastest(scene, stats, given))
-    return (0.05 * stats["kinetic_energy"][0] + gravity * (0.5 * mass * h + liquid["density"] * amiss * extent.sum())
-            + 0.5 * moved * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
-
-
-def check_energy(scene, stats):
-    """E = E_kin + E_pot + E_el of a closed scene must stay below its initial value, up to `energy_margin`."""
-    g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0])][:scene["dimension"]]
-    if periodic_along(scene, g):
-        return
-    energy = stats["kinetic_energy"] + stats["potential_energy"] + stats["elastic_energy"]
-    given = stats["kinetic_energy"][0] + stats["elastic_energy"][0]
-    margin = energy_margin(scene, stats, given) + 1e-9 * numpy.abs(energy[0])
-    gained = energy - energy[0] - margin
-    if (gained > 0).any():
-        n, kinetic = int(gained.argmax()), stats["kinetic_energy"]
-        raise Fault("energy", f"{energy[0]:.6g} J at the start, {energy[n]:.6g} J at t = {stats['time'][n]:.6g} s "
-                              f"(kinetic {kinetic[0]:.4g}, {kinetic[n]:.4g}; margin {numpy.max(margin):.3g})")
-
-
-def check_created(scene, stats):
-    """Energy from nowhere in any scene: a share of what it has and of the work done on it, beside `energy_margin`."""
-    works = sum(numpy.abs(stats[name]) for name in WORKS)
-    largest = numpy.maximum.accumulate(stats["kinetic_energy"] + stats["elastic_energy"] + works)
-    gained = -stats["lost_numerical"] - CREATED * largest - energy_margin(scene, stats, largest)
-    if (gained > 0).any():
-        n = int(gained.argmax())
-        raise Fault("created", f"{-stats['lost_numerical'][n]:.6g} J from nowhere at t = {stats['time'][n]:.6g} s, where "
-                               f"there are {largest[n]:.6g} J at most, with all work done")
 
 
 def check_volume(scene, folder):
