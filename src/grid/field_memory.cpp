@@ -93,10 +93,31 @@ std::vector<std::uint64_t> entries_of(const void* memory, std::size_t bytes, std
   return page_entries(static_cast<const char*>(memory) + begin * page, std::min(bytes, end * page) - begin * page);
 }
 
+// Gives back to the system the pages of runs that end where add() is not called for the next page.
+class Drops {
+ public:
+  explicit Drops(char* memory) : memory_(memory) {}
+  ~Drops() { flush(); }
+  void add(std::size_t n) {
+    if (n != end_) flush(), begin_ = n;
+    end_ = n + 1;
+  }
+
+ private:
+  // Each call interrupts all threads of the process.
+  void flush() const {
+    if (begin_ < end_) ::madvise(memory_ + begin_ * page, (end_ - begin_) * page, MADV_DONTNEED);
+  }
+
+  char* memory_;
+  std::size_t begin_ = 0, end_ = 0;
+};
+
 // `drop`: gives pages back to the system that are zero already.
 void make_zero(void* memory, std::size_t bytes, bool drop) {
   parallel_pieces(page_count(bytes), pages_a_piece, [&](std::size_t begin, std::size_t end) {
     const std::vector<std::uint64_t> entries = entries_of(memory, bytes, begin, end);
+    Drops drops(static_cast<char*>(memory));
     for (std::size_t n = begin; n < end; ++n) {
       if (is_untouched(entries[n - begin])) continue;
       char* at = static_cast<char*>(memory) + n * page;
@@ -104,7 +125,7 @@ void make_zero(void* memory, std::size_t bytes, bool drop) {
       if (!is_zero_page(at, count))
         std::memset(at, 0, count);
       else if (drop)
-        ::madvise(at, count, MADV_DONTNEED);
+        drops.add(n);
     }
   });
 }
@@ -138,7 +159,7 @@ class Pool {
   // True now and then: pages that arrays no longer use are then looked for.
   bool drops_pages() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return ++taken_ % 16 == 0;
+    return ++taken_ % 64 == 0;
   }
 
  private:

@@ -238,7 +238,7 @@ void check_loads(int n) {
   load.head(Dim) = loads[0].force.template head<Dim>();
   load.tail(Dim == 2 ? 1 : 3) = Dim == 2 ? loads[0].torque.tail(1) : loads[0].torque;
   CHECK((load + Vz.tail(p.unknowns)).norm() <= 1e-12 * load.norm());
-  CHECK(viscous_power(p.input(), p.system, p.u, v).dissipation == Approx(z.dot(Vz)).epsilon(1e-12));
+  CHECK(viscous_power(p.input(), p.system, {p.u, v}, {p.u, v}).dissipation == Approx(z.dot(Vz)).epsilon(1e-12));
   CHECK(loads[1].force.norm() > 0);
 }
 

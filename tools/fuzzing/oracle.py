@@ -3,8 +3,6 @@ import re
 import sys
 import pathlib
 
-import numpy
-
 from fuzzing.energy import check_created, check_energy, is_fed
 from fuzzing.program import OTHER_HEAP
 from fuzzing.tables import Fault, check_finite, overlap, read_stats, read_summary, read_surfaces, same_stats

@@ -64,8 +64,8 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
   if (input.flux_of_end) add_flux_of_end(s.domain, r.rows, liquid.closed, *input.flux_of_end, input.geometry.faces);
-  const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, s.scene.solver.viscosity,
-                                                            *input.viscosity, input.liquid.dt)
+  const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, coupling.J,
+                                                            s.scene.solver.viscosity, *input.viscosity, input.liquid.dt)
                                              : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);

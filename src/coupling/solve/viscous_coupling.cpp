@@ -88,11 +88,11 @@ ViscosityField<Dim> measure_viscosity(const Domain<Dim>& domain, const Fluids& f
 
 template <int Dim>
 ViscousRoute choose_route(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                          ViscousSolve asked, const ViscosityField<Dim>& mu, double dt) {
+                          const BlockColumns& J, ViscousSolve asked, const ViscosityField<Dim>& mu, double dt) {
   constexpr double reaches_a_cell = 0.5;
   if (asked != ViscousSolve::automatic)
     return asked == ViscousSolve::split ? ViscousRoute::split : ViscousRoute::coupled;
-  if (sticks_to_what_it_moves(solids)) return ViscousRoute::coupled;
+  if (sticks_to_what_it_moves(solids) || J.any_deforms()) return ViscousRoute::coupled;
   const double reach = mu.largest * dt / (fluids.density() * domain.layout.h() * domain.layout.h());
   return reach < reaches_a_cell ? ViscousRoute::split : ViscousRoute::coupled;
 }
@@ -192,8 +192,8 @@ std::vector<SolidLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Ei
 }
 
 template <int Dim>
-ViscousPower ViscousStep<Dim>::power(const FaceField<Dim>& u, const Eigen::VectorXd& v) const {
-  return viscous_power(input_, system_, u, v);
+ViscousPower ViscousStep<Dim>::power(const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z) const {
+  return viscous_power(input_, system_, strained, z);
 }
 
 template <int Dim>
@@ -208,8 +208,8 @@ void ViscousStep<Dim>::keep_samples_only() {
   template EdgeField<D> mean_at_edges<D>(const Layout<D>&, const CellField<D>&);                                \
   template ViscosityField<D> measure_viscosity<D>(const Domain<D>&, const Fluids&, const OperatorPerturbation&, \
                                                   const State<D>&, const TimeLevel<D>&);                        \
-  template ViscousRoute choose_route<D>(const Domain<D>&, const Fluids&, const Solids<D>&, ViscousSolve,        \
-                                        const ViscosityField<D>&, double);                                      \
+  template ViscousRoute choose_route<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const BlockColumns&, \
+                                        ViscousSolve, const ViscosityField<D>&, double);                        \
   template class ViscousStep<D>;
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -34,11 +34,12 @@ EdgeField<Dim> mean_at_edges(const Layout<Dim>& layout, const CellField<Dim>& mu
 // split: viscosity first, then pressure; coupled: both in one solve.
 enum class ViscousRoute { none, split, coupled };
 
-// The scene's choice. "auto" is coupled for mu dt/(rho h^2) >= 0.5 and beside free no-slip solids. Below 0.5, shear
-// diffuses across less than a cell in a step, and pressure undoes little of it.
+// The scene's choice. "auto" is coupled for mu dt/(rho h^2) >= 0.5, beside free no-slip solids and beside elastic ones.
+// Below 0.5, shear diffuses across less than a cell in a step, and pressure undoes little of it. Before the pressure
+// acts, elastic solids fly freely with the forces that they had at the start of the step.
 template <int Dim>
 ViscousRoute choose_route(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                          ViscousSolve asked, const ViscosityField<Dim>& viscosity, double dt);
+                          const BlockColumns& J, ViscousSolve asked, const ViscosityField<Dim>& viscosity, double dt);
 
 // The viscous operator of a step and the solids in it. Keeps references.
 template <int Dim>
@@ -61,7 +62,8 @@ class ViscousStep {
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
   // Loads of the viscous stress on each solid, about its reference point, N and N m. Collective.
   std::vector<SolidLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
-  ViscousPower power(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
+  // Power of the stress of `strained` on the motion z, see viscous_power(). Collective.
+  ViscousPower power(const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z) const;
   // Frees all but what loads() and power() read.
   void keep_samples_only();
 

@@ -119,9 +119,10 @@ void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<
   r.solids = v;
   r.viscous_loads = viscous_.loads(moved, v);
   viscous_.keep_samples_only();
+  solids_ = v;
 }
 
-// u = u* - dt grad p/rho
+// u = u* - dt grad p/rho. The stress is that of u* without the pressure of the last step.
 template <int Dim>
 void SplitViscosity<Dim>::measure(CoupledSolution<Dim>& r) const {
   const Domain<Dim>& domain = in_.setup.domain;
@@ -132,7 +133,7 @@ void SplitViscosity<Dim>::measure(CoupledSolution<Dim>& r) const {
         u.at(a, f) -= in_.liquid.dt * face_pressure_slope(in_.liquid, r.rows, r.pressure, a, f);
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
-  r.viscous = viscous_.power(u, r.solids);
+  r.viscous = viscous_.power({shifted(in_, r.u_star, -in_.liquid.dt), solids_}, {u, r.solids});
 }
 
 template <int Dim>
@@ -164,7 +165,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, solved);
   if (!r.failure.empty()) return;
   r.viscous_loads = viscous.loads(solved, r.solids);
-  r.viscous = viscous.power(solved, r.solids);
+  r.viscous = viscous.power({solved, r.solids}, {solved, r.solids});
   for (int a = 0; a < Dim; ++a)
     for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
       r.u_star.at(a, f) = solved.at(a, f);

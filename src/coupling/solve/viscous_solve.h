@@ -15,7 +15,7 @@ class SplitViscosity {
 
   // Adds the effect of viscosity to r.u_star and coupling.push; the solve for pressure follows.
   void act(const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r);
-  // Sets r.viscous from the velocities that the solve for pressure found. Collective.
+  // Sets r.viscous: the power of the stress that acted on the velocities that the solve for pressure found. Collective.
   void measure(CoupledSolution<Dim>& r) const;
 
  private:
@@ -24,6 +24,7 @@ class SplitViscosity {
   ProjectionInput<Dim> unpressed_;
   FaceField<Dim> pressed_;  // u* - dt grad p/rho, m/s
   ViscousStep<Dim> viscous_;
+  Eigen::VectorXd solids_;  // velocities of the bodies' unknowns that the stress belongs to
 };
 
 // Coupled: pressure, viscosity and bodies in one solve.

@@ -110,9 +110,16 @@ struct ViscousPower {
   double sides = 0;        // of the domain's sides on the fluid: sum of given velocities times the forces there
 };
 
-// For face velocities u (ghosts filled) and body unknowns v. Collective.
+// Face velocities (ghosts filled) and body unknowns. Keeps references.
 template <int Dim>
-ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
-                           const Eigen::VectorXd& v);
+struct ViscousMotion {
+  const FaceField<Dim>& u;
+  const Eigen::VectorXd& v;
+};
+
+// Power of the stress of the motion `strained` on the motion z: z'V z_strained. Collective.
+template <int Dim>
+ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
+                           const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z);
 
 }  // namespace seiche

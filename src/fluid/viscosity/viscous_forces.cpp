@@ -10,21 +10,20 @@ double value_of(const AffineVelocity& s, const Slot& slot, const FaceField<Dim>&
   return sum;
 }
 
-// Calls visit(terms, term, s) for this rank's terms; s: velocities of the term's slots relative to its frame.
-template <int Dim, class Visit>
-void for_each_valued(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
-                     const Eigen::VectorXd& v, const Visit& visit) {
-  const ViscousTerms<Dim> terms(in, *system.samples);
-  std::array<double, ViscousTerm<Dim>::most> s;
-  terms.for_each_owned([&](const ViscousTerm<Dim>& t) {
-    for (int i = 0; i < t.slots; ++i) s[i] = value_of(terms.relative_velocity(t, i), t.slot[i], u, v);
-    visit(terms, t, s);
-  });
+// Velocities of a term's slots relative to its frame, m/s.
+template <int Dim>
+using SlotValues = std::array<double, ViscousTerm<Dim>::most>;
+
+template <int Dim>
+SlotValues<Dim> values_of(const ViscousTerms<Dim>& terms, const ViscousTerm<Dim>& t, const ViscousMotion<Dim>& z) {
+  SlotValues<Dim> s;
+  for (int i = 0; i < t.slots; ++i) s[i] = value_of(terms.relative_velocity(t, i), t.slot[i], z.u, z.v);
+  return s;
 }
 
 // 1/2 d(s'Qs)/ds_i
 template <int Dim>
-double slope(const ViscousTerm<Dim>& t, const std::array<double, ViscousTerm<Dim>::most>& s, int i) {
+double slope(const ViscousTerm<Dim>& t, const SlotValues<Dim>& s, int i) {
   double sum = 0;
   for (int j = 0; j < t.slots; ++j) sum += t.Q[i][j] * s[j];
   return sum;
@@ -39,7 +38,9 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
                                       const FaceField<Dim>& u, const Eigen::VectorXd& v,
                                       const std::vector<Vec3>& about) {
   std::vector<double> sum(6 * in.solids.size());
-  for_each_valued(in, system, u, v, [&](const auto& terms, const ViscousTerm<Dim>& t, const auto& s) {
+  const ViscousTerms<Dim> terms(in, *system.samples);
+  terms.for_each_owned([&](const ViscousTerm<Dim>& t) {
+    const SlotValues<Dim> s = values_of(terms, t, {u, v});
     const auto push = [&](int k, const Slot& slot, double force) {
       const Vec3 f = force * Vec3::Unit(slot.axis), moment = (terms.position(slot) - about[k]).cross(f);
       for (int c = 0; c < 3; ++c) sum[6 * k + c] += f[c], sum[6 * k + 3 + c] += moment[c];
@@ -61,14 +62,16 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
 
 // A slot without row and solid reads a side. The side pushes the fluid with the slope of the term.
 template <int Dim>
-ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system, const FaceField<Dim>& u,
-                           const Eigen::VectorXd& v) {
+ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
+                           const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z) {
   std::vector<double> sum(2);
-  for_each_valued(in, system, u, v, [&](const auto& terms, const ViscousTerm<Dim>& t, const auto& s) {
+  const ViscousTerms<Dim> terms(in, *system.samples);
+  terms.for_each_owned([&](const ViscousTerm<Dim>& t) {
+    const SlotValues<Dim> s = values_of(terms, t, strained), moved = values_of(terms, t, z);
     for (int i = 0; i < t.slots; ++i) {
       const Slot& slot = t.slot[i];
       const double force = slope(t, s, i);
-      sum[0] += s[i] * force;
+      sum[0] += moved[i] * force;
       if (terms.row(slot) < 0 && terms.solid(slot) < 0)
         sum[1] += system.samples->given.at(slot.axis, slot.face) * force;
     }
@@ -77,12 +80,12 @@ ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>
   return {sum[0], sum[1]};
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                  \
-  template std::vector<SolidLoad> viscous_forces<D>(const ViscousInput<D>&, const ViscousSystem<D>&,           \
-                                                    const FaceField<D>&, const Eigen::VectorXd&,               \
-                                                    const std::vector<Vec3>&);                                 \
-  template ViscousPower viscous_power<D>(const ViscousInput<D>&, const ViscousSystem<D>&, const FaceField<D>&, \
-                                         const Eigen::VectorXd&);
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template std::vector<SolidLoad> viscous_forces<D>(const ViscousInput<D>&, const ViscousSystem<D>&,               \
+                                                    const FaceField<D>&, const Eigen::VectorXd&,                   \
+                                                    const std::vector<Vec3>&);                                     \
+  template ViscousPower viscous_power<D>(const ViscousInput<D>&, const ViscousSystem<D>&, const ViscousMotion<D>&, \
+                                         const ViscousMotion<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 
