@@ -23,7 +23,7 @@ SQUARE = numpy.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 
 
 def stats(kinetic, potential=0.0, moved=0.0):
-    rows = {"time": [0, 1], "liquid_volume": [0.5, 0.5], "kinetic_energy": [10, kinetic], "max_speed": [0.2, 0.3],
+    rows = {"time": [0, 1], "dt": [0, 0.01], "liquid_volume": [0.5, 0.5], "kinetic_energy": [10, kinetic], "max_speed": [0.2, 0.3],
             "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0], "volume_corrected": [0, moved],
             "work_gravity": [0, -potential], "work_tension": [0, 0], "work_sides": [0, 0], "work_solids": [0, 0],
             "lost_viscous": [0, 0], "lost_numerical": [0, 10 - kinetic - potential]}
@@ -98,8 +98,8 @@ class Results(unittest.TestCase):
 
     def test_energy_from_nowhere(self):
         fed = {**SCENE, "domain": {**SCENE["domain"], "boundary": {"x_lower": {"type": "inflow"}}}}
-        def later(columns):   # the same with three steps before
-            return {name: numpy.concatenate([numpy.repeat(v[:1], 3), v]) for name, v in columns.items()}
+        def later(columns):   # the same with five steps before
+            return {name: numpy.concatenate([numpy.repeat(v[:1], 5), v]) for name, v in columns.items()}
         oracle.check_created(fed, later(stats(9)))
         fed_by_sides = {"work_sides": numpy.array([0.0, 890.0]), "lost_numerical": numpy.zeros(2)}
         oracle.check_created(fed, later({**stats(900), **fed_by_sides}))

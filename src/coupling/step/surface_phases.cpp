@@ -118,6 +118,19 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   inject(s.domain, fault, phi.data());
 }
 
+// Keeps the liquid on its own side of thin solids. Sources bring liquid to both.
+template <int Dim>
+void keep_sides(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
+                const StepGeometry<Dim>& geometry, CellField<Dim>& phi) {
+  const auto keep = [&](const CellField<Dim>& held) {
+    keep_sides_apart(s.domain, s.solids, place_bodies(before), held, geometry, phi);
+  };
+  if (s.sources.empty() || !has_thin(s.solids)) return keep(before.phi);
+  CellField<Dim> held = before.phi;
+  (void)add_sources(s.domain, s.solids, s.sources, before, times.start, times.start + times.lead, held);
+  keep(held);
+}
+
 template <int Dim>
 void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Phases& phases,
                   Moved<Dim>& moved) {
@@ -127,14 +140,14 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   keep_sides_of_walls(s.domain, geometry, next.phi);
   keep_sealed_full(s, before, next, geometry, next.phi);
-  if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, before, geometry, next.phi);
+  if (has_thin_elastic(s.solids)) keep_sides(s, before, times, geometry, next.phi);
   const double uncounted =
       gap_volume(s.domain, s.fluids, before.separation) + volume_beyond(s.domain, s.solids, geometry, next.phi);
   const double expected = next.expected_volume + uncounted;
   next.exterior->follow(s.domain, geometry, before.now->u, times.dt, next.phi);
   next.corrected_volume +=
       next.exterior->control_volume(s.domain, geometry, expected, largest_shift(s.domain), next.phi);
-  keep_sides_apart(s.domain, s.solids, before, geometry, next.phi);
+  keep_sides(s, before, times, geometry, next.phi);
   next.exterior->follow(s.domain, geometry, before.now->u, 0, next.phi);
 }
 

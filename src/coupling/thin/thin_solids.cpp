@@ -40,15 +40,15 @@ template <int Dim>
 struct ThinSolids {
   const Domain<Dim>& domain;
   const Solids<Dim>& solids;
-  const State<Dim>& before;
+  const CellField<Dim>& held;  // phi before
   const StepGeometry<Dim>& g;
   std::vector<std::unique_ptr<PlacedSolid<Dim>>> now, earlier;  // null: not thin
   FaceField<Dim, char> sealed{domain.layout, 0};
 
-  ThinSolids(const Domain<Dim>& on, const Solids<Dim>& all, const State<Dim>& state, const StepGeometry<Dim>& geometry)
-      : domain(on), solids(all), before(state), g(geometry) {
+  ThinSolids(const Domain<Dim>& on, const Solids<Dim>& all, const std::vector<Placement>& placed,
+             const CellField<Dim>& phi, const StepGeometry<Dim>& geometry)
+      : domain(on), solids(all), held(phi), g(geometry) {
     for (const SealedFace& f : g.sealed) sealed.at(f.axis, f.face) = 1;
-    const std::vector<Placement> placed = place_bodies(before);
     for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
       now.push_back(place(k, g.placed[k]));
       earlier.push_back(place(k, placed[k]));
@@ -66,7 +66,7 @@ struct ThinSolids {
     const Vec<Dim> x = domain.layout.position(domain.layout.index(cell), cell_offset<Dim>());
     const double distance = solid.distance(x), least = std::max(distance, least_distance * domain.layout.h());
     if (distance <= 0) return phi;
-    const Near near = find_near(domain, before.phi, then, solid.carried_to(then, x));
+    const Near near = find_near(domain, held, then, solid.carried_to(then, x));
     if (!near.wet && !near.dry) return phi;  // no cell tells: outside of the domain, or walled in
     if (phi < 0 && !near.wet) return least;
     if (phi >= 0 && !near.dry) return -least;
@@ -92,10 +92,15 @@ struct ThinSolids {
 }  // namespace
 
 template <int Dim>
-void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& before,
-                      const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (std::none_of(solids.bodies.begin(), solids.bodies.end(), [](const auto& b) { return b.is_thin(); })) return;
-  const ThinSolids<Dim> thin(domain, solids, before, g);
+bool has_thin(const Solids<Dim>& solids) {
+  return std::any_of(solids.bodies.begin(), solids.bodies.end(), [](const Body<Dim>& b) { return b.is_thin(); });
+}
+
+template <int Dim>
+void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Placement>& placed,
+                      const CellField<Dim>& held, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+  if (!has_thin(solids)) return;
+  const ThinSolids<Dim> thin(domain, solids, placed, held, g);
   const auto for_both_cells = [&](const SealedFace& f, const auto& visit) {
     const Site low = f.face - domain.layout.stride(f.axis);
     if (domain.layout.cells().contains(domain.layout.index(low))) visit(low, f.face, -1);
@@ -114,9 +119,11 @@ void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, cons
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
 }
 
-template void keep_sides_apart<2>(const Domain<2>&, const Solids<2>&, const State<2>&, const StepGeometry<2>&,
-                                  CellField<2>&);
-template void keep_sides_apart<3>(const Domain<3>&, const Solids<3>&, const State<3>&, const StepGeometry<3>&,
-                                  CellField<3>&);
+template bool has_thin<2>(const Solids<2>&);
+template void keep_sides_apart<2>(const Domain<2>&, const Solids<2>&, const std::vector<Placement>&,
+                                  const CellField<2>&, const StepGeometry<2>&, CellField<2>&);
+template bool has_thin<3>(const Solids<3>&);
+template void keep_sides_apart<3>(const Domain<3>&, const Solids<3>&, const std::vector<Placement>&,
+                                  const CellField<3>&, const StepGeometry<3>&, CellField<3>&);
 
 }  // namespace seiche

@@ -7,13 +7,16 @@
 
 namespace seiche {
 
-KktPreconditioner::KktPreconditioner(const KktOperator& K, const BodyMatrix& H, const AmgSettings& settings)
-    : K_(K), schur_(K.liquid(), K.system().J, K.system().c1 * K.system().c2, {}, "boomeramg", settings) {
+KktPreconditioner::KktPreconditioner(const KktOperator& K, const BodyMatrix& H, const AmgSettings& settings,
+                                     Motions& motions)
+    : K_(K),
+      motions_(motions),
+      schur_(K.liquid(), K.system().J, K.system().c1 * K.system().c2, {}, "boomeramg", settings) {
   AmgSettings own = settings;
   own.component = components();
   own.components = 2 * K.system().dimension + (K.system().dimension == 3 ? 3 : 1);
   B_ = make_boomeramg(K.solid(), own).preconditioner;
-  find_motions(H.matrix());
+  if (motions_.empty()) find_motions(H.matrix());
   const auto n = Eigen::Index(motions_.size());
   Eigen::MatrixXd N(n, n);
   std::vector<Vector> Jd;
@@ -54,7 +57,7 @@ void KktPreconditioner::find_motions(const SparseMatrix& H) {
 
 // Solves H m ~ load for each load. Low accuracy suffices, since the motions need only span the soft directions of H.
 void KktPreconditioner::add_responses(const ColumnBlock& block, int first, int unknowns) {
-  constexpr double enough = 1e-3;
+  constexpr double enough = 1e-2;
   constexpr int at_most = 40;
   const std::size_t begin = motions_.size();
   const Communicator& ranks = K_.liquid().ranks();

@@ -8,8 +8,12 @@ namespace seiche {
 
 class KktPreconditioner {
  public:
-  // Keeps references. Collective.
-  KktPreconditioner(const KktOperator& K, const BodyMatrix& H, const AmgSettings& settings);
+  // Unit vectors of rigid unknowns, and responses of deformable bodies to a few loads. They need only span the soft
+  // directions of H, so those of an earlier H will do.
+  using Motions = std::vector<Eigen::VectorXd>;
+
+  // Keeps references. Finds `motions` if they are empty. Collective.
+  KktPreconditioner(const KktOperator& K, const BodyMatrix& H, const AmgSettings& settings, Motions& motions);
   // Reason why the set-up failed; empty if it succeeded.
   const std::string& failure() const { return failure_; }
   // Collective.
@@ -22,8 +26,8 @@ class KktPreconditioner {
   void orthonormalise(int first, int width, std::size_t begin);
 
   const KktOperator& K_;
-  std::unique_ptr<Preconditioner> B_;      // for H
-  std::vector<Eigen::VectorXd> motions_;   // unit vectors of rigid unknowns; responses of deformable bodies
+  std::unique_ptr<Preconditioner> B_;  // for H
+  Motions& motions_;
   Eigen::LDLT<Eigen::MatrixXd> energies_;  // M'H M, M = motions_
   SchurPreconditioner schur_;
   std::string failure_;

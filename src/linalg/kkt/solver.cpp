@@ -54,7 +54,7 @@ KktSolver::Residual KktSolver::measure(const Problem& problem, const Vector& x) 
 }
 
 std::string KktSolver::attempt(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report) {
-  KktPreconditioner B(*K_, bodies_, kkt_amg_settings(strength));
+  KktPreconditioner B(*K_, bodies_, kkt_amg_settings(strength), motions_);
   if (!B.failure().empty()) return B.failure();
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {

@@ -55,6 +55,7 @@ class KktSolver {
   CoupledSystem coupled_;
   BodyMatrix bodies_;
   std::unique_ptr<KktOperator> K_;
+  std::vector<Eigen::VectorXd> motions_;  // KktPreconditioner::Motions, once found
 };
 
 }  // namespace seiche
