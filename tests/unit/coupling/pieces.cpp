@@ -74,7 +74,7 @@ void check_dry_beside_new_plate() {
   const StepGeometry<Dim> g = setup.solids.geometry.measure({before.solids[0].place(1, 1, 1)}, 1);
   REQUIRE_FALSE(g.sealed.empty());
   CellField<Dim> phi = before.phi;
-  keep_sides_apart(setup.domain, setup.solids, before, g, phi);
+  keep_sides_apart(setup.domain, setup.solids, place_bodies(before), before.phi, g, phi);
   for_each_index_in_order(setup.domain.layout, setup.domain.layout.cells(),
                           [&](Site c, const IVec<Dim>&) { CHECK(phi[c] == 1.0); });
 }
