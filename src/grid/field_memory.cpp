@@ -94,10 +94,11 @@ std::vector<std::uint64_t> entries_of(const void* memory, std::size_t bytes, std
 }
 
 // Gives back to the system the pages of runs that end where add() is not called for the next page.
-class Drops {
+class PagesToGiveBack {
  public:
-  explicit Drops(char* memory) : memory_(memory) {}
-  ~Drops() { flush(); }
+  explicit PagesToGiveBack(char* memory) : memory_(memory) {}
+  PagesToGiveBack(const PagesToGiveBack&) = delete;
+  ~PagesToGiveBack() { flush(); }
   void add(std::size_t n) {
     if (n != end_) flush(), begin_ = n;
     end_ = n + 1;
@@ -117,7 +118,7 @@ class Drops {
 void make_zero(void* memory, std::size_t bytes, bool drop) {
   parallel_pieces(page_count(bytes), pages_a_piece, [&](std::size_t begin, std::size_t end) {
     const std::vector<std::uint64_t> entries = entries_of(memory, bytes, begin, end);
-    Drops drops(static_cast<char*>(memory));
+    PagesToGiveBack drops(static_cast<char*>(memory));
     for (std::size_t n = begin; n < end; ++n) {
       if (is_untouched(entries[n - begin])) continue;
       char* at = static_cast<char*>(memory) + n * page;

@@ -136,7 +136,8 @@ std::vector<Key<SolverSpec>> viscous_solver_keys() {
       choice_key<S, ViscousSolve S::*, ViscousSolve>(
           {.key = "viscosity",
            .doc = "how viscosity is solved for: \"coupled\" in one system with the pressure, \"split\" before it, "
-                  "\"auto\" by viscosity times step over density and cell size squared"},
+                  "\"auto\" by viscosity times step over density and cell size squared, \"coupled\" beside elastic "
+                  "solids and no-slip ones that the liquid moves"},
           &S::viscosity,
           {{"auto", ViscousSolve::automatic}, {"split", ViscousSolve::split}, {"coupled", ViscousSolve::coupled}}),
       value_key<S>({.key = "rheology_tolerance",

@@ -50,21 +50,20 @@ def fastest(scene, stats, given):
     return 3 * numpy.sqrt(stats["max_speed"][0] ** 2 + fall + capillary + 2 * given / mass)
 
 
-def energy_margin(scene, stats, given):
-    """Energy, J, that the finite cells leave open in each step.
+def energy_margin(scene, stats, given, amiss):
+    """Energy, J, that the finite cells leave open in each step; `amiss`: error of the liquid's volume.
 
     A twentieth of the initial kinetic energy, plus the following. The surface is known to about a cell: all mass is
     lifted by half a cell, and the volume error is lifted through the domain. Where the surface moves before the solve
-    (`off: leapfrog`), it lags half a step behind. Liquid that transport adds or the volume
-    control puts back moves at most at the run's highest speed, as far as that is possible: features below a cell gain
-    or lose a share of their energy with their volume. Surface tension adds at most sigma per cell face."""
+    (`off: leapfrog`), it lags half a step behind. Liquid that transport adds or the volume control puts back moves at
+    most at the run's highest speed, as far as that is possible: features below a cell gain or lose a share of their
+    energy with their volume. Surface tension adds at most sigma per cell face."""
     g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0]) if is_constant([v])]
     h, gravity = scene["domain"]["cell_size"], float(numpy.linalg.norm(g))
     extent = numpy.subtract(scene["domain"]["upper"], scene["domain"]["lower"])
     volume, liquid = float(numpy.prod(extent)), {"density": 1000.0, **scene.get("liquid", {})}
     mass = liquid["density"] * float(stats["liquid_volume"].max())
     mass += sum(s.get("density", 0) * volume * 0.3 for s in scene.get("solid", []))
-    amiss = numpy.abs(stats["liquid_volume"] - stats["liquid_volume"][0])
     moved = liquid["density"] * (amiss + numpy.abs(stats["volume_corrected"]))
     speed = numpy.minimum(stats["max_speed"], fastest(scene, stats, given))
     lag = numpy.maximum.accumulate(speed * stats["dt"])
@@ -80,7 +79,8 @@ def check_energy(scene, stats):
         return
     energy = stats["kinetic_energy"] + stats["potential_energy"] + stats["elastic_energy"]
     given = stats["kinetic_energy"][0] + stats["elastic_energy"][0]
-    margin = energy_margin(scene, stats, given) + 1e-9 * numpy.abs(energy[0])
+    amiss = numpy.abs(stats["liquid_volume"] - stats["liquid_volume"][0])
+    margin = energy_margin(scene, stats, given, amiss) + 1e-9 * numpy.abs(energy[0])
     gained = energy - energy[0] - margin
     if (gained > 0).any():
         n, kinetic = int(gained.argmax()), stats["kinetic_energy"]
@@ -91,11 +91,12 @@ def check_energy(scene, stats):
 def check_created(scene, stats):
     """Energy from nowhere in any scene: a share of what it has and of the work done on it, beside `energy_margin`.
 
-    Powers are means of a step's ends; of a sudden start the first steps know nothing."""
+    Works are means of a step's two ends. The first steps after a sudden start do not count."""
     works = sum(numpy.abs(stats[name]) for name in WORKS)
+    given = stats["kinetic_energy"][0] + stats["elastic_energy"][0] + works
     largest = numpy.maximum.accumulate(stats["kinetic_energy"] + stats["elastic_energy"] + works)
-    gained = -stats["lost_numerical"] - CREATED * largest - energy_margin(scene, stats, largest)
+    gained = -stats["lost_numerical"] - CREATED * largest - energy_margin(scene, stats, given, 0.0)
     if (gained[BEGUN:] > 0).any():
         n = BEGUN + int(gained[BEGUN:].argmax())
-        raise Fault("created", f"{-stats['lost_numerical'][n]:.6g} J from nowhere at t = {stats['time'][n]:.6g} s, where "
-                               f"there are {largest[n]:.6g} J at most, with all work done")
+        raise Fault("created", f"{-stats['lost_numerical'][n]:.6g} J from nowhere at t = {stats['time'][n]:.6g} s, "
+                               f"where there are {largest[n]:.6g} J at most, with all work done")

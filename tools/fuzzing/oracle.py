@@ -109,8 +109,10 @@ def goes_on(folder, seconds):
 def check_cut_off(scene, folder):
     """Checks the tables of a run that was cut off."""
     check_finite(folder / "stats.csv")
+    stats = read_stats(folder)
     if not is_fed(scene):
-        check_energy(scene, read_stats(folder))
+        check_energy(scene, stats)
+    check_created(scene, stats)
 
 
 def check_repeated(program, folder, name):

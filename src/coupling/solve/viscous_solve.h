@@ -12,6 +12,8 @@ template <int Dim>
 class SplitViscosity {
  public:
   SplitViscosity(const CoupledInput<Dim>& input, const SolidCoupling<Dim>& coupling, const CoupledSolution<Dim>& r);
+  SplitViscosity(const SplitViscosity&) = delete;
+  SplitViscosity& operator=(const SplitViscosity&) = delete;
 
   // Adds the effect of viscosity to r.u_star and coupling.push; the solve for pressure follows.
   void act(const PressureProblem<Dim>& liquid, SolidCoupling<Dim>& coupling, CoupledSolution<Dim>& r);

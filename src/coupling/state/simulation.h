@@ -43,7 +43,7 @@ struct StepStats {
   double gas_volume = 0;           // of flowing gas, or of enclosed air, m^3
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
   int rejected = 0;                // attempts at this step that were rejected
-  double viscous_dissipation = 0;  // mean rate of viscous dissipation over this step, W
+  double viscous_dissipation = 0;  // what viscous stress takes from the flow in this step, over dt, W
   std::int64_t bubbles = 0;        // enclosed air regions that keep their volume
   double air_lost = 0;             // volume of regions that became too small for the grid, since the start, m^3
   int rheology_iterations = 0;     // solves until viscosity and flow agree; 0 for Newtonian liquid

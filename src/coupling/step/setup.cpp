@@ -201,7 +201,8 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   refuse_overlaps(s.domain, s.solids, s.scene.domain, state);
   const StepGeometry<Dim> g = s.solids.geometry.measure(place_moving_bodies(state), 0);
   state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);
-  if (has_thin_elastic(s.solids)) keep_sides_apart(s.domain, s.solids, place_bodies(state), state.phi, g, state.phi);
+  if (has_thin_elastic(s.solids))
+    keep_sides_apart(s.domain, s.solids, place_bodies(state), CellField<Dim>(state.phi), g, state.phi);
   state.expected_volume = liquid_volume(s.domain, state.phi, g.psi) - volume_beyond(s.domain, s.solids, g, state.phi);
 
   std::string fault;

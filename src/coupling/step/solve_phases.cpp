@@ -126,6 +126,15 @@ double tension_power(const ProjectionInput<Dim>& in, const PressureRows<Dim>& ro
   return in.ranks.global_sum(sum) * in.layout.geometry().face_area();
 }
 
+// Work of impulses, with the mean of two velocities, J (2D: J/m). Collective.
+template <int Dim>
+double work_of(const std::vector<FaceImpulse>& impulses, const FaceField<Dim>& from, const FaceField<Dim>& to,
+               const Communicator& ranks) {
+  double sum = 0;
+  for (const FaceImpulse& i : impulses) sum += 0.5 * i.impulse * (from.at(i.axis, i.face) + to.at(i.axis, i.face));
+  return ranks.global_sum(sum);
+}
+
 // Sets the velocity of `out` from the pressure. `end`: where the solids will be that it fits; null: where they are.
 template <int Dim>
 void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, const EndOfStep<Dim>* end,
@@ -157,6 +166,8 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.powers.viscous = {solution.viscous.dissipation / implicit, solution.viscous.sides / implicit};
   out.powers.viscous_transport = task.predicted.viscous_power;
   out.powers.tension = tension_power(liquid, solution.rows, task.before.now->u, level->u);
+  if (!s.sources.empty())
+    out.powers.work_of_sources = work_of(task.predicted.by_sources, task.before.now->u, level->u, s.domain.ranks);
 }
 
 // One solve from where surface and solids stand, with a given viscosity (null: none).
@@ -220,6 +231,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
         convected_pressure(s.domain, s.fluids, s.solids, moved.state.solids, moved.geometry, phi, transported, way);
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
+  p.by_sources = std::move(transported.by_sources);
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
                    s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);

@@ -162,16 +162,18 @@ std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>&
 
 // Plans 0.9 of the step that the flow allows now: if the flow speeds up, the step can still be taken as planned. Steps
 // divide the time to the frame evenly. The solve moves solids over the coming step and liquid over this one. Lengths
-// that varied with the frames fed energy to a flap as slow as the waves (e-fold in 3 s). A frame that is all but there,
-// or lies just after the end, is no reason for a plan of next to nothing: solved for over 1e-7 s, the velocities of a
-// body whose step was 0.04 s gained a hundred thousand times its energy. The step then falls short of the plan.
+// that varied with the frames fed energy to a flap as slow as the waves (e-fold in 3 s).
+//
+// Plans a whole step where a frame is all but there, or lies just after the end. Solved for over 1e-7 s, a body whose
+// step was 0.04 s gained 1e5 times its energy. The step then falls short of the plan.
 template <int Dim>
 double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const TimeSpec& spec = s.scene.time;
   if (!s.solids.plans_steps()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
-  const double remaining = until_frame(spec, next.time);
-  if (spec.fixed_step) return std::min(*spec.fixed_step, remaining);
   constexpr double margin = 0.9, least = 0.1;
+  const double remaining = until_frame(spec, next.time);
+  if (spec.fixed_step)
+    return remaining < least * *spec.fixed_step ? *spec.fixed_step : std::min(*spec.fixed_step, remaining);
   double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, next,
                                                                   next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);

@@ -13,6 +13,7 @@
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
+#include "levelset/redistance.h"
 
 namespace seiche {
 namespace {
@@ -118,17 +119,23 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   inject(s.domain, fault, phi.data());
 }
 
-// Keeps the liquid on its own side of thin solids. Sources bring liquid to both.
+// phi before the step, with what sources bring on all sides of thin solids.
+template <int Dim>
+CellField<Dim> known_phi(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times) {
+  CellField<Dim> phi = before.phi;
+  join_sources(s.domain, s.sources, times.start, times.start + times.lead, phi);
+  fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
+  return phi;
+}
+
+// Keeps the liquid on its own side of thin solids.
 template <int Dim>
 void keep_sides(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                 const StepGeometry<Dim>& geometry, CellField<Dim>& phi) {
-  const auto keep = [&](const CellField<Dim>& held) {
-    keep_sides_apart(s.domain, s.solids, place_bodies(before), held, geometry, phi);
-  };
-  if (s.sources.empty() || !has_thin(s.solids)) return keep(before.phi);
-  CellField<Dim> held = before.phi;
-  (void)add_sources(s.domain, s.solids, s.sources, before, times.start, times.start + times.lead, held);
-  keep(held);
+  if (!has_thin(s.solids)) return;
+  const std::vector<Placement> placed = place_bodies(before);
+  if (s.sources.empty()) return keep_sides_apart(s.domain, s.solids, placed, before.phi, geometry, phi);
+  keep_sides_apart(s.domain, s.solids, placed, known_phi(s, before, times), geometry, phi);
 }
 
 template <int Dim>

@@ -40,14 +40,14 @@ template <int Dim>
 struct ThinSolids {
   const Domain<Dim>& domain;
   const Solids<Dim>& solids;
-  const CellField<Dim>& held;  // phi before
+  const CellField<Dim>& known;  // phi before, with what sources bring
   const StepGeometry<Dim>& g;
   std::vector<std::unique_ptr<PlacedSolid<Dim>>> now, earlier;  // null: not thin
   FaceField<Dim, char> sealed{domain.layout, 0};
 
   ThinSolids(const Domain<Dim>& on, const Solids<Dim>& all, const std::vector<Placement>& placed,
              const CellField<Dim>& phi, const StepGeometry<Dim>& geometry)
-      : domain(on), solids(all), held(phi), g(geometry) {
+      : domain(on), solids(all), known(phi), g(geometry) {
     for (const SealedFace& f : g.sealed) sealed.at(f.axis, f.face) = 1;
     for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
       now.push_back(place(k, g.placed[k]));
@@ -66,7 +66,7 @@ struct ThinSolids {
     const Vec<Dim> x = domain.layout.position(domain.layout.index(cell), cell_offset<Dim>());
     const double distance = solid.distance(x), least = std::max(distance, least_distance * domain.layout.h());
     if (distance <= 0) return phi;
-    const Near near = find_near(domain, held, then, solid.carried_to(then, x));
+    const Near near = find_near(domain, known, then, solid.carried_to(then, x));
     if (!near.wet && !near.dry) return phi;  // no cell tells: outside of the domain, or walled in
     if (phi < 0 && !near.wet) return least;
     if (phi >= 0 && !near.dry) return -least;
@@ -98,9 +98,9 @@ bool has_thin(const Solids<Dim>& solids) {
 
 template <int Dim>
 void keep_sides_apart(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Placement>& placed,
-                      const CellField<Dim>& held, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+                      const CellField<Dim>& known_phi, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
   if (!has_thin(solids)) return;
-  const ThinSolids<Dim> thin(domain, solids, placed, held, g);
+  const ThinSolids<Dim> thin(domain, solids, placed, known_phi, g);
   const auto for_both_cells = [&](const SealedFace& f, const auto& visit) {
     const Site low = f.face - domain.layout.stride(f.axis);
     if (domain.layout.cells().contains(domain.layout.index(low))) visit(low, f.face, -1);

@@ -33,18 +33,18 @@ double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source,
   return distance;
 }
 
-// Joins phi with the liquid of one source. Sets |v|^2/2 of its velocity where it may bring liquid.
+// Joins phi with the liquid of one source. Sets |v|^2/2 of its velocity where it may bring liquid, unless it is null.
 template <int Dim>
 void join(const Domain<Dim>& domain, const Source<Dim>& source, const OpenTime& open, CellField<Dim>& phi,
-          CellField<Dim>& half_square) {
+          CellField<Dim>* half_square) {
   const double near = std::sqrt(double(Dim)) * domain.layout.h();
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
     const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
     const double distance = distance_to_brought(domain.layout, source, open, x);
     phi[c] = std::min(phi[c], distance);
-    if (distance > near) return;
+    if (!half_square || distance > near) return;
     const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), open.begin));
-    if (v.allFinite()) half_square[c] = 0.5 * v.squaredNorm();
+    if (v.allFinite()) (*half_square)[c] = 0.5 * v.squaredNorm();
   });
 }
 
@@ -79,24 +79,36 @@ Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const 
   const CellField<Dim> phi_before = phi;
   CellField<Dim> half_square(domain.layout);
   for (const Source<Dim>& source : sources)
-    if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
+    if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, &half_square);
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
   return {liquid_volume(domain, phi, psi) - before, kinetic_energy_brought(domain, phi_before, phi, half_square, psi)};
 }
 
 template <int Dim>
-void set_source_velocity(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
-                         FaceField<Dim>& u) {
+void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
+                  CellField<Dim>& phi) {
+  for (const Source<Dim>& source : sources)
+    if (const auto open = open_in_step(source.spec, t0, t1)) join<Dim>(domain, source, *open, phi, nullptr);
+}
+
+template <int Dim>
+std::vector<FaceImpulse> set_source_velocity(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources,
+                                             double t0, double t1, const std::function<double(int, Site)>& mass,
+                                             FaceField<Dim>& u) {
+  std::vector<FaceImpulse> impulses;
   for (const Source<Dim>& source : sources) {
     const auto open = open_in_step(source.spec, t0, t1);
     if (!open) continue;
     for (int a = 0; a < Dim; ++a)
       for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
         const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
-        if (distance_to_brought(domain.layout, source, *open, x) <= 0)
-          u.at(a, f) = source.velocity.component(a, extend<Dim>(x), open->begin);
+        if (distance_to_brought(domain.layout, source, *open, x) > 0) return;
+        const double v = source.velocity.component(a, extend<Dim>(x), open->begin);
+        impulses.push_back({a, f, mass(a, f) * (v - u.at(a, f))});
+        u.at(a, f) = v;
       });
   }
+  return impulses;
 }
 
 template <int Dim>
@@ -120,8 +132,10 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template Brought add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&, const State<D>&, \
                                   double, double, CellField<D>&);                                                     \
-  template void set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double,               \
-                                       FaceField<D>&);                                                                \
+  template void join_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double, CellField<D>&);      \
+  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double,   \
+                                                           double, const std::function<double(int, Site)>&,           \
+                                                           FaceField<D>&);                                            \
   template std::string fault_of_source<D>(const Domain<D>&, const std::vector<Source<D>>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

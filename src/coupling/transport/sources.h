@@ -1,6 +1,8 @@
 #pragma once
 // Liquid sources: a shape kept full while its source is open, and the velocity of the liquid that it brings.
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
@@ -28,10 +30,24 @@ template <int Dim>
 Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
                     const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
-// Sets the velocity u (m/s) of the liquid that sources bring from t0 to t1.
+// Joins phi at t1 with the liquid that sources keep from t0 to t1. Ghosts are not filled.
 template <int Dim>
-void set_source_velocity(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
-                         FaceField<Dim>& u);
+void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
+                  CellField<Dim>& phi);
+
+// Impulse on the fluid at a face, kg m/s (2D: kg/s).
+struct FaceImpulse {
+  int axis;
+  Site face;
+  double impulse;
+};
+
+// Sets the velocity u (m/s) of the liquid that sources bring from t0 to t1. Returns the impulses on the owned faces
+// that this takes for what was there before. mass(axis, face): of that, kg (2D: kg/m).
+template <int Dim>
+std::vector<FaceImpulse> set_source_velocity(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources,
+                                             double t0, double t1, const std::function<double(int, Site)>& mass,
+                                             FaceField<Dim>& u);
 
 // Empty, or a text if a source's velocity is not finite within its shape at time t (s), on this rank.
 template <int Dim>

@@ -325,11 +325,25 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   return r;
 }
 
+// Mass of liquid that a face stands for, kg (2D: kg/m), where a source acts on what was there before: half of that in
+// the cells beside it. 0 within a cell of the surface, where the source brings the liquid itself.
+template <int Dim>
+double mass_at_face(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeField<Dim>& psi, int axis, Site face) {
+  const Layout<Dim>& l = s.domain.layout;
+  double share = 0;
+  for (const Site c : {face - l.stride(axis), face}) {
+    if (phi[c] > -l.h()) return 0;
+    if (l.cells().contains(l.index(c))) share += liquid_share(l, phi, psi, c);
+  }
+  return 0.5 * share * l.geometry().cell_volume() * s.fluids.density();
+}
+
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                                     const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
   Transported<Dim> r = state.exterior->transported_velocity(s, state, phi, dt, plan, geometry);
-  set_source_velocity(s.domain, s.sources, state.time, state.time + dt, r.u);
+  const auto mass = [&](int a, Site f) { return mass_at_face(s, state.phi, geometry.psi, a, f); };
+  r.by_sources = set_source_velocity<Dim>(s.domain, s.sources, state.time, state.time + dt, mass, r.u);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);
   return r;
 }

@@ -32,7 +32,8 @@ double closest_point_band(const Fluids& fluids);
 template <int Dim>
 struct Transported {
   FaceField<Dim> u, acceleration, gas_acceleration;
-  double viscous_power = 0;  // of viscosity of fourth order beyond the viscous operator, W
+  double viscous_power = 0;               // of viscosity of fourth order beyond the viscous operator, W
+  std::vector<FaceImpulse> by_sources{};  // on what was where sources set the velocity
 };
 
 // u before the projection on all faces next to liquid: the transported velocity plus

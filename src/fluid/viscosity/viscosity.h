@@ -106,7 +106,7 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
 
 // Powers of viscous stress, W (2D: W/m).
 struct ViscousPower {
-  double dissipation = 0;  // z'Vz
+  double dissipation = 0;  // what the stress takes from the flow: z'V z_strained; negative if these differ much
   double sides = 0;        // of the domain's sides on the fluid: sum of given velocities times the forces there
 };
 

@@ -27,8 +27,8 @@ KktPreconditioner::KktPreconditioner(const KktOperator& K, const BodyMatrix& H, 
     add_multiplied(K.system().J, motions_[std::size_t(k)], Jd.back());
   }
   energies_.compute(N);
-  if (n > 0 && !(energies_.info() == Eigen::Success && energies_.isPositive()))
-    failure_ = "the bodies' motions have no positive energy";
+  indefinite_ = n > 0 && !(energies_.info() == Eigen::Success && energies_.isPositive());
+  if (indefinite_) failure_ = "the bodies' motions have no positive energy";
   schur_.set_directions(std::move(Jd));
   if (failure_.empty()) failure_ = schur_.refresh(H, N);
 }

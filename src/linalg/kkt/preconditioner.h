@@ -16,6 +16,8 @@ class KktPreconditioner {
   KktPreconditioner(const KktOperator& K, const BodyMatrix& H, const AmgSettings& settings, Motions& motions);
   // Reason why the set-up failed; empty if it succeeded.
   const std::string& failure() const { return failure_; }
+  // True if a motion with m'H m <= 0 was met: H is not positive definite.
+  bool met_indefinite() const { return indefinite_; }
   // Collective.
   void apply(const Vector& r, Vector& z);
 
@@ -31,6 +33,7 @@ class KktPreconditioner {
   Eigen::LDLT<Eigen::MatrixXd> energies_;  // M'H M, M = motions_
   SchurPreconditioner schur_;
   std::string failure_;
+  bool indefinite_ = false;
 };
 
 }  // namespace seiche

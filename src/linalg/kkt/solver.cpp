@@ -54,8 +54,13 @@ KktSolver::Residual KktSolver::measure(const Problem& problem, const Vector& x) 
 }
 
 std::string KktSolver::attempt(const std::string& strength, const Problem& problem, Vector& x, SaddleReport& report) {
+  if (strength == "strong") motions_.clear();
   KktPreconditioner B(*K_, bodies_, kkt_amg_settings(strength), motions_);
-  if (!B.failure().empty()) return B.failure();
+  if (!B.failure().empty()) {
+    motions_.clear();
+    indefinite_ = B.met_indefinite();
+    return B.failure();
+  }
   double target = -1;
   const auto finished = [&](double estimate, const Vector& now) {
     if (K_->met_indefinite()) return true;
@@ -99,6 +104,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
     report.failed_attempts.push_back("the matrix or the right-hand side is not finite");
     return all;
   }
+  indefinite_ = false;
   bodies_.keep(H);
   coupled_.set_bodies(bodies_);
   K_ = std::make_unique<KktOperator>(system_, A_, H);
@@ -108,7 +114,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
   for (const char* strength : {"standard", "strong"}) {
     if (!all_finite(x, ranks_) || strength == std::string("strong")) std::fill(x.begin(), x.end(), 0.0);
     const std::string failure = attempt(strength, problem, x, report);
-    all.indefinite = K_->met_indefinite();
+    all.indefinite = indefinite_ || K_->met_indefinite();
     if (all.indefinite) break;
     const Residual residual = measure(problem, x);
     report.set(residual.momentum, residual.continuity);
@@ -119,6 +125,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
                                                  report.used, residual.momentum, residual.continuity, report.iterations,
                                                  failure.empty() ? "" : ", ", failure));
   }
+  if (all.indefinite) motions_.clear();
   K_->unpack(x, p, v);
   coupled_.project(p);
   return all;

@@ -56,6 +56,7 @@ class KktSolver {
   BodyMatrix bodies_;
   std::unique_ptr<KktOperator> K_;
   std::vector<Eigen::VectorXd> motions_;  // KktPreconditioner::Motions, once found
+  bool indefinite_ = false;               // KktPreconditioner::met_indefinite() in this solve
 };
 
 }  // namespace seiche

@@ -192,3 +192,22 @@ TEST_CASE("kkt: matrices that are not positive definite are told of") {
   CHECK(f.report.indefinite);
   CHECK_FALSE(f.report.solve.converged);
 }
+
+// Newton's method asks one solver for several matrices: an exact one that may be indefinite, then a projected one.
+TEST_CASE("kkt: a solver serves definite and indefinite matrices by turns") {
+  const Communicator ranks;
+  const Case k = make(2, 12, 1, 1, Kind::air, ranks);
+  SparseMatrix wrong = k.H;
+  wrong.coeffRef(2, 3) += 100;
+  wrong.coeffRef(3, 2) += 100;
+  KktSolver solver({k.liquid.A, k.liquid.grid, k.liquid.null_space, k.J, c1, c2, 2}, {.tolerance = 1e-10}, ranks);
+  const Found alone = solve(k, 2, 1e-10, ranks);
+  for (const SparseMatrix& H : {wrong, k.H, wrong, k.H}) {
+    Found f{Vector(k.b.size(), 0.0), Eigen::VectorXd::Zero(H.rows()), {}};
+    f.report = solver.solve(H, k.b, k.g, f.p, f.v);
+    CHECK(f.report.indefinite == (H.coeff(2, 3) != k.H.coeff(2, 3)));
+    if (f.report.indefinite) continue;
+    CHECK(f.report.solve.converged);
+    CHECK((f.v - alone.v).norm() <= 1e-8 * alone.v.norm());
+  }
+}
