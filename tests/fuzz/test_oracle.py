@@ -14,7 +14,7 @@ import unittest.mock
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
-from fuzzing import damage, oracle, registry, scene_mode, scenes, tables, toml  # noqa: E402
+from fuzzing import damage, energy, oracle, registry, scene_mode, scenes, tables, toml  # noqa: E402
 from fuzzing.program import Done, kill_session, refused_by_sanitizer, session_members  # noqa: E402
 
 SCENE = {"dimension": 2, "domain": {"lower": [0, 0], "upper": [1, 1], "cell_size": 0.1}, "liquid": {"density": 1000.0}}
@@ -81,36 +81,36 @@ class Kills(unittest.TestCase):
 
 class Results(unittest.TestCase):
     def test_energy(self):
-        oracle.check_energy(SCENE, stats(9))
-        oracle.check_energy(SCENE, stats(260, -251))          # falling matter
+        energy.check_energy(SCENE, stats(9))
+        energy.check_energy(SCENE, stats(260, -251))          # falling matter
         still = {**SCENE, "gravity": [0, 0]}
         with self.assertRaisesRegex(tables.Fault, "energy"):
-            oracle.check_energy(still, stats(11))
-        oracle.check_energy(still, stats(11, moved=0.02))      # 0.9 J of liquid that the volume control put back
+            energy.check_energy(still, stats(11))
+        energy.check_energy(still, stats(11, moved=0.02))      # 0.9 J of liquid that the volume control put back
         with self.assertRaisesRegex(tables.Fault, "energy"):
-            oracle.check_energy(SCENE, stats(10000))
+            energy.check_energy(SCENE, stats(10000))
 
     def test_speeds_that_nothing_explains(self):
         """Little liquid that the volume control moved does not excuse an explosion."""
         wild = {**stats(1e6, moved=0.02), "max_speed": numpy.array([0.2, 1e5])}
         with self.assertRaisesRegex(tables.Fault, "energy"):
-            oracle.check_energy({**SCENE, "gravity": [0, 0]}, wild)
+            energy.check_energy({**SCENE, "gravity": [0, 0]}, wild)
 
     def test_energy_from_nowhere(self):
         fed = {**SCENE, "domain": {**SCENE["domain"], "boundary": {"x_lower": {"type": "inflow"}}}}
         def later(columns):   # the same with five steps before
             return {name: numpy.concatenate([numpy.repeat(v[:1], 5), v]) for name, v in columns.items()}
-        oracle.check_created(fed, later(stats(9)))
+        energy.check_created(fed, later(stats(9)))
         fed_by_sides = {"work_sides": numpy.array([0.0, 890.0]), "lost_numerical": numpy.zeros(2)}
-        oracle.check_created(fed, later({**stats(900), **fed_by_sides}))
+        energy.check_created(fed, later({**stats(900), **fed_by_sides}))
         with self.assertRaisesRegex(tables.Fault, "created"):
-            oracle.check_created({**fed, "gravity": [0, 0]}, later(stats(900)))
+            energy.check_created({**fed, "gravity": [0, 0]}, later(stats(900)))
 
     def test_what_feeds_energy(self):
-        self.assertFalse(oracle.is_fed(SCENE))
+        self.assertFalse(energy.is_fed(SCENE))
         for key, value in (("gravity", ["sin(t)", 0]), ("solid", [{"kind": "kinematic"}]),
                            ("liquid", {"source": [{}]}), ("domain", {"boundary": {"x_lower": {"type": "inflow"}}})):
-            self.assertTrue(oracle.is_fed({**SCENE, key: value}), key)
+            self.assertTrue(energy.is_fed({**SCENE, key: value}), key)
 
     def test_overlap(self):
         self.assertEqual(tables.overlap(square(0), square(1.001)), 0)

@@ -72,6 +72,13 @@ def energy_margin(scene, stats, given, amiss):
             + 0.5 * moved * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
 
 
+def check_energies(scene, stats):
+    """All bounds that hold for this scene."""
+    check_created(scene, stats)
+    if not is_fed(scene):
+        check_energy(scene, stats)
+
+
 def check_energy(scene, stats):
     """E = E_kin + E_pot + E_el of a closed scene must stay below its initial value, up to `energy_margin`."""
     g = [float(v) for v in scene.get("gravity", [0.0, -9.81, 0.0])][:scene["dimension"]]

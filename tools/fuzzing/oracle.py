@@ -3,7 +3,7 @@ import re
 import sys
 import pathlib
 
-from fuzzing.energy import check_created, check_energy, is_fed
+from fuzzing.energy import check_energies
 from fuzzing.program import OTHER_HEAP
 from fuzzing.tables import Fault, check_finite, overlap, read_stats, read_summary, read_surfaces, same_stats
 
@@ -85,11 +85,8 @@ def check_result(scene, folder, energy=True):
     for name in ("stats.csv", "solids.csv", "probes.csv"):
         if (folder / name).exists():
             check_finite(folder / name)
-    stats = read_stats(folder)
     if energy:
-        check_created(scene, stats)
-        if not is_fed(scene):
-            check_energy(scene, stats)
+        check_energies(scene, read_stats(folder))
     if "liquid" in scene:
         check_volume(scene, folder)
     check_overlaps(scene, folder)
@@ -110,10 +107,7 @@ def goes_on(folder, seconds):
 def check_cut_off(scene, folder):
     """Checks the tables of a run that was cut off."""
     check_finite(folder / "stats.csv")
-    stats = read_stats(folder)
-    if not is_fed(scene):
-        check_energy(scene, stats)
-    check_created(scene, stats)
+    check_energies(scene, read_stats(folder))
 
 
 def check_repeated(program, folder, name):

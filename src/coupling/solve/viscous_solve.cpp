@@ -53,6 +53,17 @@ FaceField<Dim> shifted(const CoupledInput<Dim>& in, const FaceField<Dim>& u, dou
   return r;
 }
 
+// u += by * grad p/rho of the solution on faces with an unknown velocity. Fills ghosts.
+template <int Dim>
+void add_pressure(const CoupledInput<Dim>& in, const CoupledSolution<Dim>& r, double by, FaceField<Dim>& u) {
+  const Layout<Dim>& layout = in.liquid.layout;
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(layout, layout.faces(a), [&](Site f) {
+      if (in.liquid.faces.is_unknown(a, f)) u.at(a, f) += by * face_pressure_slope(in.liquid, r.rows, r.pressure, a, f);
+    });
+  fill_velocity_ghosts(layout, in.liquid.halo, in.setup.domain.sides, u);
+}
+
 template <int Dim>
 ProjectionInput<Dim> with_faces(const ProjectionInput<Dim>& p, const FaceGeometry<Dim>& faces) {
   return {p.layout, p.halo, p.ranks, p.phi, faces, p.density, p.dt, p.separation, p.gas_density, nullptr, p.air};
@@ -125,14 +136,8 @@ void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<
 // u = u* - dt grad p/rho. The stress is that of u* without the pressure of the last step.
 template <int Dim>
 void SplitViscosity<Dim>::measure(CoupledSolution<Dim>& r) const {
-  const Domain<Dim>& domain = in_.setup.domain;
   FaceField<Dim> u = r.u_star;
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (in_.liquid.faces.is_unknown(a, f))
-        u.at(a, f) -= in_.liquid.dt * face_pressure_slope(in_.liquid, r.rows, r.pressure, a, f);
-    });
-  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
+  add_pressure(in_, r, -in_.liquid.dt, u);
   r.viscous = viscous_.power({shifted(in_, r.u_star, -in_.liquid.dt), solids_}, {u, r.solids});
 }
 
@@ -166,13 +171,8 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   if (!r.failure.empty()) return;
   r.viscous_loads = viscous.loads(solved, r.solids);
   r.viscous = viscous.power({solved, r.solids}, {solved, r.solids});
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(s.domain.layout, s.domain.layout.faces(a), [&](Site f) {
-      r.u_star.at(a, f) = solved.at(a, f);
-      if (in.liquid.faces.is_unknown(a, f))
-        r.u_star.at(a, f) += dt * face_pressure_slope(in.liquid, r.rows, r.pressure, a, f);
-    });
-  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u_star);
+  r.u_star = std::move(solved);
+  add_pressure(in, r, dt, r.u_star);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \

@@ -48,6 +48,14 @@ void join(const Domain<Dim>& domain, const Source<Dim>& source, const OpenTime& 
   });
 }
 
+// The same for all sources that are open in a step.
+template <int Dim>
+void join_all(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
+              CellField<Dim>& phi, CellField<Dim>* half_square) {
+  for (const Source<Dim>& source : sources)
+    if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
+}
+
 // Kinetic energy over the density of the liquid that `after` has more than `before`. Collective.
 template <int Dim>
 double kinetic_energy_brought(const Domain<Dim>& domain, const CellField<Dim>& before, const CellField<Dim>& after,
@@ -78,8 +86,7 @@ Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const 
   const double before = liquid_volume(domain, phi, psi);
   const CellField<Dim> phi_before = phi;
   CellField<Dim> half_square(domain.layout);
-  for (const Source<Dim>& source : sources)
-    if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, &half_square);
+  join_all(domain, sources, t0, t1, phi, &half_square);
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
   return {liquid_volume(domain, phi, psi) - before, kinetic_energy_brought(domain, phi_before, phi, half_square, psi)};
 }
@@ -87,8 +94,7 @@ Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const 
 template <int Dim>
 void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
                   CellField<Dim>& phi) {
-  for (const Source<Dim>& source : sources)
-    if (const auto open = open_in_step(source.spec, t0, t1)) join<Dim>(domain, source, *open, phi, nullptr);
+  join_all<Dim>(domain, sources, t0, t1, phi, nullptr);
 }
 
 template <int Dim>
