@@ -140,6 +140,9 @@ ExitCode resume_command(const ResumeOptions& options, const Surroundings& around
   Continuation run = read_run(options, ranks, log);
   apply_new_end(options, run.scene);
   const fs::path folder = fs::absolute(options.folder).lexically_normal();
+  if (run.scene.time.end < run.state.time * (1 - 1e-12))
+    log.warn(fmt::format("the end time (time.end), {:g} s, lies before the time that the run has reached",
+                         run.scene.time.end));
   if (is_finished(run.state, run.scene)) {
     log.note(fmt::format("note: the run in {} is finished (t = {:g} s); give a later --end to extend it",
                          folder.string(), run.state.time));

@@ -37,7 +37,7 @@ Section<SideSpec> side_section() {
                     .variables = "xyzt",
                     .only_for = {"type", {"outflow"}},
                     .unset = "0.0",
-                    .doc = "pressure outside"},
+                    .doc = "pressure outside; what comes in has been at rest there"},
                    &S::pressure),
   };
   return s;

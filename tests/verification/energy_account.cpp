@@ -258,9 +258,10 @@ TEST_CASE("energy account: a source brings its liquid's energy") {
   CHECK(std::abs(last.work.lost_numerical) < 0.02 * brought);
 }
 
-// A pressure difference p along a box of length L drives all that is in it alike: U = p t/(rho L), work p U t A/2.
+// A pressure difference p along a box of length L drives all that is in it alike. It comes in from rest, with
+// p - rho U^2/2 at the side: U = V tanh(V t/(2 L)), V = sqrt(2 p/rho).
 template <int Dim>
-void check_driven_gas(double gas_density) {
+void check_driven_gas(double gas_density, double step, double tolerance) {
   Scene s = test::box_scene(Dim, 8);
   s.gravity = {0, 0, 0};
   s.domain.sides[0][0] = {SideType::outflow, {"0", "0", "0"}, "1000"};
@@ -268,7 +269,7 @@ void check_driven_gas(double gas_density) {
   s.gas.present = true;
   s.gas.density = gas_density;
   s.time.end = 0.1;
-  s.time.max_step = 0.02;
+  s.time.max_step = step;
   test::add_liquid(s, gas_density == 1000 ? "0.25-abs(x-0.5)" : "1");
   const auto sim = make_simulation(s, Communicator());
   const StepStats first = sim->step(s.time.end);
@@ -278,14 +279,20 @@ void check_driven_gas(double gas_density) {
     CHECK(last.rejected == 0);
   }
   check_closed(first, last);
-  CHECK(last.max_speed == Approx(1000 * 0.1 / gas_density).epsilon(1e-6));  // the solver's tolerance is 1e-8
-  CHECK(last.work.sides == Approx(last.kinetic_energy - first.kinetic_energy).epsilon(1e-6));
+  const double limit = std::sqrt(2 * 1000 / gas_density), exact = limit * std::tanh(0.5 * limit * s.time.end);
+  const double gained = last.kinetic_energy - first.kinetic_energy;
+  WARN(Dim << "D, " << gas_density << " kg/m3: off by " << last.max_speed / exact - 1 << " in speed, "
+           << last.work.sides / gained - 1 << " in work");
+  CHECK(last.max_speed == Approx(exact).epsilon(tolerance));
+  CHECK(last.work.sides == Approx(gained).epsilon(tolerance));
 }
 
 TEST_CASE("energy account: gas that a pressure drives has the work of the sides") {
+  // The speed before the step brakes what enters. That is of first order in time: 1.5e-3 and 4e-4 found.
   for (const double density : {1000.0, 100.0}) {
-    check_driven_gas<2>(density);
-    check_driven_gas<3>(density);
+    check_driven_gas<2>(density, 0.02, 0.003);
+    check_driven_gas<2>(density, 0.005, 0.001);
+    check_driven_gas<3>(density, 0.02, 0.003);
   }
 }
 

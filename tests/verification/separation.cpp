@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
+#include "elastic_scenes.h"
 #include "scenes.h"
 
 using namespace seiche;
@@ -125,4 +126,19 @@ TEST_CASE("viscous liquid finds which cells part") {
     CHECK(s.separation_error == 0);
     CHECK(s.rejected == 0);
   }
+}
+
+// The net flux of a cell that has parted from an elastic body must be that of its row while it has one.
+TEST_CASE("liquid finds which cells part from a light elastic body") {
+  Scene s = test::box_scene(2, 20);
+  s.gravity = {0, -9.81, 0};
+  test::add_liquid(s, "y-0.6");
+  s.liquid.separates = true;
+  s.solids.push_back(test::elastic_solid("disc", 50, {1e4, 0.3}, 0.05));
+  s.solids[0].shape.kind = "sphere";
+  s.solids[0].shape.center = {0.5, 0.4, 0};
+  s.solids[0].shape.radius = 0.15;
+  s.solids[0].rigid.velocity = {0.5, -1, 0};
+  const auto sim = make_simulation(s, Communicator());
+  while (sim->time() < 0.2) CHECK(sim->step(0.2).separation_error == 0);
 }

@@ -109,22 +109,26 @@ double power_of_sides(const Setup<Dim>& s, const State<Dim>& before, const Attem
   const auto from = before.exterior->joined_level(s.domain, s.fluids, before);
   const auto to = a.state.exterior->joined_level(s.domain, s.fluids, a.state);
   const double entering = kinetic_inflow(s, a.geometry.faces, before) + kinetic_inflow(s, a.geometry.faces, a.state);
-  return pressure_power_of_sides(s.domain, from->u, to->u, a) +
+  return pressure_power_of_sides(s.domain, s.fluids, from->u, to->u, a) +
          0.5 * (before.viscous_power.sides + a.powers.viscous.sides + entering);
 }
 
 }  // namespace
 
 template <int Dim>
-double pressure_power_of_sides(const Domain<Dim>& domain, const FaceField<Dim>& from, const FaceField<Dim>& to,
-                               const Attempt<Dim>& attempt) {
+double pressure_power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim>& from,
+                               const FaceField<Dim>& to, const Attempt<Dim>& attempt) {
   const FaceGeometry<Dim>& faces = attempt.geometry.faces;
+  const bool everywhere = attempt.state.exterior->flows();
   double sum = 0;
   for_each_side_face(domain, [&](int a, Site f, Site inside, double inward) {
     const double flow = 0.5 * inward * faces.open.at(a, f) * (from.at(a, f) + to.at(a, f));
     const FaceKind kind = faces.kind_at(a, f);
     if (kind == FaceKind::prescribed) sum += flow * attempt.state.pressure[inside];
-    if (kind == FaceKind::outflow) sum += flow * faces.side_pressure.at(a, f);
+    const bool wet = attempt.state.phi[inside] < 0;
+    if (kind != FaceKind::outflow || !(wet || everywhere)) return;
+    const double density = wet ? fluids.density() : fluids.gas_density();
+    sum += flow * (faces.side_pressure.at(a, f) - 0.5 * density * faces.entering.at(a, f) * inward * to.at(a, f));
   });
   return domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
 }
@@ -153,8 +157,8 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                     \
-  template double pressure_power_of_sides<D>(const Domain<D>&, const FaceField<D>&, const FaceField<D>&,          \
-                                             const Attempt<D>&);                                                  \
+  template double pressure_power_of_sides<D>(const Domain<D>&, const Fluids&, const FaceField<D>&,                \
+                                             const FaceField<D>&, const Attempt<D>&);                             \
   template Work work_after<D>(const Setup<D>&, const State<D>&, const StepStats&, const std::vector<SolidState>&, \
                               const Attempt<D>&);
 SEICHE_INSTANTIATE(2)

@@ -9,8 +9,8 @@ namespace seiche {
 // Power of the pressure on what flows through the sides of the domain, inwards: p u A, W (2D: W/m). u: the mean of
 // `from` and `to`, velocities of all fluids. Collective.
 template <int Dim>
-double pressure_power_of_sides(const Domain<Dim>& domain, const FaceField<Dim>& from, const FaceField<Dim>& to,
-                               const Attempt<Dim>& attempt);
+double pressure_power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim>& from,
+                               const FaceField<Dim>& to, const Attempt<Dim>& attempt);
 
 // Work at the end of the attempt that started from `before`. `start`: measured of `before`; `solids`: of the attempt.
 // Collective.

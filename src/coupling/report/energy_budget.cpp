@@ -89,7 +89,7 @@ double pushed(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>
   }
   const double by_bodies = domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
   const auto flow = attempt.state.exterior->joined_level(domain, fluids, attempt.state);
-  return std::max(0.0, dt * (pressure_power_of_sides(domain, flow->u, flow->u, attempt) + by_bodies));
+  return std::max(0.0, dt * (pressure_power_of_sides(domain, fluids, flow->u, flow->u, attempt) + by_bodies));
 }
 
 // sqrt(f'M^-1 f) with lumped M, f the tractions and body forces.

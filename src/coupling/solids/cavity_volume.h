@@ -14,11 +14,13 @@ struct FluxEntry {
 };
 
 // Entries of J of one elastic body. `first`: its first unknown in the coupling. `shown`: number of entries that are
-// those of its face shares; corrections follow.
+// those of its face shares; corrections follow. `separated`: corrections in cells separated from the body, which have
+// no row.
 struct BodyEntries {
   int body, first;
-  std::vector<FluxEntry> entries;
+  std::vector<FluxEntry> entries = {};
   std::size_t shown = 0;
+  CellFluxes separated = {};
 };
 
 // A cavity of liquid without a free surface. Its volume constraint, A_f the face area, V the volume within the walls:

@@ -19,20 +19,43 @@ namespace seiche {
 namespace {
 
 template <int Dim>
-void add_entries(int row, double value, int axis, const SurfaceWeights& weights, std::vector<FluxEntry>& entries) {
-  for (const auto& [node, weight] : weights) entries.push_back({row, Dim * node + axis, value * weight});
+void add_entries(Site cell, double value, int axis, const SurfaceWeights& weights, CellFluxes& entries) {
+  for (const auto& [node, weight] : weights) entries.push_back({cell, Dim * node + axis, value * weight});
 }
 
-// Entries of J: each face share, spread to the nodes that it is attached to.
-template <int Dim>
-std::vector<FluxEntry> spread_shares(const Domain<Dim>& domain, const FaceShares& shares,
-                                     const FaceWeights& face_weights, const PressureRows<Dim>& rows) {
-  std::vector<FluxEntry> entries;
-  for_each_cell_of_shares(domain, shares, rows, [&](Site cell, double sign, std::size_t n) {
-    add_entries<Dim>(int(rows.row[cell] - rows.first), sign * shares[n].closed, shares[n].axis, face_weights[n],
-                     entries);
+// Each face share beside cells with counts(cell), spread to the nodes that it is attached to.
+template <int Dim, class Counts>
+CellFluxes spread_shares(const Domain<Dim>& domain, const FaceShares& shares, const FaceWeights& face_weights,
+                         const Counts& counts) {
+  CellFluxes entries;
+  for_each_cell_of_shares(domain, shares, counts, [&](Site cell, double sign, std::size_t n) {
+    add_entries<Dim>(cell, sign * shares[n].closed, shares[n].axis, face_weights[n], entries);
   });
   return entries;
+}
+
+// Cells whose net flux is solved for or checked: those with a row, and those separated from walls.
+template <int Dim>
+class BalancedCells {
+ public:
+  BalancedCells(const Fluids& fluids, const PressureRows<Dim>& rows, const State<Dim>& state)
+      : rows_(rows), separated_(fluids.liquid.separates ? &state.separation.separated : nullptr) {}
+
+  bool operator()(Site cell) const { return rows_.row[cell] >= 0 || (separated_ && (*separated_)[cell]); }
+
+ private:
+  const PressureRows<Dim>& rows_;
+  const CellField<Dim, char>* separated_;
+};
+
+template <int Dim>
+void add_to_rows(const CellFluxes& fluxes, const PressureRows<Dim>& rows, BodyEntries& body) {
+  for (const CellFlux& f : fluxes) {
+    if (rows.row[f.cell] >= 0)
+      body.entries.push_back({int(rows.row[f.cell] - rows.first), f.column, f.value});
+    else
+      body.separated.push_back(f);
+  }
 }
 
 // Face shares of one cell.
@@ -44,12 +67,13 @@ struct CellShares {
 // a cell are therefore attached to the patch that cuts its faces. Others move to the attachment of the nearest share on
 // that patch. Shares attached to pinned facets between the patches stay.
 template <int Dim>
-void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, const FaceShares& shares,
-                      const FaceWeights& face_weights, const PressureRows<Dim>& rows, std::vector<FluxEntry>& entries) {
-  if (solid.patches.size() == 1) return;
+CellFluxes keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, const FaceShares& shares,
+                            const FaceWeights& face_weights, const BalancedCells<Dim>& balanced) {
+  if (solid.patches.size() == 1) return {};
+  CellFluxes changes;
   const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
-  for_each_cell_of_shares(domain, shares, rows,
+  for_each_cell_of_shares(domain, shares, balanced,
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
   const auto patch = [&](std::size_t n) {
     int of = -1;
@@ -66,7 +90,6 @@ void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
     for (const auto& [n, sign] : of.shares)
       if (hangs(n)) cut[std::size_t(patch(n))] += shares[n].closed * (1 - shares[n].closed + whole);
     const int own = int(std::max_element(cut.begin(), cut.end()) - cut.begin());
-    const int row = int(rows.row[cell] - rows.first);
     for (const auto& [n, sign] : of.shares) {
       if (!hangs(n) || patch(n) == own) continue;
       std::size_t best = n;
@@ -74,10 +97,11 @@ void keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid,
         if (!hangs(m) || patch(m) != own) continue;
         if (best == n || (center(m) - center(n)).norm() < (center(best) - center(n)).norm()) best = m;
       }
-      add_entries<Dim>(row, -sign * shares[n].closed, shares[n].axis, face_weights[n], entries);
-      add_entries<Dim>(row, sign * shares[n].closed, shares[n].axis, face_weights[best], entries);
+      add_entries<Dim>(cell, -sign * shares[n].closed, shares[n].axis, face_weights[n], changes);
+      add_entries<Dim>(cell, sign * shares[n].closed, shares[n].axis, face_weights[best], changes);
     }
   }
+  return changes;
 }
 
 // True if pins divide the surface. It may then enclose liquid together with the solids that the pins stand on.
@@ -86,28 +110,26 @@ bool is_divided(const ElasticSolid<Dim>& solid) {
   return std::any_of(solid.patches.begin(), solid.patches.end(), [](const auto& patch) { return !patch.is_closed(); });
 }
 
-// Replaces the entries of the face shares by those of the facets in each cell (FacetFluxes). Adds the missing buoyancy,
-// so that liquid at rest loads the mesh exactly.
+// Changes that replace the entries of the face shares by those of the facets in each cell (FacetFluxes). Adds the
+// missing buoyancy, so that liquid at rest loads the mesh exactly.
 template <int Dim>
-void hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, const Vec<Dim>& gravity, BodyEntries& body,
-                    CouplingParts<Dim>& parts) {
+CellFluxes hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, const Vec<Dim>& gravity,
+                          const BodyEntries& body, const BalancedCells<Dim>& balanced, CouplingParts<Dim>& parts) {
   const Setup<Dim>& s = step.setup;
   const StepGeometry<Dim>& g = step.geometry;
-  const PressureRows<Dim>& rows = step.rows;
+  const auto k = std::size_t(body.body);
   SolidCoupling<Dim>& c = parts.coupling;
   if (!parts.open) parts.open = open_cells(s.domain, g.faces);
   const FacetFluxes<Dim> fluxes = facet_fluxes(s.domain, s.solids, g, *parts.open, body.body, u);
-  for (FluxEntry e :
-       spread_shares(s.domain, *g.shares[std::size_t(body.body)], *g.face_weights[std::size_t(body.body)], rows)) {
-    e.value = -e.value;
-    body.entries.push_back(e);
-  }
-  const std::vector<FluxEntry> own = entries_of(s.domain, rows, fluxes);
-  body.entries.insert(body.entries.end(), own.begin(), own.end());
+  CellFluxes changes = spread_shares(s.domain, *g.shares[k], *g.face_weights[k], balanced);
+  for (CellFlux& f : changes) f.value = -f.value;
+  for (const CellFlux& f : entries_of(s.domain, fluxes))
+    if (balanced(f.cell)) changes.push_back(f);
   const Eigen::VectorXd force =
-      missing_buoyancy(s.domain, s.fluids, s.solids, rows, step.state.phi, body.body, u, fluxes, gravity);
+      missing_buoyancy(s.domain, s.fluids, s.solids, step.rows, step.state.phi, body.body, u, fluxes, gravity);
   c.push.segment(body.first, u.size()) += step.dt * force;
   c.buoyancy_correction.segment(body.first, u.size()) = force;
+  return changes;
 }
 
 // Highest pressure (Pa, at least 0) of the last step in cells beside the faces that the body cuts or closes.
@@ -116,18 +138,17 @@ template <int Dim>
 double highest_pressure_beside(const Domain<Dim>& domain, const FaceShares& shares, const PressureRows<Dim>& rows,
                                const CellField<Dim>& pressure) {
   double most = 0;
-  for_each_cell_of_shares(domain, shares, rows,
+  for_each_cell_of_shares(domain, shares, with_row(rows),
                           [&](Site cell, double, std::size_t) { most = std::max(most, pressure[cell]); });
   return domain.ranks.global_max(most);
 }
 
-// Entries after the first `known`, by cell instead of row.
+// All corrections, by cell.
 template <int Dim>
-std::shared_ptr<const CellFluxes> added_fluxes(const std::vector<FluxEntry>& entries, std::size_t known,
-                                               const PressureRows<Dim>& rows) {
-  CellFluxes added;
-  for (std::size_t n = known; n < entries.size(); ++n)
-    added.push_back({rows.cells[std::size_t(entries[n].row)], entries[n].column, entries[n].value});
+std::shared_ptr<const CellFluxes> added_fluxes(const BodyEntries& body, const PressureRows<Dim>& rows) {
+  CellFluxes added = body.separated;
+  for (std::size_t n = body.shown; n < body.entries.size(); ++n)
+    added.push_back({rows.cells[std::size_t(body.entries[n].row)], body.entries[n].column, body.entries[n].value});
   return std::make_shared<const CellFluxes>(std::move(added));
 }
 
@@ -229,13 +250,15 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;
   if (body.is_thin())
     add_liquid_beside(liquid_beside(s.domain, s.fluids, g, rows, state, dt, k), g_nodes, dt, first, parts);
-  BodyEntries mine{k, first, spread_shares(s.domain, shares, face_weights, rows)};
+  BodyEntries mine{k, first};
+  add_to_rows(spread_shares(s.domain, shares, face_weights, with_row(rows)), rows, mine);
   send_air_rows_to_owner(s.domain, rows, 0, mine.entries);
   mine.shown = mine.entries.size();
-  if (body.is_thin() || is_divided(solid))
-    keep_to_own_side(s.domain, solid, shares, face_weights, rows, mine.entries);
-  else
-    hang_on_facets(step, e.u, gravity, mine, parts);
+  const BalancedCells<Dim> balanced(s.fluids, rows, state);
+  const bool by_shares = body.is_thin() || is_divided(solid);
+  add_to_rows(by_shares ? keep_to_own_side(s.domain, solid, shares, face_weights, balanced)
+                        : hang_on_facets(step, e.u, gravity, mine, balanced, parts),
+              rows, mine);
   send_air_rows_to_owner(s.domain, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));
   c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
@@ -251,7 +274,7 @@ void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, Couplin
   const auto b = std::size_t(block);
   BodyEntries& mine = *std::find_if(parts.entries.begin(), parts.entries.end(),
                                     [&](const BodyEntries& entries) { return entries.body == k; });
-  c.cell_fluxes[b] = added_fluxes(mine.entries, mine.shown, step.rows);
+  c.cell_fluxes[b] = added_fluxes(mine, step.rows);
   Eigen::MatrixXd loads = std::move(c.J.blocks[b].loads);
   const int width = c.first[b + 1] - mine.first;
   sort_by_rows(mine.entries);

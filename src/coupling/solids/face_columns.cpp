@@ -43,7 +43,7 @@ template <int Dim>
 ColumnBlock translation_columns(const CoupledStep<Dim>& step, int k, const std::vector<Freedom>& freedom, int first) {
   const FaceShares& shares = *step.geometry.shares[std::size_t(k)];
   std::vector<FluxEntry> entries;
-  for_each_cell_of_shares(step.setup.domain, shares, step.rows, [&](Site cell, double sign, std::size_t n) {
+  for_each_cell_of_shares(step.setup.domain, shares, with_row(step.rows), [&](Site cell, double sign, std::size_t n) {
     entries.push_back({int(step.rows.row[cell] - step.rows.first), shares[n].axis, sign * shares[n].closed});
   });
   send_air_rows_to_owner(step.setup.domain, step.rows, 0, entries);

@@ -5,10 +5,10 @@
 
 namespace seiche {
 
-// Calls visit(cell, sign, n) for each share n and each owned cell with a row beside its face. sign is 1 for the cell
-// below the face, -1 for the cell above.
-template <int Dim, class Visit>
-void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares, const PressureRows<Dim>& rows,
+// Calls visit(cell, sign, n) for each share n and each owned cell beside its face with counts(cell). sign is 1 for the
+// cell below the face, -1 for the cell above.
+template <int Dim, class Counts, class Visit>
+void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares, const Counts& counts,
                              const Visit& visit) {
   const Layout<Dim>& l = domain.layout;
   for (std::size_t n = 0; n < shares.size(); ++n) {
@@ -16,9 +16,15 @@ void for_each_cell_of_shares(const Domain<Dim>& domain, const FaceShares& shares
     IVec<Dim> low = i;
     low[shares[n].axis] -= 1;
     const Site behind = shares[n].face - l.stride(shares[n].axis);
-    if (l.cells().contains(i) && rows.row[shares[n].face] >= 0) visit(shares[n].face, -1, n);
-    if (l.cells().contains(low) && rows.row[behind] >= 0) visit(behind, 1, n);
+    if (l.cells().contains(i) && counts(shares[n].face)) visit(shares[n].face, -1, n);
+    if (l.cells().contains(low) && counts(behind)) visit(behind, 1, n);
   }
+}
+
+// Tells cells with a row.
+template <int Dim>
+auto with_row(const PressureRows<Dim>& rows) {
+  return [&rows](Site cell) { return rows.row[cell] >= 0; };
 }
 
 // Moves the entries of enclosed air, from index `known` on, to the ranks that have their rows. Entries of one row and

@@ -176,17 +176,14 @@ FacetFluxes<Dim> facet_fluxes(const Domain<Dim>& domain, const Solids<Dim>& soli
 }
 
 template <int Dim>
-std::vector<FluxEntry> entries_of(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
-                                  const FacetFluxes<Dim>& fluxes) {
-  std::vector<FluxEntry> entries;
+CellFluxes entries_of(const Domain<Dim>& domain, const FacetFluxes<Dim>& fluxes) {
+  CellFluxes entries;
   const double area = domain.layout.geometry().face_area();
   for (const LoadedPiece<Dim>& p : fluxes.pieces)
-    for (std::size_t i = 0; i < p.load.nodes.size() && rows.row[p.cell] >= 0; ++i)
+    for (std::size_t i = 0; i < p.load.nodes.size(); ++i)
       for (int a = 0; a < Dim; ++a)
-        entries.push_back(
-            {int(rows.row[p.cell] - rows.first), Dim * p.load.nodes[i] + a, -p.load.area(a, Eigen::Index(i)) / area});
-  for (const CellFlux& d : fluxes.balance)
-    if (rows.row[d.cell] >= 0) entries.push_back({int(rows.row[d.cell] - rows.first), d.column, d.value});
+        entries.push_back({p.cell, Dim * p.load.nodes[i] + a, -p.load.area(a, Eigen::Index(i)) / area});
+  entries.insert(entries.end(), fluxes.balance.begin(), fluxes.balance.end());
   return entries;
 }
 
@@ -216,13 +213,13 @@ Eigen::VectorXd missing_buoyancy(const Domain<Dim>& domain, const Fluids& fluids
   return Eigen::Map<const Eigen::VectorXd>(force.data(), u.size());
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                            \
-  template FacetFluxes<D> facet_fluxes<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&,             \
-                                          const CellField<D, char>&, int, const Eigen::VectorXd&);                \
-  template std::vector<FluxEntry> entries_of<D>(const Domain<D>&, const PressureRows<D>&, const FacetFluxes<D>&); \
-  template Eigen::VectorXd missing_buoyancy<D>(const Domain<D>&, const Fluids&, const Solids<D>&,                 \
-                                               const PressureRows<D>&, const CellField<D>&, int,                  \
+#define SEICHE_INSTANTIATE(D)                                                                         \
+  template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                \
+  template FacetFluxes<D> facet_fluxes<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
+                                          const CellField<D, char>&, int, const Eigen::VectorXd&);    \
+  template CellFluxes entries_of<D>(const Domain<D>&, const FacetFluxes<D>&);                         \
+  template Eigen::VectorXd missing_buoyancy<D>(const Domain<D>&, const Fluids&, const Solids<D>&,     \
+                                               const PressureRows<D>&, const CellField<D>&, int,      \
                                                const Eigen::VectorXd&, const FacetFluxes<D>&, const Vec<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

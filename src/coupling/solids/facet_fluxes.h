@@ -38,10 +38,9 @@ template <int Dim>
 FacetFluxes<Dim> facet_fluxes(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& geometry,
                               const CellField<Dim, char>& open, int k, const Eigen::VectorXd& u);
 
-// Entries of J for cells with a row. Rows of enclosed air may belong to other ranks.
+// F + D as entries of this rank's cells.
 template <int Dim>
-std::vector<FluxEntry> entries_of(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
-                                  const FacetFluxes<Dim>& fluxes);
+CellFluxes entries_of(const Domain<Dim>& domain, const FacetFluxes<Dim>& fluxes);
 
 // Nodal forces (N) that make buoyancy exact. Pressures are values at cell centres, while the surface lies beside them.
 // The pressure rho g.x of liquid at rest exerts on the wet pieces the load

@@ -24,6 +24,32 @@ double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const C
 }
 
 template <int Dim>
+void find_entering(const Domain<Dim>& domain, const FaceField<Dim>& u, FaceGeometry<Dim>& faces) {
+  const Layout<Dim>& layout = domain.layout;
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1}) {
+      if (!domain.sides.is_outflow(a, side)) continue;
+      Box<Dim> box = layout.grown(2);
+      const int edge = side == 0 ? 0 : layout.geometry().cells[a];
+      box.lower[a] = std::max(box.lower[a], edge);
+      box.upper[a] = std::min(box.upper[a], edge + 1);
+      for_each_index_in_order(layout, box, [&](Site f, const IVec<Dim>&) {
+        const double inward = side == 0 ? u.at(a, f) : -u.at(a, f);
+        if (faces.kind_at(a, f) == FaceKind::outflow && inward > 0) faces.entering.set(a, f, inward);
+      });
+    }
+}
+
+template <int Dim>
+void brake_entering(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, double dt, FaceField<Dim>& u_star) {
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1})
+      for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>&) {
+        u_star.at(a, f) /= 1 + faces.entering.at(a, f) * dt / domain.layout.h();
+      });
+}
+
+template <int Dim>
 void book_first_flow(const Setup<Dim>& s, const State<Dim>& start, const StepGeometry<Dim>& geometry, double dt,
                      Phases& phases, State<Dim>& end) {
   if (!s.domain.sides.any_passes()) return;
@@ -40,6 +66,8 @@ void book_first_flow(const Setup<Dim>& s, const State<Dim>& start, const StepGeo
 
 #define SEICHE_INSTANTIATE(D)                                                                                        \
   template double net_inflow<D>(const Domain<D>&, const StepGeometry<D>&, const CellField<D>&, const FaceField<D>&); \
+  template void find_entering<D>(const Domain<D>&, const FaceField<D>&, FaceGeometry<D>&);                           \
+  template void brake_entering<D>(const Domain<D>&, const FaceGeometry<D>&, double, FaceField<D>&);                  \
   template void book_first_flow<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&, double, Phases&,        \
                                    State<D>&);
 SEICHE_INSTANTIATE(2)

@@ -12,6 +12,14 @@ template <int Dim>
 double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, const CellField<Dim>& phi,
                   const FaceField<Dim>& u);
 
+// Sets FaceGeometry::entering to the speed with which u enters through outflow sides. Collective.
+template <int Dim>
+void find_entering(const Domain<Dim>& domain, const FaceField<Dim>& u, FaceGeometry<Dim>& faces);
+
+// u* times ProjectionInput::entry_factor.
+template <int Dim>
+void brake_entering(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, double dt, FaceField<Dim>& u_star);
+
 // Corrects what the first step, of length dt, has booked at the sides while the surface moved ahead of its solve. The
 // velocity u(0) of the scene may have divergence, as beside an inflow into liquid at rest. The pressure then sets the
 // liquid in motion at once, to u(0+), which a step of dt/1000 finds. Over a lead of s dt the mean is

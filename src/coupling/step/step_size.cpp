@@ -84,6 +84,21 @@ double limit_of_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, con
   return dt;
 }
 
+// Forces f that the scene applies set a solid of mass m off with a = sqrt(f'M^-1 f/m). The first step has a dt^2/2 <=
+// h; later ones grow from it. A light solid that would cross the domain in one step costs hundreds of Newton
+// iterations.
+template <int Dim>
+double limit_of_first_push(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state, double dt) {
+  double limit = dt;
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k)
+    for (const double t : {state.time, state.time + dt}) {
+      const double square = state.solids[k].pull(t);
+      if (square > 0)
+        limit = std::min(limit, std::sqrt(2 * domain.layout.h() / std::sqrt(square / solids.bodies[k].mass().mass)));
+    }
+  return limit;
+}
+
 // Halves the remaining time if a step of dt would leave less than another one.
 double land(double dt, double remaining) {
   if (dt >= remaining * (1 - 1e-9)) return remaining;
@@ -201,7 +216,10 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   double dt =
       spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
-  if (state.step == 0 && !spec.fixed_step) dt = limit_of_given_velocity(state, std::min(dt, remaining));
+  if (state.step == 0 && !spec.fixed_step) {
+    dt = limit_of_given_velocity(state, std::min(dt, remaining));
+    dt = limit_of_first_push(s.domain, s.solids, state, dt);
+  }
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
     dt = state.horizon;
   else if (!spec.fixed_step)

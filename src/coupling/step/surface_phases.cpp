@@ -170,6 +170,8 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   moved.end = find_end(s, before, times, moved, phases);
   carry_surface(s, before, times, phases, moved);
   keep_volumes(s, before, times, phases, moved);
+  if (s.domain.sides.any_passes())
+    find_entering(s.domain, before.exterior->joined_level(s.domain, s.fluids, before)->u, moved.geometry.faces);
   const auto timed = phases.timers.measure("surface");
   if (s.fluids.has_surface_tension())
     moved.tension = surface_tension(s.domain, s.fluids, s.solids, s.perturbation, moved.geometry, before.phi,

@@ -15,6 +15,7 @@ struct FaceGeometry {
   PagedFaceField<Dim> closed_flux;    // (1 - w) v_solid: flux through the solid part, per face area, m/s
   PagedFaceField<Dim> prescribed;     // velocity of prescribed faces, m/s
   PagedFaceField<Dim> side_pressure;  // Pa, on outflow faces
+  PagedFaceField<Dim> entering;       // m/s, on outflow faces: speed of what came in before the step
   PagedCellField<Dim> cell_flux;      // flux out of a cell due to solids, not included in its faces, per face area, m/s
 
   FaceGeometry() = default;
@@ -24,6 +25,7 @@ struct FaceGeometry {
         closed_flux(layout),
         prescribed(layout),
         side_pressure(layout),
+        entering(layout),
         cell_flux(layout) {}
 
   FaceKind kind_at(int axis, Site s) const { return FaceKind(kind.at(axis, s)); }

@@ -51,7 +51,7 @@ Link link_across(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows, 
                  Site across) {
   const double w = in.faces.open.at(axis, face);
   if (in.faces.kind_at(axis, face) == FaceKind::outflow)
-    return {w / 0.5 * inverse_density_ratio_of_cell(in, cell), 0, true};
+    return {w / 0.5 * in.entry_factor(axis, face) * inverse_density_ratio_of_cell(in, cell), 0, true};
   return {w * inverse_density_ratio_of_link(in, cell, across), (cell == face ? -1 : 1) * jump_over(in, axis, face),
           rows.row[across] < 0};
 }
@@ -201,7 +201,7 @@ double face_pressure_slope(const ProjectionInput<Dim>& in, const PressureRows<Di
   if (!rows.touch_pressure(low, high)) return 0;
   const double p_low = has_low ? pressure[low] : 0, p_high = has_high ? pressure[high] : 0;
   if (in.faces.kind_at(axis, face) == FaceKind::outflow) {
-    const double beyond = in.faces.side_pressure.at(axis, face), over = scale / 0.5;
+    const double beyond = in.faces.side_pressure.at(axis, face), over = scale / 0.5 * in.entry_factor(axis, face);
     return rows.has_pressure(low) ? over * inverse_density_ratio_of_cell(in, low) * (beyond - p_low)
                                   : over * inverse_density_ratio_of_cell(in, high) * (p_high - beyond);
   }

@@ -150,7 +150,8 @@ double face_mass(const ViscousInput<Dim>& in, int axis, Site f) {
   const double w = in.faces.open.at(axis, f);
   if (!in.faces.is_unknown(axis, f) || w == 0 || !in.rows.touch_pressure(low, f)) return follower * full;
   if (in.faces.kind_at(axis, f) == FaceKind::outflow)
-    return 0.5 * w * full / inverse_density_ratio_of_cell(in.projection, has_low ? low : f);
+    return 0.5 * w * full /
+           (in.projection.entry_factor(axis, f) * inverse_density_ratio_of_cell(in.projection, has_low ? low : f));
   return w * full / inverse_density_ratio_of_link(in.projection, low, f);
 }
 
