@@ -6,6 +6,7 @@ import numpy
 from fuzzing.tables import Fault
 
 WORKS = ("work_gravity", "work_tension", "work_sides", "work_solids", "lost_viscous")
+SMALL_CELLS = 3       # cells of features below the grid: holes that close, flecks that gas carries along
 BEGUN = 5             # steps from which on energy from nowhere counts
 CREATED = 0.25        # relative; the first steps of bodies a few cells across set liquid going with blows
 
@@ -65,11 +66,12 @@ def energy_margin(scene, stats, given, amiss):
     mass = liquid["density"] * float(stats["liquid_volume"].max())
     mass += sum(s.get("density", 0) * volume * 0.3 for s in scene.get("solid", []))
     moved = liquid["density"] * (amiss + numpy.abs(stats["volume_corrected"]))
+    small = SMALL_CELLS * liquid["density"] * h ** scene["dimension"] * (stats["step"] > 0)
     speed = numpy.minimum(stats["max_speed"], fastest(scene, stats, given))
     lag = numpy.maximum.accumulate(speed * stats["dt"])
     return (0.05 * stats["kinetic_energy"][0]
             + gravity * (0.5 * mass * (h + lag) + liquid["density"] * amiss * extent.sum())
-            + 0.5 * moved * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
+            + 0.5 * (moved + small) * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
 
 
 def check_energies(scene, stats):

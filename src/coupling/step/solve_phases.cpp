@@ -224,7 +224,8 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   const CellField<Dim>& phi = moved.state.phi;
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
-  Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry);
+  Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry,
+                                                    moved.brought ? &*moved.brought : nullptr);
   const double way = since_flow_fitted(s.fluids, s.solids, before, times);
   if (way > 0)
     p.convected =

@@ -92,13 +92,14 @@ double largest_shift(const Domain<Dim>& domain) {
   return 0.05 * domain.layout.h();
 }
 
-// Carries the surface on; books volume and energy of sources.
+// Carries the surface on; books volume and energy of sources. Returns the share of each cell that they brought.
 template <int Dim>
-void transport_and_book(const Setup<Dim>& s, const State<Dim>& at, FaceField<Dim> path, double from, double span,
-                        State<Dim>& next) {
-  const Brought brought = transport_surface(s, at, std::move(path), from, span, next.phi);
+std::optional<CellField<Dim>> transport_and_book(const Setup<Dim>& s, const State<Dim>& at, FaceField<Dim> path,
+                                                 double from, double span, State<Dim>& next) {
+  Brought<Dim> brought = transport_surface(s, at, std::move(path), from, span, next.phi);
   next.expected_volume += brought.volume;
   next.work.sides += s.fluids.density() * brought.kinetic;
+  return std::move(brought.share);
 }
 
 template <int Dim>
@@ -114,7 +115,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene.time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
-  transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
+  moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
   inject(s.domain, fault, phi.data());
 }
@@ -188,7 +189,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   const State<Dim>& leading = can ? next : before;
   FaceField<Dim> u = leading.exterior->surface_velocity(s, leading);
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
-  transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, next);
+  (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
   const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);

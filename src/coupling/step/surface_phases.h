@@ -25,6 +25,7 @@ struct Moved {
   State<Dim> state;
   StepGeometry<Dim> geometry;
   std::optional<SurfaceTension<Dim>> tension;
+  std::optional<CellField<Dim>> brought{};              // share of each cell that sources brought before the solve
   std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
 };
 

@@ -56,16 +56,16 @@ void join_all(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources
     if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
 }
 
-// Kinetic energy over the density of the liquid that `after` has more than `before`. Collective.
+// Share of each cell's volume that is liquid after but not before.
 template <int Dim>
-double kinetic_energy_brought(const Domain<Dim>& domain, const CellField<Dim>& before, const CellField<Dim>& after,
-                              const CellField<Dim>& half_square, const NodeField<Dim>& psi) {
-  const double sum = local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
-    if (half_square[c] == 0) return 0.0;
-    const double added = liquid_share(domain.layout, after, psi, c) - liquid_share(domain.layout, before, psi, c);
-    return added * half_square[c];
+CellField<Dim> share_brought(const Domain<Dim>& domain, const CellField<Dim>& before, const CellField<Dim>& after,
+                             const NodeField<Dim>& psi) {
+  CellField<Dim> share(domain.layout);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    share[c] = liquid_share(domain.layout, after, psi, c) - liquid_share(domain.layout, before, psi, c);
   });
-  return domain.ranks.global_sum(sum) * domain.layout.geometry().cell_volume();
+  domain.halo.fill_ghosts({share.data()});
+  return share;
 }
 
 }  // namespace
@@ -77,8 +77,8 @@ std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, 
 }
 
 template <int Dim>
-Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
-                    const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
+Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+                         const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
   const bool any = std::any_of(sources.begin(), sources.end(),
                                [&](const auto& x) { return open_in_step(x.spec, t0, t1).has_value(); });
   if (!any) return {};
@@ -88,7 +88,10 @@ Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const 
   CellField<Dim> half_square(domain.layout);
   join_all(domain, sources, t0, t1, phi, &half_square);
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
-  return {liquid_volume(domain, phi, psi) - before, kinetic_energy_brought(domain, phi_before, phi, half_square, psi)};
+  CellField<Dim> share = share_brought(domain, phi_before, phi, psi);
+  const double kinetic = domain.ranks.global_sum(local_sum(
+      domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return share[c] * half_square[c]; }));
+  return {liquid_volume(domain, phi, psi) - before, kinetic * domain.layout.geometry().cell_volume(), std::move(share)};
 }
 
 template <int Dim>
@@ -135,13 +138,13 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
   return fault;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                         \
-  template Brought add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&, const State<D>&, \
-                                  double, double, CellField<D>&);                                                     \
-  template void join_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double, CellField<D>&);      \
-  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double,   \
-                                                           double, const std::function<double(int, Site)>&,           \
-                                                           FaceField<D>&);                                            \
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&,             \
+                                     const State<D>&, double, double, CellField<D>&);                               \
+  template void join_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double, CellField<D>&);    \
+  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double, \
+                                                           double, const std::function<double(int, Site)>&,         \
+                                                           FaceField<D>&);                                          \
   template std::string fault_of_source<D>(const Domain<D>&, const std::vector<Source<D>>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -19,16 +19,19 @@ struct OpenTime {
 };
 std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, double t1);
 
-// Liquid that sources brought: its volume (m^Dim) and its kinetic energy over the density, m^(Dim+2)/s^2.
+// Liquid that sources brought: its volume (m^Dim), its kinetic energy over the density, m^(Dim+2)/s^2, and its share of
+// each cell's volume if any source was open.
+template <int Dim>
 struct Brought {
   double volume = 0, kinetic = 0;
+  std::optional<CellField<Dim>> share{};
 };
 
 // Joins phi at t1 with the liquid that sources bring from t0 to t1, with the solids as in `before`. Fills ghosts.
 // Collective.
 template <int Dim>
-Brought add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
-                    const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
+Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+                         const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
 // Joins phi at t1 with the liquid that sources keep from t0 to t1. Ghosts are not filled.
 template <int Dim>

@@ -239,8 +239,8 @@ double liquid_volume(const Domain<Dim>& domain, const CellField<Dim>& phi, const
 }
 
 template <int Dim>
-Brought transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
-                          CellField<Dim>& phi) {
+Brought<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
+                               CellField<Dim>& phi) {
   check_forces_of_step(s.domain, s.fluids, s.sources, t, t + dt);
   CellField<Dim> joined = phi;
   if (s.domain.sides.any_inflow())
@@ -325,24 +325,27 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   return r;
 }
 
-// Mass of liquid that a face stands for, kg (2D: kg/m), where a source acts on what was there before: half of that in
-// the cells beside it. 0 within a cell of the surface, where the source brings the liquid itself.
+// Mass of liquid that a face of unknown velocity stands for, kg (2D: kg/m), where a source acts on what was there
+// before: half of that in the cells beside it, less what the source has brought.
 template <int Dim>
-double mass_at_face(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeField<Dim>& psi, int axis, Site face) {
+double mass_at_face(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                    const CellField<Dim>* brought, int axis, Site face) {
   const Layout<Dim>& l = s.domain.layout;
   double share = 0;
-  for (const Site c : {face - l.stride(axis), face}) {
-    if (phi[c] > -l.h()) return 0;
-    if (l.cells().contains(l.index(c))) share += liquid_share(l, phi, psi, c);
-  }
+  for (const Site c : {face - l.stride(axis), face})
+    if (l.cells().contains(l.index(c))) share += liquid_share(l, phi, psi, c) - (brought ? (*brought)[c] : 0);
   return 0.5 * share * l.geometry().cell_volume() * s.fluids.density();
 }
 
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
-                                    const ViscousPlan& plan, const StepGeometry<Dim>& geometry) {
+                                    const ViscousPlan& plan, const StepGeometry<Dim>& geometry,
+                                    const CellField<Dim>* brought) {
   Transported<Dim> r = state.exterior->transported_velocity(s, state, phi, dt, plan, geometry);
-  const auto mass = [&](int a, Site f) { return mass_at_face(s, state.phi, geometry.psi, a, f); };
+  const auto mass = [&](int a, Site f) {
+    const bool was_within = state.phi[f - s.domain.layout.stride(a)] < 0 && state.phi[f] < 0;
+    return was_within && geometry.faces.is_unknown(a, f) ? mass_at_face(s, phi, geometry.psi, brought, a, f) : 0;
+  };
   r.by_sources = set_source_velocity<Dim>(s.domain, s.sources, state.time, state.time + dt, mass, r.u);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);
   return r;
@@ -365,19 +368,19 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
   return liquid_volume(domain, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                  \
-  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                \
-  template Brought transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double,        \
-                                        CellField<D>&);                                                        \
-  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,           \
-                                 const CellField<D, char>&, CellField<D>&);                                    \
-  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                     \
-  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                        \
-  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                  \
-                                            const FaceField<D, char>&, double, const ViscousPlan&,             \
-                                            const StepGeometry<D>&);                                           \
-  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double, \
-                                                const ViscousPlan&, const StepGeometry<D>&);                   \
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                   \
+  template Brought<D> transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double,        \
+                                           CellField<D>&);                                                        \
+  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,              \
+                                 const CellField<D, char>&, CellField<D>&);                                       \
+  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                        \
+  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                           \
+  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                     \
+                                            const FaceField<D, char>&, double, const ViscousPlan&,                \
+                                            const StepGeometry<D>&);                                              \
+  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,    \
+                                                const ViscousPlan&, const StepGeometry<D>&, const CellField<D>*); \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -13,8 +13,8 @@ namespace seiche {
 // gives the positions of the solids. Returns what sources brought. Throws as check_forces_of_step() does. Fills ghosts.
 // Collective.
 template <int Dim>
-Brought transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
-                          CellField<Dim>& phi);
+Brought<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t,
+                               double dt, CellField<Dim>& phi);
 
 // Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells. `closed`: see
 // redistance_beside_solids(). Collective.
@@ -39,10 +39,11 @@ struct Transported {
 // u before the projection on all faces next to liquid: the transported velocity plus
 //   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.
 // The exterior adds its own flow (Exterior::transported_velocity). `phi` and `geometry` are those of the solve.
-// Collective.
+// `brought`: share of each cell that sources have brought since `state`; null: none. Collective.
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
-                                    double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry);
+                                    double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry,
+                                    const CellField<Dim>* brought = nullptr);
 
 // The same for one fluid with the levels `flow`, on the faces `near` it, without sources. Sets `acceleration` to its
 // own. Collective.
