@@ -12,7 +12,7 @@ template <int Dim>
 double net_inflow(const Domain<Dim>& domain, const StepGeometry<Dim>& geometry, const CellField<Dim>& phi,
                   const FaceField<Dim>& u);
 
-// Sets FaceGeometry::entering to the speed with which u enters through outflow sides. Collective.
+// Sets FaceGeometry::entering to the speed with which u enters through outflow sides.
 template <int Dim>
 void find_entering(const Domain<Dim>& domain, const FaceField<Dim>& u, FaceGeometry<Dim>& faces);
 
