@@ -263,7 +263,7 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   parts.entries.push_back(std::move(mine));
   c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
   const double most = highest_pressure_beside(s.domain, shares, rows, state.pressure);
-  const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most)};
+  const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most), solid.pins.empty()};
   parts.potentials.push_back(std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(),
                                                                      s.perturbation.elastic_forces * dt, horizon));
 }

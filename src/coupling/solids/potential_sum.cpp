@@ -25,6 +25,17 @@ double PotentialSum::step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd&
   return bound;
 }
 
+double PotentialSum::angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const {
+  double largest = 0;
+  for (const auto& part : parts_) largest = std::max(largest, part->angle(v, dv));
+  return largest;
+}
+
+// Each part turns its own bodies.
+void PotentialSum::turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const {
+  for (const auto& part : parts_) part->turn(v, dv);
+}
+
 double PotentialSum::round_off() const {
   double sum = 0;
   for (const auto& part : parts_) sum += part->round_off();

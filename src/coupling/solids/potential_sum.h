@@ -15,6 +15,8 @@ class PotentialSum : public VelocityPotential {
   void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
                  std::vector<Eigen::Triplet<double>>& hessian) const override;
   double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
+  double angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
+  void turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const override;
   double round_off() const override;
 
  private:

@@ -56,13 +56,12 @@ void join_all(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources
     if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
 }
 
-// Share of each cell's volume that is liquid after but not before, in cells that sources reach.
+// Share of each cell's volume that is liquid after but not before.
 template <int Dim>
 CellField<Dim> share_brought(const Domain<Dim>& domain, const CellField<Dim>& before, const CellField<Dim>& after,
                              const NodeField<Dim>& psi) {
   CellField<Dim> share(domain.layout);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
-    if (after[c] == before[c]) return;
     share[c] = liquid_share(domain.layout, after, psi, c) - liquid_share(domain.layout, before, psi, c);
   });
   domain.halo.fill_ghosts({share.data()});

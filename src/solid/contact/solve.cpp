@@ -15,6 +15,8 @@ constexpr double least_step = 1e-10;          // of a Newton step; below it the 
 // Gaps below this share of the reach: kappa is multiplied by `stiffening`, at most `stiffening_limit` times.
 constexpr double tiny_gap = 1e-2, stiffening = 10;
 constexpr int stiffening_limit = 12;
+// Rotations in a Newton step, rad: smaller ones leave arcs aside; the most of an arc that is tried at once.
+constexpr double least_angle = 0.05, most_angle = 0.5;
 // Convergence of the lagged friction forces: their update moves no point faster than this share of the creep speed, or
 // of the velocity change by contact. Friction is then accurate to 1e-3.
 constexpr double settled_share = 0.1, settled_of_change = 1e-4;
@@ -123,7 +125,7 @@ class Solver {
   Outcome solve_with_friction() {
     report_.friction = FrictionState::none;
     double share = may_rub() ? first_of_change : last_of_change, taken = 1, moved = 0;
-    for (int i = 0; i < options_.friction_limit; ++i, share = next_share(share)) {
+    for (int i = 0; i < options_.friction_limit; ++i, share = friction_.empty() ? last_of_change : next_share(share)) {
       const bool rubbed = !friction_.empty();
       if (i == damped_from || (i > damped_from && first_step_ > stalled * moved))
         taken = std::max(least_taken, taken / 2);
@@ -170,7 +172,8 @@ class Solver {
       if (i == 0) first_step_ = last_step_;
       const bool last = last_step_ <= tolerance(share_of_change) && !under_way();
       const Velocities<Dim> from = at_.velocities;
-      const double step = search(goal);
+      const double step = takes_arc(goal) ? 1 : search(goal);
+      if (!report_.failure.empty()) return Outcome::failed;
       turn_friction<Dim>(from, velocities(goal.velocity, 1), weights_.creep_speed, friction_);
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
@@ -244,6 +247,30 @@ class Solver {
       return s;
     }
     return 0;
+  }
+
+  // Bodies that turn: a straight step as long as the energy allows is a small share of the turn if they are stiff, and
+  // hundreds of them follow. Tries the arc instead, at most half a radian of it. It costs a solve of the liquid, since
+  // e is known along the straight step alone. Returns true if it was taken.
+  bool takes_arc(const InertiaResponse& goal) {
+    if (!potential_ || under_way()) return false;
+    Eigen::VectorXd p = goal.velocity - e_.velocity;
+    const double angle = potential_->angle(e_.velocity, p), slope = p.dot(gradient_towards(goal) + terms_.gradient);
+    if (angle < least_angle) return false;
+    const double s = std::min(1.0, most_angle / angle);
+    p *= s;
+    potential_->turn(e_.velocity, p);
+    Walk<Dim> way = walk<Dim>(scene_, interval_, at_, velocities(e_.velocity + p, 1), weights_.reach);
+    const double energy = way.share < 1 ? std::numeric_limits<double>::infinity() : energy_after(way, p);
+    if (!std::isfinite(energy)) return false;
+    InertiaResponse end;
+    if (take(inertia_.respond(e_.velocity + p), end) == Outcome::failed) return false;
+    const double inertia = 0.5 * p.dot(gradient_towards(end) + end.gradient);
+    if (inertia + energy - terms_.energy > sufficient_decrease * s * std::min(slope, 0.)) return false;
+    at_ = std::move(way.end);
+    pairs_ = std::move(way.near);
+    e_ = std::move(end);
+    return true;
   }
 
   double energy_after(const Walk<Dim>& way, const Eigen::VectorXd& step) const {

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "solid/elastic/mean_rotation.h"
+
 namespace seiche {
 
 VelocityPotential::~VelocityPotential() = default;
@@ -14,6 +16,15 @@ ElasticPotential<Dim>::ElasticPotential(std::vector<ElasticShare<Dim>> bodies, i
 template <int Dim>
 Eigen::VectorXd ElasticPotential<Dim>::displacement(const ElasticShare<Dim>& share, const Eigen::VectorXd& v) const {
   return *share.displacement + horizon_ * v.segment(share.first_dof, share.body->size());
+}
+
+// Places of the nodes, m.
+template <int Dim>
+Eigen::VectorXd ElasticPotential<Dim>::points(const ElasticShare<Dim>& share, const Eigen::VectorXd& v) const {
+  Eigen::VectorXd x = displacement(share, v);
+  for (Eigen::Index n = 0; n < x.size() / Dim; ++n)
+    x.template segment<Dim>(Dim * n) += share.body->mesh.nodes[std::size_t(n)];
+  return x;
 }
 
 template <int Dim>
@@ -57,6 +68,27 @@ double ElasticPotential<Dim>::step_bound(const Eigen::VectorXd& v, const Eigen::
     bound = std::min(bound, inversion_bound(*share.body, displacement(share, v), d));
   }
   return bound;
+}
+
+template <int Dim>
+double ElasticPotential<Dim>::angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const {
+  double largest = 0;
+  for (const auto& share : bodies_) {
+    if (!share.may_turn) continue;
+    const MeanRotation<Dim> mean(points(share, v), horizon_ * dv.segment(share.first_dof, share.body->size()));
+    largest = std::max(largest, mean.angle());
+  }
+  return largest;
+}
+
+template <int Dim>
+void ElasticPotential<Dim>::turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const {
+  for (const auto& share : bodies_) {
+    if (!share.may_turn) continue;
+    auto own = dv.segment(share.first_dof, share.body->size());
+    const Eigen::VectorXd x = points(share, v), d = horizon_ * own;
+    own = MeanRotation<Dim>(x, d).along_arc(x, d) / horizon_;
+  }
 }
 
 // Psi is a difference of terms of the order (lambda + 2 mu) times the volume.

@@ -12,6 +12,7 @@ struct ElasticShare {
   const Eigen::VectorXd* displacement;  // m
   int first_dof;
   HeldPressure<Dim> held;
+  bool may_turn = true;  // no pins
 };
 
 // P(v) = dt/H sum Psi(u_n + H w), with the velocities w of a body's nodes over the interval H. Psi includes the work
@@ -27,10 +28,13 @@ class ElasticPotential : public VelocityPotential {
   void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
                  std::vector<Eigen::Triplet<double>>& hessian) const override;
   double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
+  double angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
+  void turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const override;
   double round_off() const override;
 
  private:
   Eigen::VectorXd displacement(const ElasticShare<Dim>& share, const Eigen::VectorXd& v) const;
+  Eigen::VectorXd points(const ElasticShare<Dim>& share, const Eigen::VectorXd& v) const;
 
   std::vector<ElasticShare<Dim>> bodies_;
   int size_;

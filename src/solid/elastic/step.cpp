@@ -6,13 +6,17 @@ namespace seiche {
 namespace {
 
 // y_new = now y + old y_old + gamma dy/dt_new. BDF2 with r = dt / dt_old: now = (1 + r)^2 / (1 + 2 r),
-// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Without an earlier step: backward Euler.
+// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Steps that all grow by 1 + sqrt(2)
+// or more are unstable (Grigorieff 1983). One such step after a frame is harmless, and more accurate than the
+// alternative: backward Euler, without an earlier step and above `most_growth`.
 struct Weights {
   double now = 1, old = 0, gamma = 0;
 };
 
+constexpr double most_growth = 5;
+
 Weights weights(ElasticScheme scheme, double dt, double dt_old) {
-  if (scheme == ElasticScheme::backward_euler || dt_old == 0) return {1, 0, dt};
+  if (scheme == ElasticScheme::backward_euler || dt > most_growth * dt_old) return {1, 0, dt};
   const double r = dt / dt_old;
   return {(1 + r) * (1 + r) / (1 + 2 * r), -r * r / (1 + 2 * r), dt * (1 + r) / (1 + 2 * r)};
 }

@@ -21,6 +21,12 @@ class VelocityPotential {
                          std::vector<Eigen::Triplet<double>>& hessian) const = 0;
   // Largest share of the step dv, at most 1, without inversion.
   virtual double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const = 0;
+  // Largest angle, rad, by which the step dv turns a body that is free to turn. Its line stretches the body by the
+  // square.
+  virtual double angle(const Eigen::VectorXd& /*v*/, const Eigen::VectorXd& /*dv*/) const { return 0; }
+  // Replaces the step dv by the arc of its rotations: displacements t + (R - 1) r + R q in place of t + a x r + q,
+  // where a is the mean rotation, R = exp(a), r the place from the mean, q the remainder.
+  virtual void turn(const Eigen::VectorXd& /*v*/, Eigen::VectorXd& /*dv*/) const {}
   // Round-off error of energy() (J): smaller differences are noise.
   virtual double round_off() const { return 0; }
 };
