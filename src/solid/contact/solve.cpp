@@ -15,8 +15,9 @@ constexpr double least_step = 1e-10;          // of a Newton step; below it the 
 // Gaps below this share of the reach: kappa is multiplied by `stiffening`, at most `stiffening_limit` times.
 constexpr double tiny_gap = 1e-2, stiffening = 10;
 constexpr int stiffening_limit = 12;
-// Rotations in a Newton step, rad: smaller ones leave arcs aside; the most of an arc that is tried at once.
-constexpr double least_angle = 0.05, most_angle = 0.5;
+// Rotations in a Newton step, rad: below the first one arcs are left aside, up to the second one they are tried if the
+// energy rises along the whole line. The third is the most of an arc that is tried at once.
+constexpr double least_angle = 1e-4, small_angle = 0.05, most_angle = 0.5;
 // Convergence of the lagged friction forces: their update moves no point faster than this share of the creep speed, or
 // of the velocity change by contact. Friction is then accurate to 1e-3.
 constexpr double settled_share = 0.1, settled_of_change = 1e-4;
@@ -249,6 +250,12 @@ class Solver {
     return 0;
   }
 
+  // True if the whole straight step lowers e + P.
+  bool descends(const InertiaResponse& goal, const Eigen::VectorXd& p, double slope) const {
+    const double rise = potential_->energy(e_.velocity + p) - potential_->energy(e_.velocity);
+    return inertia_change(goal, 1) + rise <= sufficient_decrease * std::min(slope, 0.) + potential_->round_off();
+  }
+
   // Bodies that turn: a straight step as long as the energy allows is a small share of the turn if they are stiff, and
   // hundreds of them follow. Tries the arc instead, at most half a radian of it. It costs a solve of the liquid, since
   // e is known along the straight step alone. Returns true if it was taken.
@@ -256,7 +263,7 @@ class Solver {
     if (!potential_ || under_way()) return false;
     Eigen::VectorXd p = goal.velocity - e_.velocity;
     const double angle = potential_->angle(e_.velocity, p), slope = p.dot(gradient_towards(goal) + terms_.gradient);
-    if (angle < least_angle) return false;
+    if (angle < least_angle || (angle < small_angle && descends(goal, p, slope))) return false;
     const double s = std::min(1.0, most_angle / angle);
     p *= s;
     potential_->turn(e_.velocity, p);
