@@ -295,6 +295,27 @@ TEST_CASE("energy account: gas that a pressure drives has the work of the sides"
   }
 }
 
+// In the end the flow that a pressure difference drives has V = sqrt(2 p/rho), at one cell a step too: what brakes it
+// at the side is no acceleration that paths carry along. That would give sqrt(2) V.
+TEST_CASE("flow between two outflow sides ends at the speed of Bernoulli") {
+  for (const bool gas : {false, true})
+    for (const TimeScheme scheme : {TimeScheme::second_order, TimeScheme::first_order}) {
+      Scene s = test::box_scene(2, 8);
+      s.domain.sides[0][0] = {SideType::outflow, {"0", "0", "0"}, "1000"};
+      s.domain.sides[0][1].type = SideType::outflow;
+      s.gas.present = gas;
+      s.gas.density = 100;
+      test::add_liquid(s, gas ? "1" : "-1");
+      s.time.scheme = scheme;
+      s.time.cfl = 1;
+      const double V = std::sqrt(2 * 1000 / (gas ? 100.0 : 1000.0)), end = 16 / V;  // V end/(2 L) = 8
+      const auto sim = make_simulation(s, Communicator());
+      while (sim->time() < end * (1 - 1e-9)) (void)sim->step(end);
+      WARN((gas ? "gas: " : "liquid: ") << sim->stats().max_speed / V - 1);
+      CHECK(sim->stats().max_speed == Approx(V).epsilon(1e-3));
+    }
+}
+
 // A jet into empty space brings rho v^3/2 an area and a time, and no work of pressure.
 TEST_CASE("energy account: a jet into an empty box brings its energy") {
   for (const int dim : {2, 3}) {

@@ -7,7 +7,8 @@
 namespace seiche {
 
 // Power of the pressure on what flows through the sides of the domain, inwards: p u A, W (2D: W/m). u: the mean of
-// `from` and `to`, velocities of all fluids. Collective.
+// `from` and `to`, velocities of all fluids. Outflow sides count beside liquid or flowing gas, with the pressure
+// p_side - rho u_in u/2 (ProjectionInput::entry_factor). Collective.
 template <int Dim>
 double pressure_power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, const FaceField<Dim>& from,
                                const FaceField<Dim>& to, const Attempt<Dim>& attempt);

@@ -34,19 +34,11 @@ CellFluxes spread_shares(const Domain<Dim>& domain, const FaceShares& shares, co
   return entries;
 }
 
-// Cells whose net flux is solved for or checked: those with a row, and those separated from walls.
+// Tells cells whose net flux is solved for or checked: those with a row, and those separated from walls.
 template <int Dim>
-class BalancedCells {
- public:
-  BalancedCells(const Fluids& fluids, const PressureRows<Dim>& rows, const State<Dim>& state)
-      : rows_(rows), separated_(fluids.liquid.separates ? &state.separation.separated : nullptr) {}
-
-  bool operator()(Site cell) const { return rows_.row[cell] >= 0 || (separated_ && (*separated_)[cell]); }
-
- private:
-  const PressureRows<Dim>& rows_;
-  const CellField<Dim, char>* separated_;
-};
+auto balanced_of(const PressureRows<Dim>& rows) {
+  return [&rows](Site cell) { return rows.row[cell] >= 0 || rows.is_separated(cell); };
+}
 
 template <int Dim>
 void add_to_rows(const CellFluxes& fluxes, const PressureRows<Dim>& rows, BodyEntries& body) {
@@ -68,12 +60,12 @@ struct CellShares {
 // that patch. Shares attached to pinned facets between the patches stay.
 template <int Dim>
 CellFluxes keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& solid, const FaceShares& shares,
-                            const FaceWeights& face_weights, const BalancedCells<Dim>& balanced) {
+                            const FaceWeights& face_weights, const PressureRows<Dim>& rows) {
   if (solid.patches.size() == 1) return {};
   CellFluxes changes;
   const std::vector<int> patch_of_node = patches_of_nodes(solid);
   std::map<Site, CellShares> cells;
-  for_each_cell_of_shares(domain, shares, balanced,
+  for_each_cell_of_shares(domain, shares, balanced_of(rows),
                           [&](Site cell, double sign, std::size_t n) { cells[cell].shares.emplace_back(n, sign); });
   const auto patch = [&](std::size_t n) {
     int of = -1;
@@ -114,10 +106,11 @@ bool is_divided(const ElasticSolid<Dim>& solid) {
 // missing buoyancy, so that liquid at rest loads the mesh exactly.
 template <int Dim>
 CellFluxes hang_on_facets(const CoupledStep<Dim>& step, const Eigen::VectorXd& u, const Vec<Dim>& gravity,
-                          const BodyEntries& body, const BalancedCells<Dim>& balanced, CouplingParts<Dim>& parts) {
+                          const BodyEntries& body, CouplingParts<Dim>& parts) {
   const Setup<Dim>& s = step.setup;
   const StepGeometry<Dim>& g = step.geometry;
   const auto k = std::size_t(body.body);
+  const auto balanced = balanced_of(step.rows);
   SolidCoupling<Dim>& c = parts.coupling;
   if (!parts.open) parts.open = open_cells(s.domain, g.faces);
   const FacetFluxes<Dim> fluxes = facet_fluxes(s.domain, s.solids, g, *parts.open, body.body, u);
@@ -254,10 +247,9 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   add_to_rows(spread_shares(s.domain, shares, face_weights, with_row(rows)), rows, mine);
   send_air_rows_to_owner(s.domain, rows, 0, mine.entries);
   mine.shown = mine.entries.size();
-  const BalancedCells<Dim> balanced(s.fluids, rows, state);
   const bool by_shares = body.is_thin() || is_divided(solid);
-  add_to_rows(by_shares ? keep_to_own_side(s.domain, solid, shares, face_weights, balanced)
-                        : hang_on_facets(step, e.u, gravity, mine, balanced, parts),
+  add_to_rows(by_shares ? keep_to_own_side(s.domain, solid, shares, face_weights, rows)
+                        : hang_on_facets(step, e.u, gravity, mine, parts),
               rows, mine);
   send_air_rows_to_owner(s.domain, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));

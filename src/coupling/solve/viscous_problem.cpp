@@ -6,12 +6,13 @@ namespace seiche {
 
 template <int Dim>
 ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous,
-                                    const ViscousSolvers& solvers, double area, Vector& u, Vector& p,
+                                    const ViscousSolvers& solvers, double area, bool closed, Vector& u, Vector& p,
                                     const Communicator& ranks)
     : CoupledProblem<Dim>(coupling),
       viscous_(viscous),
       solvers_(solvers),
       area_(area),
+      closed_(closed),
       u_(u),
       p_(p),
       ranks_(ranks),

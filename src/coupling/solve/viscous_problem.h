@@ -22,11 +22,12 @@ template <int Dim>
 class ViscousProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references. `area`: of a face. `u` and `p` (rows of the system) are the first guess and hold the last
-  // solution.
+  // solution. `closed`: bodies sense mean pressures of closed liquid, which respond() leaves out.
   ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, const ViscousSolvers& solvers,
-                 double area, Vector& u, Vector& p, const Communicator& ranks);
+                 double area, bool closed, Vector& u, Vector& p, const Communicator& ranks);
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
+  bool responds_in_full() const override { return !closed_; }
 
  private:
   using CoupledProblem<Dim>::coupling_;
@@ -38,6 +39,7 @@ class ViscousProblem : public CoupledProblem<Dim> {
   const ViscousStep<Dim>& viscous_;
   ViscousSolvers solvers_;
   double area_;
+  bool closed_;
   Vector &u_, &p_;
   Communicator ranks_;
   BodyMatrix H_, none_;

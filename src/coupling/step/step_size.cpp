@@ -84,9 +84,9 @@ double limit_of_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, con
   return dt;
 }
 
-// Forces f that the scene applies set a solid of mass m off with a = sqrt(f'M^-1 f/m). The first step has a dt^2/2 <=
-// h; later ones grow from it. A light solid that would cross the domain in one step costs hundreds of Newton
-// iterations.
+// Forces f that the scene applies set a solid of mass m off with a = sqrt(f'M^-1 f/m), the root mean square of its
+// nodes' accelerations and at least that of its centre. The first step has a dt^2/2 <= h; later ones grow from it. A
+// light solid that would cross the domain in one step costs hundreds of Newton iterations.
 template <int Dim>
 double limit_of_first_push(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   double limit = dt;
@@ -97,6 +97,26 @@ double limit_of_first_push(const Domain<Dim>& domain, const Solids<Dim>& solids,
         limit = std::min(limit, std::sqrt(2 * domain.layout.h() / std::sqrt(square / solids.bodies[k].mass().mass)));
     }
   return limit;
+}
+
+// Pressures p of outflow sides set fluids of density rho off from rest with at most p/(rho h): a dt^2/2 <= h in the
+// first step. Later ones see the flow. Collective.
+template <int Dim>
+double limit_of_side_pressures(const Domain<Dim>& domain, const Fluids& fluids, double t, double dt) {
+  const Layout<Dim>& layout = domain.layout;
+  double largest = 0;
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1}) {
+      if (!domain.sides.is_outflow(a, side)) continue;
+      for_each_index_in_order(layout, faces_of_side(layout, a, side), [&](Site, const IVec<Dim>& i) {
+        const Vec<Dim> x = layout.position(i, face_offset<Dim>(a));
+        for (const double when : {t, t + dt})
+          largest = std::max(largest, std::abs(domain.sides.pressure(a, side, x, when)));
+      });
+    }
+  largest = domain.ranks.global_max(largest);
+  const double density = fluids.has_gas() ? std::min(fluids.density(), fluids.gas_density()) : fluids.density();
+  return largest > 0 ? std::min(dt, layout.h() * std::sqrt(2 * density / largest)) : dt;
 }
 
 // Halves the remaining time if a step of dt would leave less than another one.
@@ -219,6 +239,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (state.step == 0 && !spec.fixed_step) {
     dt = limit_of_given_velocity(state, std::min(dt, remaining));
     dt = limit_of_first_push(s.domain, s.solids, state, dt);
+    if (s.domain.sides.any_passes()) dt = limit_of_side_pressures(s.domain, s.fluids, state.time, dt);
   }
   if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
     dt = state.horizon;

@@ -56,6 +56,16 @@ double largest_carried(double acceleration, double before, double h, double dt) 
   return acceleration * before > 0 ? std::clamp(std::abs(before), least, 4 * least) : least;
 }
 
+// True if the fluid comes in through this outflow side. q leaves out what brakes it there
+// (ProjectionInput::entry_factor), so that g - q is no acceleration.
+template <int Dim>
+bool enters(const Domain<Dim>& domain, int axis, Site face, double u) {
+  if (!domain.sides.any_passes()) return false;
+  const int i = domain.layout.index(face)[axis], last = domain.layout.geometry().cells[axis];
+  return (i == 0 && u > 0 && domain.sides.is_outflow(axis, 0)) ||
+         (i == last && u < 0 && domain.sides.is_outflow(axis, 1));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -72,7 +82,7 @@ FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& flu
   for (int a = 0; a < Dim; ++a)
     for_each_marked(domain.layout, domain.layout.faces(a), reached.data(), [&](Site f) {
       known.at(a, f) = level.valid.at(a, f) == face_prescribed;
-      if (level.valid.at(a, f) != face_solved) return;
+      if (level.valid.at(a, f) != face_solved || enters(domain, a, f, level.u.at(a, f))) return;
       const bool knows_before = flow.before && flow.before->valid.at(a, f) == face_solved;
       const double now = g[a] - level.q.at(a, f) - trend.at(a, f);
       const double before = knows_before ? g[a] - flow.before->q.at(a, f) : 0;

@@ -126,7 +126,7 @@ class Solver {
   Outcome solve_with_friction() {
     report_.friction = FrictionState::none;
     double share = may_rub() ? first_of_change : last_of_change, taken = 1, moved = 0;
-    for (int i = 0; i < options_.friction_limit; ++i, share = friction_.empty() ? last_of_change : next_share(share)) {
+    for (int i = 0; i < options_.friction_limit; ++i, share = next_share(share)) {
       const bool rubbed = !friction_.empty();
       if (i == damped_from || (i > damped_from && first_step_ > stalled * moved))
         taken = std::max(least_taken, taken / 2);
@@ -136,7 +136,7 @@ class Solver {
       if (i > 0 && !rubs && !rubbed && last_step_ <= tolerance(last_of_change)) return Outcome::converged;
       report_.friction_updates += rubs;
       if (rubs) report_.friction = FrictionState::unsettled;
-      if (newton(share) == Outcome::failed) return Outcome::failed;
+      if (newton(i > 0 && !rubs ? last_of_change : share) == Outcome::failed) return Outcome::failed;
       const double settled = std::max(settled_share * options_.creep_speed, settled_of_change * change());
       if (i == 0 || first_step_ > taken * settled) continue;
       if (rubs) report_.friction = FrictionState::settled;
@@ -173,8 +173,7 @@ class Solver {
       if (i == 0) first_step_ = last_step_;
       const bool last = last_step_ <= tolerance(share_of_change) && !under_way();
       const Velocities<Dim> from = at_.velocities;
-      const double step = takes_arc(goal) ? 1 : search(goal);
-      if (!report_.failure.empty()) return Outcome::failed;
+      const double step = !last && takes_arc(goal) ? 1 : search(goal);
       turn_friction<Dim>(from, velocities(goal.velocity, 1), weights_.creep_speed, friction_);
       if (last) return Outcome::converged;
       if (step == 0) return fail("contact: no step downhill is free of collisions");
@@ -250,8 +249,11 @@ class Solver {
     return 0;
   }
 
-  // True if the whole straight step lowers e + P.
-  bool descends(const InertiaResponse& goal, const Eigen::VectorXd& p, double slope) const {
+  // True if the whole straight step lowers e + P, contact left aside.
+  bool descends(const InertiaResponse& goal, const Eigen::VectorXd& p) const {
+    Eigen::VectorXd gradient = gradient_towards(goal);
+    potential_->add_gradient(e_.velocity, gradient);
+    const double slope = p.dot(gradient);
     const double rise = potential_->energy(e_.velocity + p) - potential_->energy(e_.velocity);
     return inertia_change(goal, 1) + rise <= sufficient_decrease * std::min(slope, 0.) + potential_->round_off();
   }
@@ -260,18 +262,19 @@ class Solver {
   // hundreds of them follow. Tries the arc instead, at most half a radian of it. It costs a solve of the liquid, since
   // e is known along the straight step alone. Returns true if it was taken.
   bool takes_arc(const InertiaResponse& goal) {
-    if (!potential_ || under_way()) return false;
+    if (!potential_ || under_way() || !inertia_.responds_in_full()) return false;
     Eigen::VectorXd p = goal.velocity - e_.velocity;
     const double angle = potential_->angle(e_.velocity, p), slope = p.dot(gradient_towards(goal) + terms_.gradient);
-    if (angle < least_angle || (angle < small_angle && descends(goal, p, slope))) return false;
+    if (angle < least_angle || (angle < small_angle && descends(goal, p))) return false;
     const double s = std::min(1.0, most_angle / angle);
     p *= s;
     potential_->turn(e_.velocity, p);
     Walk<Dim> way = walk<Dim>(scene_, interval_, at_, velocities(e_.velocity + p, 1), weights_.reach);
     const double energy = way.share < 1 ? std::numeric_limits<double>::infinity() : energy_after(way, p);
     if (!std::isfinite(energy)) return false;
-    InertiaResponse end;
-    if (take(inertia_.respond(e_.velocity + p), end) == Outcome::failed) return false;
+    InertiaResponse end = inertia_.respond(e_.velocity + p);
+    ++report_.solves;
+    if (!end.failure.empty() || !end.gradient.allFinite()) return false;
     const double inertia = 0.5 * p.dot(gradient_towards(end) + end.gradient);
     if (inertia + energy - terms_.energy > sufficient_decrease * s * std::min(slope, 0.)) return false;
     at_ = std::move(way.end);

@@ -6,9 +6,9 @@ namespace seiche {
 namespace {
 
 // y_new = now y + old y_old + gamma dy/dt_new. BDF2 with r = dt / dt_old: now = (1 + r)^2 / (1 + 2 r),
-// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Steps that all grow by 1 + sqrt(2)
-// or more are unstable (Grigorieff 1983). One such step after a frame is harmless, and more accurate than the
-// alternative: backward Euler, without an earlier step and above `most_growth`.
+// old = -r^2 / (1 + 2 r), gamma = dt (1 + r) / (1 + 2 r). Without an earlier
+// step, or above `most_growth`: backward Euler. BDF2 is unstable if all steps grow by 1 + sqrt(2) or more (Grigorieff
+// 1983); a single one, as after a frame, does no harm and is more accurate.
 struct Weights {
   double now = 1, old = 0, gamma = 0;
 };

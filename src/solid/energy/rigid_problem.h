@@ -33,6 +33,8 @@ class InertiaProblem {
   // (by a Cholesky factorisation).
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
+  // False if gradients of respond() lack multipliers that those of minimise() have and `constraint` does not tell.
+  virtual bool responds_in_full() const { return true; }
   // Linearises the constraints of minimise() about v from now on.
   virtual void linearise_at(const Eigen::VectorXd& /*v*/) {}
   // True if v has the prescribed velocities at the fixed degrees of freedom. Results of minimise() always have.
