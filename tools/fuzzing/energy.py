@@ -66,12 +66,11 @@ def energy_margin(scene, stats, given, amiss):
     mass = liquid["density"] * float(stats["liquid_volume"].max())
     mass += sum(s.get("density", 0) * volume * 0.3 for s in scene.get("solid", []))
     moved = liquid["density"] * (amiss + numpy.abs(stats["volume_corrected"]))
-    small = SMALL_CELLS * liquid["density"] * h ** scene["dimension"] * (stats["step"] > 0)
     speed = numpy.minimum(stats["max_speed"], fastest(scene, stats, given))
     lag = numpy.maximum.accumulate(speed * stats["dt"])
     return (0.05 * stats["kinetic_energy"][0]
             + gravity * (0.5 * mass * (h + lag) + liquid["density"] * amiss * extent.sum())
-            + 0.5 * (moved + small) * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
+            + 0.5 * moved * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
 
 
 def check_energies(scene, stats):
@@ -104,7 +103,8 @@ def check_created(scene, stats):
     works = sum(numpy.abs(stats[name]) for name in WORKS)
     given = stats["kinetic_energy"][0] + stats["elastic_energy"][0] + works
     largest = numpy.maximum.accumulate(stats["kinetic_energy"] + stats["elastic_energy"] + works)
-    gained = -stats["lost_numerical"] - CREATED * largest - energy_margin(scene, stats, given, 0.0)
+    small = SMALL_CELLS * scene["domain"]["cell_size"] ** scene["dimension"]
+    gained = -stats["lost_numerical"] - CREATED * largest - energy_margin(scene, stats, given, small)
     if (gained[BEGUN:] > 0).any():
         n = BEGUN + int(gained[BEGUN:].argmax())
         raise Fault("created", f"{-stats['lost_numerical'][n]:.6g} J from nowhere at t = {stats['time'][n]:.6g} s, "
