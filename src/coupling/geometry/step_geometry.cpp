@@ -4,6 +4,7 @@
 
 #include "coupling/geometry/periodic_places.h"
 #include "coupling/geometry/placed_solid.h"
+#include "grid/domain_faces.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 #include "solid/body/elastic_motion.h"
@@ -291,11 +292,7 @@ template <int Dim>
 void SolidGeometry<Dim>::set_sides(double t, StepGeometry<Dim>& g) const {
   for (int a = 0; a < Dim; ++a)
     for (int side = 0; side < 2 && !layout_.geometry().periodic[a]; ++side) {
-      Box<Dim> box = layout_.grown(2);
-      const int edge = side == 0 ? 0 : layout_.geometry().cells[a];
-      box.lower[a] = std::max(box.lower[a], edge);
-      box.upper[a] = std::min(box.upper[a], edge + 1);
-      for_each_index_in_order(layout_, box, [&](Site s, const IVec<Dim>& i) {
+      for_each_index_in_order(layout_, padded_faces_of_side(layout_, a, side), [&](Site s, const IVec<Dim>& i) {
         if (g.faces.kind_at(a, s) == FaceKind::closed) return;
         const Vec<Dim> x = layout_.position(i, face_offset<Dim>(a));
         const bool outflow = sides_.is_outflow(a, side);

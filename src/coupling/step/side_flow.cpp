@@ -29,11 +29,7 @@ void find_entering(const Domain<Dim>& domain, const FaceField<Dim>& u, FaceGeome
   for (int a = 0; a < Dim; ++a)
     for (const int side : {0, 1}) {
       if (!domain.sides.is_outflow(a, side)) continue;
-      Box<Dim> box = layout.grown(2);
-      const int edge = side == 0 ? 0 : layout.geometry().cells[a];
-      box.lower[a] = std::max(box.lower[a], edge);
-      box.upper[a] = std::min(box.upper[a], edge + 1);
-      for_each_index_in_order(layout, box, [&](Site f, const IVec<Dim>&) {
+      for_each_index_in_order(layout, padded_faces_of_side(layout, a, side), [&](Site f, const IVec<Dim>&) {
         const double inward = side == 0 ? u.at(a, f) : -u.at(a, f);
         if (faces.kind_at(a, f) == FaceKind::outflow && inward > 0) faces.entering.set(a, f, inward);
       });
@@ -45,7 +41,7 @@ void brake_entering(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, d
   for (int a = 0; a < Dim; ++a)
     for (const int side : {0, 1})
       for_each_index_in_order(domain.layout, faces_of_side(domain.layout, a, side), [&](Site f, const IVec<Dim>&) {
-        u_star.at(a, f) /= 1 + faces.entering.at(a, f) * dt / domain.layout.h();
+        u_star.at(a, f) *= faces.entry_factor(a, f, dt / domain.layout.h());
       });
 }
 

@@ -29,6 +29,11 @@ struct FaceGeometry {
         cell_flux(layout) {}
 
   FaceKind kind_at(int axis, Site s) const { return FaceKind(kind.at(axis, s)); }
+  // Fluid that enters through an outflow side comes from rest: at the side it has the pressure p - rho u^2/2. Over the
+  // half cell behind the side, with u_in the speed before the step:
+  //   rho (h/2) (u - u*)/dt = p_side - rho u_in u/2 - p_i,  (1 + u_in dt/h) u = u* + dt (p_side - p_i)/(rho h/2).
+  // Returns 1/(1 + u_in dt/h); 1 on other faces.
+  double entry_factor(int axis, Site s, double dt_over_h) const { return 1 / (1 + entering.at(axis, s) * dt_over_h); }
   bool is_unknown(int axis, Site s) const {
     return kind_at(axis, s) == FaceKind::open || kind_at(axis, s) == FaceKind::outflow;
   }

@@ -27,11 +27,8 @@ struct ProjectionInput {
   const FaceField<Dim>* surface_jump = nullptr;
   const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none
 
-  // What enters through an outflow side has been at rest outside, so that it has the pressure p - rho u^2/2 at the
-  // side. Over the half cell behind the side, with u_in the speed before the step:
-  //   rho (h/2) (u - u*)/dt = p_side - rho u_in u/2 - p_i,  (1 + u_in dt/h) u = u* + dt (p_side - p_i)/(rho h/2).
-  // 1/(1 + u_in dt/h); 1 on other faces. u* has this factor already.
-  double entry_factor(int axis, Site face) const { return 1 / (1 + faces.entering.at(axis, face) * dt / layout.h()); }
+  // FaceGeometry::entry_factor of the step. u* has it already.
+  double entry_factor(int axis, Site face) const { return faces.entry_factor(axis, face, dt / layout.h()); }
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
   bool is_separated(Site cell) const { return separation && separation->separated[cell]; }
