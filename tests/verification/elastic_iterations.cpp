@@ -43,12 +43,10 @@ FirstStep first_step(const Scene& scene, Route route = Route::factor) {
   const NullSpace closed = find_closed_components(f.in, f.rows);
   KktSolver kkt({f.A, f.grid, closed, f.coupling.J, f.c1, f.c2, 3}, {.tolerance = 1e-8}, f.s.domain.ranks);
   if (route == Route::together) f.problem.solve_together(kkt);
-  const int n = f.coupling.size();
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(n);
-  std::vector<Eigen::Triplet<double>> entries;
-  f.coupling.potential->add_terms(Eigen::VectorXd::Zero(n), HessianProjection::exact, gradient, entries);
-  SparseMatrix K(n, n);
-  K.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(f.coupling.size());
+  Eigen::VectorXd gradient = rest;
+  f.coupling.potential->add_gradient(rest, gradient);
+  const SparseMatrix K = f.coupling.potential->hessian(rest, HessianProjection::exact);
   const InertiaResponse response = f.problem.minimise(K, -gradient);
   INFO(response.failure);
   REQUIRE(response.failure.empty());

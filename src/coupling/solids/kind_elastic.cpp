@@ -142,7 +142,7 @@ void ElasticParticipant<Dim>::describe_contact(ContactBody& contact) const {
 
 template <int Dim>
 ContactMotion ElasticParticipant<Dim>::contact_motion(double, double) const {
-  return {{}, {}, motion_.state.u};
+  return {{}, {}, motion_.state.u, motion_.velocity};
 }
 
 template <int Dim>

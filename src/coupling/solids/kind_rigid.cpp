@@ -106,7 +106,7 @@ void RigidParticipant<Dim>::describe_contact(ContactBody& contact) const {
 
 template <int Dim>
 ContactMotion RigidParticipant<Dim>::contact_motion(double, double) const {
-  return {rigid_pose(body(), state_), {}, {}};
+  return {rigid_pose(body(), state_), {}, {}, velocity()};
 }
 
 template <int Dim>

@@ -68,7 +68,7 @@ class SprungParticipant : public Participant<Dim> {
     contact.nodes.assign(contact.surface.points.size(), 0);
     contact.node_count = 1;
   }
-  ContactMotion contact_motion(double, double) const override { return {{}, {}, displacement_}; }
+  ContactMotion contact_motion(double, double) const override { return {{}, {}, displacement_, velocity_}; }
   void describe_viscous(const StepGeometry<Dim>&, ViscousSolid<Dim>& solid) const override {
     solid.frame = {extend<Dim>(velocity_), Vec3::Zero(), body().mass().center + extend<Dim>(displacement_)};
     solid.surface = [](int axis, Site, std::vector<std::pair<int, double>>& weights) { weights = {{axis, 1.0}}; };

@@ -14,9 +14,10 @@ void PotentialSum::add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradi
   for (const auto& part : parts_) part->add_gradient(v, gradient);
 }
 
-void PotentialSum::add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
-                             std::vector<Eigen::Triplet<double>>& hessian) const {
-  for (const auto& part : parts_) part->add_terms(v, curvature, gradient, hessian);
+Eigen::SparseMatrix<double> PotentialSum::hessian(const Eigen::VectorXd& v, HessianProjection curvature) const {
+  Eigen::SparseMatrix<double> sum = parts_.front()->hessian(v, curvature);
+  for (std::size_t n = 1; n < parts_.size(); ++n) sum += parts_[n]->hessian(v, curvature);
+  return sum;
 }
 
 double PotentialSum::step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const {

@@ -1,6 +1,7 @@
 #pragma once
 // Sum of the potentials of participants and interactions.
 #include <memory>
+#include <vector>
 
 #include "solid/energy/velocity_potential.h"
 
@@ -9,11 +10,11 @@ namespace seiche {
 class PotentialSum : public VelocityPotential {
  public:
   using Parts = std::vector<std::shared_ptr<const VelocityPotential>>;
+  // At least one part.
   explicit PotentialSum(Parts parts) : parts_(std::move(parts)) {}
   double energy(const Eigen::VectorXd& v) const override;
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override;
-  void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
-                 std::vector<Eigen::Triplet<double>>& hessian) const override;
+  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature) const override;
   double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   double angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   void turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const override;

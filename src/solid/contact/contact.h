@@ -39,6 +39,8 @@ struct ContactWall {
 struct ContactMotion {
   Pose start, end;
   Eigen::VectorXd displacement = {};
+  // Velocities of its unknowns from which Newton's method may start. Empty: from rest.
+  Eigen::VectorXd guess = {};
 };
 
 struct ContactOptions {

@@ -11,6 +11,8 @@ namespace seiche {
 namespace {
 
 constexpr double kept_volume = 0.1;  // share of det F that one step must keep
+constexpr int a_batch = 1024;        // elements whose terms are found before they are added up, in order
+constexpr std::size_t a_task = 16;   // elements that a thread takes at a time
 
 // sum_a u_a g_a'
 template <int Dim>
@@ -53,29 +55,71 @@ void over_points(const ElasticBody<Dim>& body, int e, Visit visit) {
 }
 
 template <int Dim, class Visit>
-void over_points(const ElasticBody<Dim>& body, Visit visit) {
-  for (int e = 0; e < body.mesh.element_count(); ++e) over_points(body, e, visit);
+void over_points(const ElasticBody<Dim>& body, int begin, int end, Visit visit) {
+  for (int e = begin; e < end; ++e) over_points(body, e, visit);
 }
 
-// B with dF = B du: column Dim a + i holds g_a in the entries of row i of F.
+// Threads call find(e) for a batch of elements, then add(e, what was found) runs in the order of the elements.
+template <class Found, int Dim, class Find, class Add>
+void by_element(const ElasticBody<Dim>& body, Find find, Add add) {
+  const int elements = body.mesh.element_count();
+  std::vector<Found> found(std::size_t(std::min(elements, a_batch)));
+  for (int first = 0; first < elements; first += a_batch) {
+    const int count = std::min(a_batch, elements - first);
+    parallel_pieces(std::size_t(count), a_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) found[n] = find(first + int(n));
+    });
+    for (int n = 0; n < count; ++n) add(first + n, found[std::size_t(n)]);
+  }
+}
+
+// Column a: dPsi/du_a of the element.
 template <int Dim>
-using Strain =
-    Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic, Eigen::ColMajor, Dim * Dim, Dim*(Dim + 1) * (Dim + 2) / 2>;
+using ElementForce = Eigen::Matrix<double, Dim, Eigen::Dynamic, Eigen::ColMajor, Dim, (Dim + 1) * (Dim + 2) / 2>;
+
+// dPsi/du_a = integral of P g_a; the guard contributes b' dJ/dF to P.
+template <int Dim>
+ElementForce<Dim> force_of(const ElasticBody<Dim>& body, int e, const Eigen::VectorXd& u,
+                           const HeldPressure<Dim>& held) {
+  const Lame& lame = body.properties.lame;
+  ElementForce<Dim> force = ElementForce<Dim>::Zero(Dim, body.mesh.nodes_per_element());
+  over_points(body, e, [&](const Point<Dim>& p) {
+    const Gradient<Dim> F = p.deformation(body, u);
+    const double guard = elastic::volume_guard(lame, F.determinant()).slope;
+    if (p.role == Role::node && guard == 0) return;
+    Gradient<Dim> P = Gradient<Dim>::Zero();
+    if (p.role == Role::quadrature) P = body.material.stress(lame, F);
+    if (p.is_held(held)) P += held.stress(p.number, F);
+    if (guard != 0) P += guard * elastic::cofactor<Dim>(F);
+    force.noalias() += (p.weight * P) * p.g.transpose();
+  });
+  return force;
+}
 
 template <int Dim>
-Strain<Dim> strain_of(const ShapeGradients<Dim>& g) {
-  Strain<Dim> B = Strain<Dim>::Zero(Dim * Dim, Dim * g.rows());
+using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                                    Dim*(Dim + 1) * (Dim + 2) / 2, Dim*(Dim + 1) * (Dim + 2) / 2>;
+
+// Adds B' H B for B with dF = B du. Column (b, k) of B holds g_b in the entries of row k of F and zeros elsewhere:
+//   (H B)_{r,bk} = sum_l H_{r,kl} g_bl,   K_{ai,bk} = sum_j g_aj (H B)_{ij,bk}.
+template <int Dim>
+void add_product(const ShapeGradients<Dim>& g, const Hessian<Dim>& H, ElementMatrix<Dim>& K) {
+  constexpr int most = Dim * (Dim + 1) * (Dim + 2) / 2;
+  Eigen::Matrix<double, Dim * Dim, Eigen::Dynamic, Eigen::RowMajor, Dim * Dim, most> HB(Dim * Dim, K.cols());
+  for (int b = 0; b < g.rows(); ++b) {
+    Eigen::Matrix<double, Dim * Dim, Dim> columns = H.template leftCols<Dim>() * g(b, 0);
+    for (int l = 1; l < Dim; ++l) columns += H.template middleCols<Dim>(Dim * l) * g(b, l);
+    HB.template middleCols<Dim>(Dim * b) = columns;
+  }
   for (int a = 0; a < g.rows(); ++a) {
     for (int i = 0; i < Dim; ++i) {
-      for (int j = 0; j < Dim; ++j) B(i + Dim * j, Dim * a + i) = g(a, j);
+      if constexpr (Dim == 2)
+        K.row(Dim * a + i) += g(a, 0) * HB.row(i) + g(a, 1) * HB.row(i + Dim);
+      else
+        K.row(Dim * a + i) += g(a, 0) * HB.row(i) + g(a, 1) * HB.row(i + Dim) + g(a, 2) * HB.row(i + 2 * Dim);
     }
   }
-  return B;
 }
-
-template <int Dim>
-using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-                                    Dim*(Dim + 1) * (Dim + 2) / 2, Dim*(Dim + 1) * (Dim + 2) / 2>;
 
 // Adds the element's matrix to the columns of its nodes.
 template <int Dim>
@@ -109,9 +153,7 @@ ElementMatrix<Dim> stiffness_of(const ElasticBody<Dim>& body, int e, const Eigen
     const elastic::Flat<Dim> c = elastic::flat<Dim>(elastic::cofactor<Dim>(F));
     if (guard.slope != 0) H += guard.curvature * c * c.transpose() + guard.slope * elastic::cofactor_derivative<Dim>(F);
     if (curvature == HessianProjection::convex) H = project_positive<Dim>(H);
-    const Strain<Dim> B = strain_of<Dim>(p.g);
-    const Strain<Dim> HB = p.weight * H * B;
-    Ke.noalias() += B.transpose() * HB;
+    add_product<Dim>(p.g, p.weight * H, Ke);
   });
   return Ke;
 }
@@ -152,69 +194,59 @@ Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::V
 template <int Dim>
 double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held) {
   const Lame& lame = body.properties.lame;
-  double Psi = 0;
-  over_points(body, [&](const Point<Dim>& p) {
-    const Gradient<Dim> F = p.deformation(body, u);
-    double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
-    if (p.is_held(held)) density += held.energy(p.number, F);
-    Psi += p.weight * (density + elastic::volume_guard(lame, F.determinant()).value);
+  return sum_of_pieces(std::size_t(body.mesh.element_count()), a_task, [&](std::size_t begin, std::size_t end) {
+    double Psi = 0;
+    over_points(body, int(begin), int(end), [&](const Point<Dim>& p) {
+      const Gradient<Dim> F = p.deformation(body, u);
+      double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
+      if (p.is_held(held)) density += held.energy(p.number, F);
+      Psi += p.weight * (density + elastic::volume_guard(lame, F.determinant()).value);
+    });
+    return Psi;
   });
-  return Psi;
 }
 
-// dPsi/du_a = integral of P g_a; the guard contributes b' dJ/dF to P.
 template <int Dim>
 Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
                                  const HeldPressure<Dim>& held) {
-  const Lame& lame = body.properties.lame;
   Eigen::VectorXd r = Eigen::VectorXd::Zero(body.size());
-  over_points(body, [&](const Point<Dim>& p) {
-    const Gradient<Dim> F = p.deformation(body, u);
-    const double guard = elastic::volume_guard(lame, F.determinant()).slope;
-    if (p.role == Role::node && guard == 0) return;
-    Gradient<Dim> P = Gradient<Dim>::Zero();
-    if (p.role == Role::quadrature) P = body.material.stress(lame, F);
-    if (p.is_held(held)) P += held.stress(p.number, F);
-    if (guard != 0) P += guard * elastic::cofactor<Dim>(F);
-    const int* n = body.mesh.element(p.element);
-    for (int a = 0; a < p.g.rows(); ++a) {
-      r.segment<Dim>(Dim * n[a]).noalias() += p.weight * (P * p.g.row(a).transpose());
-    }
-  });
+  by_element<ElementForce<Dim>>(
+      body, [&](int e) { return force_of(body, e, u, held); },
+      [&](int e, const ElementForce<Dim>& force) {
+        const int* n = body.mesh.element(e);
+        for (int a = 0; a < force.cols(); ++a) r.segment<Dim>(Dim * n[a]) += force.col(a);
+      });
   return r;
 }
 
-// Threads find the matrices of a batch of elements; they are added up in the order of the elements.
 template <int Dim>
 void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature, SparseMatrix& K,
                    const HeldPressure<Dim>& held) {
-  constexpr int a_batch = 1024, a_task = 16;
-  const int elements = body.mesh.element_count();
-  std::vector<ElementMatrix<Dim>> found(std::size_t(std::min(elements, a_batch)));
-  for (int first = 0; first < elements; first += a_batch) {
-    const auto count = std::size_t(std::min(a_batch, elements - first));
-    parallel_pieces(count, a_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) found[n] = stiffness_of(body, first + int(n), u, curvature, held);
-    });
-    for (std::size_t n = 0; n < count; ++n) scatter(body, first + int(n), found[n], K);
-  }
+  by_element<ElementMatrix<Dim>>(
+      body, [&](int e) { return stiffness_of(body, e, u, curvature, held); },
+      [&](int e, const ElementMatrix<Dim>& Ke) { scatter(body, e, Ke, K); });
 }
 
 template <int Dim>
 double least_volume_ratio(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
   double least = std::numeric_limits<double>::infinity();
-  over_points(body, [&](const Point<Dim>& p) { least = std::min(least, p.deformation(body, u).determinant()); });
+  over_points(body, 0, body.mesh.element_count(),
+              [&](const Point<Dim>& p) { least = std::min(least, p.deformation(body, u).determinant()); });
   return least;
 }
 
 template <int Dim>
 double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d) {
-  double bound = 1;
-  over_points(body, [&](const Point<Dim>& p) {
-    const Gradient<Dim> D = gradient_of(body, p.element, p.g, d);
-    bound = step_until_kept(volume_polynomial<Dim>(p.deformation(body, u), D), bound);
+  const auto elements = std::size_t(body.mesh.element_count());
+  std::vector<double> bounds(elements / a_task + 1, 1);
+  parallel_pieces(elements, a_task, [&](std::size_t begin, std::size_t end) {
+    double& bound = bounds[begin / a_task];
+    over_points(body, int(begin), int(end), [&](const Point<Dim>& p) {
+      const Gradient<Dim> D = gradient_of(body, p.element, p.g, d);
+      bound = step_until_kept(volume_polynomial<Dim>(p.deformation(body, u), D), bound);
+    });
   });
-  return bound;
+  return *std::min_element(bounds.begin(), bounds.end());
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                          \

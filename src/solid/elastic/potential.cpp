@@ -43,21 +43,28 @@ void ElasticPotential<Dim>::add_gradient(const Eigen::VectorXd& v, Eigen::Vector
         dt_ * elastic_gradient(*share.body, displacement(share, v), share.held);
 }
 
+// The stiffness of each body, times dt H, in the columns of its unknowns.
 template <int Dim>
-void ElasticPotential<Dim>::add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
-                                      std::vector<Eigen::Triplet<double>>& hessian) const {
-  add_gradient(v, gradient);
+Eigen::SparseMatrix<double> ElasticPotential<Dim>::hessian(const Eigen::VectorXd& v,
+                                                           HessianProjection curvature) const {
+  Eigen::SparseMatrix<double> all(size_, size_);
+  Eigen::Index entries = 0;
+  for (const auto& share : bodies_) entries += share.body->pattern.nonZeros();
+  all.reserve(entries);
+  int column = 0;
   for (const auto& share : bodies_) {
-    const Eigen::VectorXd u = displacement(share, v);
+    assert(share.first_dof >= column);
     SparseMatrix K = share.body->pattern;
-    add_stiffness(*share.body, u, curvature, K, share.held);
-    hessian.reserve(hessian.size() + size_t(K.nonZeros()));
-    for (int c = 0; c < K.outerSize(); ++c) {
-      for (SparseMatrix::InnerIterator entry(K, c); entry; ++entry) {
-        hessian.emplace_back(share.first_dof + int(entry.row()), share.first_dof + c, dt_ * horizon_ * entry.value());
-      }
+    add_stiffness(*share.body, displacement(share, v), curvature, K, share.held);
+    while (column < share.first_dof) all.startVec(column++);
+    for (int c = 0; c < K.outerSize(); ++c, ++column) {
+      all.startVec(column);
+      for (SparseMatrix::InnerIterator entry(K, c); entry; ++entry)
+        all.insertBack(share.first_dof + entry.row(), column) = dt_ * horizon_ * entry.value();
     }
   }
+  all.finalize();
+  return all;
 }
 
 template <int Dim>

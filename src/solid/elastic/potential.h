@@ -21,12 +21,11 @@ struct ElasticShare {
 template <int Dim>
 class ElasticPotential : public VelocityPotential {
  public:
-  // Keeps the pointers. `size`: of v. dt and horizon: s, positive.
+  // Keeps the pointers. The bodies are in the order of their unknowns. `size`: of v. dt and horizon: s, positive.
   ElasticPotential(std::vector<ElasticShare<Dim>> bodies, int size, double dt, double horizon);
   double energy(const Eigen::VectorXd& v) const override;
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override;
-  void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
-                 std::vector<Eigen::Triplet<double>>& hessian) const override;
+  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature) const override;
   double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   double angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   void turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const override;

@@ -1,7 +1,5 @@
 #pragma once
 // Energies of the velocities besides contact and inertia: elastic bodies.
-#include <vector>
-
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
@@ -16,9 +14,8 @@ class VelocityPotential {
   virtual double energy(const Eigen::VectorXd& v) const = 0;
   // Adds the gradient (N s, of the size of v) at v.
   virtual void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const = 0;
-  // Adds the gradient and the entries of the Hessian (kg).
-  virtual void add_terms(const Eigen::VectorXd& v, HessianProjection curvature, Eigen::VectorXd& gradient,
-                         std::vector<Eigen::Triplet<double>>& hessian) const = 0;
+  // Hessian (kg) at v, a square matrix of the size of v.
+  virtual Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature) const = 0;
   // Largest share of the step dv, at most 1, without inversion.
   virtual double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const = 0;
   // Largest angle, rad, by which the step dv turns a body that is free to turn. Its line stretches the body by the

@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solid/contact/friction.h"
+#include "solid/contact/friction_updates.h"
 #include "unit/solid/contact_cases.h"
 
 using namespace seiche;
@@ -118,4 +119,29 @@ TEST_CASE("the friction of a pair has a Hessian that is exact where force and sl
       CHECK(values[0] > -1e-15 * values[1]);
     }
   }
+}
+
+// b = 1 is the fixed point of G(b) = 1 + g (b - 1). Plain updates turn for ever at g = -1 and diverge below.
+TEST_CASE("relaxed updates of bounds find the fixed point of steep maps", "[contact]") {
+  for (const double g : {-5.0, -1.0, -0.5, 0.0, 0.3}) {
+    contact::Relaxation relaxation;
+    double b = 0;
+    int updates = 0;
+    for (; updates < 20 && std::abs(b - 1) > 1e-9; ++updates) {
+      const double change = (g - 1) * (b - 1);
+      b += relaxation.next({{{0, 1, 2, 3, 4}, change}}) * change;
+    }
+    INFO(g);
+    CHECK(updates <= (g > 0 ? 18 : 5));  // a share of 1 at most, so 0.3^n beyond
+  }
+}
+
+TEST_CASE("relaxed updates of bounds recover after noise", "[contact]") {
+  contact::Relaxation relaxation;
+  const auto share = [&](double change) { return relaxation.next({{{0, 0, 0, 0, 0}, change}}); };
+  CHECK(share(1) == 0.5);
+  CHECK(share(4) == 0.25);  // grew: less is taken
+  CHECK(share(8) == 0.125);
+  CHECK(share(7) == 0.5);  // shrank by an eighth, as where G is constant: the line asks for 1, twice the most is taken
+  CHECK(share(3.5) == 1);
 }

@@ -42,16 +42,13 @@ TEMPLATE_TEST_CASE_SIG("the energy of elastic bodies by velocities has the deriv
   const auto potential = blocks.potential();
   const auto gradient = [&](const Eigen::VectorXd& v) {
     Eigen::VectorXd g = Eigen::VectorXd::Zero(v.size());
-    std::vector<Eigen::Triplet<double>> unused;
-    potential.add_terms(v, HessianProjection::exact, g, unused);
+    potential.add_gradient(v, g);
     return g;
   };
   Eigen::VectorXd g = Eigen::VectorXd::Constant(blocks.v.size(), 7);
-  std::vector<Eigen::Triplet<double>> entries;
-  potential.add_terms(blocks.v, HessianProjection::exact, g, entries);
+  potential.add_gradient(blocks.v, g);
   g.array() -= 7;  // existing entries are kept
-  Eigen::SparseMatrix<double> K(g.size(), g.size());
-  K.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double> K = potential.hessian(blocks.v, HessianProjection::exact);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range(-1, 1);
   const double h = 1e-4;
