@@ -21,6 +21,7 @@ class LiquidProblem : public CoupledProblem<Dim> {
   void solve_together(KktSolver& kkt) { kkt_ = &kkt; }
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
+  bool notices_indefinite() const override { return !kkt_; }
 
  private:
   using CoupledProblem<Dim>::coupling_;

@@ -33,6 +33,8 @@ class InertiaProblem {
   // (by a Cholesky factorisation).
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
+  // False if minimise() may miss that there is no minimum, and then not converge.
+  virtual bool notices_indefinite() const { return true; }
   // False if gradients of respond() lack multipliers that those of minimise() have and `constraint` does not tell.
   virtual bool responds_in_full() const { return true; }
   // Linearises the constraints of minimise() about v from now on.
