@@ -16,7 +16,7 @@ Relaxation::Key key(const Candidate& p) {
 }  // namespace
 
 // s' = s r.(r - r')/|r - r'|^2 for the changes r and r', the zero of the line through the two; s/2 if that lies behind.
-// Where changes grow, the most that is taken is halved. It doubles where they shrink without a turn.
+// The most that is taken is halved if changes grow. It doubles if they shrink without a turn.
 double Relaxation::next(const Changes& now) {
   double old = 0, both = 0, present = 0;  // r.r, r.r', r'.r'
   for (const auto& [pair, r] : before_) old += r * r;

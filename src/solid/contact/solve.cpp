@@ -349,7 +349,7 @@ class Solver {
   // The present iterate: velocities and gradient of e, share of the prescribed motion, and the derived placement, pairs
   // and terms.
   InertiaResponse e_;
-  Eigen::VectorXd guess_;
+  Eigen::VectorXd guess_;          // of the stacked velocities, followed by begin()
   Eigen::VectorXd free_velocity_;  // without contact
   double share_ = 1;
   Placement<Dim> at_;
