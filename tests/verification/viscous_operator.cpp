@@ -238,7 +238,13 @@ void check_loads(int n) {
   load.head(Dim) = loads[0].force.template head<Dim>();
   load.tail(Dim == 2 ? 1 : 3) = Dim == 2 ? loads[0].torque.tail(1) : loads[0].torque;
   CHECK((load + Vz.tail(p.unknowns)).norm() <= 1e-12 * load.norm());
-  CHECK(viscous_power(p.input(), p.system, {p.u, v}, {p.u, v}).dissipation == Approx(z.dot(Vz)).epsilon(1e-12));
+  Eigen::VectorXd earlier = Eigen::VectorXd::Zero(z.size());  // the liquid at rest, the body with half of v
+  earlier.tail(p.unknowns) = v / 2;
+  FaceField<Dim> rest = p.u;
+  for (const auto& [a, f] : p.system.rows.faces) rest.at(a, f) = 0;
+  const ViscousPower power = viscous_power(p.input(), p.system, {p.u, v}, {p.u, v}, {rest, v / 2});
+  CHECK(power.dissipation == Approx(z.dot(Vz)).epsilon(1e-12));
+  CHECK(power.before == Approx(earlier.dot(Vz)).epsilon(1e-12));
   CHECK(loads[1].force.norm() > 0);
 }
 

@@ -192,8 +192,9 @@ std::vector<SolidLoad> ViscousStep<Dim>::loads(const FaceField<Dim>& u, const Ei
 }
 
 template <int Dim>
-ViscousPower ViscousStep<Dim>::power(const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z) const {
-  return viscous_power(input_, system_, strained, z);
+ViscousPower ViscousStep<Dim>::power(const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z,
+                                     const ViscousMotion<Dim>& before) const {
+  return viscous_power(input_, system_, strained, z, before);
 }
 
 template <int Dim>

@@ -62,8 +62,9 @@ class ViscousStep {
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
   // Loads of the viscous stress on each solid, about its reference point, N and N m. Collective.
   std::vector<SolidLoad> loads(const FaceField<Dim>& u, const Eigen::VectorXd& v) const;
-  // Power of the stress of `strained` on the motion z, see viscous_power(). Collective.
-  ViscousPower power(const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z) const;
+  // Power of the stress of `strained` on the motion z and on that before the step, see viscous_power(). Collective.
+  ViscousPower power(const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z,
+                     const ViscousMotion<Dim>& before) const;
   // Frees all but what loads() and power() read.
   void keep_samples_only();
 

@@ -84,6 +84,16 @@ Eigen::VectorXd drag_on_solids(const ViscousStep<Dim>& viscous, const Vector& u,
   return drag;
 }
 
+// Velocities of the solids' unknowns before the step.
+template <int Dim>
+Eigen::VectorXd velocities_before(const SolidCoupling<Dim>& coupling, const State<Dim>& state) {
+  Eigen::VectorXd v(coupling.size());
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
+    v.segment(coupling.first[b], coupling.first[b + 1] - coupling.first[b]) =
+        state.solids[std::size_t(coupling.bodies[b])].velocity();
+  return v;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -131,6 +141,7 @@ void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<
   r.viscous_loads = viscous_.loads(moved, v);
   viscous_.keep_samples_only();
   solids_ = v;
+  solids_before_ = velocities_before(coupling, in.state);
 }
 
 // u = u* - dt grad p/rho. The stress is that of u* without the pressure of the last step.
@@ -138,7 +149,8 @@ template <int Dim>
 void SplitViscosity<Dim>::measure(CoupledSolution<Dim>& r) const {
   FaceField<Dim> u = r.u_star;
   add_pressure(in_, r, -in_.liquid.dt, u);
-  r.viscous = viscous_.power({shifted(in_, r.u_star, -in_.liquid.dt), solids_}, {u, r.solids});
+  r.viscous =
+      viscous_.power({shifted(in_, r.u_star, -in_.liquid.dt), solids_}, {u, r.solids}, {in_.flow, solids_before_});
 }
 
 template <int Dim>
@@ -170,7 +182,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, solved);
   if (!r.failure.empty()) return;
   r.viscous_loads = viscous.loads(solved, r.solids);
-  r.viscous = viscous.power({solved, r.solids}, {solved, r.solids});
+  r.viscous = viscous.power({solved, r.solids}, {solved, r.solids}, {in.flow, velocities_before(coupling, in.state)});
   r.u_star = std::move(solved);
   add_pressure(in, r, dt, r.u_star);
 }

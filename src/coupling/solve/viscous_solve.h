@@ -26,7 +26,8 @@ class SplitViscosity {
   ProjectionInput<Dim> unpressed_;
   FaceField<Dim> pressed_;  // u* - dt grad p/rho, m/s
   ViscousStep<Dim> viscous_;
-  Eigen::VectorXd solids_;  // velocities of the bodies' unknowns that the stress belongs to
+  // Velocities of the bodies' unknowns: those that the stress belongs to, and those before the step.
+  Eigen::VectorXd solids_, solids_before_;
 };
 
 // Coupled: pressure, viscosity and bodies in one solve.

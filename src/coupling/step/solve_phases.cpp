@@ -163,7 +163,8 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.state.now = level;
   out.state.viscous_loads = solution.viscous_loads;
   const double implicit = task.predicted.viscosity.implicit;
-  out.powers.viscous = {solution.viscous.dissipation / implicit, solution.viscous.sides / implicit};
+  out.powers.viscous = {solution.viscous.dissipation / implicit, solution.viscous.sides / implicit,
+                        solution.viscous.before / implicit};
   out.powers.viscous_transport = task.predicted.viscous_power;
   out.powers.tension = tension_power(liquid, solution.rows, task.before.now->u, level->u);
   if (!s.sources.empty())

@@ -108,6 +108,7 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
 struct ViscousPower {
   double dissipation = 0;  // what the stress takes from the flow: z'V z_strained; negative if these differ much
   double sides = 0;        // of the domain's sides on the fluid: sum of given velocities times the forces there
+  double before = 0;       // what the stress would take from the motion before the step: z_before'V z_strained
 };
 
 // Face velocities (ghosts filled) and body unknowns. Keeps references.
@@ -117,9 +118,10 @@ struct ViscousMotion {
   const Eigen::VectorXd& v;
 };
 
-// Power of the stress of the motion `strained` on the motion z: z'V z_strained. Collective.
+// Power of the stress of the motion `strained` on the motion z and on that before the step. Collective.
 template <int Dim>
 ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
-                           const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z);
+                           const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z,
+                           const ViscousMotion<Dim>& before);
 
 }  // namespace seiche

@@ -63,21 +63,24 @@ std::vector<SolidLoad> viscous_forces(const ViscousInput<Dim>& in, const Viscous
 // A slot without row and solid reads a side. The side pushes the fluid with the slope of the term.
 template <int Dim>
 ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>& system,
-                           const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z) {
-  std::vector<double> sum(2);
+                           const ViscousMotion<Dim>& strained, const ViscousMotion<Dim>& z,
+                           const ViscousMotion<Dim>& before) {
+  std::vector<double> sum(3);
   const ViscousTerms<Dim> terms(in, *system.samples);
   terms.for_each_owned([&](const ViscousTerm<Dim>& t) {
-    const SlotValues<Dim> s = values_of(terms, t, strained), moved = values_of(terms, t, z);
+    const SlotValues<Dim> s = values_of(terms, t, strained), moved = values_of(terms, t, z),
+                          earlier = values_of(terms, t, before);
     for (int i = 0; i < t.slots; ++i) {
       const Slot& slot = t.slot[i];
       const double force = slope(t, s, i);
       sum[0] += moved[i] * force;
+      sum[2] += earlier[i] * force;
       if (terms.row(slot) < 0 && terms.solid(slot) < 0)
         sum[1] += system.samples->given.at(slot.axis, slot.face) * force;
     }
   });
   in.ranks.global_sum(sum);
-  return {sum[0], sum[1]};
+  return {sum[0], sum[1], sum[2]};
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
@@ -85,7 +88,7 @@ ViscousPower viscous_power(const ViscousInput<Dim>& in, const ViscousSystem<Dim>
                                                     const FaceField<D>&, const Eigen::VectorXd&,                   \
                                                     const std::vector<Vec3>&);                                     \
   template ViscousPower viscous_power<D>(const ViscousInput<D>&, const ViscousSystem<D>&, const ViscousMotion<D>&, \
-                                         const ViscousMotion<D>&);
+                                         const ViscousMotion<D>&, const ViscousMotion<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 
