@@ -259,16 +259,43 @@ def elastic_ranks_agree_3d(bench):
     expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "nothing is deformed")
 
 
-def sprung_ranks_agree_2d(bench):
-    """A ball on a spring in the flood on 1 and 3 ranks; three ranks resume from a checkpoint with the same bits."""
-    ranks_agree(bench, SPRUNG, (3,))
-    expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "the spring does nothing")
-    text = SPRUNG.replace("frame_rate = 10.0", "frame_rate = 20.0")
+def shared_elements_ranks_agree(bench):
+    """A soft box of 800 elements, which the ranks share, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, SOFT.replace("element_size = 0.06", "element_size = 0.006"), (2, 3))
+
+
+def shared_unknowns_ranks_agree(bench):
+    """Elastic solids without factors, whose matrix the ranks share, on 1, 2 and 3 ranks; three resume with the same
+    bits."""
+    text = SOFT.replace("[solver]\n", '[solver]\nelastic = "iterate"\n')
+    ranks_agree(bench, text, (2, 3))
+    expect(largest(table(bench.path("one"), "solids.csv"), "pin_fx") > 0, "pins do nothing")
+    resumed_ranks_agree(bench, text)
+
+
+def twins_ranks_agree(bench):
+    """Two equal soft boxes without factors: each of two ranks has the unknowns of one."""
+    text = TWENTY_STEPS.replace("[solver]\n", '[solver]\nelastic = "iterate"\n')
+    for name, low, high in (("left", 0.42, 0.56), ("right", 0.76, 0.9)):
+        box = f'shape = "box"\nlower = [{low}, 0.002]\nupper = [{high}, 0.1]'
+        text += elastic(name, box, "element_size = 0.007")
+    ranks_agree(bench, text, (2,))
+
+
+def resumed_ranks_agree(bench, text):
+    text = text.replace("frame_rate = 10.0", "frame_rate = 20.0")
     bench.simulate(text=text, out="whole", ranks=3).needs(0)
     bench.simulate("--frames", "1", text=text, out="parts", ranks=3).needs(0)
     bench.run("resume", "parts", "--frames", "2", ranks=3).needs(0)
     same_tables(bench.path("parts"), bench.path("whole"))
     same_frames(bench.path("parts"), bench.path("whole"))
+
+
+def sprung_ranks_agree_2d(bench):
+    """A ball on a spring in the flood on 1 and 3 ranks; three ranks resume from a checkpoint with the same bits."""
+    ranks_agree(bench, SPRUNG, (3,))
+    expect(largest(stats(bench.path("one")), "elastic_energy") > 0, "the spring does nothing")
+    resumed_ranks_agree(bench, SPRUNG)
 
 
 def viscous_ranks_agree_2d(bench):
@@ -419,7 +446,8 @@ def air_killed_at_random(bench):
 
 
 TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
-                       elastic_ranks_agree_3d, sprung_ranks_agree_2d, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
+                       elastic_ranks_agree_3d, sprung_ranks_agree_2d, shared_elements_ranks_agree,
+                       shared_unknowns_ranks_agree, twins_ranks_agree, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
                        gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,

@@ -46,7 +46,7 @@ FirstStep first_step(const Scene& scene, Route route = Route::factor) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(f.coupling.size());
   Eigen::VectorXd gradient = rest;
   f.coupling.potential->add_gradient(rest, gradient);
-  const SparseMatrix K = f.coupling.potential->hessian(rest, HessianProjection::exact);
+  const SparseMatrix K = f.coupling.potential->hessian(rest, HessianProjection::exact, f.problem.columns());
   const InertiaResponse response = f.problem.minimise(K, -gradient);
   INFO(response.failure);
   REQUIRE(response.failure.empty());

@@ -12,6 +12,7 @@
 #include "coupling/thin/liquid_beside.h"
 #include "fluid/boundary/domain.h"
 #include "linalg/core/matrix_entries.h"
+#include "linalg/core/shared_columns.h"
 #include "solid/elastic/potential.h"
 #include "solid/elastic/surface_patches.h"
 
@@ -257,7 +258,8 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   const double most = highest_pressure_beside(s.domain, shares, rows, state.pressure);
   const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most), solid.pins.empty()};
   parts.potentials.push_back(std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(),
-                                                                     s.perturbation.elastic_forces * dt, horizon));
+                                                                     s.perturbation.elastic_forces * dt, horizon,
+                                                                     std::make_shared<RankShare>(s.domain.ranks)));
 }
 
 template <int Dim>

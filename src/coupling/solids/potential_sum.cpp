@@ -14,9 +14,10 @@ void PotentialSum::add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradi
   for (const auto& part : parts_) part->add_gradient(v, gradient);
 }
 
-Eigen::SparseMatrix<double> PotentialSum::hessian(const Eigen::VectorXd& v, HessianProjection curvature) const {
-  Eigen::SparseMatrix<double> sum = parts_.front()->hessian(v, curvature);
-  for (std::size_t n = 1; n < parts_.size(); ++n) sum += parts_[n]->hessian(v, curvature);
+Eigen::SparseMatrix<double> PotentialSum::hessian(const Eigen::VectorXd& v, HessianProjection curvature,
+                                                  IndexRange columns) const {
+  Eigen::SparseMatrix<double> sum = parts_.front()->hessian(v, curvature, columns);
+  for (std::size_t n = 1; n < parts_.size(); ++n) sum += parts_[n]->hessian(v, curvature, columns);
   return sum;
 }
 

@@ -14,7 +14,8 @@ class PotentialSum : public VelocityPotential {
   explicit PotentialSum(Parts parts) : parts_(std::move(parts)) {}
   double energy(const Eigen::VectorXd& v) const override;
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const override;
-  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature) const override;
+  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature,
+                                      IndexRange columns) const override;
   double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   double angle(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const override;
   void turn(const Eigen::VectorXd& v, Eigen::VectorXd& dv) const override;

@@ -1,5 +1,7 @@
 #include "coupling/solve/coupled_problem.h"
 
+#include "linalg/core/shared_columns.h"
+
 namespace seiche {
 
 InertiaResponse failed_response(const std::string& why) {
@@ -10,16 +12,36 @@ InertiaResponse indefinite_response() {
   return {{}, Shape::indefinite, {}, {}};
 }
 
+namespace {
+
+template <int Dim>
+void drop_held(const SolidCoupling<Dim>& coupling, SparseMatrix& H) {
+  H.prune(
+      [&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!coupling.is_held(i) && !coupling.is_held(j)); });
+}
+
+}  // namespace
+
 template <int Dim>
 SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatrix& H, Eigen::VectorXd& r) {
   if (!coupling.any_held()) return H;
   r -= H * coupling.held;
   SparseMatrix kept = H;
-  kept.prune(
-      [&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!coupling.is_held(i) && !coupling.is_held(j)); });
+  drop_held(coupling, kept);
   for (Eigen::Index i = 0; i < r.size(); ++i)
     if (coupling.is_held(i)) r[i] = kept.coeff(i, i) * coupling.held[i];
   return kept;
+}
+
+template <int Dim>
+void uncouple_held_shared(const SolidCoupling<Dim>& coupling, const Communicator& ranks, SparseMatrix& H,
+                          Eigen::VectorXd& r) {
+  if (!coupling.any_held()) return;
+  r -= multiply_shared(H, coupling.held, ranks);
+  const Eigen::VectorXd diagonal = shared_diagonal(H, ranks);
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    if (coupling.is_held(i)) r[i] = diagonal[i] * coupling.held[i];
+  drop_held(coupling, H);
 }
 
 template <int Dim>
@@ -56,6 +78,8 @@ Vector CoupledProblem<Dim>::with_missing_fluxes(Vector b, double by) const {
 
 template SparseMatrix uncouple_held<2>(const SolidCoupling<2>&, const SparseMatrix&, Eigen::VectorXd&);
 template SparseMatrix uncouple_held<3>(const SolidCoupling<3>&, const SparseMatrix&, Eigen::VectorXd&);
+template void uncouple_held_shared<2>(const SolidCoupling<2>&, const Communicator&, SparseMatrix&, Eigen::VectorXd&);
+template void uncouple_held_shared<3>(const SolidCoupling<3>&, const Communicator&, SparseMatrix&, Eigen::VectorXd&);
 template class CoupledProblem<2>;
 template class CoupledProblem<3>;
 

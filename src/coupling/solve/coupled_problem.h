@@ -9,6 +9,11 @@ namespace seiche {
 template <int Dim>
 SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatrix& H, Eigen::VectorXd& r);
 
+// The same in place, with the columns of H shared out over the ranks. Collective.
+template <int Dim>
+void uncouple_held_shared(const SolidCoupling<Dim>& coupling, const Communicator& ranks, SparseMatrix& H,
+                          Eigen::VectorXd& r);
+
 template <int Dim>
 class CoupledProblem : public InertiaProblem {
  public:

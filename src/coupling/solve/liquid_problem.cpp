@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "linalg/core/shared_columns.h"
+
 namespace seiche {
 
 template <int Dim>
@@ -43,11 +45,24 @@ void LiquidProblem<Dim>::add_up(const SolveReport& r) {
   report_.failed_attempts.insert(report_.failed_attempts.end(), r.failed_attempts.begin(), r.failed_attempts.end());
 }
 
+template <int Dim>
+IndexRange LiquidProblem<Dim>::columns() const {
+  return kkt_ ? share_of_rank(this->size(), ranks_) : IndexRange{0, this->size()};
+}
+
+template <int Dim>
+Eigen::VectorXd LiquidProblem<Dim>::multiply(const SparseMatrix& K, const Eigen::VectorXd& v) const {
+  return kkt_ ? multiply_shared(K, v, ranks_) : Eigen::VectorXd(K * v);
+}
+
 // A p + c1 J v = b,  H v - c2 J'p = M v* + r. Columns of J of fixed unknowns are zero.
 template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise_together(const SparseMatrix& K, Eigen::VectorXd push) {
-  const SparseMatrix H =
-      uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push);
+  SparseMatrix share;
+  if (ranks_.size() > 1) share = with_columns(coupling_.mass, columns());
+  const SparseMatrix& mass = ranks_.size() > 1 ? share : coupling_.mass;
+  SparseMatrix H = K.nonZeros() > 0 ? SparseMatrix(mass + K) : mass;
+  uncouple_held_shared(coupling_, ranks_, H, push);
   Eigen::VectorXd v = last_.size() == push.size() ? last_ : coupling_.free;
   const KktReport r = kkt_->solve(H, this->with_missing_fluxes(b_, -c1_), push, pressure_, v, scale_);
   if (r.indefinite) return indefinite_response();

@@ -17,8 +17,11 @@ class LiquidProblem : public CoupledProblem<Dim> {
   LiquidProblem(const SolidCoupling<Dim>& coupling, SpdSolver& solver, const NullSpace& closed, const Vector& b,
                 Vector& pressure, double c1, double c2, const Communicator& ranks);
   // From now on minimise() solves for velocities and pressures together, without factors of H: for bodies too large to
-  // factor. An indefinite H is then noticed only if the iteration meets v'H v < 0. Keeps a reference.
+  // factor. An indefinite H is then noticed only if the iteration meets v'H v < 0. The ranks then share the columns of
+  // K and H. Keeps a reference.
   void solve_together(KktSolver& kkt) { kkt_ = &kkt; }
+  IndexRange columns() const override;
+  Eigen::VectorXd multiply(const SparseMatrix& K, const Eigen::VectorXd& v) const override;
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
   bool notices_indefinite() const override { return !kkt_; }

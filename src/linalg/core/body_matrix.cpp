@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "linalg/core/shared_columns.h"
+
 namespace seiche {
 namespace {
 
@@ -84,12 +86,27 @@ bool BodyMatrix::factor_shared() {
 
 bool BodyMatrix::set(SparseMatrix H) {
   H_.swap(H);  // Eigen 3.4 copies where it should move
+  shared_out_ = false;
   find_parts();
   share_out();
   bool good = factor_shared();
   for (Part& part : parts_)
     if (good && part.owner == ranks_.rank()) good = part.factor.factor(submatrix(part.rows));
   return !ranks_.any(!good);
+}
+
+void BodyMatrix::keep(const SparseMatrix& H) {
+  shared_out_ = ranks_.size() > 1;
+  SparseMatrix own = with_columns(H, share_of_rank(int(H.cols()), ranks_));
+  H_.swap(own);  // as in set()
+}
+
+Eigen::VectorXd BodyMatrix::diagonal() const {
+  return shared_out_ ? shared_diagonal(H_, ranks_) : Eigen::VectorXd(H_.diagonal());
+}
+
+Eigen::VectorXd BodyMatrix::multiply(const Eigen::VectorXd& v) const {
+  return shared_out_ ? multiply_shared(H_, v, ranks_) : Eigen::VectorXd(H_ * v);
 }
 
 Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {

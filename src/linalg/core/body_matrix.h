@@ -22,9 +22,13 @@ class BodyMatrix {
   // Factors H, which is the same on all ranks. False if it is not positive definite. Large parts whose rows and pattern
   // are unchanged reuse their ordering. Collective.
   [[nodiscard]] bool set(SparseMatrix H);
-  // Stores H without factors: products and size only.
-  void keep(const SparseMatrix& H) { H_ = H; }
-  const SparseMatrix& matrix() const { return H_; }
+  // Keeps H without factors; of several ranks each keeps its own columns (linalg/core/shared_columns.h).
+  void keep(const SparseMatrix& H);
+  bool is_shared_out() const { return shared_out_; }
+  const SparseMatrix& matrix() const { return H_; }  // this rank's columns if H is shared out
+  // On all ranks. Collective.
+  Eigen::VectorXd diagonal() const;
+  Eigen::VectorXd multiply(const Eigen::VectorXd& v) const;
   int size() const { return int(H_.rows()); }
   // H^-1 b, the same bits on all ranks. Collective.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
@@ -44,6 +48,7 @@ class BodyMatrix {
 
   Communicator ranks_;
   SparseMatrix H_;
+  bool shared_out_ = false;
   std::vector<int> shared_;  // rows of the small parts
   Eigen::SimplicialLDLT<SparseMatrix> shared_factor_;
   std::vector<Part> parts_;

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "linalg/core/shared_columns.h"
+
 namespace seiche {
 namespace {
 
-// Rank r of R takes rows n r / R up to n (r + 1) / R of H. H is symmetric, so its stored columns serve as rows.
+// H is symmetric, so its stored columns serve as rows.
 DistributedMatrix share_of(const SparseMatrix& H, const Communicator& ranks) {
-  const auto cut = [&](int rank) { return Row(H.rows()) * rank / ranks.size(); };
+  const IndexRange own = share_of_rank(int(H.rows()), ranks);
   DistributedMatrix M;
-  M.first_row = cut(ranks.rank());
+  M.first_row = own.begin;
   M.global_rows = H.rows();
-  for (Row i = M.first_row; i < cut(ranks.rank() + 1); ++i) {
+  for (Row i = own.begin; i < own.end; ++i) {
     const std::size_t diagonal = M.value.size();
     M.column.push_back(i), M.value.push_back(0);
     for (SparseMatrix::InnerIterator it(H, Eigen::Index(i)); it; ++it) {

@@ -7,7 +7,7 @@ namespace seiche {
 
 class KktOperator {
  public:
-  // Keeps references. Collective.
+  // Keeps references, but not to H. H is shared out (linalg/core/shared_columns.h). Collective.
   KktOperator(const KktSystem& system, const LinearSystem& A, const SparseMatrix& H);
 
   const LinearSystem& liquid() const { return A_; }

@@ -16,12 +16,12 @@ KktPreconditioner::KktPreconditioner(const KktOperator& K, const BodyMatrix& H, 
   own.component = components();
   own.components = 2 * K.system().dimension + (K.system().dimension == 3 ? 3 : 1);
   B_ = make_boomeramg(K.solid(), own).preconditioner;
-  if (motions_.empty()) find_motions(H.matrix());
+  if (motions_.empty()) find_motions(H.size());
   const auto n = Eigen::Index(motions_.size());
   Eigen::MatrixXd N(n, n);
   std::vector<Vector> Jd;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::VectorXd Hm = H.matrix() * motions_[std::size_t(k)];
+    const Eigen::VectorXd Hm = H.multiply(motions_[std::size_t(k)]);
     for (Eigen::Index l = 0; l < n; ++l) N(l, k) = motions_[std::size_t(l)].dot(Hm);
     Jd.emplace_back(std::size_t(K.pressures()), 0.0);
     add_multiplied(K.system().J, motions_[std::size_t(k)], Jd.back());
@@ -43,15 +43,15 @@ std::vector<int> KktPreconditioner::components() const {
   return {first, first + K_.solid().rows()};
 }
 
-void KktPreconditioner::find_motions(const SparseMatrix& H) {
+void KktPreconditioner::find_motions(int unknowns) {
   const BlockColumns& J = K_.system().J;
   const std::vector<int> first = J.first_columns();
   for (std::size_t b = 0; b < J.blocks.size(); ++b) {
     if (J.blocks[b].deforms()) {
-      add_responses(J.blocks[b], first[b], int(H.rows()));
+      add_responses(J.blocks[b], first[b], unknowns);
       continue;
     }
-    for (int k = 0; k < J.blocks[b].width; ++k) motions_.push_back(Eigen::VectorXd::Unit(H.rows(), first[b] + k));
+    for (int k = 0; k < J.blocks[b].width; ++k) motions_.push_back(Eigen::VectorXd::Unit(unknowns, first[b] + k));
   }
 }
 

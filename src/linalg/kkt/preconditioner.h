@@ -23,7 +23,7 @@ class KktPreconditioner {
 
  private:
   std::vector<int> components() const;
-  void find_motions(const SparseMatrix& H);
+  void find_motions(int unknowns);
   void add_responses(const ColumnBlock& block, int first, int unknowns);
   void orthonormalise(int first, int width, std::size_t begin);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "linalg/core/shared_columns.h"
 #include "linalg/kkt/preconditioner.h"
 #include "linalg/krylov/minres.h"
 
@@ -87,8 +88,7 @@ KktSolver::Problem KktSolver::pose(const Vector& b, const Eigen::VectorXd& g, do
   const double size = norm(b, ranks_);
   report.mismatch = size > 0 ? norm(removed, ranks_) / size : 0;
   if (scale <= 0) scale = size > 0 ? size : 1;
-  return {K_->pack(reachable, -system_.c1 / system_.c2 * g), scale, g,
-          bodies_.matrix().diagonal().cwiseSqrt().cwiseInverse()};
+  return {K_->pack(reachable, -system_.c1 / system_.c2 * g), scale, g, bodies_.diagonal().cwiseSqrt().cwiseInverse()};
 }
 
 KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::VectorXd& g, Vector& p,
@@ -96,7 +96,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
   KktReport all;
   SaddleReport& report = all.solve;
   report.set(INFINITY, INFINITY);
-  if ((H.diagonal().array() <= 0).any()) {
+  if ((shared_diagonal(H, ranks_).array() <= 0).any()) {
     all.indefinite = true;
     return all;
   }
@@ -107,7 +107,7 @@ KktReport KktSolver::solve(const SparseMatrix& H, const Vector& b, const Eigen::
   indefinite_ = false;
   bodies_.keep(H);
   coupled_.set_bodies(bodies_);
-  K_ = std::make_unique<KktOperator>(system_, A_, H);
+  K_ = std::make_unique<KktOperator>(system_, A_, bodies_.matrix());
   const Problem problem = pose(b, g, scale, report);
   coupled_.project(p);
   Vector x = K_->pack(p, v);

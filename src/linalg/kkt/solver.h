@@ -33,9 +33,10 @@ class KktSolver {
   KktSolver(const KktSystem& system, const SaddleOptions& options, const Communicator& ranks);
   ~KktSolver();
 
-  // Solves from the initial p and v. H is the same on all ranks and should be positive definite; v'H v < 0 is reported
-  // if it is met. The continuity residual is relative to `scale`, or to |b| if `scale` is 0. The momentum residual is
-  // measured in the norm of diag(H)^-1, relative to |g| + |c2 J'p| or to the round-off of H v. Collective.
+  // Solves from the initial p and v. H is shared out (linalg/core/shared_columns.h) and should be positive definite;
+  // v'H v < 0 is reported if it is met. The continuity residual is relative to `scale`, or to |b| if `scale` is 0. The
+  // momentum residual is measured in the norm of diag(H)^-1, relative to |g| + |c2 J'p| or to the round-off of H v.
+  // Collective.
   [[nodiscard]] KktReport solve(const SparseMatrix& H, const Vector& b, const Eigen::VectorXd& g, Vector& p,
                                 Eigen::VectorXd& v, double scale = 0);
 

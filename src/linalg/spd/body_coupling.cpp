@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "linalg/core/shared_columns.h"
 #include "linalg/core/sparse_inverse.h"
 
 namespace seiche {
@@ -61,18 +62,83 @@ void drop_small(SparseMatrix& M) {
       [&](Eigen::Index i, Eigen::Index j, double v) { return i == j || std::abs(v) > worth_keeping * d[i] * d[j]; });
 }
 
+// The unknowns that share an entry of H with one of `some`, and these. H is shared out. Collective.
+std::vector<char> with_neighbours(const SparseMatrix& H, const std::vector<char>& some, const Communicator& ranks) {
+  Eigen::VectorXd found = Eigen::VectorXd::Zero(H.cols());
+  for (int k = 0; k < H.cols(); ++k)
+    for (SparseMatrix::InnerIterator it(H, k); it; ++it)
+      if (some[std::size_t(it.row())]) found[k] = 1;
+  collect_shares(found, ranks);
+  std::vector<char> all = some;
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = some[k] || found[Eigen::Index(k)] != 0;
+  return all;
+}
+
+template <class Value>
+void pack(const Value* values, std::size_t count, std::string& bytes) {
+  bytes.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+}
+
+template <class Value>
+std::size_t unpack(const std::string& bytes, std::size_t at, std::size_t count, std::vector<Value>& values) {
+  values.resize(count);
+  std::memcpy(values.data(), bytes.data() + at, count * sizeof(Value));
+  return at + count * sizeof(Value);
+}
+
+// Number, length, rows and values of each column of H that is `wanted` here.
+std::string packed_columns(const SparseMatrix& H, const std::vector<char>& wanted) {
+  std::string bytes;
+  for (int k = 0; k < H.cols(); ++k) {
+    const int first = H.outerIndexPtr()[k], head[2] = {k, H.outerIndexPtr()[k + 1] - first};
+    if (!wanted[std::size_t(k)] || head[1] == 0) continue;
+    pack(head, 2, bytes);
+    pack(H.innerIndexPtr() + first, std::size_t(head[1]), bytes);
+    pack(H.valuePtr() + first, std::size_t(head[1]), bytes);
+  }
+  return bytes;
+}
+
+// The columns of H that sparse_inverse_factor() reads for the `wanted` ones, on all ranks: rows of G with a wanted
+// column are those of its neighbours, and each needs the columns of its own neighbours. H is shared out in ascending
+// ranges of columns. Collective.
+SparseMatrix columns_around(const std::vector<char>& wanted, const SparseMatrix& H, const Communicator& ranks) {
+  const std::vector<char> around = with_neighbours(H, with_neighbours(H, wanted, ranks), ranks);
+  SparseMatrix part(H.rows(), H.cols());
+  int column = 0;
+  std::vector<int> head, rows;
+  std::vector<double> values;
+  for (const std::string& bytes : ranks.all_gather(packed_columns(H, around))) {
+    part.reserve(Eigen::Index(bytes.size() / (sizeof(int) + sizeof(double))));
+    for (std::size_t at = 0; at < bytes.size();) {
+      at = unpack(bytes, at, 2, head);
+      const auto count = std::size_t(head[1]);
+      at = unpack(bytes, unpack(bytes, at, count, rows), count, values);
+      while (column <= head[0]) part.startVec(column++);
+      for (std::size_t n = 0; n < count; ++n) part.insertBack(rows[n], head[0]) = values[n];
+    }
+  }
+  part.finalize();
+  return part;
+}
+
+SparseMatrix inverse_factor_of(const BodyMatrix& H, const std::vector<char>& wanted, const Communicator& ranks) {
+  if (!H.is_shared_out()) return sparse_inverse_factor(H.matrix(), wanted);
+  return sparse_inverse_factor(columns_around(wanted, H.matrix(), ranks), wanted);
+}
+
 // J G'G J' on the touched rows.
-SparseMatrix coupling_of(const std::vector<CouplingEntry>& entries, const std::vector<Row>& rows,
-                         const SparseMatrix& H) {
+SparseMatrix coupling_of(const std::vector<CouplingEntry>& entries, const std::vector<Row>& rows, const BodyMatrix& H,
+                         const Communicator& ranks) {
   std::vector<Eigen::Triplet<double>> triplets;
-  std::vector<char> wanted(std::size_t(H.rows()), 0);
+  std::vector<char> wanted(std::size_t(H.size()), 0);
   for (const CouplingEntry& e : entries) {
     triplets.emplace_back(index_of(rows, e.row), int(e.column), e.value);
     wanted[std::size_t(e.column)] = 1;
   }
-  SparseMatrix J(Eigen::Index(rows.size()), H.rows());
+  SparseMatrix J(Eigen::Index(rows.size()), H.size());
   J.setFromTriplets(triplets.begin(), triplets.end());
-  const SparseMatrix G = sparse_inverse_factor(H, wanted), W = J * SparseMatrix(G.transpose());
+  const SparseMatrix G = inverse_factor_of(H, wanted, ranks), W = J * SparseMatrix(G.transpose());
   SparseMatrix M = W * SparseMatrix(W.transpose());
   drop_small(M);
   return M;
@@ -80,10 +146,10 @@ SparseMatrix coupling_of(const std::vector<CouplingEntry>& entries, const std::v
 
 }  // namespace
 
-BodyCoupling body_coupling(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c) {
+BodyCoupling body_coupling(const LinearSystem& A, const BlockColumns& J, const BodyMatrix& H, double c) {
   const std::vector<CouplingEntry> entries = of_all_ranks(local_entries(A, J), A.ranks());
   BodyCoupling C{touched_rows(entries), {}};
-  C.matrix = c * coupling_of(entries, C.rows, H);
+  C.matrix = c * coupling_of(entries, C.rows, H, A.ranks());
   return C;
 }
 
@@ -125,13 +191,12 @@ DistributedMatrix add_lumped_coupling(const LinearSystem& A, const BodyCoupling&
   return M;
 }
 
-double coupling_strength(const LinearSystem& A, const BlockColumns& J, const SparseMatrix& H, double c) {
-  const Eigen::VectorXd h = H.diagonal();
+double coupling_strength(const LinearSystem& A, const BlockColumns& J, const Eigen::VectorXd& diagonal, double c) {
   std::vector<double> C(std::size_t(A.rows()), 0.0);
   const std::vector<int> first = J.first_columns();
   for (std::size_t b = 0; b < J.blocks.size(); ++b)
     if (J.blocks[b].deforms())
-      J.blocks[b].for_each([&](int i, int k, double v) { C[std::size_t(i)] += c * v * v / h[first[b] + k]; });
+      J.blocks[b].for_each([&](int i, int k, double v) { C[std::size_t(i)] += c * v * v / diagonal[first[b] + k]; });
   double largest = 0;
   for (int i = 0; i < A.rows(); ++i)
     if (A.diagonal(i) > 0) largest = std::max(largest, C[std::size_t(i)] / A.diagonal(i));

@@ -23,7 +23,7 @@ class CoupledSystem {
   const BlockColumns& columns() const { return J_; }
   double scale() const { return c_; }
   bool is_coupled() const { return H_ && H_->size() > 0; }
-  const SparseMatrix& bodies() const { return H_->matrix(); }  // only if is_coupled()
+  const BodyMatrix& bodies() const { return *H_; }  // only if is_coupled()
 
   // y = S x. Collective.
   void multiply(const Vector& x, Vector& y) const;

@@ -266,7 +266,7 @@ bool Deflation::factor_extended() {
     entries.emplace_back(n + t.row(), t.col(), t.value());
     entries.emplace_back(t.col(), n + t.row(), t.value());
   }
-  const SparseMatrix& H = S_.bodies();
+  const SparseMatrix& H = S_.bodies().matrix();
   for (int k = 0; k < H.outerSize(); ++k)
     for (SparseMatrix::InnerIterator it(H, k); it; ++it)
       entries.emplace_back(n + int(it.row()), n + int(it.col()), -it.value() / S_.scale());
@@ -296,7 +296,7 @@ void Deflation::factor_own() {
 
 bool Deflation::factor_added_mass() {
   Eigen::MatrixXd T = added_;
-  const SparseMatrix& H = S_.bodies();
+  const SparseMatrix& H = S_.bodies().matrix();
   for (int k = 0; k < H.outerSize(); ++k)
     for (SparseMatrix::InnerIterator it(H, k); it; ++it) T(it.row(), it.col()) += it.value() / S_.scale();
   added_mass_.compute(T);

@@ -68,7 +68,7 @@ std::vector<RowData> local_rows(const CoupledSystem& coupled, const Vector& b) {
 // Appends -H/c and zero right-hand sides.
 void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std::vector<RowData>& rows) {
   if (!coupled.is_coupled()) return;
-  const SparseMatrix& H = coupled.bodies();
+  const SparseMatrix& H = coupled.bodies().matrix();
   const auto first = std::int32_t(rows.size());
   for (int k = 0; k < H.outerSize(); ++k)
     for (SparseMatrix::InnerIterator it(H, k); it; ++it)

@@ -39,7 +39,7 @@ void SchurPreconditioner::set_directions(std::vector<Vector> Jd) {
   Y_.clear();
 }
 
-void SchurPreconditioner::make_hierarchy(const SparseMatrix& H) {
+void SchurPreconditioner::make_hierarchy(const BodyMatrix& H) {
   const LinearSystem* system = &A_;
   if (deforms_) {
     matrix_ = std::make_unique<DistributedMatrix>(add_body_coupling(A_, body_coupling(A_, J_, H, coupled_.scale())));
@@ -51,15 +51,16 @@ void SchurPreconditioner::make_hierarchy(const SparseMatrix& H) {
 }
 
 // Smaller changes cost fewer iterations than a new hierarchy.
-bool SchurPreconditioner::is_outdated(const SparseMatrix& H) const {
+bool SchurPreconditioner::is_outdated(const BodyMatrix& H) const {
   return deforms_ && has_changed_much(H.diagonal(), diagonal_);
 }
 
 // On an indicator chi the Schur complement is c chi'J H^-1 J'chi (H by its diagonal). If only rigid bodies feel chi,
 // the directions Jd supply this term, so S0 gets a small fraction of it.
-void SchurPreconditioner::find_constants(const SparseMatrix& H) {
+void SchurPreconditioner::find_constants(const BodyMatrix& H) {
   constexpr double next_to_nothing = 1e-5;
   constants_.clear();
+  const Eigen::VectorXd diagonal = H.diagonal();
   const auto& component = A_.null_space().component;
   for (const int c : coupled_.sensed_components()) {
     Vector chi(component.size(), 0.0);
@@ -67,7 +68,7 @@ void SchurPreconditioner::find_constants(const SparseMatrix& H) {
     for (std::size_t i = 0; i < component.size(); ++i)
       if (component[i] == c) constant.rows.push_back(int(i)), chi[i] = 1;
     const Eigen::VectorXd force = multiply_transposed(J_, chi, A_.ranks());
-    const double schur = coupled_.scale() * force.cwiseAbs2().cwiseQuotient(H.diagonal()).sum();
+    const double schur = coupled_.scale() * force.cwiseAbs2().cwiseQuotient(diagonal).sum();
     constant.inverse = 1 / ((deforms_ ? 1 : next_to_nothing) * schur);
     constants_.push_back(std::move(constant));
   }
@@ -75,10 +76,10 @@ void SchurPreconditioner::find_constants(const SparseMatrix& H) {
 
 std::string SchurPreconditioner::refresh(const BodyMatrix& H, const Eigen::MatrixXd& N) {
   if (H.size() > 0) coupled_.set_bodies(H);
-  const bool fresh = !B_.preconditioner || is_outdated(H.matrix());
-  if (fresh) make_hierarchy(H.matrix());
+  const bool fresh = !B_.preconditioner || is_outdated(H);
+  if (fresh) make_hierarchy(H);
   if (!B_.preconditioner) return B_.failure;
-  if (H.size() > 0) find_constants(H.matrix());
+  if (H.size() > 0) find_constants(H);
   if (Jd_.empty()) return {};
   if (fresh || Y_.empty() || !constants_.empty()) solve_columns();
   small_.compute(N / coupled_.scale() + JdY_);

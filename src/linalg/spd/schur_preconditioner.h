@@ -31,9 +31,9 @@ class SchurPreconditioner {
     std::vector<int> rows;
     double inverse;  // factor of S0^-1 for the sum over the rows
   };
-  void make_hierarchy(const SparseMatrix& H);
-  bool is_outdated(const SparseMatrix& H) const;
-  void find_constants(const SparseMatrix& H);
+  void make_hierarchy(const BodyMatrix& H);
+  bool is_outdated(const BodyMatrix& H) const;
+  void find_constants(const BodyMatrix& H);
   void solve_columns();
   void apply_without_directions(const Vector& r, Vector& z);
   Eigen::VectorXd felt(const std::vector<Vector>& columns, const Vector& r) const;

@@ -176,7 +176,9 @@ std::string SpdSolver::choose() {
   }
   const std::string& chosen = with_bodies_;
   if (!J_.any_deforms() || !system_.is_coupled()) return chosen;
-  const auto yields = [&] { return coupling_strength(liquid_, J_, system_.bodies(), system_.scale()) > strong; };
+  const auto yields = [&] {
+    return coupling_strength(liquid_, J_, system_.bodies().diagonal(), system_.scale()) > strong;
+  };
   if (choice_.empty()) choice_ = keeps_to_grid(chosen) && yields() ? "boomeramg" : chosen;
   return choice_;
 }

@@ -207,9 +207,10 @@ class Solver {
   // projected Hessian is used.
   Outcome aim(InertiaResponse& goal) {
     for (HessianProjection curvature : {HessianProjection::exact, HessianProjection::convex}) {
-      terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_.points(), weights_, curvature);
+      terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_.points(), weights_, curvature,
+                                  inertia_.columns());
       if (potential_) add_potential(curvature);
-      const Eigen::VectorXd r = terms_.K * e_.velocity - terms_.gradient - terms_.drag;
+      const Eigen::VectorXd r = inertia_.multiply(terms_.K, e_.velocity) - terms_.gradient - terms_.drag;
       inertia_.linearise_at(e_.velocity);
       if (take(inertia_.minimise(terms_.K, r), goal) == Outcome::failed) return Outcome::failed;
       if (goal.shape == Shape::convex) return Outcome::converged;
@@ -219,7 +220,7 @@ class Solver {
 
   void add_potential(HessianProjection curvature) {
     potential_->add_gradient(e_.velocity, terms_.gradient);
-    terms_.K += potential_->hessian(e_.velocity, curvature);
+    terms_.K += potential_->hessian(e_.velocity, curvature, inertia_.columns());
     terms_.energy += potential_->energy(e_.velocity);
   }
 
@@ -316,8 +317,12 @@ class Solver {
     e_.constraint = goal.constraint;
   }
 
+  ContactTerms terms_without_hessian(const std::vector<FrictionPoint<Dim>>& friction) const {
+    return contact_terms<Dim>(scene_, interval_, at_, pairs_, friction, weights_, HessianProjection::exact, {});
+  }
+
   bool stiffen() {
-    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction_.points(), weights_, HessianProjection::exact);
+    terms_ = terms_without_hessian(friction_.points());
     if (terms_.tightest >= tiny_gap * weights_.reach) return false;
     weights_.stiffness *= stiffening;
     return true;
@@ -330,7 +335,7 @@ class Solver {
     report_.residual = e_.gradient + terms_.gradient;  // with the friction forces of the minimisation
     if (potential_) potential_->add_gradient(e_.velocity, report_.residual);
     const auto friction = friction_points<Dim>(scene_, at_, pairs_, weights_);
-    terms_ = contact_terms<Dim>(scene_, interval_, at_, pairs_, friction, weights_, HessianProjection::exact);
+    terms_ = terms_without_hessian(friction);
     report_.velocity = e_.velocity;
     report_.gradient = e_.gradient;
     report_.active = terms_.active;

@@ -30,8 +30,9 @@ template <int Dim>
 class Assembly {
  public:
   static constexpr int n = twist_size<Dim>;
-  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left, HessianProjection curvature)
-      : scene_(scene), interval_(interval), left_(share_left), curvature_(curvature) {
+  Assembly(const Scene<Dim>& scene, const Interval<Dim>& interval, double share_left, HessianProjection curvature,
+           IndexRange columns)
+      : scene_(scene), interval_(interval), left_(share_left), curvature_(curvature), columns_(columns) {
     gradient_.setZero(scene.size);
     drag_.setZero(scene.size);
   }
@@ -58,7 +59,7 @@ class Assembly {
       gradient_[dofs.dof[i]] += gradient[i];
       drag_[dofs.dof[i]] += drag[i];
       for (int j = 0; j < dofs.count; ++j)
-        if (dofs.dof[j] >= 0) entries_.emplace_back(dofs.dof[i], dofs.dof[j], hessian(i, j));
+        if (columns_.holds(dofs.dof[j])) entries_.emplace_back(dofs.dof[i], dofs.dof[j], hessian(i, j));
     }
   }
 
@@ -97,13 +98,15 @@ class Assembly {
       return;
     }
     for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c) entries.emplace_back(i + r, j + c, part(r, c));
+      for (int c = 0; c < n; ++c)
+        if (columns_.holds(j + c)) entries.emplace_back(i + r, j + c, part(r, c));
   }
 
   const Scene<Dim>& scene_;
   const Interval<Dim>& interval_;
   double left_;
   HessianProjection curvature_;
+  IndexRange columns_;
   Eigen::VectorXd gradient_, drag_;
   std::vector<Eigen::Triplet<double>> entries_;
   std::map<std::pair<int, int>, PairMatrix<Dim>> hessians_;
@@ -297,10 +300,10 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
-                           const Weights& w, HessianProjection curvature) {
+                           const Weights& w, HessianProjection curvature, IndexRange columns) {
   ContactTerms terms;
   terms.smallest_gap = terms.tightest = w.reach;
-  Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.velocities.twists), curvature);
+  Assembly<Dim> assembly(scene, interval, share_left<Dim>(scene, interval, at.velocities.twists), curvature, columns);
   const TurnJacobians<Dim> jacobians = turn_jacobians<Dim>(interval, at.velocities.twists);
   for (const Candidate& pair : pairs) {
     const PairPoints<Dim> x = gather<Dim>(pair, at.points);
@@ -375,7 +378,7 @@ std::vector<BodyImpulse> contact_impulses(const Scene<Dim>& scene, const Placeme
                                       const Weights&);                                                            \
   template ContactTerms contact_terms<Dim>(const Scene<Dim>&, const Interval<Dim>&, const Placement<Dim>&,        \
                                            const std::vector<Candidate>&, const std::vector<FrictionPoint<Dim>>&, \
-                                           const Weights&, HessianProjection);                                    \
+                                           const Weights&, HessianProjection, IndexRange);                        \
   template std::vector<FrictionPoint<Dim>> friction_points<Dim>(const Scene<Dim>&, const Placement<Dim>&,         \
                                                                 const std::vector<Candidate>&, const Weights&);   \
   template std::vector<BodyImpulse> contact_impulses<Dim>(const Scene<Dim>&, const Placement<Dim>&,               \

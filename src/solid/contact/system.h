@@ -1,5 +1,6 @@
 #pragma once
 // Barrier and friction of all pairs as functions of the velocities.
+#include "base/index_range.h"
 #include "solid/contact/friction.h"
 #include "solid/contact/search.h"
 #include "solid/energy/hessian_projection.h"
@@ -29,10 +30,11 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
                       const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
                       const Weights& weights);
 
+// Of K only the `columns` are filled.
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
-                           const Weights& weights, HessianProjection curvature);
+                           const Weights& weights, HessianProjection curvature, IndexRange columns);
 
 // Friction points with their bounds for the present normal forces and contact points.
 template <int Dim>

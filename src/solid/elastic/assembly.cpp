@@ -60,12 +60,11 @@ void over_points(const ElasticBody<Dim>& body, int begin, int end, Visit visit) 
 }
 
 // Threads call find(e) for a batch of elements, then add(e, what was found) runs in the order of the elements.
-template <class Found, int Dim, class Find, class Add>
-void by_element(const ElasticBody<Dim>& body, Find find, Add add) {
-  const int elements = body.mesh.element_count();
-  std::vector<Found> found(std::size_t(std::min(elements, a_batch)));
-  for (int first = 0; first < elements; first += a_batch) {
-    const int count = std::min(a_batch, elements - first);
+template <class Found, class Find, class Add>
+void by_element(IndexRange elements, Find find, Add add) {
+  std::vector<Found> found(std::size_t(std::min(elements.size(), a_batch)));
+  for (int first = elements.begin; first < elements.end; first += a_batch) {
+    const int count = std::min(a_batch, elements.end - first);
     parallel_pieces(std::size_t(count), a_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n) found[n] = find(first + int(n));
     });
@@ -121,14 +120,23 @@ void add_product(const ShapeGradients<Dim>& g, const Hessian<Dim>& H, ElementMat
   }
 }
 
-// Adds the element's matrix to the columns of its nodes.
+// True if the element has unknowns among the columns.
 template <int Dim>
-void scatter(const ElasticBody<Dim>& body, int e, const ElementMatrix<Dim>& Ke, SparseMatrix& K) {
+bool touches(const ElasticBody<Dim>& body, int e, IndexRange columns) {
+  const int* n = body.mesh.element(e);
+  return std::any_of(n, n + body.mesh.nodes_per_element(),
+                     [&](int node) { return Dim * node + Dim > columns.begin && Dim * node < columns.end; });
+}
+
+// Adds the element's matrix to the columns of its nodes, as far as K has them.
+template <int Dim>
+void scatter(const ElasticBody<Dim>& body, int e, const ElementMatrix<Dim>& Ke, IndexRange columns, SparseMatrix& K) {
   const int count = body.mesh.nodes_per_element();
   const int *n = body.mesh.element(e), *slot = body.slots.data() + size_t(e) * count * count;
   for (int b = 0; b < count; ++b) {
     for (int k = 0; k < Dim; ++k) {
-      double* column = K.valuePtr() + K.outerIndexPtr()[Dim * n[b] + k];
+      if (!columns.holds(Dim * n[b] + k)) continue;
+      double* column = K.valuePtr() + K.outerIndexPtr()[Dim * n[b] + k - columns.begin];
       for (int a = 0; a < count; ++a) {
         for (int i = 0; i < Dim; ++i) column[slot[a * count + b] + i] += Ke(Dim * a + i, Dim * b + k);
       }
@@ -192,11 +200,12 @@ Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::V
 }
 
 template <int Dim>
-double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held) {
+double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held,
+                      IndexRange elements) {
   const Lame& lame = body.properties.lame;
-  return sum_of_pieces(std::size_t(body.mesh.element_count()), a_task, [&](std::size_t begin, std::size_t end) {
+  return sum_of_pieces(std::size_t(elements.size()), a_task, [&](std::size_t begin, std::size_t end) {
     double Psi = 0;
-    over_points(body, int(begin), int(end), [&](const Point<Dim>& p) {
+    over_points(body, elements.begin + int(begin), elements.begin + int(end), [&](const Point<Dim>& p) {
       const Gradient<Dim> F = p.deformation(body, u);
       double density = p.role == Role::quadrature ? body.material.energy(lame, F) : 0;
       if (p.is_held(held)) density += held.energy(p.number, F);
@@ -207,11 +216,11 @@ double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, co
 }
 
 template <int Dim>
-Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
-                                 const HeldPressure<Dim>& held) {
+Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held,
+                                 IndexRange elements) {
   Eigen::VectorXd r = Eigen::VectorXd::Zero(body.size());
   by_element<ElementForce<Dim>>(
-      body, [&](int e) { return force_of(body, e, u, held); },
+      elements, [&](int e) { return force_of(body, e, u, held); },
       [&](int e, const ElementForce<Dim>& force) {
         const int* n = body.mesh.element(e);
         for (int a = 0; a < force.cols(); ++a) r.segment<Dim>(Dim * n[a]) += force.col(a);
@@ -220,11 +229,16 @@ Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::Vect
 }
 
 template <int Dim>
-void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature, SparseMatrix& K,
-                   const HeldPressure<Dim>& held) {
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature,
+                   const HeldPressure<Dim>& held, IndexRange elements, IndexRange columns, SparseMatrix& K) {
   by_element<ElementMatrix<Dim>>(
-      body, [&](int e) { return stiffness_of(body, e, u, curvature, held); },
-      [&](int e, const ElementMatrix<Dim>& Ke) { scatter(body, e, Ke, K); });
+      elements,
+      [&](int e) {
+        return touches(body, e, columns) ? stiffness_of(body, e, u, curvature, held) : ElementMatrix<Dim>();
+      },
+      [&](int e, const ElementMatrix<Dim>& Ke) {
+        if (Ke.size() > 0) scatter(body, e, Ke, columns, K);
+      });
 }
 
 template <int Dim>
@@ -236,12 +250,13 @@ double least_volume_ratio(const ElasticBody<Dim>& body, const Eigen::VectorXd& u
 }
 
 template <int Dim>
-double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d) {
-  const auto elements = std::size_t(body.mesh.element_count());
-  std::vector<double> bounds(elements / a_task + 1, 1);
-  parallel_pieces(elements, a_task, [&](std::size_t begin, std::size_t end) {
+double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d,
+                       IndexRange elements) {
+  const auto count = std::size_t(elements.size());
+  std::vector<double> bounds(count / a_task + 1, 1);
+  parallel_pieces(count, a_task, [&](std::size_t begin, std::size_t end) {
     double& bound = bounds[begin / a_task];
-    over_points(body, int(begin), int(end), [&](const Point<Dim>& p) {
+    over_points(body, elements.begin + int(begin), elements.begin + int(end), [&](const Point<Dim>& p) {
       const Gradient<Dim> D = gradient_of(body, p.element, p.g, d);
       bound = step_until_kept(volume_polynomial<Dim>(p.deformation(body, u), D), bound);
     });
@@ -249,14 +264,16 @@ double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, c
   return *std::min_element(bounds.begin(), bounds.end());
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template Gradient<D> deformation_at<D>(const ElasticBody<D>&, int, const Eigen::VectorXd&);                          \
-  template double elastic_energy<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&);            \
-  template Eigen::VectorXd elastic_gradient<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&); \
-  template void add_stiffness<D>(const ElasticBody<D>&, const Eigen::VectorXd&, HessianProjection, SparseMatrix&,      \
-                                 const HeldPressure<D>&);                                                              \
-  template double least_volume_ratio<D>(const ElasticBody<D>&, const Eigen::VectorXd&);                                \
-  template double inversion_bound<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template Gradient<D> deformation_at<D>(const ElasticBody<D>&, int, const Eigen::VectorXd&);                         \
+  template double elastic_energy<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&,            \
+                                    IndexRange);                                                                      \
+  template Eigen::VectorXd elastic_gradient<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const HeldPressure<D>&, \
+                                               IndexRange);                                                           \
+  template void add_stiffness<D>(const ElasticBody<D>&, const Eigen::VectorXd&, HessianProjection,                    \
+                                 const HeldPressure<D>&, IndexRange, IndexRange, SparseMatrix&);                      \
+  template double least_volume_ratio<D>(const ElasticBody<D>&, const Eigen::VectorXd&);                               \
+  template double inversion_bound<D>(const ElasticBody<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&, IndexRange);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

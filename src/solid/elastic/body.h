@@ -3,6 +3,7 @@
 // displacement u, stacked node by node (Dim numbers each).
 #include <vector>
 
+#include "base/index_range.h"
 #include "linalg/core/sparse_cholesky.h"
 #include "solid/elastic/held_pressure.h"
 #include "solid/energy/hessian_projection.h"
@@ -37,6 +38,7 @@ struct ElasticBody {
   std::vector<int> slots;  // of element e, nodes a, b: start of the rows of a within a column of b
 
   int size() const { return Dim * int(mesh.nodes.size()); }
+  IndexRange all_elements() const { return {0, mesh.element_count()}; }
 };
 
 // The mesh must have passed check_mesh().
@@ -49,20 +51,37 @@ template <int Dim>
 Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::VectorXd& u);
 
 // Psi(u) (J), with the guard of solid/material/guard.h below a tenth of the rest volume; infinite where det F <= 0.
-// Includes the work against the held pressure, if any.
+// Includes the work against the held pressure, if any. Of the given elements alone, as all that follow.
 template <int Dim>
-double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held = {});
+double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held,
+                      IndexRange elements);
 
 // dPsi/du, N: minus the elastic force.
 template <int Dim>
-Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
-                                 const HeldPressure<Dim>& held = {});
+Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held,
+                                 IndexRange elements);
 
-// Adds d2Psi/du2 (N/m) to a matrix of the body's pattern. convex: the Hessian of each quadrature point is projected to
-// positive semi-definite.
+// Adds d2Psi/du2 (N/m) to K, which has the given columns of the body's pattern. convex: the Hessian of each quadrature
+// point is projected to positive semi-definite.
+template <int Dim>
+void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature,
+                   const HeldPressure<Dim>& held, IndexRange elements, IndexRange columns, SparseMatrix& K);
+
+// The same of all elements and columns.
+template <int Dim>
+double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held = {}) {
+  return elastic_energy(body, u, held, body.all_elements());
+}
+template <int Dim>
+Eigen::VectorXd elastic_gradient(const ElasticBody<Dim>& body, const Eigen::VectorXd& u,
+                                 const HeldPressure<Dim>& held = {}) {
+  return elastic_gradient(body, u, held, body.all_elements());
+}
 template <int Dim>
 void add_stiffness(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, HessianProjection curvature, SparseMatrix& K,
-                   const HeldPressure<Dim>& held = {});
+                   const HeldPressure<Dim>& held = {}) {
+  add_stiffness(body, u, curvature, held, body.all_elements(), {0, body.size()}, K);
+}
 
 // Integral of f . N_a over the body at rest; f in N/m^3 by rest position. Constant f: body_force(...).
 template <int Dim>
@@ -78,8 +97,13 @@ template <int Dim>
 double least_volume_ratio(const ElasticBody<Dim>& body, const Eigen::VectorXd& u);
 
 // Largest share of the step d, at most 1, along which no det F falls below a tenth of its value at u, at any quadrature
-// point or node. A lower bound on the root of its polynomial.
+// point or node of the given elements. A lower bound on the root of its polynomial.
 template <int Dim>
-double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d);
+double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d,
+                       IndexRange elements);
+template <int Dim>
+double inversion_bound(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const Eigen::VectorXd& d) {
+  return inversion_bound(body, u, d, body.all_elements());
+}
 
 }  // namespace seiche

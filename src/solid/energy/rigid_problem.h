@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
+#include "base/index_range.h"
+
 namespace seiche {
 
 // Generalised velocity of one body: (v of the centre of mass, omega); in 2D (v_x, v_y, omega_z).
@@ -29,6 +31,12 @@ class InertiaProblem {
  public:
   virtual ~InertiaProblem();
   virtual int size() const = 0;
+  // Columns of K that this rank passes to minimise(). K is symmetric, so they serve as rows. Others are not read.
+  virtual IndexRange columns() const { return {0, size()}; }
+  // K v from these columns of all ranks. Collective.
+  virtual Eigen::VectorXd multiply(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& v) const {
+    return K * v;
+  }
   // Minimises e(v) + 1/2 v'Kv - r'v, K symmetric. K may be indefinite, so implementations must detect a missing minimum
   // (by a Cholesky factorisation).
   virtual InertiaResponse minimise(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& r) = 0;

@@ -1,8 +1,10 @@
 #pragma once
-// Energies of the velocities besides contact and inertia: elastic bodies.
+// Energies of the velocities besides contact and inertia: elastic bodies. Processes may share the work (WorkShare), so
+// all of them call energies, gradients, Hessians and bounds together.
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
+#include "base/index_range.h"
 #include "solid/energy/hessian_projection.h"
 
 namespace seiche {
@@ -14,8 +16,10 @@ class VelocityPotential {
   virtual double energy(const Eigen::VectorXd& v) const = 0;
   // Adds the gradient (N s, of the size of v) at v.
   virtual void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& gradient) const = 0;
-  // Hessian (kg) at v, a square matrix of the size of v.
-  virtual Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature) const = 0;
+  // Hessian (kg) at v, a square matrix of the size of v with the given columns; the others are empty. All processes ask
+  // for all columns, or each for its part.
+  virtual Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection curvature,
+                                              IndexRange columns) const = 0;
   // Largest share of the step dv, at most 1, without inversion.
   virtual double step_bound(const Eigen::VectorXd& v, const Eigen::VectorXd& dv) const = 0;
   // Largest angle, rad, by which the step dv turns a body that is free to turn. Its line stretches the body by the

@@ -37,7 +37,7 @@ struct Spring : VelocityPotential {
   Spring(int i, double stiffness, double share) : unknown(i), k(stiffness), bound(share) {}
   double energy(const Eigen::VectorXd& v) const override { return 0.5 * k * v[unknown] * v[unknown]; }
   void add_gradient(const Eigen::VectorXd& v, Eigen::VectorXd& g) const override { g[unknown] += k * v[unknown]; }
-  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection) const override {
+  Eigen::SparseMatrix<double> hessian(const Eigen::VectorXd& v, HessianProjection, IndexRange) const override {
     Eigen::SparseMatrix<double> H(v.size(), v.size());
     H.insert(unknown, unknown) = k;
     return H;
@@ -153,7 +153,7 @@ TEST_CASE("a sum of potentials adds energies and terms, and keeps the smallest b
   Eigen::VectorXd g = Eigen::Vector2d(1, 1);
   sum->add_gradient(v, g);
   CHECK(g == Eigen::VectorXd(Eigen::Vector2d(7, -7)));
-  const Eigen::Matrix2d hessian = sum->hessian(v, HessianProjection{});
+  const Eigen::Matrix2d hessian = sum->hessian(v, HessianProjection{}, {0, 2});
   CHECK(hessian == Eigen::Matrix2d(Eigen::Vector2d(2, 8).asDiagonal()));
 }
 

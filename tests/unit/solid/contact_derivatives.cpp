@@ -54,7 +54,8 @@ struct Crowd {
     return contact::contact_energy<Dim>(world.scene().data(), interval, at(u), pairs(u), friction, weights);
   }
   contact::ContactTerms terms(HessianProjection curvature) {
-    return contact::contact_terms<Dim>(world.scene().data(), interval, at(v), pairs(v), friction, weights, curvature);
+    return contact::contact_terms<Dim>(world.scene().data(), interval, at(v), pairs(v), friction, weights, curvature,
+                                       {0, int(v.size())});
   }
 };
 

@@ -61,7 +61,8 @@ struct Crowd {
     return contact::contact_energy<Dim>(scene->data(), interval, at(u), pairs(u), friction, weights);
   }
   contact::ContactTerms terms(const Eigen::VectorXd& u, HessianProjection curvature, double share = 0.6) const {
-    return contact::contact_terms<Dim>(scene->data(), interval, at(u, share), pairs(u), friction, weights, curvature);
+    return contact::contact_terms<Dim>(scene->data(), interval, at(u, share), pairs(u), friction, weights, curvature,
+                                       {0, int(u.size())});
   }
 };
 
@@ -105,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG("impulses on deformable bodies are sums over their nodes"
   const auto at = crowd.at(crowd.v, 1);
   const auto pairs = contact::find_candidates<Dim>(data, at.points, at.points, crowd.weights.reach);
   const auto terms = contact::contact_terms<Dim>(data, crowd.interval, at, pairs, crowd.friction, crowd.weights,
-                                                 HessianProjection::exact);
+                                                 HessianProjection::exact, {});
   const auto impulses = contact::contact_impulses<Dim>(data, at, pairs, crowd.friction, crowd.weights);
   for (int b : {3, 4}) {
     Vec<Dim> sum = Vec<Dim>::Zero();

@@ -63,7 +63,7 @@ Pressed measure(const SoftWorld<Dim>& world, double a) {
   const auto pairs = contact::find_candidates<Dim>(scene.data(), at.points, at.points, world.options.reach);
   const contact::Weights weights{1, world.options.reach, world.report.stiffness, 1};
   const auto terms =
-      contact::contact_terms<Dim>(scene.data(), interval, at, pairs, {}, weights, HessianProjection::exact);
+      contact::contact_terms<Dim>(scene.data(), interval, at, pairs, {}, weights, HessianProjection::exact, {});
   double force = 0, second = 0, weighed = 0;
   for (size_t n = 0; n < s.body.mesh.nodes.size(); ++n) {
     Vec<Dim> x = s.body.mesh.nodes[n] + s.state.u.template segment<Dim>(Dim * Eigen::Index(n));
