@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "grid/groups.h"
 #include "grid/layout.h"
 
 namespace seiche {
@@ -65,6 +66,31 @@ void for_each_site(const Layout<Dim>& layout, const Box<Dim>& box, const Body& b
   detail::for_each_row(rows, [&](std::int64_t r) {
     const Site begin = layout.site(rows.first(r)), end = begin + rows.length;
     for (Site s = begin; s < end; ++s) body(s);
+  });
+}
+
+namespace detail {
+
+// Calls body(s) for begin <= s < end, but not for groups of which may_matter(first site) is false. Sites that are no
+// whole group are not tested.
+template <class Test, class Body>
+void for_each_group_of_row(Site begin, Site end, const Test& may_matter, const Body& body) {
+  for (; begin + a_group <= end; begin += a_group)
+    if (may_matter(begin))
+      for (Site s = begin; s < begin + a_group; ++s) body(s);
+  for (; begin < end; ++begin) body(begin);
+}
+
+}  // namespace detail
+
+// Calls body(site) for the sites of a box. Leaves out groups of sites along a row for which may_matter(first site) is
+// false (grid/groups.h).
+template <int Dim, class Test, class Body>
+void for_each_possible(const Layout<Dim>& layout, const Box<Dim>& box, const Test& may_matter, const Body& body) {
+  const detail::Rows<Dim> rows(layout, box);
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const Site begin = layout.site(rows.first(r));
+    detail::for_each_group_of_row(begin, begin + rows.length, may_matter, body);
   });
 }
 
@@ -154,19 +180,27 @@ void for_each_listed(const std::vector<Site>& list, const Body& body) {
   });
 }
 
-// The sites of a box for which wanted(site) is true, row by row.
-template <int Dim, class Wanted>
-std::vector<Site> listed_sites(const Layout<Dim>& layout, const Box<Dim>& box, const Wanted& wanted) {
+// The sites of a box for which wanted(site) is true, row by row. may_matter: as for for_each_possible().
+template <int Dim, class Test, class Wanted>
+std::vector<Site> listed_possible(const Layout<Dim>& layout, const Box<Dim>& box, const Test& may_matter,
+                                  const Wanted& wanted) {
   const detail::Rows<Dim> rows(layout, box);
   std::vector<std::vector<Site>> found(std::size_t(rows.count));
   detail::for_each_row(rows, [&](std::int64_t r) {
     const Site begin = layout.site(rows.first(r));
-    for (Site s = begin; s < begin + rows.length; ++s)
+    detail::for_each_group_of_row(begin, begin + rows.length, may_matter, [&](Site s) {
       if (wanted(s)) found[std::size_t(r)].push_back(s);
+    });
   });
   std::vector<Site> all;
   for (const std::vector<Site>& row : found) all.insert(all.end(), row.begin(), row.end());
   return all;
+}
+
+template <int Dim, class Wanted>
+std::vector<Site> listed_sites(const Layout<Dim>& layout, const Box<Dim>& box, const Wanted& wanted) {
+  return listed_possible(
+      layout, box, [](Site) { return true; }, wanted);
 }
 
 // Sum of body(site, index), numbers or a type with += and zero {}, over a box on this rank only.
@@ -187,20 +221,45 @@ auto local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body)
   return total;
 }
 
-// Largest body(site) over a box on this rank only, at least `least`.
-template <int Dim, class Body>
-double local_max(const Layout<Dim>& layout, const Box<Dim>& box, double least, const Body& body) {
+// The same of body(site) without groups of sites along a row for which may_matter(first site) is false.
+template <int Dim, class Test, class Body>
+auto local_sum_of_possible(const Layout<Dim>& layout, const Box<Dim>& box, const Test& may_matter, const Body& body) {
+  using Sum = std::decay_t<decltype(body(Site{}))>;
+  const detail::Rows<Dim> rows(layout, box);
+  std::vector<Sum> partial(std::size_t(rows.count), Sum{});
+  detail::for_each_row(rows, [&](std::int64_t r) {
+    const Site begin = layout.site(rows.first(r));
+    Sum sum{};
+    detail::for_each_group_of_row(begin, begin + rows.length, may_matter, [&](Site s) { sum += body(s); });
+    partial[std::size_t(r)] = sum;
+  });
+  Sum total{};
+  for (const Sum& p : partial) total += p;
+  return total;
+}
+
+// Largest body(site) over a box on this rank only, at least `least`. may_matter: as for for_each_possible().
+template <int Dim, class Test, class Body>
+double local_max_of_possible(const Layout<Dim>& layout, const Box<Dim>& box, double least, const Test& may_matter,
+                             const Body& body) {
   const detail::Rows<Dim> rows(layout, box);
   std::vector<double> partial(std::size_t(rows.count), least);
   detail::for_each_row(rows, [&](std::int64_t r) {
     const Site begin = layout.site(rows.first(r));
     double largest = least;
-    for (Site s = begin; s < begin + rows.length; ++s) largest = std::max<double>(largest, body(s));
+    detail::for_each_group_of_row(begin, begin + rows.length, may_matter,
+                                  [&](Site s) { largest = std::max<double>(largest, body(s)); });
     partial[std::size_t(r)] = largest;
   });
   double largest = least;
   for (double p : partial) largest = std::max(largest, p);
   return largest;
+}
+
+template <int Dim, class Body>
+double local_max(const Layout<Dim>& layout, const Box<Dim>& box, double least, const Body& body) {
+  return local_max_of_possible(
+      layout, box, least, [](Site) { return true; }, body);
 }
 
 }  // namespace seiche

@@ -104,7 +104,14 @@ Box<Dim> slab(Box<Dim> box, int axis, int side) {
 // Unknown sites of the box beside known ones.
 template <int Dim>
 std::vector<Site> first_front(const Layout<Dim>& layout, const Box<Dim>& box, const FieldValues<char>& known) {
-  return listed_sites(layout, box, [&](Site s) {
+  const auto may_matter = [&](Site s) {
+    const char* at = known.data() + s;
+    bool beside = any_marked(at - 1) || any_marked(at + 1);
+    for (int a = 1; a < Dim; ++a)
+      beside = beside || any_marked(at - layout.stride(a)) || any_marked(at + layout.stride(a));
+    return beside && !all_marked(at);
+  };
+  return listed_possible(layout, box, may_matter, [&](Site s) {
     if (known[s] != 0) return false;
     for (int a = 0; a < Dim; ++a)
       if (known[s - layout.stride(a)] != 0 || known[s + layout.stride(a)] != 0) return true;

@@ -144,11 +144,17 @@ double share_of(Cube<Dim>& c) {
   return cube_part(c);
 }
 
+// m; farther than any corner of a cell from its centre.
+template <int Dim>
+double far_above(const Layout<Dim>& layout) {
+  return 2 * layout.h();
+}
+
 // The share of a cell that no surface comes near.
 template <int Dim>
 std::optional<double> plain_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
                                   Site cell) {
-  const double far = 2 * layout.h();  // farther than any corner of the cell from its centre
+  const double far = far_above(layout);
   if (phi[cell] > far) return 0;
   if (phi[cell] < -far && psi[cell] > far) return 1;
   return {};
@@ -211,14 +217,17 @@ double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const 
 
 template <int Dim>
 double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
-  return layout.geometry().cell_volume() *
-         local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) { return liquid_share(layout, phi, psi, s); });
+  return layout.geometry().cell_volume() * local_sum_of_possible(
+                                               layout, layout.cells(),
+                                               [&](Site s) { return !all_above(phi.data() + s, far_above(layout)); },
+                                               [&](Site s) { return liquid_share(layout, phi, psi, s); });
 }
 
 template <int Dim>
 VolumeAndArea local_volume_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
   const double probe = 1e-3 * layout.h();
-  VolumeAndArea sum = local_sum(layout, layout.cells(), [&](Site s, const IVec<Dim>&) -> VolumeAndArea {
+  const auto may_matter = [&](Site s) { return !all_above(phi.data() + s, far_above(layout)); };
+  VolumeAndArea sum = local_sum_of_possible(layout, layout.cells(), may_matter, [&](Site s) -> VolumeAndArea {
     if (const std::optional<double> plain = plain_share(layout, phi, psi, s)) return {*plain, 0};
     Cube<Dim> c = corners_of(layout, phi, psi, s);
     const double share = share_of(c);

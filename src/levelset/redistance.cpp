@@ -111,8 +111,9 @@ class Relaxation {
   };
 
   void collect(const CellField<Dim, char>& fixed) {
-    const std::vector<Site> sites =
-        listed_sites(layout_, layout_.cells(), [&](Site s) { return start_[s] != 0 && !fixed[s] && near_band(s); });
+    const std::vector<Site> sites = listed_possible(
+        layout_, layout_.cells(), [&](Site s) { return any_near_band(s); },
+        [&](Site s) { return start_[s] != 0 && !fixed[s] && near_band(s); });
     cells_.resize(sites.size());
     parallel_range_in_tasks(sites.size(), 4096, [&](std::size_t k) { cells_[k] = describe(sites[k]); });
     for (const Site s : sites) collect_lines(s, layout_.index(s));
@@ -156,6 +157,16 @@ class Relaxation {
   }
 
   // True if s is in the band or at most entering_ cells from it.
+  // near_band() of any of a group.
+  bool any_near_band(Site s) const {
+    const double* f = start_.data() + s;
+    if (any_within(f, limit_)) return true;
+    for (int a = 0; a < Dim; ++a)
+      for (int n = 1; n <= entering_; ++n)
+        if (any_within(f - n * layout_.stride(a), limit_) || any_within(f + n * layout_.stride(a), limit_)) return true;
+    return false;
+  }
+
   bool near_band(Site s) const {
     if (std::abs(start_[s]) < limit_) return true;
     for (int a = 0; a < Dim; ++a)

@@ -20,21 +20,23 @@ double fastest_inflow(const Domain<Dim>& domain, const TimeLevel<Dim>& level) {
   return fastest;
 }
 
-// 0 if there is no such level.
+// Largest |u| of the owned valid faces; 0 if there is no such level. Local.
 template <int Dim>
-double speed_at(const std::shared_ptr<const TimeLevel<Dim>>& level, int axis, Site f) {
-  return level && level->valid.at(axis, f) ? std::abs(level->u.at(axis, f)) : 0.0;
+double fastest_of(const Layout<Dim>& layout, const std::shared_ptr<const TimeLevel<Dim>>& level) {
+  double fastest = 0;
+  for (int a = 0; level && a < Dim; ++a)
+    fastest = local_max_of_possible(
+        layout, layout.faces(a), fastest, [&](Site f) { return any_marked(level->valid[a].data() + f); },
+        [&](Site f) { return level->valid.at(a, f) ? std::abs(level->u.at(a, f)) : 0.0; });
+  return fastest;
 }
 
 }  // namespace
 
 template <int Dim>
 double fastest_component(const Domain<Dim>& domain, const State<Dim>& state) {
-  double fastest = 0;
-  for (int a = 0; a < Dim; ++a)
-    fastest = std::max(fastest, local_max(domain.layout, domain.layout.faces(a), 0.0, [&](Site f) {
-                         return std::max(speed_at(state.now, a, f), speed_at(state.exterior->flow.now, a, f));
-                       }));
+  const double fastest =
+      std::max(fastest_of(domain.layout, state.now), fastest_of(domain.layout, state.exterior->flow.now));
   return domain.ranks.global_max(std::max(fastest, fastest_inflow(domain, *state.now)));
 }
 

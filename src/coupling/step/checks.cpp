@@ -27,7 +27,9 @@ std::string name_non_finite(const Layout<Dim>& layout, const std::string& name, 
 template <int Dim>
 std::string find_non_finite(const Domain<Dim>& domain, const std::string& name, const Box<Dim>& box, const double* f) {
   std::string mine;
-  if (local_max(domain.layout, box, 0, [&](Site c) { return std::isfinite(f[c]) ? 0 : 1; }) > 0)
+  if (local_max_of_possible(
+          domain.layout, box, 0, [&](Site c) { return !all_finite(f + c); },
+          [&](Site c) { return std::isfinite(f[c]) ? 0 : 1; }) > 0)
     mine = name_non_finite(domain.layout, name, box, f);
   if (!domain.ranks.any(!mine.empty())) return {};
   for (const std::string& text : domain.ranks.all_gather(mine))

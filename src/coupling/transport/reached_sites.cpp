@@ -1,5 +1,7 @@
 #include "coupling/transport/reached_sites.h"
 
+#include <cstring>
+
 #include "grid/loops.h"
 
 namespace seiche {
@@ -16,6 +18,7 @@ void widen(const Layout<Dim>& layout, int axis, int width, CellField<Dim, char>&
       if (axis > 0 && (i[axis] + k < all.lower[axis] || i[axis] + k >= all.upper[axis])) continue;
       const int begin = axis == 0 ? std::max(0, -k) : 0, end = axis == 0 ? std::min(length, length - k) : length;
       const char* from = old.data() + first + k * layout.stride(axis);
+      if (std::memchr(from + begin, 1, std::size_t(end - begin)) == nullptr) continue;
       for (int n = begin; n < end; ++n) to[n] = char(to[n] | from[n]);
     }
   });

@@ -103,14 +103,21 @@ void follow_solids(const Domain<Dim>& domain, const Fluids& fluids, const Solids
 // Invalidates all faces of a level but the marked ones, and sets their u, q and n to 0.
 template <int Dim>
 void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, TimeLevel<Dim>& level) {
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(layout, layout.faces(a), [&](Site f) {
+  for (int a = 0; a < Dim; ++a) {
+    const bool viscous = !level.n[a].empty();
+    const auto may_matter = [&](Site f) {
+      return !all_marked(marked[a].data() + f) &&
+             (any_marked(level.valid[a].data() + f) || !all_zero(level.u[a].data() + f) ||
+              !all_zero(level.q[a].data() + f) || (viscous && !all_zero(level.n[a].data() + f)));
+    };
+    for_each_possible(layout, layout.faces(a), may_matter, [&](Site f) {
       if (marked.at(a, f)) return;
       set_if_other(level.valid.at(a, f), char(face_unknown_to_flow));
       set_if_other(level.u.at(a, f), 0.0);
       set_if_other(level.q.at(a, f), 0.0);
-      if (!level.n[a].empty()) set_if_other(level.n.at(a, f), 0.0);
+      if (viscous) set_if_other(level.n.at(a, f), 0.0);
     });
+  }
 }
 
 // Calls body(face) for the owned faces across an axis that lie on sides of the domain.

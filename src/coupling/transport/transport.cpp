@@ -1,5 +1,6 @@
 #include "coupling/transport/transport.h"
 
+#include <cstring>
 #include "base/time_spec.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
@@ -66,6 +67,7 @@ FaceField<Dim, char> faces_within(const Domain<Dim>& domain, const FaceField<Dim
       for (int later = axis + 1; later < Dim; ++later) box.lower[later] -= reach, box.upper[later] += reach;
       for_each_row(layout, box.cut(layout.padded()), [&](Site f, const IVec<Dim>& i, int length) {
         char* to = interior[a].data() + f;
+        if (std::memchr(to, 1, std::size_t(length)) == nullptr) return;
         if (axis == 0) return require_along_row(old.data() + f, i[0], length, reach, periodic, last, to);
         const int from = periodic ? -reach : std::max(-reach, -i[axis]),
                   until = periodic ? reach : std::min(reach, last - i[axis]);
@@ -269,10 +271,13 @@ void make_distance(const Domain<Dim>& domain, const Fluids& fluids, const Solids
 template <int Dim>
 FaceField<Dim, char> faces_near_liquid(const Domain<Dim>& domain, const CellField<Dim>& phi) {
   FaceField<Dim, char> near(domain.layout);
-  for (int a = 0; a < Dim; ++a)
-    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+  for (int a = 0; a < Dim; ++a) {
+    const double* low = phi.data() - domain.layout.stride(a);
+    const auto may_matter = [&](Site f) { return any_negative(phi.data() + f) || any_negative(low + f); };
+    for_each_possible(domain.layout, domain.layout.faces(a), may_matter, [&](Site f) {
       if (phi[f] < 0 || phi[f - domain.layout.stride(a)] < 0) near.at(a, f) = 1;
     });
+  }
   return near;
 }
 
