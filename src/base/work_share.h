@@ -6,14 +6,13 @@
 
 namespace seiche {
 
-// Functions with results are collective and give all processes the same bits.
 class WorkShare {
  public:
   virtual ~WorkShare() = default;
   virtual int processes() const = 0;
   // This process's share of the indices 0 <= i < n.
   virtual IndexRange of(int n) const = 0;
-  // Sums element by element, in place, and the least value.
+  // Sums element by element, in place, and the least value: the same bits on all processes. Collective.
   virtual void add_up(std::span<double> values) const = 0;
   virtual double least(double value) const = 0;
 };
