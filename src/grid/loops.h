@@ -197,12 +197,6 @@ std::vector<Site> listed_possible(const Layout<Dim>& layout, const Box<Dim>& box
   return all;
 }
 
-template <int Dim, class Wanted>
-std::vector<Site> listed_sites(const Layout<Dim>& layout, const Box<Dim>& box, const Wanted& wanted) {
-  return listed_possible(
-      layout, box, [](Site) { return true; }, wanted);
-}
-
 // Sum of body(site, index), numbers or a type with += and zero {}, over a box on this rank only.
 template <int Dim, class Body>
 auto local_sum(const Layout<Dim>& layout, const Box<Dim>& box, const Body& body) {

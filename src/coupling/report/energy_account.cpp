@@ -66,8 +66,8 @@ double power(const SolidLoad& load, const Vec3& position, const Twist& twist) {
   return load.force.dot(twist.at(position)) + load.torque.dot(twist.angular);
 }
 
-// Weight of the viscous stress at the start of a step in its mean over the step: 1/2 where viscosity moves momentum by
-// less than half a cell in a step. Stiff stress is that of the end alone, whatever it was before.
+// Weight of the viscous stress at the start of a step in its mean over the step: 1/2 up to
+// mu dt/(rho h^2) = 1/2. From 1 on, stiff stress is that of the end alone.
 template <int Dim>
 double weight_of_start(const State<Dim>& state, double dt) {
   return std::clamp(1 - dt * state.viscous_rate, 0.0, 0.5);

@@ -30,7 +30,7 @@ double contact_energy(const Scene<Dim>& scene, const Interval<Dim>& interval, co
                       const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,
                       const Weights& weights);
 
-// Of K only the `columns` are filled.
+// Fills the `columns` of K alone.
 template <int Dim>
 ContactTerms contact_terms(const Scene<Dim>& scene, const Interval<Dim>& interval, const Placement<Dim>& at,
                            const std::vector<Candidate>& pairs, const std::vector<FrictionPoint<Dim>>& friction,

@@ -51,7 +51,7 @@ template <int Dim>
 Gradient<Dim> deformation_at(const ElasticBody<Dim>& body, int q, const Eigen::VectorXd& u);
 
 // Psi(u) (J), with the guard of solid/material/guard.h below a tenth of the rest volume; infinite where det F <= 0.
-// Includes the work against the held pressure, if any. Of the given elements alone, as all that follow.
+// Includes the work against the held pressure, if any. Sums the given elements alone, as all that follow.
 template <int Dim>
 double elastic_energy(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, const HeldPressure<Dim>& held,
                       IndexRange elements);
