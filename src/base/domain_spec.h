@@ -1,11 +1,10 @@
 #pragma once
 // The table [domain] of a scene. Plain data in SI units.
 #include "base/formula.h"
+#include "base/side_type.h"
 #include "base/vec.h"
 
 namespace seiche {
-
-enum class SideType { free_slip, no_slip, periodic, inflow, outflow, moving_wall };
 
 struct SideSpec {
   SideType type = SideType::free_slip;

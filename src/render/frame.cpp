@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/expression.h"
-#include "base/scene.h"
+#include "base/solid_spec.h"
 #include "files/frames.h"
 #include "files/vtu_reader.h"
 #include "geometry/shapes/shapes.h"
@@ -124,10 +124,10 @@ std::vector<int> list_frames(const std::filesystem::path& frames) {
   return numbers;
 }
 
-void clip_to_containers(LoadedFrame& frame, const Scene& scene) {
+void clip_to_containers(LoadedFrame& frame, const std::vector<SolidSpec>& solids) {
   if (frame.dimension != 3 || !frame.phi) return;
   ScalarVolume& phi = *frame.phi;
-  for (const SolidSpec& solid : scene.solids) {
+  for (const SolidSpec& solid : solids) {
     if (!solid.shape.invert) continue;
     const PlacedShape shape(solid, phi.h, frame.time);
     for (std::size_t c = 0; c < phi.values.size(); ++c) {

@@ -9,7 +9,7 @@
 #include "render/bvh.h"
 
 namespace seiche {
-struct Scene;
+struct SolidSpec;
 }
 
 namespace seiche::render {
@@ -39,6 +39,6 @@ std::vector<int> list_frames(const std::filesystem::path& frames);
 
 // Removes the liquid inside inverted solids (containers). The level set continues into solids, and containers are drawn
 // without their outside.
-void clip_to_containers(LoadedFrame& frame, const Scene& scene);
+void clip_to_containers(LoadedFrame& frame, const std::vector<SolidSpec>& solids);
 
 }  // namespace seiche::render

@@ -1,6 +1,6 @@
 #include "render/palette.h"
 
-#include "base/scene.h"
+#include "base/solid_spec.h"
 
 namespace seiche::render {
 namespace {
@@ -15,10 +15,10 @@ Vec3f body_color(std::size_t n) {
 
 }  // namespace
 
-std::vector<Vec3f> solid_colors(const Scene& scene) {
+std::vector<Vec3f> solid_colors(const std::vector<SolidSpec>& solids) {
   std::vector<Vec3f> colors;
   std::size_t bodies = 0;
-  for (const SolidSpec& solid : scene.solids) {
+  for (const SolidSpec& solid : solids) {
     if (solid.kind.is_free())
       colors.push_back(body_color(bodies++));
     else

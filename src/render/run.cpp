@@ -81,12 +81,12 @@ Canvas picture_2d(const Job& job, LoadedFrame& frame) {
           "the frames have neither a surface nor the field given by --color; render other frames or another --color");
     std::fill(frame.phi->values.begin(), frame.phi->values.end(), -frame.phi->h);
   }
-  const Plot plot{frame.domain, *frame.phi, frame.quantity, job.scale, frame.solids, solid_colors(job.scene)};
+  const Plot plot{frame.domain, *frame.phi, frame.quantity, job.scale, frame.solids, solid_colors(job.scene.solids)};
   return plot_picture(plot, job.options.width, job.options.height);
 }
 
 Canvas picture_3d(const Job& job, LoadedFrame& frame) {
-  clip_to_containers(frame, job.scene);
+  clip_to_containers(frame, job.scene.solids);
   Stage stage;
   stage.domain = frame.domain;
   stage.up_axis = axis_upwards(job);
@@ -94,7 +94,7 @@ Canvas picture_3d(const Job& job, LoadedFrame& frame) {
   stage.quantity = std::move(frame.quantity);
   stage.scale = job.scale;
   stage.solids = Bvh(smooth_triangles(frame.solids));
-  stage.colors = solid_colors(job.scene);
+  stage.colors = solid_colors(job.scene.solids);
   for (const SolidSpec& solid : job.scene.solids) stage.containers.push_back(solid.shape.invert);
   const auto& [width, height] = std::array{job.options.width, job.options.height};
   const Camera camera = job.options.camera ? make_camera(*job.options.camera, stage.up(), width, height)

@@ -64,6 +64,10 @@ PhaseFault RunLoop::visit(const std::string& phase) {
   return context_.hook ? context_.hook(phase) : PhaseFault::none;
 }
 
+double RunLoop::frame_time(int frame) const {
+  return frame / context_.scene.time.frame_rate;
+}
+
 double RunLoop::session_seconds() const {
   return seconds_since(context_.began);
 }

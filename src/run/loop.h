@@ -6,7 +6,6 @@
 
 #include "base/emergency_channel.h"
 #include "base/error.h"
-#include "base/time_spec.h"
 #include "coupling/state/simulation.h"
 #include "files/frames.h"
 #include "files/run_directory.h"
@@ -20,6 +19,7 @@
 namespace seiche {
 
 struct Scene;
+struct TimeSpec;
 
 // Number of the last frame. Frame n is at t = n / frame_rate; the last one is at `end` or, within rounding, just above.
 // -1 for end < 0.
@@ -72,7 +72,7 @@ class RunLoop {
   PhaseFault visit(const std::string& phase);
   void account(const StepStats& stats);
   void pass_on_warnings();
-  double frame_time(int frame) const { return frame / context_.scene.time.frame_rate; }
+  double frame_time(int frame) const;
   double session_seconds() const;
 
   Simulation& simulation_;

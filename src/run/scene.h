@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
-
 namespace seiche {
+
+struct Scene;
 
 // Hash of the normalised scene without the keys that may always change (time.end, output.checkpoint_every).
 std::string scene_hash(const Scene& scene);

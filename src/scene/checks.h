@@ -1,9 +1,10 @@
 #pragma once
 // Checks between the keys of a scene, after each has been read.
-#include "base/scene.h"
 #include "scene/context.h"
 
 namespace seiche {
+
+struct Scene;
 
 // Reports extents that are not a whole number of cells, too small or too large grids, one-sided periodicity,
 // inconsistent times, duplicate names, probes outside the domain, too many rigid solids, and motions that jump. Sets

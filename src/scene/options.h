@@ -3,10 +3,19 @@
 #include <vector>
 
 #include "base/options.h"
-#include "base/scene.h"
+#include "base/vec.h"
 #include "scene/section.h"
 
 namespace seiche {
+
+struct ElasticSpec;
+struct LiquidSpec;
+struct MotionSpec;
+struct RigidSpec;
+struct Scene;
+struct ShapeSpec;
+struct SolidSpec;
+struct SolverSpec;
 
 // The top level; all other keys are below it.
 const Section<Scene>& scene_section();

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
 #include "scene/writer.h"
 
 namespace seiche {
+
+struct Scene;
 
 // --set key.path=value. The value is TOML; bare words and formulas count as text. Array entries count from 0
 // (solid.0.radius).

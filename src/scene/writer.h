@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "base/scene.h"
-
 namespace seiche {
+
+struct Scene;
 
 // The scene as normalised TOML with all defaults written out; reads back to the same scene. File names are absolute
 // paths.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <random>
 
+#include "base/scene.h"
 #include "coupling/report/measures.h"
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/kind_rigid.h"
@@ -170,7 +171,7 @@ struct Balance {
       correction.add(now.center, dt * extra.linear);
       correction.angular += dt * extra.angular;
     }
-    const auto solids_now = measure_solids(p.setup.domain, p.setup.solids, p.setup.scene.time, p.state, p.geometry);
+    const auto solids_now = measure_solids(p.setup.domain, p.setup.solids, p.setup.scene->time, p.state, p.geometry);
     for (std::size_t k = 0; k < solids_now.size(); ++k) {
       if (p.state.solids[k].unknowns() > 0) continue;
       solids.add(solids_now[k].position, -dt * solids_now[k].force);

@@ -1,6 +1,5 @@
 #pragma once
 // Reported quantities of a state: energies, momentum, forces on solids, probes, fields for frames.
-#include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -8,6 +7,9 @@
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
+
+struct ProbeSpec;
+struct TimeSpec;
 
 // Energy, momentum, volumes and speed of liquid and gas, and the columns of the exterior. Collective.
 template <int Dim>

@@ -1,4 +1,5 @@
 // Probes: pressure and velocity at a point, surface height above it, front along x, displacement of an elastic solid.
+#include "base/probe_spec.h"
 #include "coupling/report/measures.h"
 #include "coupling/report/pressure_beside_solids.h"
 #include "coupling/state/fluids.h"

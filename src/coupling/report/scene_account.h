@@ -8,6 +8,8 @@
 
 namespace seiche {
 
+struct DomainSpec;
+
 struct SceneAccount {
   std::vector<std::string> lines;     // volume of liquid; mass, size and place of the solids
   std::vector<std::string> warnings;  // regions without liquid, solids outside the domain

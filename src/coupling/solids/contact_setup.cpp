@@ -7,6 +7,7 @@
 
 #include "base/domain_spec.h"
 #include "base/error.h"
+#include "base/time_spec.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
@@ -39,7 +40,7 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
 }  // namespace
 
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids,
+ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participants<Dim>& solids,
                                      const OperatorPerturbation& perturbation) {
   std::vector<ContactBody> contact;
   for (std::size_t k = 0; k < solids.size(); ++k) {
@@ -51,7 +52,7 @@ ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>
     if (c.friction) *c.friction *= perturbation.friction;
     c.name = body.spec().name;
   }
-  return {contact, closed_sides<Dim>(scene.domain)};
+  return {contact, closed_sides<Dim>(extent)};
 }
 
 template <int Dim>
@@ -229,14 +230,15 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
   return largest_safe_fraction(*solids.contact, contact_motions(state, dt), dt, velocities_over(solids, state, dt));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template ContactScene<D> make_contact_scene<D>(const Scene&, const Participants<D>&, const OperatorPerturbation&); \
-  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);             \
-  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);    \
-  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);          \
-  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                   \
-  template ContactOptions contact_options<D>(const Domain<D>&, const DomainSpec&, const TimeSpec&, const Gravity&,   \
-                                             const OperatorPerturbation&);                                           \
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template ContactScene<D> make_contact_scene<D>(const DomainSpec&, const Participants<D>&,                        \
+                                                 const OperatorPerturbation&);                                     \
+  template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
+  template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);  \
+  template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);        \
+  template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                 \
+  template ContactOptions contact_options<D>(const Domain<D>&, const DomainSpec&, const TimeSpec&, const Gravity&, \
+                                             const OperatorPerturbation&);                                         \
   template double safe_share<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

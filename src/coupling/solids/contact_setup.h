@@ -1,6 +1,5 @@
 #pragma once
 // The solids and the walls of the domain as the contact solve sees them.
-#include "base/domain_spec.h"
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -9,9 +8,12 @@
 
 namespace seiche {
 
+struct DomainSpec;
+struct TimeSpec;
+
 // All solids of the scene. Every side of the domain is a wall, except periodic and outflow sides.
 template <int Dim>
-ContactScene<Dim> make_contact_scene(const Scene& scene, const Participants<Dim>& solids,
+ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participants<Dim>& solids,
                                      const OperatorPerturbation& perturbation);
 
 // Throws Error(bad_input), naming the pairs and depths: a body with unknowns touches or overlaps something at the

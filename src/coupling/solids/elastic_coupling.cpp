@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/scene.h"
 #include "coupling/solids/face_columns.h"
 #include "coupling/solids/facet_fluxes.h"
 #include "coupling/state/fluids.h"
@@ -212,6 +213,10 @@ Eigen::MatrixXd smooth_loads(const ElasticBody<Dim>& body, const Eigen::VectorXd
 
 }  // namespace
 
+ElasticScheme elastic_scheme(const TimeSpec& time) {
+  return time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
+}
+
 // Gravity and the scene's forces on each node.
 template <int Dim>
 StepLoad step_load(const Gravity& varying, const ElasticSolid<Dim>& solid, const State<Dim>& state, double dt,
@@ -238,7 +243,7 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   const Vec<Dim> gravity = truncate<Dim>(s.fluids.gravity.of_step(state.time, dt));
   const Eigen::VectorXd g_nodes = gravity.replicate(e.u.size() / Dim, 1);
   hold_pins(solid, e.u, state.time + horizon, horizon, first, c);
-  const auto p = begin_step(solid.body, e, elastic_scheme(s.scene.time), horizon,
+  const auto p = begin_step(solid.body, e, elastic_scheme(s.scene->time), horizon,
                             step_load(s.fluids.gravity, solid, state, dt, horizon));
   add_inertia(p, e.u, dt, horizon, first, parts);
   c.free.segment(first, e.v.size()) = e.v + dt * g_nodes;

@@ -7,6 +7,8 @@
 
 namespace seiche {
 
+struct TimeSpec;
+
 // Adds the pins, inertia and potential of elastic body k; its columns of J go to parts.entries. The unknowns w are
 // nodal velocities: the displacements after the horizon H are u + H w. Collective.
 template <int Dim>
@@ -18,9 +20,7 @@ template <int Dim>
 void set_elastic_columns(const CoupledStep<Dim>& step, int k, int block, CouplingParts<Dim>& parts);
 
 // Time scheme of elastic solids that matches the liquid's.
-inline ElasticScheme elastic_scheme(const TimeSpec& time) {
-  return time.scheme == TimeScheme::first_order ? ElasticScheme::backward_euler : ElasticScheme::bdf2;
-}
+ElasticScheme elastic_scheme(const TimeSpec& time);
 
 // Gravity and the scene's forces on an elastic solid over the horizon that follows `state`. dt: the step that led to
 // `state`.

@@ -4,6 +4,7 @@
 
 #include <unordered_map>
 
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/solids/elastic_coupling.h"
 #include "coupling/solids/solid_kinds.h"
@@ -109,7 +110,7 @@ void ElasticParticipant<Dim>::advance(const Stride<Dim>& stride) {
   const Setup<Dim>& s = stride.setup;
   const State<Dim>& before = stride.before;
   motion_.velocity = stride.velocity;
-  seiche::advance(elements().body, elastic_scheme(s.scene.time), stride.dt,
+  seiche::advance(elements().body, elastic_scheme(s.scene->time), stride.dt,
                   step_load(s.fluids.gravity, elements(), before, before.dt_now, before.horizon),
                   pins_at(elements(), before.time + stride.dt), motion_);
 }

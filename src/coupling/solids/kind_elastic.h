@@ -1,11 +1,12 @@
 #pragma once
 // Elastic solids: their unknowns are the velocities of the nodes of their elements over the coming step.
-#include "base/time_spec.h"
 #include "coupling/state/participant.h"
 #include "coupling/state/state.h"
 #include "solid/body/elastic_motion.h"
 
 namespace seiche {
+
+struct TimeSpec;
 
 template <int Dim>
 class ElasticParticipant : public Participant<Dim> {

@@ -1,11 +1,12 @@
 #pragma once
 // Rigid solids: their unknowns are the velocity of the centre of mass and the angular velocity.
-#include "base/time_spec.h"
 #include "coupling/state/participant.h"
 #include "coupling/state/state.h"
 #include "solid/rigid/state.h"
 
 namespace seiche {
+
+struct TimeSpec;
 
 template <int Dim>
 class RigidParticipant : public Participant<Dim> {

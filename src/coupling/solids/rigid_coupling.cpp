@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/domain_spec.h"
+#include "base/scene.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "fluid/boundary/domain.h"
@@ -200,7 +201,7 @@ template <int Dim>
 void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, int first, const double* sums,
                   SolidCoupling<Dim>& c) {
   const Setup<Dim>& s = step.setup;
-  if (!lies_within<Dim>(s.scene.domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
+  if (!lies_within<Dim>(s.scene->domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
   const Vec3 gravity = s.fluids.gravity.of_step(step.state.time, step.dt);
   c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
       buoyancy_difference(read_sums<Dim>(sums), body.mass().volume, s.fluids.density() * gravity)

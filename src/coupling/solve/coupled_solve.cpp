@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/scene.h"
 #include "base/solver_spec.h"
 #include "coupling/solids/end_of_step.h"
 #include "coupling/solids/sealed_liquid.h"
@@ -33,7 +34,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   const ProjectionInput<Dim>& in = input.liquid;
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
   const SolveOptions options{
-      .tolerance = s.scene.solver.tolerance, .preconditioner = s.scene.solver.preconditioner, .jumps = in.has_gas()};
+      .tolerance = s.scene->solver.tolerance, .preconditioner = s.scene->solver.preconditioner, .jumps = in.has_gas()};
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.domain.ranks);
   refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
@@ -42,7 +43,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.domain.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
                 s.domain.ranks);
-  if (iterates_on_bodies(s.solids, s.scene.solver, coupling)) problem.solve_together(kkt);
+  if (iterates_on_bodies(s.solids, s.scene->solver, coupling)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);
   set_pressure(input, p, r);
@@ -64,9 +65,10 @@ CoupledSolution<Dim> solve_once(const CoupledInput<Dim>& input) {
   set_held_velocities(s.domain, coupling, input.geometry);
   take_prescribed_fluxes(s.domain, input.geometry, r.rows, coupling.cavities);
   if (input.flux_of_end) add_flux_of_end(s.domain, r.rows, liquid.closed, *input.flux_of_end, input.geometry.faces);
-  const ViscousRoute route = input.viscosity ? choose_route(s.domain, s.fluids, s.solids, coupling.J,
-                                                            s.scene.solver.viscosity, *input.viscosity, input.liquid.dt)
-                                             : ViscousRoute::none;
+  const ViscousRoute route = input.viscosity
+                                 ? choose_route(s.domain, s.fluids, s.solids, coupling.J, s.scene->solver.viscosity,
+                                                *input.viscosity, input.liquid.dt)
+                                 : ViscousRoute::none;
   if (route == ViscousRoute::coupled) {
     solve_with_viscosity(input, liquid, coupling, r);
   } else {
@@ -101,7 +103,7 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   const ProjectionInput<Dim>& in = input.liquid;
   if (!in.separation) return solve_once(input);
   State<Dim>& state = input.state;
-  SeparationSearch<Dim> search(in, pull * input.setup.scene.solver.tolerance, state.separation);
+  SeparationSearch<Dim> search(in, pull * input.setup.scene->solver.tolerance, state.separation);
   const StepGeometry<Dim> still = input.geometry;
   const Participants<Dim> solids = state.solids;
   CoupledSolution<Dim> r;

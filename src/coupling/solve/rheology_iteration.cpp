@@ -1,5 +1,6 @@
 #include "coupling/solve/rheology_iteration.h"
 
+#include "base/scene.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 #include "coupling/transport/transport.h"
@@ -30,7 +31,7 @@ bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
   for (double& x : largest) x = setup_.domain.ranks.global_max(x);
   change_ = largest[1] > 0 ? largest[0] / largest[1] : 0;
   last_ = u;
-  if (change_ <= setup_.scene.solver.rheology_tolerance || count_ >= setup_.scene.solver.rheology_iterations)
+  if (change_ <= setup_.scene->solver.rheology_tolerance || count_ >= setup_.scene->solver.rheology_iterations)
     return false;
   viscosity_ = measure_viscosity(setup_.domain, setup_.fluids, setup_.perturbation, state_, flow);
   return true;

@@ -1,5 +1,6 @@
 #include "coupling/solve/solids_minimum.h"
 
+#include "base/scene.h"
 #include "base/solver_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solve/contact_model.h"
@@ -90,8 +91,8 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
   }
   const auto motions = contact_motions(state, horizon);
   const ContactOptions options =
-      contact_options(s.domain, s.scene.domain, s.scene.time, s.fluids.gravity, s.perturbation);
-  ContactInLiquid modelled = solve_modelled(s.solids, s.scene.solver, motions, dt, horizon, coupling, liquid, options);
+      contact_options(s.domain, s.scene->domain, s.scene->time, s.fluids.gravity, s.perturbation);
+  ContactInLiquid modelled = solve_modelled(s.solids, s.scene->solver, motions, dt, horizon, coupling, liquid, options);
   ContactReport contact = std::move(modelled.contact);
   if (!modelled.agreed && contact.failure.empty())
     contact = solve_in_turns(s.solids, motions, dt, horizon, coupling, problem, options, contact);

@@ -1,5 +1,6 @@
 #pragma once
 // Viscosity in the coupled solve of a step: its values, the choice of solver and the operator.
+#include "base/solver_spec.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/operator_perturbation.h"

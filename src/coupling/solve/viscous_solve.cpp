@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "base/scene.h"
 #include "coupling/solve/viscous_problem.h"
 #include "coupling/state/setup.h"
 #include "grid/loops.h"
@@ -38,7 +39,7 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                        .mass = v.mass,
                        .axis = std::move(axes),
                        .position = std::move(positions)},
-                      {.tolerance = in.setup.scene.solver.tolerance}, in.setup.domain.ranks);
+                      {.tolerance = in.setup.scene->solver.tolerance}, in.setup.domain.ranks);
 }
 
 // u + by * slope on faces with an unknown velocity. Ghosts filled.

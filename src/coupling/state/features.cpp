@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
@@ -49,16 +50,16 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
       {F::leapfrog, "leapfrog of surface and velocity",
        "surface and bodies move at once, before the solve; positions are of first order in the step where its length "
        "changes",
-       [](S s) { return is_second_order(s.fluids, s.scene.time); }},
+       [](S s) { return is_second_order(s.fluids, s.scene->time); }},
       {F::shared_viscosity, "viscous stress shared between start and end of a step",
        "it is taken at the end of the step; its error in time is four times as large",
-       [](S s) { return is_second_order(s.fluids, s.scene.time) && s.fluids.is_viscous(); }},
+       [](S s) { return is_second_order(s.fluids, s.scene->time) && s.fluids.is_viscous(); }},
       {F::shear_jump, "jump of shear across the surface between fluids",
        "shear beside the surface is smeared over a cell",
        [](S s) { return s.fluids.has_gas() && s.fluids.is_viscous(); }},
       {F::one_sided_at_medial_axis, "one-sided interpolation at the medial axis of the surface's distance",
        "the surface is interpolated across its medial axis, and thin films are transported less sharply",
-       [](S s) { return s.scene.time.scheme == TimeScheme::second_order; }},
+       [](S s) { return s.scene->time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
        "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }}};
   return table;
@@ -86,7 +87,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
   using S = const Setup<Dim>&;
   using B = const Body<Dim>&;
   static const std::vector<Exclusion<Dim>> table{
-      {F::leapfrog, "scheme = \"first_order\"", [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
+      {F::leapfrog, "scheme = \"first_order\"", [](S s) { return s.scene->time.scheme == TimeScheme::first_order; }},
       {F::leapfrog, "a prescribed flow", [](S s) { return s.fluids.has_prescribed_flow(); }},
       {F::leapfrog, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::leapfrog, "enclosed air that keeps its volume", [](S s) { return s.fluids.keeps_air(); }},
@@ -96,7 +97,7 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::leapfrog, "solids thinner than a cell",
        [](S s) { return any_body<Dim>(s.solids, [](B b) { return b.is_thin(); }); }},
       {F::shared_viscosity, "scheme = \"first_order\"",
-       [](S s) { return s.scene.time.scheme == TimeScheme::first_order; }},
+       [](S s) { return s.scene->time.scheme == TimeScheme::first_order; }},
       {F::shared_viscosity, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::shared_viscosity, "solids", [](S s) { return !s.solids.bodies.empty(); }},
       {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return !s.fluids.constant_viscosity(); }},

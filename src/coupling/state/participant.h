@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/gravity.h"
-#include "base/time_spec.h"
 #include "coupling/geometry/step_geometry.h"
 #include "coupling/state/simulation.h"
 #include "coupling/state/state_visitor.h"
@@ -13,6 +12,9 @@
 #include "solid/contact/contact.h"
 
 namespace seiche {
+
+struct DomainSpec;
+struct TimeSpec;
 
 template <int Dim>
 struct Setup;

@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 
-#include "base/scene.h"
 #include "coupling/state/exterior.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
@@ -15,10 +14,12 @@
 
 namespace seiche {
 
+struct Scene;
+
 // Functions take the members that they read. Only functions that concern a whole step or scene take all of Setup.
 template <int Dim>
 struct Setup {
-  Scene scene;
+  std::shared_ptr<const Scene> scene;  // incomplete here: who reads a key includes base/scene.h
   OperatorPerturbation perturbation;
   std::vector<std::string> notes;  // from reading the shapes, for the log
   Fluids fluids;

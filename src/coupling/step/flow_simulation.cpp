@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/report/energy_account.h"
 #include "coupling/report/energy_budget.h"
@@ -53,7 +54,7 @@ class FlowSimulation : public Simulation {
     surfaces_ = rest_surfaces();
     phases_.warnings = setup_.notes;
     warn_of_long_steps();
-    account_ = account_scene(setup_.domain, setup_.fluids, setup_.solids, setup_.scene.domain, state_, geometry_.psi);
+    account_ = account_scene(setup_.domain, setup_.fluids, setup_.solids, setup_.scene->domain, state_, geometry_.psi);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
     refresh_from_state();
   }
@@ -65,7 +66,7 @@ class FlowSimulation : public Simulation {
   std::vector<SolidState> solids() const override { return solids_; }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
-    return measure_probe(setup_, state_, geometry_, setup_.scene.probes.at(k));
+    return measure_probe(setup_, state_, geometry_, setup_.scene->probes.at(k));
   }
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_.domain, setup_.fluids, state_, name);
@@ -93,7 +94,7 @@ class FlowSimulation : public Simulation {
       for (const std::string& line : a.solve.failed_attempts)
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
-    const std::string close = nearest_solids(setup_.domain, setup_.solids, setup_.scene.domain, state_);
+    const std::string close = nearest_solids(setup_.domain, setup_.solids, setup_.scene->domain, state_);
     throw Error(ExitCode::cannot_continue,
                 fmt::format("{} (after {} halvings; {})", failures, most_halvings,
                             close.empty() ? remedy() : "solids almost in contact: " + close));
@@ -137,7 +138,7 @@ class FlowSimulation : public Simulation {
   // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
   Attempt<Dim> first_step(double dt) {
     Attempt<Dim> trial = budgeted_step(state_, dt);
-    if (!trial.failure.empty() || setup_.scene.time.scheme != TimeScheme::second_order) return trial;
+    if (!trial.failure.empty() || setup_.scene->time.scheme != TimeScheme::second_order) return trial;
     State<Dim> start = inform(trial.state, dt);
     start.trial = std::make_shared<const State<Dim>>(std::move(trial.state));
     Attempt<Dim> informed = budgeted_step(start, dt);
@@ -185,7 +186,7 @@ class FlowSimulation : public Simulation {
 
   void accept(Attempt<Dim> a) {
     const std::vector<SolidState> solids =
-        measure_solids(setup_.domain, setup_.solids, setup_.scene.time, a.state, a.geometry);
+        measure_solids(setup_.domain, setup_.solids, setup_.scene->time, a.state, a.geometry);
     if (!setup_.fluids.has_prescribed_flow()) a.state.work = work_after(setup_, state_, stats_, solids, a);
     a.state.viscous_power = a.powers.viscous;
     state_ = std::move(a.state);
@@ -204,15 +205,15 @@ class FlowSimulation : public Simulation {
 
   // Advice after a failed step: keys that a resumed run may change.
   std::string remedy() const {
-    const TimeSpec& t = setup_.scene.time;
+    const TimeSpec& t = setup_.scene->time;
     const std::string step = t.fixed_step ? fmt::format("time.fixed_step={:.3g}", *t.fixed_step / 2)
                                           : fmt::format("time.cfl={:.3g}", t.cfl / 2);
     return fmt::format("try `seiche resume` with --set {} or --set solver.tolerance={:.3g}", step,
-                       std::min(10 * setup_.scene.solver.tolerance, 0.01));
+                       std::min(10 * setup_.scene->solver.tolerance, 0.01));
   }
 
   void warn_of_long_steps() {
-    const std::string note = note_on_long_steps(setup_.domain, setup_.fluids, setup_.scene.time, state_);
+    const std::string note = note_on_long_steps(setup_.domain, setup_.fluids, setup_.scene->time, state_);
     if (!note.empty()) phases_.warnings.push_back(note);
   }
 
@@ -233,7 +234,7 @@ class FlowSimulation : public Simulation {
     stats.dt = state.dt_now;
     measure_fluids(setup_.domain, setup_.fluids, state, geometry.psi, stats);
     stats.liquid_volume -= volume_beyond(setup_.domain, setup_.solids, geometry, state.phi);
-    measure_bodies(setup_.fluids, setup_.scene.time, state, stats);
+    measure_bodies(setup_.fluids, setup_.scene->time, state, stats);
     return stats;
   }
 
@@ -254,13 +255,13 @@ class FlowSimulation : public Simulation {
 
   void refresh_from_state() {
     refresh(measure(state_, geometry_),
-            measure_solids(setup_.domain, setup_.solids, setup_.scene.time, state_, geometry_));
+            measure_solids(setup_.domain, setup_.solids, setup_.scene->time, state_, geometry_));
   }
 
   std::vector<SurfaceMesh> rest_surfaces() const {
     std::vector<SurfaceMesh> surfaces;
     for (std::size_t k = 0; k < state_.solids.size(); ++k)
-      surfaces.push_back(state_.solids[k].surface_at_rest(setup_.scene.domain));
+      surfaces.push_back(state_.solids[k].surface_at_rest(setup_.scene->domain));
     return surfaces;
   }
 

@@ -2,7 +2,6 @@
 // Leapfrog steps: surface and rigid solids move half a step before and half a step after the solve.
 #include <algorithm>
 
-#include "base/time_spec.h"
 #include "coupling/state/features.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
@@ -10,6 +9,8 @@
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
+
+struct TimeSpec;
 
 // The leapfrog
 //   x(t + dt/2) = x + dt/2 u,   u(t + dt) = u + dt a(x(t + dt/2)),   x(t + dt) = x(t + dt/2) + dt/2 u(t + dt)

@@ -3,6 +3,7 @@
 
 #include "base/domain_spec.h"
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/exterior/exteriors.h"
 #include "coupling/report/measures.h"
@@ -132,7 +133,7 @@ Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const Operato
       geometry(domain.layout, domain.sides, bodies),
       at_start(make_participants(bodies)),
       interactions(make_interactions(bodies)) {
-  if (has_unknowns()) contact.emplace(make_contact_scene(scene, at_start, perturbation));
+  if (has_unknowns()) contact.emplace(make_contact_scene(scene.domain, at_start, perturbation));
 }
 
 template <int Dim>
@@ -152,7 +153,7 @@ bool Solids<Dim>::may_seal() const {
 
 template <int Dim>
 Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPerturbation& operators)
-    : scene(from),
+    : scene(std::make_shared<const Scene>(from)),
       perturbation(operators),
       fluids(from),
       domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
@@ -170,12 +171,12 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
 template <int Dim>
 void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
   constexpr double most_looks = 1e4, budget = 2e6;  // steps checked; steps times bodies: a second or two
-  const TimeSpec& time = s.scene.time;
+  const TimeSpec& time = s.scene->time;
   if (!time.fixed_step || time.end <= 0) return;
   const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
   const double most = std::min(most_looks, budget / double(s.solids.bodies.size() + 1));
   const double looks = std::clamp(std::floor(time.end / dt), 1.0, most);
-  std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene.time, start, dt);
+  std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene->time, start, dt);
   for (int n = 0; fault.empty() && n < looks; ++n) {
     const double t = time.end * n / looks;
     std::vector<Placement> placed;
@@ -183,7 +184,7 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
       placed.push_back(start.solids[k].place(t, t + dt, t + dt));
       if (n == 0) start.solids[k].set_velocity(placed.back());
     }
-    fault = fault_of_pinned_solids(s.domain, s.solids, s.scene.time, placed, t, dt);
+    fault = fault_of_pinned_solids(s.domain, s.solids, s.scene->time, placed, t, dt);
   }
   if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
 }
@@ -192,13 +193,13 @@ template <int Dim>
 State<Dim> initial_state(const Setup<Dim>& s) {
   std::vector<std::unique_ptr<ShapeField<Dim>>> shapes;
   for (const auto& region : s.fluids.liquid.regions)
-    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene.domain), {s.domain.layout.h(), nullptr}));
+    shapes.push_back(make_shape<Dim>(open_to_sides(region.shape, s.scene->domain), {s.domain.layout.h(), nullptr}));
   State<Dim> state;
   state.pressure = CellField<Dim>(s.domain.layout);
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(s.domain.layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(s.domain.layout);
   state.solids = s.solids.at_start;
-  refuse_overlaps(s.domain, s.solids, s.scene.domain, state);
+  refuse_overlaps(s.domain, s.solids, s.scene->domain, state);
   const StepGeometry<Dim> g = s.solids.geometry.measure(place_moving_bodies(state), 0);
   state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);
   if (has_thin_elastic(s.solids))
@@ -210,7 +211,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   FaceField<Dim> u = initial_velocity(s.domain, s.fluids, wet, shapes, fault);
   state.exterior = s.exterior;
   state.exterior->start(s, g, state.phi, fault);
-  check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene.domain, g, fault);
+  check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
@@ -224,7 +225,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   const auto timed = phases.timers.measure("velocity");
   const CellField<Dim>& phi = moved.state.phi;
   Predicted<Dim> p;
-  p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene.time, s.features, before, phi, times.dt);
+  p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene->time, s.features, before, phi, times.dt);
   Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry,
                                                     moved.brought ? &*moved.brought : nullptr);
   const double way = since_flow_fitted(s.fluids, s.solids, before, times);
@@ -256,7 +257,7 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
   const SolveTask<Dim> task{s, before, tension, predicted, times, phases};
   Solves<Dim> solves;
   moved.state.horizon = choose_horizon(s, moved.state, times.dt);
-  if (!s.solids.plans_steps() || s.scene.time.fixed_step) return solve_for_horizon(task, std::move(moved), solves);
+  if (!s.solids.plans_steps() || s.scene->time.fixed_step) return solve_for_horizon(task, std::move(moved), solves);
   for (int plans = 1, failures = 0;;) {
     Attempt<Dim> out = solve_for_horizon(task, moved, solves);
     if (!out.failure.empty()) {

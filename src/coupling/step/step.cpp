@@ -1,6 +1,7 @@
 // One time step, as the algorithm reads: move surface and solids, predict the velocity, solve, restore.
 #include "coupling/step/step.h"
 
+#include "base/scene.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/solve_phases.h"
 #include "coupling/step/surface_phases.h"
@@ -25,7 +26,7 @@ Attempt<Dim> failed(std::string why) {
 // As a step whose velocity the scene gives by formulas.
 template <int Dim>
 Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& before, double dt, Phases& phases) {
-  std::string fault = fault_of_prescribed(s.domain, s.fluids, s.scene.time, before, dt);
+  std::string fault = fault_of_prescribed(s.domain, s.fluids, s.scene->time, before, dt);
   if (!fault.empty()) return failed<Dim>(std::move(fault));
   return prescribe_velocity(s, move_surface_and_solids(s, before, times_of_step(s, before, dt), phases));
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/solid_coupling.h"
@@ -204,7 +205,7 @@ std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>&
 // velocity in a tiny step: it would bend a body by as much as it flows in a plan much longer than that.
 template <int Dim>
 double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
-  const TimeSpec& spec = s.scene.time;
+  const TimeSpec& spec = s.scene->time;
   if (!s.solids.plans_steps()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
   constexpr double margin = 0.9, least = 0.1;
   const double remaining = until_frame(spec, next.time);
@@ -212,7 +213,7 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
     const double plan = std::min(*spec.fixed_step, dt / least);
     return remaining < least * plan ? plan : std::min(plan, remaining);
   }
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, next,
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, next,
                                                                   next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   plan = limit_of_solids(s.domain, s.solids, next, plan);
@@ -221,20 +222,20 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
-  const double until = state.time + until_frame(s.scene.time, state.time);
-  const double dt = std::min(state.horizon, limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until));
+  const double until = state.time + until_frame(s.scene->time, state.time);
+  const double dt = std::min(state.horizon, limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until));
   return limit_of_solids(s.domain, s.solids, state, dt) >= state.horizon * (1 - 1e-9);
 }
 
 template <int Dim>
 double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
-  const TimeSpec& spec = s.scene.time;
+  const TimeSpec& spec = s.scene->time;
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   const bool planned = s.solids.plans_steps() && state.step > 0 && !spec.fixed_step;
   double dt =
-      spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene.time, s.sources, state, until);
+      spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) {
     dt = limit_of_given_velocity(state, std::min(dt, remaining));
@@ -248,9 +249,9 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (s.solids.plans_steps() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
-    std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene.time, state, dt);
+    std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene->time, state, dt);
     if (fault.empty())
-      fault = fault_of_pinned_solids(s.domain, s.solids, s.scene.time, motion_ahead(state, dt), state.time, dt);
+      fault = fault_of_pinned_solids(s.domain, s.solids, s.scene->time, motion_ahead(state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   }
   const bool as_planned = s.solids.plans_steps() && dt == state.horizon;
@@ -259,7 +260,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (!(free * double(most_steps_a_frame) > remaining))
     throw Error(ExitCode::cannot_continue,
                 too_short(free, remaining, s.domain.layout.h(),
-                          free < dt ? nearest_solids(s.domain, s.solids, s.scene.domain, state)
+                          free < dt ? nearest_solids(s.domain, s.solids, s.scene->domain, state)
                                     : solids_at_periodic_sides(s.domain, s.solids, state)));
   return free;
 }

@@ -1,6 +1,5 @@
 #pragma once
 // The length of the next step.
-#include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -8,6 +7,8 @@
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
+
+struct TimeSpec;
 
 // If solids have unknowns, a step is at most this factor longer than the last: contact is solved that far ahead.
 constexpr double step_growth = 1.25;

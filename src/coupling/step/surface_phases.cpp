@@ -1,5 +1,6 @@
 #include "coupling/step/surface_phases.h"
 
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/solids/sealed_liquid.h"
 #include "coupling/solids/solid_coupling.h"
@@ -61,7 +62,7 @@ StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, 
   StepGeometry<Dim> geometry =
       s.solids.geometry.measure(times.leapfrog ? place_halfway(next, times.dt) : place_bodies(next), next.time);
   geometry.slow = slow_bodies(s.domain, next, geometry, times.dt);
-  check_geometry_of_step(s.domain, s.solids, s.scene.domain, geometry, times.start, next.time);
+  check_geometry_of_step(s.domain, s.solids, s.scene->domain, geometry, times.start, next.time);
   inject(s.domain, fault, geometry.faces.closed_flux[0]);
   return geometry;
 }
@@ -113,10 +114,10 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   CellField<Dim>& phi = moved.state.phi;
   const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
-  if (!times.leapfrog && may_leapfrog(s.features) && s.scene.time.cfl > 2)
-    make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
+  if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
+    make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
-  make_distance(s.domain, s.fluids, s.solids, s.scene.time, closed, phi);
+  make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());
 }
 
@@ -185,7 +186,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
                       Attempt<Dim>& solved) {
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = solved.state;
-  const bool can = can_go_on(s.domain, s.solids, s.scene.time, next, times.dt);
+  const bool can = can_go_on(s.domain, s.solids, s.scene->time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
   FaceField<Dim> u = leading.exterior->surface_velocity(s, leading);
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);

@@ -7,6 +7,8 @@
 
 namespace seiche {
 
+struct TimeSpec;
+
 // A = f - G: acceleration of a fluid at t + dt/2 from state.time = t, m/s^2, with G the pressure slope plus its trend.
 // Faces that are not `deep` in known flow, near a free surface say, take the minmod of A and that of the step before.
 // Flow that is smooth in time keeps A there, thin jets and drops do not

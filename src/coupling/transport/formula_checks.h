@@ -1,7 +1,6 @@
 #pragma once
 // Checks that a scene's formulas give finite numbers. Faults are found before they reach the flow and name key, place
 // and time.
-#include "base/domain_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -10,6 +9,8 @@
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
+
+struct DomainSpec;
 
 // "(x, y)"
 template <int Dim>

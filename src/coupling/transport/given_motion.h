@@ -1,11 +1,12 @@
 #pragma once
 // Velocities that a scene gives and that act in the coming step before the flow shows them.
-#include "base/time_spec.h"
 #include "coupling/state/source.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
+
+struct TimeSpec;
 
 // Longest step up to dt (s) from time t in which given velocities cross at most cfl cells: inflow through sides,
 // sources, walls that drag liquid. Collective.

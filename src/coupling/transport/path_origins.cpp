@@ -1,5 +1,6 @@
 #include "coupling/transport/path_origins.h"
 
+#include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/transport/restore.h"

@@ -6,6 +6,8 @@
 
 namespace seiche {
 
+struct TimeSpec;
+
 // Paths of one step (dt, s) that end at the faces `near` one fluid.
 template <int Dim>
 struct FacePaths {

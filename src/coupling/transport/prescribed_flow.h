@@ -1,12 +1,13 @@
 #pragma once
 // Flows that a scene prescribes for all times (`liquid.prescribed_velocity`): nothing is solved, only the surface
 // moves.
-#include "base/time_spec.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
 namespace seiche {
+
+struct TimeSpec;
 
 // Velocity (m/s) at time t on the faces, ghosts included, that transport of the surface `phi` over a step can read; 0
 // on others. Throws Error (bad_input at t = 0, else cannot_continue) if a formula is not finite. Collective.

@@ -1,6 +1,7 @@
 #include "coupling/transport/transport.h"
 
 #include <cstring>
+#include "base/scene.h"
 #include "base/time_spec.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
@@ -102,7 +103,7 @@ struct Surroundings {
   Surroundings(const Setup<Dim>& s, const StepGeometry<Dim>& g, const FaceField<Dim, char>& valid,
                const FaceField<Dim, char>& near, const ViscousPlan& plan)
       : reached(reached_sites(s.domain, near)) {
-    const int path = int(std::ceil(s.scene.time.cfl)), path_and_stencil = path + 2;
+    const int path = int(std::ceil(s.scene->time.cfl)), path_and_stencil = path + 2;
     const bool solids = !s.solids.bodies.empty();
     beside = solids ? faces_beside_solids(s.domain, s.solids, g, near) : FaceField<Dim, char>(s.domain.layout);
     const FaceField<Dim, char> known = solids ? faces_known(s.domain, valid, beside) : valid;
@@ -167,7 +168,7 @@ FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, cons
   const Domain<Dim>& domain = s.domain;
   const FaceField<Dim, char>& interior = around.liquid;  // docs/decisions/0026-steady-flow-and-steps.md
   FaceField<Dim> memory(domain.layout);
-  if (!s.fluids.is_viscous() || !flow.before || s.scene.time.scheme == TimeScheme::first_order) return memory;
+  if (!s.fluids.is_viscous() || !flow.before || s.scene->time.scheme == TimeScheme::first_order) return memory;
   if (dt > 2 * state.dt_now) return memory;
   const double trust = trust_in_viscous_trend(domain, state, around.liquid, dt);
   if (trust == 0) return memory;
@@ -297,10 +298,10 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
                                 const StepGeometry<Dim>& geometry) {
   const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
   const FaceField<Dim, char>& interior = around.interior;
-  const FaceField<Dim> path = path_velocity(s.domain, s.scene.time, state, flow, around, plan, dt),
+  const FaceField<Dim> path = path_velocity(s.domain, s.scene->time, state, flow, around, plan, dt),
                        memory = viscous_memory(s, state, flow, around, dt, plan);
   Transported<Dim> r;
-  r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene.time, s.perturbation, state, flow, around.reached,
+  r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene->time, s.perturbation, state, flow, around.reached,
                                         around.deep, dt);
   const FaceField<Dim>& acc = r.acceleration;
   FaceField<Dim> own;
@@ -326,7 +327,7 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
     for_each_marked(s.domain.layout, s.domain.layout.faces(a),
                     s.fluids.is_viscous() ? around.reached.data() : near[a].data(),
                     [&](Site f) { u.at(a, f) += dt * (g[a] - (interior.at(a, f) ? 0.5 * acc.at(a, f) : 0)); });
-  let_liquid_in(s.domain, s.fluids, s.scene.time, s.perturbation, *flow.now, paths, state.time, memory, u);
+  let_liquid_in(s.domain, s.fluids, s.scene->time, s.perturbation, *flow.now, paths, state.time, memory, u);
   return r;
 }
 

@@ -9,6 +9,8 @@
 
 namespace seiche {
 
+struct TimeSpec;
+
 // Transports phi from time t to t + dt (s) with the velocity `path` (m/s). Joins it with inflow and sources. `state`
 // gives the positions of the solids. Returns what sources brought. Throws as check_forces_of_step() does. Fills ghosts.
 // Collective.

@@ -1,6 +1,7 @@
 #include "coupling/transport/viscous_transport.h"
 
 #include "base/expression.h"
+#include "base/time_spec.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"

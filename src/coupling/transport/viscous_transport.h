@@ -9,6 +9,8 @@
 
 namespace seiche {
 
+struct TimeSpec;
+
 // Treatment of viscous liquid in the coming step.
 struct ViscousPlan {
   // True if liquid fills the domain; only then transport is of fourth order. Beside surfaces the order is two anyway.

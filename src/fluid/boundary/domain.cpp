@@ -1,5 +1,7 @@
 #include "fluid/boundary/domain.h"
 
+#include "base/domain_spec.h"
+
 namespace seiche {
 namespace {
 

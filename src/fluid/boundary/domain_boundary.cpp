@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/domain_spec.h"
 #include "grid/loops.h"
 
 namespace seiche {

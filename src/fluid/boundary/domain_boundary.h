@@ -3,12 +3,14 @@
 #include <initializer_list>
 #include <vector>
 
-#include "base/domain_spec.h"
 #include "base/expression.h"
+#include "base/side_type.h"
 #include "grid/ghosts.h"
 #include "grid/halo.h"
 
 namespace seiche {
+
+struct DomainSpec;
 
 // Tangential condition at no-slip and moving walls. slips: none, for inviscid liquid. sticks: the wall's velocity.
 enum class WallFlow { slips, sticks };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/probe_spec.h"
 
 namespace seiche {
 namespace {

@@ -1,9 +1,10 @@
 #pragma once
 // Material points of an elastic body, followed as it deforms.
-#include "base/probe_spec.h"
 #include "solid/mesh/mesh.h"
 
 namespace seiche {
+
+struct ProbeSpec;
 
 // A point at rest as an interpolation of nodes: X = sum weights_a X_a, the weights being shape functions.
 struct MaterialPoint {

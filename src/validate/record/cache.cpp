@@ -7,6 +7,7 @@
 
 #include "base/crc32c.h"
 #include "base/error.h"
+#include "base/scene.h"
 #include "base/shape_spec.h"
 #include "base/version.h"
 #include "files/checked_file.h"

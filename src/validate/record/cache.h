@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "base/scene.h"
-
 namespace seiche {
+
+struct Scene;
 
 // Calls visit(ShapeSpec&) for all shapes of a scene; the scene may be const.
 template <class AnyScene, class Visit>

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "base/agree.h"
+#include "base/scene.h"
 #include "base/version.h"
 #include "files/checked_file.h"
 #include "files/json.h"
@@ -65,10 +66,10 @@ fs::path place_of(const Planned& run, const Validation& v) {
 
 // The cache reads the folders again before a run, since another validation may have made it.
 std::optional<fs::path> earlier_run(const Planned& run, Validation& v, const std::string& identity) {
-  const auto known = v.cache.find(run.scene, identity);
+  const auto known = v.cache.find(*run.scene, identity);
   if (known || v.options.making == Making::report) return known;
   v.cache.look();
-  return v.cache.find(run.scene, identity);
+  return v.cache.find(*run.scene, identity);
 }
 
 Source source_of(const Planned& run, Validation& v, const std::string& identity, fs::path& place) {
@@ -77,7 +78,7 @@ Source source_of(const Planned& run, Validation& v, const std::string& identity,
     return Source::earlier;
   }
   if (v.options.making == Making::report) return Source::none;
-  const auto begun = v.cache.find_begun(run.scene, identity);
+  const auto begun = v.cache.find_begun(*run.scene, identity);
   if (begun) place = *begun;
   return begun ? Source::rest : Source::anew;
 }
@@ -86,7 +87,7 @@ Source source_of(const Planned& run, Validation& v, const std::string& identity,
 Found look_for_run(const Planned& run, Validation& v, std::string& identity) {
   Found found;
   agree_on_root(v.around.ranks, "looking for earlier runs", [&] {
-    identity = run_identity(run.scene, v.around.ranks.size(), v.options.perturbation);
+    identity = run_identity(*run.scene, v.around.ranks.size(), v.options.perturbation);
     found.run = place_of(run, v);
     found.source = source_of(run, v, identity, found.run);
   });
@@ -121,7 +122,7 @@ std::optional<ExitCode> run_rest(const fs::path& folder, const Validation& v, co
 
 ExitCode run_anew(const Planned& run, const fs::path& folder, const std::string& identity, Validation& v,
                   const Surroundings& around) {
-  agree_on_root(v.around.ranks, "preparing the run", [&] { v.cache.begin(folder, run.scene, identity); });
+  agree_on_root(v.around.ranks, "preparing the run", [&] { v.cache.begin(folder, *run.scene, identity); });
   RunOptions own;
   own.scene = scene_of(*run.one, *run.resolution);
   own.out = folder;
@@ -158,7 +159,7 @@ std::optional<double> number_in_summary(const fs::path& run, const char* key) {
 }
 
 std::string identity_of(const Planned& run) {
-  return measured_identity(run.scene, measure_of(*run.one, *run.resolution));
+  return measured_identity(*run.scene, measure_of(*run.one, *run.resolution));
 }
 
 // Origin of an existing run.
@@ -222,7 +223,7 @@ Validation start(const ValidateOptions& options, const Surroundings& around) {
 }
 
 ExitCode obtain(const Planned& run, Validation& v, CaseResult& result) {
-  result.cell_size = run.scene.domain.cell_size;
+  result.cell_size = run.scene->domain.cell_size;
   result.run = place_of(run, v);
   const ExitCode code = attempt(run, v, result);
   if (!result.recorded && result.verdict != Verdict::absent)
@@ -232,7 +233,7 @@ ExitCode obtain(const Planned& run, Validation& v, CaseResult& result) {
 
 CaseResult recorded_result(const Planned& run, const std::optional<ValidationRecord>& record) {
   CaseResult result;
-  result.cell_size = run.scene.domain.cell_size;
+  result.cell_size = run.scene->domain.cell_size;
   result.verdict = Verdict::absent;
   if (!record) return result;
   const auto recorded = record->find(run.one->name, run.resolution->name, identity_of(run));

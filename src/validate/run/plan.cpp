@@ -67,8 +67,8 @@ std::vector<Planned> plan(const std::vector<CaseSpec>& cases, const ValidateOpti
       for (const ResolutionSpec& resolution : one.resolutions) {
         const bool wanted = selection.takes(one, resolution, options.level);
         if (!wanted && !(options.record && belongs_to(resolution, options.level))) continue;
-        runs.push_back({&one, &resolution, scene_for(one, resolution), false, wanted});
-        check_measure(measure_of(one, resolution), runs.back().scene, place_of(one, resolution));
+        runs.push_back({&one, &resolution, std::make_shared<const Scene>(scene_for(one, resolution)), false, wanted});
+        check_measure(measure_of(one, resolution), *runs.back().scene, place_of(one, resolution));
       }
       if (!runs.empty() && runs.back().one == &one) check_plot(one.plot, (one.folder / "case.toml").string());
     }

@@ -1,6 +1,7 @@
 #pragma once
 // Plan of a validation: its runs.
-#include "base/scene.h"
+#include <memory>
+
 #include "validate/run/run.h"
 
 namespace seiche {
@@ -9,7 +10,7 @@ namespace seiche {
 struct Planned {
   const CaseSpec* one;
   const ResolutionSpec* resolution;
-  Scene scene;
+  std::shared_ptr<const Scene> scene;
   bool last_of_series = false;  // in this plan
   bool chosen = true;           // by the user; others are for the page of the record
 };

@@ -32,7 +32,7 @@ ExitCode run_one(const Planned& run, Validation& v, Report& report, const Table&
   if (const ExitCode code = obtain(run, v, result); code != ExitCode::done) return code;
   if (is_measured(result)) judge_by_all(run, report, result);
   put_on_record(run, v, result);
-  report.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, run.scene)});
+  report.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, *run.scene)});
   table.say(report.results.back());
   const ReportedResult* changed = run.last_of_series ? judge_last_measured(report) : nullptr;
   if (changed) table.say(*changed);
@@ -52,7 +52,7 @@ Report whole_of(const std::vector<Planned>& runs, const Report& report, const st
   for (const Planned& run : runs) {
     CaseResult result = run.chosen ? report.results.at(chosen++).result : recorded_result(run, record);
     if (is_measured(result)) judge_by_all(run, whole, result);
-    whole.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, run.scene)});
+    whole.results.push_back({*run.one, *run.resolution, result, unit_of(run.one->measure, *run.scene)});
     if (run.last_of_series) judge_last_measured(whole);
   }
   return whole;
