@@ -1,6 +1,7 @@
 #include "base/communicator.h"
 
 #include <cstdlib>
+#include <utility>
 
 #include "base/error.h"
 #include "base/patient_yield.h"
@@ -20,17 +21,23 @@ struct Pieces {
   std::string bytes;
 };
 
-Pieces exchange_sizes(MPI_Comm comm, int ranks, int mine) {
-  Pieces p{std::vector<int>(ranks), std::vector<int>(ranks), {}};
-  MPI_Allgather(&mine, 1, MPI_INT, p.counts.data(), 1, MPI_INT, comm);
+// Room for pieces of these sizes, one behind the other.
+Pieces room_for(std::vector<int> counts) {
+  Pieces p{std::move(counts), {}, {}};
   std::int64_t total = 0;
-  for (int r = 0; r < ranks; ++r) {
-    p.offsets[r] = int(total);
-    total += p.counts[r];
+  for (const int count : p.counts) {
+    p.offsets.push_back(int(total));
+    total += count;
     if (total > INT32_MAX) throw Error(ExitCode::machine, "more than 2 GiB gathered on one rank");
   }
   p.bytes.resize(std::size_t(total));
   return p;
+}
+
+Pieces exchange_sizes(MPI_Comm comm, int ranks, int mine) {
+  std::vector<int> counts(std::size_t(ranks), 0);
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  return room_for(std::move(counts));
 }
 
 std::vector<std::string> split(const Pieces& p) {
@@ -116,6 +123,17 @@ std::vector<std::string> Communicator::all_gather(const std::string& bytes) cons
   MPI_Allgatherv(bytes.data(), int(bytes.size()), MPI_CHAR, p.bytes.data(), p.counts.data(), p.offsets.data(), MPI_CHAR,
                  handle_);
   return split(p);
+}
+
+std::vector<std::string> Communicator::exchange(const std::vector<std::string>& to) const {
+  std::vector<int> sizes, counts(to.size());
+  for (const std::string& bytes : to) sizes.push_back(int(bytes.size()));
+  MPI_Alltoall(sizes.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, handle_);
+  Pieces out = room_for(std::move(sizes)), in = room_for(std::move(counts));
+  for (std::size_t r = 0; r < to.size(); ++r) to[r].copy(out.bytes.data() + out.offsets[r], to[r].size());
+  MPI_Alltoallv(out.bytes.data(), out.counts.data(), out.offsets.data(), MPI_CHAR, in.bytes.data(), in.counts.data(),
+                in.offsets.data(), MPI_CHAR, handle_);
+  return split(in);
 }
 
 }  // namespace seiche

@@ -41,6 +41,8 @@ class Communicator {
   std::string broadcast(const std::string& text) const;                 // rank 0's text
   std::vector<std::string> gather(const std::string& bytes) const;      // on rank 0, by rank; else empty
   std::vector<std::string> all_gather(const std::string& bytes) const;  // on every rank, by rank
+  // Sends to[r] to rank r; what this rank got, by sender.
+  std::vector<std::string> exchange(const std::vector<std::string>& to) const;
 
  private:
   MPI_Comm handle_;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/agree.h"
+#include "base/checkpoint_boxes.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "files/checked_file.h"
-#include "files/checkpoint_boxes.h"
 #include "files/checkpoint_commit.h"
 #include "files/checkpoint_file.h"
 #include "files/checkpoint_folders.h"

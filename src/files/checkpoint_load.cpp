@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "base/agree.h"
+#include "base/checkpoint_boxes.h"
 #include "base/crc32c.h"
 #include "base/error.h"
 #include "files/checked_file.h"
 #include "files/checkpoint.h"
-#include "files/checkpoint_boxes.h"
 #include "files/checkpoint_commit.h"
 #include "files/checkpoint_file.h"
 #include "files/checkpoint_folders.h"

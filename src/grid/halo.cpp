@@ -1,5 +1,8 @@
 #include "grid/halo.h"
 
+#include <algorithm>
+#include <memory>
+
 #include "grid/field_values.h"
 #include "grid/loops.h"
 
@@ -30,6 +33,45 @@ void append_sites(const Layout<Dim>& layout, const Box<Dim>& box, std::vector<Si
   for_each_index_in_order(layout, box, [&](Site s, const IVec<Dim>&) { list.push_back(s); });
 }
 
+// Items in a buffer that is not filled first.
+template <class T>
+struct Items {
+  std::unique_ptr<T[]> first;
+  std::size_t count = 0;
+
+  Items() = default;
+  explicit Items(std::size_t n) : first(std::make_unique_for_overwrite<T[]>(n)), count(n) {}
+  int bytes() const { return int(count * sizeof(T)); }
+  T* begin() const { return first.get(); }
+  T* end() const { return first.get() + count; }
+};
+
+// Sends out[p] to peer p and takes what it sends into in[p], as much as fits. Sets the counts in `in`.
+template <class T, class Peers>
+void exchange_items(const Communicator& ranks, const Peers& peers, const std::vector<Items<T>>& out,
+                    std::vector<Items<T>>& in) {
+  const std::size_t n = peers.size();
+  std::vector<MPI_Request> requests(2 * n);
+  for (std::size_t p = 0; p < n; ++p)
+    MPI_Irecv(in[p].begin(), in[p].bytes(), MPI_BYTE, peers[p].rank, 0, ranks.handle(), &requests[p]);
+  for (std::size_t p = 0; p < n; ++p)
+    MPI_Isend(out[p].begin(), out[p].bytes(), MPI_BYTE, peers[p].rank, 0, ranks.handle(), &requests[n + p]);
+  std::vector<MPI_Status> statuses(2 * n);
+  MPI_Waitall(int(2 * n), requests.data(), statuses.data());
+  for (std::size_t p = 0; p < n; ++p) {
+    int bytes = 0;
+    MPI_Get_count(&statuses[p], MPI_BYTE, &bytes);
+    in[p].count = std::size_t(bytes) / sizeof(T);
+  }
+}
+
+template <class T>
+Items<T> copy_of(const std::vector<T>& items) {
+  Items<T> copy(items.size());
+  std::copy(items.begin(), items.end(), copy.begin());
+  return copy;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -54,35 +96,91 @@ Halo<Dim>::Halo(const Layout<Dim>& layout, const std::vector<Box<Dim>>& boxes, c
       peers_.push_back(std::move(peer));
     }
   }
+  list_outgoing();
+}
+
+template <int Dim>
+void Halo<Dim>::list_outgoing() {
+  for (std::size_t p = 0; p < peers_.size(); ++p)
+    for (std::size_t k = 0; k < peers_[p].send.size(); ++k) outgoing_.push_back({peers_[p].send[k], int(p), Site(k)});
+  for (std::size_t k = 0; k < copy_from_.size(); ++k) outgoing_.push_back({copy_from_[k], -1, copy_to_[k]});
+  std::stable_sort(outgoing_.begin(), outgoing_.end(), [](const auto& a, const auto& b) { return a.site < b.site; });
+  if (!outgoing_.empty()) is_sent_.resize(std::size_t(outgoing_.back().site) + 1);
+  for (const Outgoing& o : outgoing_) is_sent_[std::size_t(o.site)] = true;
+}
+
+// Messages hold pairs of a place in the full message and the value there.
+template <int Dim>
+void Halo<Dim>::fill_changed(const std::vector<Site>& changed, char value, double* f, char* mark) const {
+  struct Pair {
+    Site place;
+    double value;
+  };
+  std::vector<std::vector<Pair>> pairs(peers_.size());
+  for (const Site s : changed) {
+    if (std::size_t(s) >= is_sent_.size() || !is_sent_[std::size_t(s)]) continue;
+    for (const Outgoing& to : std::ranges::equal_range(outgoing_, s, {}, &Outgoing::site)) {
+      if (to.peer >= 0)
+        pairs[std::size_t(to.peer)].push_back({to.place, f[s]});
+      else
+        f[to.place] = f[s], mark[to.place] = value;
+    }
+  }
+  std::vector<Items<Pair>> out, in;
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    out.push_back(copy_of(pairs[p]));
+    in.emplace_back(peers_[p].receive.size());
+  }
+  exchange_items(ranks_, peers_, out, in);
+  for (std::size_t p = 0; p < peers_.size(); ++p)
+    for (const Pair& pair : in[p]) {
+      const Site s = peers_[p].receive[std::size_t(pair.place)];
+      f[s] = pair.value, mark[s] = value;
+    }
+}
+
+// Each rank tells its peers which places of the full message it wants.
+template <int Dim>
+Halo<Dim> Halo<Dim>::part(const std::vector<Site>& wanted) const {
+  const auto wants = [&](Site s) { return std::binary_search(wanted.begin(), wanted.end(), s); };
+  std::vector<Items<int>> places, asked;
+  for (const Peer& peer : peers_) {
+    std::vector<int> mine;
+    for (std::size_t k = 0; k < peer.receive.size(); ++k)
+      if (wants(peer.receive[k])) mine.push_back(int(k));
+    places.push_back(copy_of(mine));
+    asked.emplace_back(peer.send.size());
+  }
+  exchange_items(ranks_, peers_, places, asked);
+  Halo part(ranks_);
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    Peer peer{peers_[p].rank, {}, {}};
+    for (const int k : places[p]) peer.receive.push_back(peers_[p].receive[std::size_t(k)]);
+    for (const int k : asked[p]) peer.send.push_back(peers_[p].send[std::size_t(k)]);
+    if (!peer.send.empty() || !peer.receive.empty()) part.peers_.push_back(std::move(peer));
+  }
+  for (std::size_t k = 0; k < copy_to_.size(); ++k)
+    if (wants(copy_to_[k])) part.copy_from_.push_back(copy_from_[k]), part.copy_to_.push_back(copy_to_[k]);
+  return part;
 }
 
 template <int Dim>
 template <class T>
 void Halo<Dim>::exchange(std::initializer_list<T*> fields) const {
-  const std::size_t n = fields.size();
-  std::vector<std::vector<T>> incoming(peers_.size()), outgoing(peers_.size());
-  std::vector<MPI_Request> requests;
-  for (std::size_t p = 0; p < peers_.size(); ++p) {
-    incoming[p].resize(n * peers_[p].receive.size());
-    requests.emplace_back();
-    MPI_Irecv(incoming[p].data(), int(incoming[p].size() * sizeof(T)), MPI_BYTE, peers_[p].rank, 0, ranks_.handle(),
-              &requests.back());
-  }
-  for (std::size_t p = 0; p < peers_.size(); ++p) {
-    outgoing[p].reserve(n * peers_[p].send.size());
+  std::vector<Items<T>> out, in;
+  for (const Peer& peer : peers_) {
+    in.emplace_back(fields.size() * peer.receive.size());
+    T* next = out.emplace_back(fields.size() * peer.send.size()).begin();
     for (const T* f : fields)
-      for (Site s : peers_[p].send) outgoing[p].push_back(f[s]);
-    requests.emplace_back();
-    MPI_Isend(outgoing[p].data(), int(outgoing[p].size() * sizeof(T)), MPI_BYTE, peers_[p].rank, 0, ranks_.handle(),
-              &requests.back());
+      for (const Site s : peer.send) *next++ = f[s];
   }
   for (T* f : fields)
     for (std::size_t k = 0; k < copy_to_.size(); ++k) set_if_other(f[copy_to_[k]], f[copy_from_[k]]);
-  MPI_Waitall(int(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  exchange_items(ranks_, peers_, out, in);
   for (std::size_t p = 0; p < peers_.size(); ++p) {
-    std::size_t k = 0;
+    const T* next = in[p].begin();
     for (T* f : fields)
-      for (Site s : peers_[p].receive) set_if_other(f[s], incoming[p][k++]);
+      for (const Site s : peers_[p].receive) set_if_other(f[s], *next++);
   }
 }
 

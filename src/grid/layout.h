@@ -81,9 +81,4 @@ class Layout {
   Site size_ = 0;
 };
 
-// Splits the grid into one block per rank with the smallest area between blocks. Ranks for which there is no block get
-// empty boxes.
-template <int Dim>
-std::vector<Box<Dim>> partition(const Geometry<Dim>& geometry, int ranks);
-
 }  // namespace seiche

@@ -157,10 +157,13 @@ void fill_layers(const Layout<Dim>& layout, const Halo<Dim>& halo, const Box<Dim
       double value;
       if (predictor.predict(front[k], layer, value)) values[k] = value;
     });
-    for (std::size_t k = 0; k < front.size(); ++k)
-      if (values[k]) f[front[k]] = *values[k], known[front[k]] = layer;
-    halo.fill_ghosts({f.data()});
-    halo.fill_ghosts({known.data()});
+    std::vector<Site> filled;
+    for (std::size_t k = 0; k < front.size(); ++k) {
+      if (!values[k]) continue;
+      f[front[k]] = *values[k], known[front[k]] = layer;
+      filled.push_back(front[k]);
+    }
+    halo.fill_changed(filled, layer, f.data(), known.data());
     if (n + 1 < layers) front = next_front(layout, box, layer, front, known);
   }
 }

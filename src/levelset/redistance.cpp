@@ -1,6 +1,7 @@
 #include "levelset/redistance.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/parallel_range.h"
 #include "grid/ghosts.h"
@@ -116,7 +117,11 @@ class Relaxation {
         [&](Site s) { return start_[s] != 0 && !fixed[s] && near_band(s); });
     cells_.resize(sites.size());
     parallel_range_in_tasks(sites.size(), 4096, [&](std::size_t k) { cells_[k] = describe(sites[k]); });
-    for (const Site s : sites) collect_lines(s, layout_.index(s));
+    std::vector<Site> read;
+    for (const Site s : sites) collect_lines(s, layout_.index(s)), collect_read(s, layout_.index(s), read);
+    std::sort(read.begin(), read.end());
+    read.erase(std::unique(read.begin(), read.end()), read.end());
+    halo_of_cells_.emplace(halo_.part(read));
     change_.resize(cells_.size());
     std::sort(lines_.begin(), lines_.end());
     lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
@@ -134,6 +139,16 @@ class Relaxation {
       }
   }
 
+  // Sites beyond this rank's cells that the differences at s read.
+  void collect_read(Site s, const IVec<Dim>& i, std::vector<Site>& read) const {
+    const Box<Dim>& own = layout_.cells();
+    for (int a = 0; a < Dim; ++a)
+      for (int n = 1; n <= differences; ++n) {
+        if (i[a] - n < own.lower[a]) read.push_back(s - n * layout_.stride(a));
+        if (i[a] + n >= own.upper[a]) read.push_back(s + n * layout_.stride(a));
+      }
+  }
+
   template <class Body>
   void for_each_cell(const Body& body) {
     parallel_range_in_tasks(cells_.size(), 4096, [&](std::size_t k) { body(k, phi_[cells_[k].site]); });
@@ -141,7 +156,7 @@ class Relaxation {
 
   // Ghosts that the slopes of the cells read, as fill_ghosts() has them; it would visit all of the domain's surface.
   void fill_ghosts_of_cells() {
-    halo_.fill_ghosts(phi_);
+    halo_of_cells_->fill_ghosts(phi_);
     parallel_range_in_tasks(lines_.size(), 4096, [&](std::size_t n) {
       double* f = phi_.data() + lines_[n].outermost;
       const Site in = lines_[n].inward;
@@ -255,6 +270,7 @@ class Relaxation {
   CellField<Dim>& phi_;
   CellField<Dim> start_;
   std::vector<BandCell<Dim>> cells_;
+  std::optional<Halo<Dim>> halo_of_cells_;
   std::vector<Line> lines_;  // to the sides that the cells' differences reach
   std::vector<double> change_;
 };

@@ -153,7 +153,7 @@ ExitCode resume_command(const ResumeOptions& options, const Surroundings& around
       "resuming at step {}, t = {:g} s{}", run.state.step, run.state.time,
       run.checkpoint.ranks == ranks.size() ? "" : fmt::format(" (written by {} ranks)", run.checkpoint.ranks)));
   const Restore restore = [&](Simulation& simulation) {
-    simulation.load(load_checkpoint(run.checkpoint, simulation.checkpoint_boxes(), ranks));
+    simulation.load(load_checkpoint(run.checkpoint, simulation.checkpoint_boxes(run.checkpoint.data), ranks));
     return run.state;
   };
   return run_session({run.scene, around, options.session, log, RunPaths{folder}}, restore);

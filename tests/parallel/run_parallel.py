@@ -3,6 +3,7 @@
 
 Usage: run_parallel.py PROGRAM GROUP [CASE ...]"""
 import contextlib
+import json
 import os
 import pathlib
 import random
@@ -354,6 +355,14 @@ def jet_ranks_agree(bench):
     ranks_agree(bench, JET, (2, 3))
 
 
+def moved_blocks_agree(bench):
+    """A dam break whose ranks get blocks of equal work, also after resuming, with the same bits."""
+    ranks_agree(bench, TWENTY_STEPS, (3,))
+    summary = json.loads((bench.path("ranks3") / "summary.json").read_text())
+    expect("balance" in summary["wall_seconds_by_phase"], "no block moved")
+    resumed_ranks_agree(bench, TWENTY_STEPS)
+
+
 def same_bits_twice(bench, text):
     for out in ("one", "two"):
         bench.simulate(text=text, out=out, ranks=3).needs(0)
@@ -445,7 +454,7 @@ def air_killed_at_random(bench):
     killed_at_random(bench, 2, 2, kind=airy)
 
 
-TABLES = {"equality": [ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
+TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, sprung_ranks_agree_2d, shared_elements_ranks_agree,
                        shared_unknowns_ranks_agree, twins_ranks_agree, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
                        gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],

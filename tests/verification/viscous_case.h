@@ -6,6 +6,7 @@
 #include "coupling/geometry/step_geometry.h"
 #include "fluid/viscosity/no_slip_flux.h"
 #include "grid/loops.h"
+#include "grid/partition.h"
 #include "levelset/redistance.h"
 #include "scenes.h"
 

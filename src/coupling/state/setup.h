@@ -30,7 +30,9 @@ struct Setup {
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
 
-  Setup(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation = {});
+  // `blocks`: owned cells of each rank; empty: of equal size.
+  Setup(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation = {},
+        std::vector<Box<Dim>> blocks = {});
 };
 
 }  // namespace seiche

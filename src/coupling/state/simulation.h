@@ -117,8 +117,9 @@ class Simulation {
   virtual CheckpointData save() const = 0;
   // Restores the state. `data.fields` hold this rank's boxes, as `save()` returns them on as many ranks.
   virtual void load(const CheckpointData& data) = 0;
-  // Boxes that load() needs on this rank: name, lower, upper; values empty.
-  virtual std::vector<FieldRecord> checkpoint_boxes() const = 0;
+  // Boxes that load() needs on this rank: name, lower, upper; values empty. Takes the blocks of the checkpoint that was
+  // found if it is of as many ranks; then only load() may follow. Collective.
+  virtual std::vector<FieldRecord> checkpoint_boxes(const CheckpointData& found) = 0;
   virtual const Timers& timers() const = 0;
   virtual std::vector<std::string> take_warnings() = 0;  // since the last call, for the log; equal on all ranks
 };

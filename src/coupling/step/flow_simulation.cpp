@@ -1,6 +1,7 @@
 // The Simulation behind make_simulation: owns setup and state, and tries failed steps again with half the length.
 #include <fmt/format.h>
 
+#include "base/checkpoint_boxes.h"
 #include "base/error.h"
 #include "base/scene.h"
 #include "base/time_spec.h"
@@ -16,6 +17,7 @@
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/step/balance.h"
 #include "coupling/step/initial_state.h"
 #include "coupling/step/side_flow.h"
 #include "coupling/step/step.h"
@@ -28,6 +30,7 @@ namespace seiche {
 namespace {
 
 constexpr int most_halvings = 7;
+constexpr int steps_between_looks = 16;  // at how the work of ranks is balanced
 
 // Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells they feed eddies
 // that they do not resolve. The flow in a cavity at Re = 5000 oscillated by 0.2 of the lid's speed at Courant number 4.
@@ -49,12 +52,13 @@ template <int Dim>
 class FlowSimulation : public Simulation {
  public:
   FlowSimulation(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation)
-      : setup_(scene, ranks, perturbation), state_(initial_state(setup_)) {
+      : setup_(std::make_unique<const Setup<Dim>>(scene, ranks, perturbation)), state_(initial_state(*setup_)) {
     geometry_ = measure_geometry();
     surfaces_ = rest_surfaces();
-    phases_.warnings = setup_.notes;
+    phases_.warnings = setup_->notes;
     warn_of_long_steps();
-    account_ = account_scene(setup_.domain, setup_.fluids, setup_.solids, setup_.scene->domain, state_, geometry_.psi);
+    account_ =
+        account_scene(setup_->domain, setup_->fluids, setup_->solids, setup_->scene->domain, state_, geometry_.psi);
     phases_.warnings.insert(phases_.warnings.end(), account_.warnings.begin(), account_.warnings.end());
     refresh_from_state();
   }
@@ -66,22 +70,31 @@ class FlowSimulation : public Simulation {
   std::vector<SolidState> solids() const override { return solids_; }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
-    return measure_probe(setup_, state_, geometry_, setup_.scene->probes.at(k));
+    return measure_probe(*setup_, state_, geometry_, setup_->scene->probes.at(k));
   }
   FrameField frame_field(const std::string& name) const override {
-    return make_frame_field(setup_.domain, setup_.fluids, state_, name);
+    return make_frame_field(setup_->domain, setup_->fluids, state_, name);
   }
-  CheckpointData save() const override { return save_state(setup_, state_); }
-  std::vector<FieldRecord> checkpoint_boxes() const override { return state_boxes(setup_); }
+  CheckpointData save() const override {
+    CheckpointData data = save_state(*setup_, state_);
+    if (const std::string blocks = text_of_blocks(setup_->domain); !blocks.empty()) data.texts["blocks"] = blocks;
+    return data;
+  }
+  std::vector<FieldRecord> checkpoint_boxes(const CheckpointData& found) override {
+    if (const auto text = found.texts.find("blocks"); text != found.texts.end())
+      if (auto blocks = blocks_of_text(text->second, setup_->domain); !blocks.empty()) set_up_again(std::move(blocks));
+    return state_boxes(*setup_);
+  }
   const Timers& timers() const override { return phases_.timers; }
   std::vector<std::string> take_warnings() override { return std::exchange(phases_.warnings, {}); }
 
   StepStats step(double until) override {
     const auto start = std::chrono::steady_clock::now();
-    double dt = choose_step(setup_, state_, until);
+    if (state_.step % steps_between_looks == 0) balance();
+    double dt = choose_step(*setup_, state_, until);
     std::string failures;
     for (int halvings = 0; halvings <= most_halvings && dt > 0;
-         ++halvings, dt = hold_back(setup_.solids, state_, dt / 2)) {
+         ++halvings, dt = hold_back(setup_->solids, state_, dt / 2)) {
       Attempt<Dim> a = attempt(dt);
       if (a.failure.empty()) {
         accept(std::move(a));
@@ -94,7 +107,7 @@ class FlowSimulation : public Simulation {
       for (const std::string& line : a.solve.failed_attempts)
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
-    const std::string close = nearest_solids(setup_.domain, setup_.solids, setup_.scene->domain, state_);
+    const std::string close = nearest_solids(setup_->domain, setup_->solids, setup_->scene->domain, state_);
     throw Error(ExitCode::cannot_continue,
                 fmt::format("{} (after {} halvings; {})", failures, most_halvings,
                             close.empty() ? remedy() : "solids almost in contact: " + close));
@@ -103,7 +116,7 @@ class FlowSimulation : public Simulation {
   // Drops warnings on the start, which the first run gave. The note on long steps is repeated: `resume --set` may
   // change cfl.
   void load(const CheckpointData& data) override {
-    state_ = load_state(setup_, data);
+    state_ = load_state(*setup_, data);
     phases_.warnings.clear();
     warn_of_long_steps();
     geometry_ = measure_geometry();
@@ -120,7 +133,7 @@ class FlowSimulation : public Simulation {
 
   std::vector<std::string> describe_start() const override {
     std::vector<std::string> lines = account_.lines;
-    const std::vector<std::string> features = describe_features(setup_);
+    const std::vector<std::string> features = describe_features(*setup_);
     lines.insert(lines.end(), features.begin(), features.end());
     for (std::size_t k = 0; k < state_.solids.size(); ++k)
       if (std::string line = state_.solids[k].describe_mesh(); !line.empty()) lines.push_back(std::move(line));
@@ -128,17 +141,37 @@ class FlowSimulation : public Simulation {
   }
 
  private:
+  // Moves the state to blocks of equal work where the present ones have become too unequal. Collective.
+  void balance() {
+    std::vector<Box<Dim>> blocks = better_blocks(setup_->domain, state_);
+    if (blocks.empty()) return;
+    const auto timed = phases_.timers.measure("balance");
+    CheckpointData data = save_state(*setup_, state_);
+    set_up_again(std::move(blocks));
+    data.fields = redistribute(data.fields, state_boxes(*setup_), setup_->domain.ranks);
+    state_ = load_state(*setup_, data);
+    geometry_ = measure_geometry();
+  }
+
+  // Leaves no state.
+  void set_up_again(std::vector<Box<Dim>> blocks) {
+    state_ = {};
+    geometry_ = {};
+    setup_ = std::make_unique<const Setup<Dim>>(*setup_->scene, setup_->domain.ranks, setup_->perturbation,
+                                                std::move(blocks));
+  }
+
   Attempt<Dim> attempt(double dt) {
-    if (state_.step > 0 || setup_.fluids.has_prescribed_flow()) return budgeted_step(state_, dt);
+    if (state_.step > 0 || setup_->fluids.has_prescribed_flow()) return budgeted_step(state_, dt);
     Attempt<Dim> first = first_step(dt);
-    if (first.failure.empty()) book_first_flow(setup_, state_, geometry_, dt, phases_, first.state);
+    if (first.failure.empty()) book_first_flow(*setup_, state_, geometry_, dt, phases_, first.state);
     return first;
   }
 
   // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
   Attempt<Dim> first_step(double dt) {
     Attempt<Dim> trial = budgeted_step(state_, dt);
-    if (!trial.failure.empty() || setup_.scene->time.scheme != TimeScheme::second_order) return trial;
+    if (!trial.failure.empty() || setup_->scene->time.scheme != TimeScheme::second_order) return trial;
     State<Dim> start = inform(trial.state, dt);
     start.trial = std::make_shared<const State<Dim>>(std::move(trial.state));
     Attempt<Dim> informed = budgeted_step(start, dt);
@@ -150,15 +183,15 @@ class FlowSimulation : public Simulation {
   // Fails if the kinetic energy exceeds the budget of the present state. `start`: the present state, or this state
   // informed by a trial. The trial's flow adds nothing to the budget, since it has gained energy already.
   Attempt<Dim> budgeted_step(const State<Dim>& start, double dt) {
-    Attempt<Dim> a = attempt_step(setup_, start, dt, phases_);
+    Attempt<Dim> a = attempt_step(*setup_, start, dt, phases_);
     if (!a.failure.empty()) return a;
     a.stats = measure(a.state, a.geometry);
-    if (!setup_.fluids.has_prescribed_flow()) a.failure = fault_of_energy(setup_, state_, stats_, geometry_.psi, a);
+    if (!setup_->fluids.has_prescribed_flow()) a.failure = fault_of_energy(*setup_, state_, stats_, geometry_.psi, a);
     return a;
   }
 
   StepGeometry<Dim> measure_geometry() const {
-    return setup_.solids.geometry.measure(place_moving_bodies(state_), state_.time);
+    return setup_->solids.geometry.measure(place_moving_bodies(state_), state_.time);
   }
 
   // The initial state as if a step of dt had led to it: pressure slope, viscous acceleration and cavities of the trial,
@@ -168,7 +201,7 @@ class FlowSimulation : public Simulation {
     inform(trial, state);
     inform(trial.exterior->flow, state.exterior->flow);
     state.dt_now = dt;
-    for (const auto& interaction : setup_.solids.interactions) interaction->inform(trial, state);
+    for (const auto& interaction : setup_->solids.interactions) interaction->inform(trial, state);
     return state;
   }
 
@@ -186,8 +219,8 @@ class FlowSimulation : public Simulation {
 
   void accept(Attempt<Dim> a) {
     const std::vector<SolidState> solids =
-        measure_solids(setup_.domain, setup_.solids, setup_.scene->time, a.state, a.geometry);
-    if (!setup_.fluids.has_prescribed_flow()) a.state.work = work_after(setup_, state_, stats_, solids, a);
+        measure_solids(setup_->domain, setup_->solids, setup_->scene->time, a.state, a.geometry);
+    if (!setup_->fluids.has_prescribed_flow()) a.state.work = work_after(*setup_, state_, stats_, solids, a);
     a.state.viscous_power = a.powers.viscous;
     state_ = std::move(a.state);
     geometry_ = std::move(a.geometry);
@@ -205,15 +238,15 @@ class FlowSimulation : public Simulation {
 
   // Advice after a failed step: keys that a resumed run may change.
   std::string remedy() const {
-    const TimeSpec& t = setup_.scene->time;
+    const TimeSpec& t = setup_->scene->time;
     const std::string step = t.fixed_step ? fmt::format("time.fixed_step={:.3g}", *t.fixed_step / 2)
                                           : fmt::format("time.cfl={:.3g}", t.cfl / 2);
     return fmt::format("try `seiche resume` with --set {} or --set solver.tolerance={:.3g}", step,
-                       std::min(10 * setup_.scene->solver.tolerance, 0.01));
+                       std::min(10 * setup_->scene->solver.tolerance, 0.01));
   }
 
   void warn_of_long_steps() {
-    const std::string note = note_on_long_steps(setup_.domain, setup_.fluids, setup_.scene->time, state_);
+    const std::string note = note_on_long_steps(setup_->domain, setup_->fluids, setup_->scene->time, state_);
     if (!note.empty()) phases_.warnings.push_back(note);
   }
 
@@ -232,9 +265,9 @@ class FlowSimulation : public Simulation {
     stats.step = state.step;
     stats.time = state.time;
     stats.dt = state.dt_now;
-    measure_fluids(setup_.domain, setup_.fluids, state, geometry.psi, stats);
-    stats.liquid_volume -= volume_beyond(setup_.domain, setup_.solids, geometry, state.phi);
-    measure_bodies(setup_.fluids, setup_.scene->time, state, stats);
+    measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
+    stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
+    measure_bodies(setup_->fluids, setup_->scene->time, state, stats);
     return stats;
   }
 
@@ -255,17 +288,17 @@ class FlowSimulation : public Simulation {
 
   void refresh_from_state() {
     refresh(measure(state_, geometry_),
-            measure_solids(setup_.domain, setup_.solids, setup_.scene->time, state_, geometry_));
+            measure_solids(setup_->domain, setup_->solids, setup_->scene->time, state_, geometry_));
   }
 
   std::vector<SurfaceMesh> rest_surfaces() const {
     std::vector<SurfaceMesh> surfaces;
     for (std::size_t k = 0; k < state_.solids.size(); ++k)
-      surfaces.push_back(state_.solids[k].surface_at_rest(setup_.scene->domain));
+      surfaces.push_back(state_.solids[k].surface_at_rest(setup_->scene->domain));
     return surfaces;
   }
 
-  Setup<Dim> setup_;
+  std::unique_ptr<const Setup<Dim>> setup_;  // before state_, which refers to it
   State<Dim> state_;
   StepGeometry<Dim> geometry_;
   SceneAccount account_;

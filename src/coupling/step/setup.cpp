@@ -152,12 +152,13 @@ bool Solids<Dim>::may_seal() const {
 }
 
 template <int Dim>
-Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPerturbation& operators)
+Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPerturbation& operators,
+                  std::vector<Box<Dim>> blocks)
     : scene(std::make_shared<const Scene>(from)),
       perturbation(operators),
       fluids(from),
       domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
-             ranks),
+             ranks, std::move(blocks)),
       solids(from, domain, perturbation, notes),
       exterior(make_exterior(fluids, domain)),
       sources(make_sources<Dim>(from, notes)),

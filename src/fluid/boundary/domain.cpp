@@ -22,11 +22,12 @@ Geometry<Dim> grid_geometry(const DomainSpec& spec) {
 }  // namespace
 
 template <int Dim>
-Domain<Dim>::Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& r)
+Domain<Dim>::Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& r,
+                    std::vector<Box<Dim>> chosen)
     : ranks(r),
-      layout(grid_geometry<Dim>(spec), partition(grid_geometry<Dim>(spec), r.size())[r.rank()],
-             reach + reach_of_stencils),
-      halo(layout, partition(layout.geometry(), r.size()), r),
+      blocks(chosen.empty() ? partition(grid_geometry<Dim>(spec), r.size()) : std::move(chosen)),
+      layout(grid_geometry<Dim>(spec), blocks[std::size_t(r.rank())], reach + reach_of_stencils),
+      halo(layout, blocks, r),
       sides(spec, flow) {}
 
 template struct Domain<2>;

@@ -3,6 +3,7 @@
 #include "base/communicator.h"
 #include "fluid/boundary/domain_boundary.h"
 #include "grid/halo.h"
+#include "grid/partition.h"
 
 namespace seiche {
 
@@ -10,12 +11,14 @@ namespace seiche {
 template <int Dim>
 struct Domain {
   Communicator ranks;
+  std::vector<Box<Dim>> blocks;  // owned cells of each rank
   Layout<Dim> layout;
   Halo<Dim> halo;
   DomainBoundary<Dim> sides;
 
-  // `reach`: largest number of cells that a step carries values across.
-  Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& ranks);
+  // `reach`: largest number of cells that a step carries values across. `blocks` empty: of equal size.
+  Domain(const DomainSpec& spec, WallFlow flow, int reach, const Communicator& ranks,
+         std::vector<Box<Dim>> blocks = {});
   Domain(const Domain&) = delete;
 
   // Half width of the level-set band, m: the cells that a step can cross plus the reach of the stencils.

@@ -84,7 +84,7 @@ void check_checkpoint(const Scene& scene) {
     const CheckpointData data = sim->save();
     other->load(data);
     check_equal(other->save(), data);
-    check_boxes(other->checkpoint_boxes(), data.fields);
+    check_boxes(other->checkpoint_boxes(data), data.fields);
     (void)sim->step(1);
   }
 }

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "base/checkpoint_boxes.h"
 #include "base/crc32c.h"
 #include "base/error.h"
-#include "files/checkpoint_boxes.h"
 #include "files/checkpoint_commit.h"
 #include "files/checkpoint_file.h"
 #include "unit/files/scratch.h"

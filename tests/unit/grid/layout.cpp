@@ -4,6 +4,7 @@
 #include "grid/halo.h"
 #include "grid/interpolation.h"
 #include "grid/loops.h"
+#include "grid/partition.h"
 
 using namespace seiche;
 

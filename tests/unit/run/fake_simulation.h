@@ -59,7 +59,9 @@ class FakeSimulation : public Simulation {
     step_ = std::int64_t(data.scalars.at("step"));
     x_ = data.fields.at(0).values.unpack().at(0);
   }
-  std::vector<FieldRecord> checkpoint_boxes() const override { return {{"x", {0, 0, 0}, {1, 1, 1}, {}}}; }
+  std::vector<FieldRecord> checkpoint_boxes(const CheckpointData&) override {
+    return {{"x", {0, 0, 0}, {1, 1, 1}, {}}};
+  }
   const Timers& timers() const override { return timers_; }
   std::vector<std::string> take_warnings() override { return {}; }
 

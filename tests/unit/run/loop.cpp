@@ -47,7 +47,7 @@ class Bench {
   RunEnd resume() {
     std::vector<std::string> warnings;
     const FoundCheckpoint found = find_newest_checkpoint(paths.checkpoints(), ranks, warnings);
-    simulation.load(load_checkpoint(found, simulation.checkpoint_boxes(), ranks));
+    simulation.load(load_checkpoint(found, simulation.checkpoint_boxes(found.data), ranks));
     return go(restore_run_state(found.data));
   }
   ExitCode failing_run() {

@@ -1,10 +1,11 @@
 #pragma once
-// Redistribution of checkpoint fields if a resumed run's ranks own other boxes than those of the run that wrote it.
+// Redistribution of fields to ranks that own other boxes: of a checkpoint, or of a run whose blocks change.
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/checkpoint_data.h"
+#include "base/communicator.h"
 
 namespace seiche {
 
@@ -25,6 +26,11 @@ class BoxFiller {
   std::vector<std::vector<double>> pieces_;  // of fields that come from more than one box
   std::vector<std::int64_t> missing_;        // entries not yet filled
 };
+
+// The fields in the boxes of `wanted` (without values), from those of all ranks. Both have the same names in the same
+// order on all ranks. Throws Error(bad_checkpoint) if the boxes do not hold all that is wanted. Collective.
+std::vector<FieldRecord> redistribute(const std::vector<FieldRecord>& own, const std::vector<FieldRecord>& wanted,
+                                      const Communicator& ranks);
 
 std::int64_t box_entries(const FieldRecord& field);
 
