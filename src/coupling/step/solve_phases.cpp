@@ -238,7 +238,8 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
                    s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
   if (s.domain.sides.any_passes()) brake_entering(s.domain, moved.geometry.faces, times.dt, p.u_star);
-  fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);
+  if (s.domain.sides.any_passes() || !s.solids.bodies.empty())  // else as transported, ghosts filled
+    fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);
   p.failure = find_non_finite(s.domain, "phi", s.domain.layout.cells(), phi.data());
   if (p.failure.empty()) p.failure = find_non_finite(s.domain, "u", p.u_star);
   return p;

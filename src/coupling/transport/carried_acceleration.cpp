@@ -10,18 +10,22 @@ namespace seiche {
 namespace {
 
 // One pass of the (1, 2, 1)/4 filter along every axis, on the `reached` sites; f is 0 elsewhere. `scratch` as well.
+// Each axis takes one layer of ghosts along it, which are filled once at the end. Outer terms are added first, so that
+// both sides of a mirror have the same bits.
 template <int Dim>
 void smooth(const Domain<Dim>& domain, const CellField<Dim, char>& reached, FaceField<Dim>& f,
             FaceField<Dim>& scratch) {
   for (int axis = 0; axis < Dim; ++axis) {
     std::swap(f, scratch);
     const Site d = domain.layout.stride(axis);
+    Box<Dim> inner = domain.layout.padded();
+    inner.lower[axis] += 1, inner.upper[axis] -= 1;
     for (int a = 0; a < Dim; ++a)
-      for_each_marked(domain.layout, domain.layout.faces(a), reached.data(), [&](Site c) {
-        f.at(a, c) = 0.25 * (scratch.at(a, c - d) + 2 * scratch.at(a, c) + scratch.at(a, c + d));
+      for_each_marked(domain.layout, inner, reached.data(), [&](Site c) {
+        f.at(a, c) = 0.25 * (scratch.at(a, c - d) + scratch.at(a, c + d) + 2 * scratch.at(a, c));
       });
-    fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);
   }
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, f);
 }
 
 // Change of the pressure slope from t - dt_now/2 to t + dt/2, m/s^2. Without a filter, extrapolation amplifies waves

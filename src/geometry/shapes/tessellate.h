@@ -11,10 +11,22 @@ template <int Dim>
 SurfaceMesh tessellate_box(const ShapeSpec& spec, double chord);
 template <int Dim>
 SurfaceMesh tessellate_sphere(const ShapeSpec& spec, double chord);
+template <>
+SurfaceMesh tessellate_sphere<2>(const ShapeSpec& spec, double chord);
+template <>
+SurfaceMesh tessellate_sphere<3>(const ShapeSpec& spec, double chord);
 template <int Dim>
 SurfaceMesh tessellate_cylinder(const ShapeSpec& spec, double chord);
+template <>
+SurfaceMesh tessellate_cylinder<2>(const ShapeSpec& spec, double chord);
+template <>
+SurfaceMesh tessellate_cylinder<3>(const ShapeSpec& spec, double chord);
 template <int Dim>
 SurfaceMesh tessellate_capsule(const ShapeSpec& spec, double chord);
+template <>
+SurfaceMesh tessellate_capsule<2>(const ShapeSpec& spec, double chord);
+template <>
+SurfaceMesh tessellate_capsule<3>(const ShapeSpec& spec, double chord);
 
 // The box spanned from `corner` by three edges that form a right-handed system. 2D: by the first two, z = 0.
 template <int Dim>
