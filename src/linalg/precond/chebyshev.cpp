@@ -99,6 +99,7 @@ double gershgorin_bound(const LinearSystem& F) {
 SpectralInterval estimate_interval(const LinearSystem& F) {
   constexpr int relaxations = 10;
   const double high = gershgorin_bound(F);
+  if (high == 0) return {};  // no unknowns on any rank
   Vector x(std::size_t(F.rows()), 1.0), Fx(x.size());
   for (int n = 0;; ++n) {
     F.multiply(x, Fx);

@@ -13,7 +13,7 @@ struct SpectralInterval {
 };
 
 // `high` is an upper bound (Gershgorin). `low` is the Rayleigh quotient of a smooth vector, close to the lowest
-// eigenvalue. Collective.
+// eigenvalue. 1 and 1 without unknowns. Collective.
 SpectralInterval estimate_interval(const LinearSystem& F);
 
 // Number of Chebyshev steps, from a zero guess, that reduce errors on the interval to the fraction `share`.
