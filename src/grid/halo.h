@@ -26,7 +26,7 @@ class Halo {
   }
 
   // The same after a change of `changed` sites, owned ones: f has new values there and `mark` is `value`, and both
-  // agreed between ranks before. Sends little else. Collective.
+  // agreed between ranks before. Sends these values with their places. Collective.
   void fill_changed(const std::vector<Site>& changed, char value, double* f, char* mark) const;
 
   // A halo of those ghosts alone that are among `wanted`, sorted. Only for fill_ghosts(). Collective.

@@ -23,7 +23,7 @@ double imbalance(const std::vector<double>& work);
 
 // Blocks of equal work by recursive bisection (Berger, Bokhari 1987): the grid is cut in two between layers of cells,
 // where work divides as the numbers of ranks do and little work lies at the cut, then each part likewise. `layout`: of
-// the present blocks, which may be others, and as many as `ranks`. Collective; the same on all ranks.
+// the present blocks, one a rank. `blocks`: how many are wanted. Collective; the same on all ranks.
 template <int Dim>
 std::vector<Box<Dim>> partition_by_work(const Layout<Dim>& layout, const CellField<Dim, char>& active, int blocks,
                                         const Communicator& ranks);

@@ -171,7 +171,6 @@ class Relaxation {
     return axis;
   }
 
-  // True if s is in the band or at most entering_ cells from it.
   // near_band() of any of a group.
   bool any_near_band(Site s) const {
     const double* f = start_.data() + s;
@@ -182,6 +181,7 @@ class Relaxation {
     return false;
   }
 
+  // True if s is in the band or at most entering_ cells from it.
   bool near_band(Site s) const {
     if (std::abs(start_[s]) < limit_) return true;
     for (int a = 0; a < Dim; ++a)
