@@ -27,8 +27,9 @@ class BoxFiller {
   std::vector<std::int64_t> missing_;        // entries not yet filled
 };
 
-// The fields in the boxes of `wanted` (without values), from those of all ranks. Both have the same names, all different,
-// in the same order on all ranks. Throws Error(bad_checkpoint) if the boxes do not hold all that is wanted. Collective.
+// The fields in the boxes of `wanted` (without values), from those of all ranks. Both have the same names, all
+// different, in the same order on all ranks. Throws Error(bad_checkpoint) if the boxes do not hold all that is wanted.
+// Collective.
 std::vector<FieldRecord> redistribute(const std::vector<FieldRecord>& own, const std::vector<FieldRecord>& wanted,
                                       const Communicator& ranks);
 
