@@ -15,7 +15,8 @@ class EnclosedAir : public Exterior<Dim> {
   explicit EnclosedAir(const Layout<Dim>& layout) { air_.label = CellField<Dim, std::int64_t>(layout, no_air); }
   std::unique_ptr<Exterior<Dim>> copy() const override { return std::make_unique<EnclosedAir>(*this); }
 
-  void start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, std::string&) override {
+  void start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, FaceField<Dim>&,
+             std::string&) override {
     air_ = initial_air(s.domain, g, phi);
   }
 

@@ -45,6 +45,19 @@ void join(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>&
     });
 }
 
+// Gives both fluids the velocity of their joint momentum on links that the surface crosses. Fluids that flow as one
+// have one velocity there; the liquid's alone would give its speed to gas that is at rest.
+template <int Dim>
+void join_both(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, FaceField<Dim>& gas,
+               FaceField<Dim>& liquid) {
+  FaceField<Dim> joint = liquid;
+  join(domain, fluids, phi, gas, joint);
+  for (int a = 0; a < Dim; ++a)
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if ((phi[f] < 0) != (phi[f - domain.layout.stride(a)] < 0)) gas.at(a, f) = liquid.at(a, f) = joint.at(a, f);
+    });
+}
+
 // Each fluid is transported with its own flow, extrapolated beyond the surface. Neither then takes up the other's
 // velocity by interpolation. On links that the surface crosses their momenta add up. See flow_as_one() for the
 // exception.
@@ -54,10 +67,12 @@ class FlowingGas : public Exterior<Dim> {
   using Exterior<Dim>::flow;
   std::unique_ptr<Exterior<Dim>> copy() const override { return std::make_unique<FlowingGas>(*this); }
 
-  void start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, std::string& fault) override {
+  void start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, FaceField<Dim>& u,
+             std::string& fault) override {
     const FaceField<Dim, char> near = faces_near_gas(s.domain, phi);
-    flow.now =
-        initial_level(s.domain, s.fluids, s.solids, g, near, initial_gas_velocity(s.domain, s.fluids, near, fault));
+    FaceField<Dim> gas = initial_gas_velocity(s.domain, s.fluids, near, fault);
+    if (flow_as_one(s.fluids)) join_both(s.domain, s.fluids, phi, gas, u);
+    flow.now = initial_level(s.domain, s.fluids, s.solids, g, near, std::move(gas));
   }
 
   FaceField<Dim> surface_velocity(const Setup<Dim>& s, const State<Dim>& state) const override {

@@ -35,8 +35,9 @@ class Exterior {
   virtual std::unique_ptr<Exterior> copy() const = 0;
   bool flows() const { return flow.now != nullptr; }
 
-  // Sets its data at the start. `fault`: set if it is empty and a formula is not finite. Collective.
-  virtual void start(const Setup<Dim>&, const StepGeometry<Dim>&, const CellField<Dim>& /*phi*/,
+  // Sets its data at the start; may change the liquid's velocity u beside it. `fault`: set if it is empty and a formula
+  // is not finite. Collective.
+  virtual void start(const Setup<Dim>&, const StepGeometry<Dim>&, const CellField<Dim>& /*phi*/, FaceField<Dim>& /*u*/,
                      std::string& /*fault*/) {}
 
   // Velocity that transports the surface from `state`, m/s. Default: the liquid's. Collective.

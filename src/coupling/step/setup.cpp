@@ -211,7 +211,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   const FaceField<Dim, char> wet = faces_near_liquid(s.domain, state.phi);
   FaceField<Dim> u = initial_velocity(s.domain, s.fluids, wet, shapes, fault);
   state.exterior = s.exterior;
-  state.exterior->start(s, g, state.phi, fault);
+  state.exterior->start(s, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));

@@ -142,11 +142,12 @@ std::string with_checksum(std::string bytes) {
 
 void require_checksum(const std::filesystem::path& file, const std::string& bytes) {
   constexpr std::size_t tail = checksum_tag.size() + 8;
-  if (bytes.size() < tail) return;
-  const std::string_view body(bytes.data(), bytes.size() - tail);
+  const std::string_view body(bytes.data(), bytes.size() - std::min(bytes.size(), tail));
   const std::string_view end = std::string_view(bytes).substr(body.size());
-  if (!end.starts_with(checksum_tag) || end.substr(checksum_tag.size()) == fmt::format("{:08x}", crc32c(body))) return;
-  refuse(file, "is damaged: its bytes do not have the checksum that was written with them");
+  if (!end.starts_with(checksum_tag))
+    refuse(file, "does not end with the checksum of Seiche's frames: it is cut off, or was changed since");
+  if (end.substr(checksum_tag.size()) != fmt::format("{:08x}", crc32c(body)))
+    refuse(file, "is damaged: its bytes do not have the checksum that was written with them");
 }
 
 std::string readable_start(const std::string& message) {

@@ -20,7 +20,7 @@ std::string with_transforms(std::string bytes, const Vec3& first, double h);
 // changed bytes, which may even make it write out of bounds.
 std::string with_checksum(std::string bytes);
 
-// Throws Error(bad_input) if the checksum at the end does not match. Frames of older versions have none and pass.
+// Throws Error(bad_input) unless the file ends with the checksum of its bytes.
 void require_checksum(const std::filesystem::path& file, const std::string& bytes);
 
 // The first 200 characters of a message from another library. Unprintable characters become '?'.

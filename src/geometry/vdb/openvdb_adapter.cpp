@@ -188,8 +188,8 @@ void read_frame_metadata(const openvdb::MetaMap& meta, OpenFrame& open) {
 // Reads from memory with exceptions enabled, because OpenVDB itself ignores a premature end of the file.
 OpenFrame read_archive(const std::filesystem::path& file) {
   std::string bytes = mesh::read_bytes(file);
-  require_checksum(file, bytes);
   require_sound_header(file, bytes);
+  require_checksum(file, bytes);
   std::istringstream in(std::move(bytes), std::ios::binary);
   in.exceptions(std::ios::failbit | std::ios::badbit);
   openvdb::io::Stream archive(in, false);

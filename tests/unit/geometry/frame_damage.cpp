@@ -64,17 +64,18 @@ TEST_CASE("frames cut off anywhere are refused in a line") {
   }
 }
 
-TEST_CASE("a bit changed anywhere in a frame ends in a line or in a frame, in little memory") {
+// OpenVDB reads packed blocks of any length over a buffer's end, so bytes that no checksum covers never reach it.
+TEST_CASE("a frame with a bit changed anywhere, and one with bytes after its checksum, are refused in a line") {
   const TemporaryFolder folder;
   const std::string whole = vdb::encode(ball(0.1));
-  std::size_t refused = 0;
   for (std::size_t bit = 0; bit < 8 * whole.size(); bit += bit < 8 * 1500 ? 11 : 503) {
     std::string bytes = whole;
     bytes[bit / 8] = char(bytes[bit / 8] ^ (1 << bit % 8));
-    const std::string text = refusal(folder, bytes);
-    CAPTURE(bit, text);
-    CHECK(text.size() < 1000);
-    refused += !text.empty();
+    for (const std::string& tail : {std::string(), std::string("appended")}) {
+      const std::string text = refusal(folder, bytes + tail);
+      CAPTURE(bit, tail, text);
+      CHECK((!text.empty() && text.size() < 1000));
+    }
   }
-  CHECK(refused > 100);
+  CHECK_FALSE(refusal(folder, whole + "appended").empty());
 }
