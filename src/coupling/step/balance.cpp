@@ -73,7 +73,7 @@ std::vector<Box<Dim>> blocks_of_text(const std::string& text, const Domain<Dim>&
   std::vector<int> numbers;
   std::istringstream stream(text);
   for (int n; stream >> n;) numbers.push_back(n);
-  if (numbers.size() != std::size_t(2 * Dim * domain.ranks.size())) return {};
+  if (numbers.size() != 2 * std::size_t(Dim) * std::size_t(domain.ranks.size())) return {};
   std::vector<Box<Dim>> blocks(std::size_t(domain.ranks.size()));
   auto next = numbers.begin();
   for (Box<Dim>& block : blocks)
