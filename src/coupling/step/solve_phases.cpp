@@ -7,6 +7,7 @@
 #include "coupling/solve/coupled_solve.h"
 #include "coupling/solve/rheology_iteration.h"
 #include "coupling/step/checks.h"
+#include "coupling/step/side_flow.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
 #include "coupling/transport/prescribed_flow.h"

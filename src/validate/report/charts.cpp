@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/scene.h"
 #include "files/checked_file.h"
 #include "files/frames.h"
 #include "render/frame.h"
