@@ -119,11 +119,13 @@ void Halo<Dim>::fill_changed(const std::vector<Site>& changed, char value, doubl
   std::vector<std::vector<Pair>> pairs(peers_.size());
   for (const Site s : changed) {
     if (std::size_t(s) >= is_sent_.size() || !is_sent_[std::size_t(s)]) continue;
-    for (const Outgoing& to : std::ranges::equal_range(outgoing_, s, {}, &Outgoing::site)) {
-      if (to.peer >= 0)
-        pairs[std::size_t(to.peer)].push_back({to.place, f[s]});
+    const auto below = [](const Outgoing& o, Site site) { return o.site < site; };
+    for (auto to = std::lower_bound(outgoing_.begin(), outgoing_.end(), s, below);
+         to != outgoing_.end() && to->site == s; ++to) {
+      if (to->peer >= 0)
+        pairs[std::size_t(to->peer)].push_back({to->place, f[s]});
       else
-        f[to.place] = f[s], mark[to.place] = value;
+        f[to->place] = f[s], mark[to->place] = value;
     }
   }
   std::vector<Items<Pair>> out, in;
