@@ -57,10 +57,10 @@ TEST_CASE("a ball swings to and fro with a prescribed flow, as a ball and of one
       const auto sim = run_to(s, end);
       const double away = worst(*sim, s, ball(dim, "(0.4+0.1*(1-cos(2*pi*t)))"));
       WARN(dim << "D, t = " << end << ": " << away << " cells, " << sim->step_count() << " steps, "
-               << sim->stats().volume_corrected / sim->stats().liquid_volume << " of the volume restored");
+               << sim->stats().liquid_volume / sim->expected_volume() - 1 << " of the volume too much");
       CHECK(away < 0.1);
       CHECK(sim->step_count() > 12 * end);  // 6.4 cells each way
-      CHECK(sim->stats().liquid_volume == Approx(sim->expected_volume()).epsilon(1e-6));
+      CHECK(sim->stats().liquid_volume == Approx(sim->expected_volume()).epsilon(1e-11));
       CHECK(sim->stats().max_divergence < 1e-12);
       CHECK(sim->stats().solver_iterations == 0);
     }
@@ -103,6 +103,42 @@ TEST_CASE("a prescribed flow that is no number is said by key, at the start and 
       CHECK(e.code() == code);
       CHECK(std::string(e.what()).find("liquid.prescribed_velocity[1] = \"" + std::string(formula)) == 0);
     }
+  }
+}
+
+namespace {
+
+// Area or volume where the share of liquid of cells differs from that at the start, m^Dim.
+double misplaced(const FrameField& before, const FrameField& after, double h, int dim) {
+  double sum = 0;
+  for (std::size_t n = 0; n < before.values.size(); ++n) {
+    const auto share = [&](const FrameField& f) { return std::clamp(0.5 - f.values[n] / h, 0.0, 1.0); };
+    sum += std::abs(share(after) - share(before));
+  }
+  return sum * std::pow(h, dim);
+}
+
+}  // namespace
+
+// Rider, Kothe 1998; in 3D the same flow in each plane z. The shift of the level set alone gave 0.018 (2D) at 64 cells.
+TEST_CASE("a disc drawn out to a thread and back is whole again, and its volume kept to rounding", "[long]") {
+  for (int dim : {2, 3}) {
+    const int cells = dim == 2 ? 64 : 32;
+    const double period = dim == 2 ? 8 : 2;
+    const std::string time = fmt::format("*cos(pi*t/{})", period);
+    Scene s =
+        carried(dim, cells, dim == 2 ? "sqrt((x-0.5)^2+(y-0.75)^2)-0.15" : "sqrt((x-0.5)^2+(y-0.7)^2+(z-0.5)^2)-0.2",
+                {"-sin(pi*x)^2*sin(2*pi*y)" + time, "sin(pi*y)^2*sin(2*pi*x)" + time, "0"});
+    const auto sim = make_simulation(s, Communicator());
+    const FrameField before = sim->frame_field("surface");
+    const double volume = sim->stats().liquid_volume;
+    while (sim->time() < period * (1 - 1e-12)) (void)sim->step(period);
+    const double off = misplaced(before, sim->frame_field("surface"), s.domain.cell_size, dim);
+    WARN(dim << "D, " << cells << " cells: " << off << " misplaced, volume off by "
+             << sim->stats().liquid_volume / volume - 1);
+    CHECK(off <= (dim == 2 ? 0.0045 : 0.002));
+    CHECK(sim->stats().liquid_volume == Approx(volume).epsilon(1e-11));
+    CHECK(sim->stats().volume_corrected == 0);
   }
 }
 

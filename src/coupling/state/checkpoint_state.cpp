@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "fluid/volume/spill.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
 
@@ -178,11 +179,13 @@ void visit_cells(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   const Domain<Dim>& domain = s.domain;
   visitor.field("phi", domain.layout.cells(), state.phi);
   visitor.field("pressure", domain.layout.cells(), state.pressure);
+  if (s.tracks_volume()) visitor.field("liquid", domain.layout.cells(), state.liquid);
   if (s.fluids.liquid.separates) visitor.field("gap", domain.layout.cells(), state.separation.gap);
   if (s.solids.may_seal()) visitor.field("sealed", domain.layout.cells(), state.sealed);
   if (!visitor.loads()) return;
   fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
   domain.halo.fill_ghosts(state.pressure);
+  if (s.tracks_volume()) fill_share_ghosts(domain.layout, domain.halo, state.liquid);
   if (s.solids.may_seal()) domain.halo.fill_ghosts({state.sealed.data()});
 }
 
@@ -211,6 +214,7 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   state.solids = s.solids.at_start;
   state.phi = CellField<Dim>(layout);
   state.pressure = CellField<Dim>(layout);
+  if (s.tracks_volume()) state.liquid = CellField<Dim>(layout);
   state.gap_flow = GapFlow<Dim>(layout);
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(layout);

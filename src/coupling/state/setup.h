@@ -33,6 +33,9 @@ struct Setup {
   // `blocks`: owned cells of each rank; empty: of equal size.
   Setup(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation = {},
         std::vector<Box<Dim>> blocks = {});
+
+  // True if the liquid's volume is a field of its own (State::liquid), not kept by a shift of the level set.
+  bool tracks_volume() const { return fluids.has_prescribed_flow() && sources.empty(); }
 };
 
 }  // namespace seiche

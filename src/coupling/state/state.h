@@ -28,6 +28,7 @@ struct State : Flow<Dim> {
   OwnedExterior<Dim> exterior;
   GapFlow<Dim> gap_flow;        // at `now`
   CellField<Dim> phi;           // m, ghosts filled
+  CellField<Dim> liquid;        // share of each cell, ghosts filled; empty unless Setup::tracks_volume()
   CellField<Dim> pressure;      // Pa, 0 where the cell has no row
   double expected_volume = 0;   // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim

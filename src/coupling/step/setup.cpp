@@ -25,6 +25,7 @@
 #include "coupling/transport/initial_surface.h"
 #include "coupling/transport/liquid_viscosity.h"
 #include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
@@ -216,6 +217,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);
+  if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
   check_fixed_step(s, state);
   return state;
 }

@@ -6,6 +6,7 @@
 #include "coupling/step/solve_phases.h"
 #include "coupling/step/surface_phases.h"
 #include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/tracked_volume.h"
 
 namespace seiche {
 namespace {
@@ -28,7 +29,11 @@ template <int Dim>
 Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& before, double dt, Phases& phases) {
   std::string fault = fault_of_prescribed(s.domain, s.fluids, s.scene->time, before, dt);
   if (!fault.empty()) return failed<Dim>(std::move(fault));
-  return prescribe_velocity(s, move_surface_and_solids(s, before, times_of_step(s, before, dt), phases));
+  Attempt<Dim> attempt =
+      prescribe_velocity(s, move_surface_and_solids(s, before, times_of_step(s, before, dt), phases));
+  if (s.tracks_volume() && attempt.failure.empty())
+    attempt.failure = fault_of_volume(s.domain, before, attempt.state);
+  return attempt;
 }
 
 }  // namespace

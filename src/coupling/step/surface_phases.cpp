@@ -12,6 +12,7 @@
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -116,6 +117,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
+  if (s.tracks_volume()) carry_liquid(s.domain, u, times.lead, before.phi, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());
@@ -146,6 +148,7 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = moved.state;
   const StepGeometry<Dim>& geometry = moved.geometry;
+  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, next);
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   keep_sides_of_walls(s.domain, geometry, next.phi);
   keep_sealed_full(s, before, next, geometry, next.phi);

@@ -9,8 +9,8 @@ namespace seiche {
 
 struct TimeSpec;
 
-// Velocity (m/s) at time t on the faces, ghosts included, that transport of the surface `phi` over a step can read; 0
-// on others. Throws Error (bad_input at t = 0, else cannot_continue) if a formula is not finite. Collective.
+// Mean velocity (m/s) at time t on the faces, ghosts included, that transport of the liquid below `phi` over a step can
+// read; 0 on others. Throws Error (bad_input at t = 0, else cannot_continue) if a formula is not finite. Collective.
 template <int Dim>
 FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t);
 

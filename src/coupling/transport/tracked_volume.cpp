@@ -1,0 +1,61 @@
+#include "coupling/transport/tracked_volume.h"
+
+#include <fmt/format.h>
+
+#include "fluid/boundary/domain.h"
+#include "fluid/volume/level_set_coupling.h"
+#include "fluid/volume/spill.h"
+#include "fluid/volume/volume_transport.h"
+#include "grid/loops.h"
+#include "levelset/fractions.h"
+
+namespace seiche {
+
+template <int Dim>
+void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state) {
+  state.liquid = CellField<Dim>(domain.layout);
+  for_each_site(domain.layout, domain.layout.cells(),
+                [&](Site c) { state.liquid[c] = liquid_share(domain.layout, state.phi, psi, c); });
+  fill_share_ghosts(domain.layout, domain.halo, state.liquid);
+  state.expected_volume = tracked_volume(domain, state);
+}
+
+template <int Dim>
+void carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
+                  State<Dim>& state) {
+  const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks, u, dt, phi, state.liquid);
+  state.expected_volume += step.entered * domain.layout.geometry().cell_volume();
+}
+
+template <int Dim>
+void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state) {
+  couple_level_set(domain.layout, domain.halo, domain.ranks, psi, state.phi, state.liquid);
+}
+
+template <int Dim>
+std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before, const State<Dim>& next) {
+  constexpr double rounding = 1e-11;
+  const double was = tracked_volume(domain, before), is = tracked_volume(domain, next),
+               entered = next.expected_volume - before.expected_volume;
+  if (std::abs(is - was - entered) <= rounding * std::max(was + is, domain.layout.geometry().cell_volume())) return {};
+  return fmt::format("the volume of liquid changes by {:.6g} m^{} in a step, but {:.6g} came in through the sides",
+                     is - was, Dim, entered);
+}
+
+template <int Dim>
+double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
+  const double cells =
+      local_sum(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return state.liquid[c]; });
+  return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                              \
+  template void carry_liquid<D>(const Domain<D>&, const FaceField<D>&, double, const CellField<D>&, State<D>&); \
+  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                             \
+  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                  \
+  template double tracked_volume<D>(const Domain<D>&, const State<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,31 @@
+#pragma once
+// The liquid's volume as a field of its own beside the level set, State::liquid: carried through faces, conserved to
+// rounding. Where Setup::tracks_volume() is false, a shift of the level set keeps the volume.
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// Sets State::liquid to the shares of the level set. Collective.
+template <int Dim>
+void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
+
+// Carries State::liquid over dt (s) along the flow u (m/s) that carries the level set `phi`, as it was before. Books
+// what passes the sides. Collective.
+template <int Dim>
+void carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
+                  State<Dim>& state);
+
+// Brings level set and volume together after both were carried. Collective.
+template <int Dim>
+void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
+
+// Empty, or a text if State::liquid changed from `before` to `next` by other than what passed the sides, to 1e-11 of
+// it: a hundred times the rounding of a sum over 1e6 cells. Collective.
+template <int Dim>
+std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before, const State<Dim>& next);
+
+// Volume of State::liquid, m^Dim. Collective.
+template <int Dim>
+double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state);
+
+}  // namespace seiche

@@ -1,0 +1,40 @@
+#pragma once
+// The cells within some cells of one along each axis.
+#include "grid/layout.h"
+
+namespace seiche {
+
+constexpr int power_of(int base, int exponent) {
+  return exponent == 0 ? 1 : base * power_of(base, exponent - 1);
+}
+
+// Number of cells within `reach` of a cell, with itself; it comes in the middle.
+template <int Dim>
+constexpr int neighbour_count(int reach = 1) {
+  return power_of(2 * reach + 1, Dim);
+}
+
+// Offset of neighbour n, 0 <= n < neighbour_count(reach).
+template <int Dim>
+IVec<Dim> neighbour_offset(int n, int reach = 1) {
+  IVec<Dim> o;
+  for (int a = 0; a < Dim; ++a, n /= 2 * reach + 1) o[a] = n % (2 * reach + 1) - reach;
+  return o;
+}
+
+// What an offset in cells adds to a site.
+template <int Dim>
+Site step_of(const Layout<Dim>& layout, const IVec<Dim>& offset) {
+  Site s = 0;
+  for (int a = 0; a < Dim; ++a) s += offset[a] * layout.stride(a);
+  return s;
+}
+
+template <int Dim>
+bool lies_in_domain(const Geometry<Dim>& g, const IVec<Dim>& cell) {
+  for (int a = 0; a < Dim; ++a)
+    if (!g.periodic[a] && (cell[a] < 0 || cell[a] >= g.cells[a])) return false;
+  return true;
+}
+
+}  // namespace seiche

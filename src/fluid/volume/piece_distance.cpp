@@ -1,0 +1,68 @@
+#include "fluid/volume/piece_distance.h"
+
+#include "fluid/volume/neighbours.h"
+#include "fluid/volume/surface_pieces.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Distance of x from the part of a plane in the unit cube: the point y = clamp(x - t n) with n.y = offset, by halving
+// t.
+template <int Dim>
+double distance_of_piece(const CellPlane<Dim>& plane, const Vec<Dim>& x) {
+  double low = -10, high = 10;
+  const auto at = [&](double t) { return Vec<Dim>((x - t * plane.normal).cwiseMax(0).cwiseMin(1)); };
+  for (int k = 0; k < 50; ++k) {
+    const double t = 0.5 * (low + high);
+    (plane.normal.dot(at(t)) > plane.offset ? low : high) = t;
+  }
+  return (at(0.5 * (low + high)) - x).norm();
+}
+
+// Signed distance (m) of a cell's centre from the pieces of the cells within two, at most two cells.
+template <int Dim>
+double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& pieces, const CellField<Dim>& share,
+                          Site c) {
+  constexpr int reach = 2;
+  const Vec<Dim> middle = Vec<Dim>::Constant(0.5);
+  double least = reach;
+  for (int n = 0; n < neighbour_count<Dim>(reach); ++n) {
+    const IVec<Dim> o = neighbour_offset<Dim>(n, reach);
+    const std::int32_t piece = pieces.index[c + step_of(layout, o)];
+    if (piece < 0) continue;
+    least =
+        std::min(least, distance_of_piece<Dim>(pieces.planes[std::size_t(piece)], middle - o.template cast<double>()));
+  }
+  const std::int32_t own = pieces.index[c];
+  const bool wet = own < 0
+                       ? share[c] > 0.5
+                       : pieces.planes[std::size_t(own)].normal.dot(middle) < pieces.planes[std::size_t(own)].offset;
+  return (wet ? -least : least) * layout.h();
+}
+
+}  // namespace
+
+template <int Dim>
+std::int64_t rebuild_level_set(const Layout<Dim>& layout, const CellField<Dim, char>& marked, const CellField<Dim>& old,
+                               const CellField<Dim>& share, CellField<Dim>& phi) {
+  const std::vector<Site> cells = listed_possible(
+      layout, layout.cells(), [](Site) { return true; },
+      [&](Site c) {
+        bool any = false;
+        for (int n = 0; n < neighbour_count<Dim>(); ++n)
+          any = any || marked[c + step_of(layout, neighbour_offset<Dim>(n))];
+        return any;
+      });
+  if (cells.empty()) return 0;
+  const SurfacePieces<Dim> pieces = surface_pieces(layout, layout.grown(2), old, share);
+  for_each_listed(cells, [&](Site c) { phi[c] = distance_of_pieces(layout, pieces, share, c); });
+  return std::int64_t(cells.size());
+}
+
+template std::int64_t rebuild_level_set<2>(const Layout<2>&, const CellField<2, char>&, const CellField<2>&,
+                                           const CellField<2>&, CellField<2>&);
+template std::int64_t rebuild_level_set<3>(const Layout<3>&, const CellField<3, char>&, const CellField<3>&,
+                                           const CellField<3>&, CellField<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,103 @@
+#include "fluid/volume/spill.h"
+
+#include "fluid/volume/neighbours.h"
+#include "grid/ghosts.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// A cell with more or less than it holds, and what its neighbours can take or give.
+template <int Dim>
+class Excess {
+ public:
+  Excess(const Layout<Dim>& layout, const CellField<Dim>& share, Site cell, bool anywhere)
+      : layout_(layout), share_(share), cell_(cell), index_(layout.index(cell)), anywhere_(anywhere) {
+    const double v = share[cell];
+    amount = v > 1 ? v - 1 : std::min(v, 0.0);
+    each_neighbour([&](Site, double room) { total_ += room; });
+  }
+  double amount;  // above 1, or below 0
+  double moved() const { return std::copysign(std::min(std::abs(amount), total_), amount); }
+
+  // visit(neighbour, what it gets)
+  template <class Visit>
+  void hand_on(const Visit& visit) const {
+    if (total_ <= 0) return;
+    const double part = moved() / total_;
+    each_neighbour([&](Site n, double room) { visit(n, part * room); });
+  }
+
+ private:
+  // Cells with liquid take it up before empty ones do.
+  double room_of(Site n) const {
+    constexpr double wet = 1e-6;
+    if (amount < 0) return std::max(0.0, share_[n]);
+    return anywhere_ || share_[n] > wet ? std::max(0.0, 1 - share_[n]) : 0;
+  }
+  template <class Visit>
+  void each_neighbour(const Visit& visit) const {
+    for (int n = 0; n < neighbour_count<Dim>(); ++n) {
+      const IVec<Dim> o = neighbour_offset<Dim>(n);
+      if (o.isZero() || !lies_in_domain(layout_.geometry(), IVec<Dim>(index_ + o))) continue;
+      const Site s = cell_ + step_of(layout_, o);
+      if (const double room = room_of(s); room > 0) visit(s, room);
+    }
+  }
+
+  const Layout<Dim>& layout_;
+  const CellField<Dim>& share_;
+  Site cell_;
+  IVec<Dim> index_;
+  bool anywhere_;
+  double total_ = 0;
+};
+
+// One round, from the shares `before` it. What this rank's cells gave.
+template <int Dim>
+Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, bool anywhere, CellField<Dim>& share) {
+  constexpr double rounding = 1e-13;
+  Spill spill;
+  const std::vector<Site> cells = listed_possible(
+      layout, layout.grown(1), [](Site) { return true; },
+      [&](Site c) { return before[c] > 1 + rounding || before[c] < -rounding; });
+  for (const Site c : cells) {
+    const Excess<Dim> excess(layout, before, c, anywhere);
+    excess.hand_on([&](Site n, double amount) { share[n] += amount; });
+    share[c] -= excess.moved();
+    if (!layout.cells().contains(layout.index(c))) continue;
+    spill.moved += std::abs(excess.moved());
+    spill.worst = std::max(spill.worst, std::abs(excess.amount));
+  }
+  return spill;
+}
+
+}  // namespace
+
+template <int Dim>
+void fill_share_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& share) {
+  halo.fill_ghosts(share);
+  extend_beyond_sides<Dim>(layout, share.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::constant));
+}
+
+template <int Dim>
+Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
+                     CellField<Dim>& share) {
+  Spill all;
+  for (int round = 0; round < 3; ++round) {
+    const CellField<Dim> before = share;
+    const Spill spill = hand_on_once(layout, before, round > 0, share);
+    all.moved += ranks.global_sum(spill.moved);
+    if (round == 0) all.worst = ranks.global_max(spill.worst);
+    fill_share_ghosts(layout, halo, share);
+  }
+  return all;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template Spill hand_on_excess<D>(const Layout<D>&, const Halo<D>&, const Communicator&, CellField<D>&); \
+  template void fill_share_ghosts<D>(const Layout<D>&, const Halo<D>&, CellField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

@@ -1,0 +1,24 @@
+#pragma once
+// Shares of liquid above 1 and below 0, handed to and taken from neighbours.
+#include "base/communicator.h"
+#include "grid/fields.h"
+#include "grid/halo.h"
+
+namespace seiche {
+
+// What was moved by hand, in cells, over all ranks: all of it, and the most of one cell.
+struct Spill {
+  double moved = 0, worst = 0;
+};
+
+// Three rounds, each from the shares before it, so that the result does not depend on the ranks. What finds no room
+// stays. Fills ghosts. Collective.
+template <int Dim>
+Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
+                     CellField<Dim>& share);
+
+// Ghosts of shares; beyond sides those of the cells at them. Collective.
+template <int Dim>
+void fill_share_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellField<Dim>& share);
+
+}  // namespace seiche

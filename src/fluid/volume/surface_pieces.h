@@ -1,0 +1,34 @@
+#pragma once
+// Planes that stand for the surface in the cells that liquid fills in part (PLIC).
+#include <cstdint>
+#include <vector>
+
+#include "fluid/volume/cell_plane.h"
+#include "grid/fields.h"
+
+namespace seiche {
+
+// A cell with a share outside of this margin of 0 and 1 has a plane.
+constexpr double least_share = 1e-9;
+inline bool is_mixed(double share) {
+  return share > least_share && share < 1 - least_share;
+}
+
+// The planes of the mixed cells of a box. index: -1 where there is none.
+template <int Dim>
+struct SurfacePieces {
+  CellField<Dim, std::int32_t> index;
+  std::vector<CellPlane<Dim>> planes;
+};
+
+// Planes below which each mixed cell of `box` has its share of liquid. Normals from phi (m) where it is smooth, else
+// from columns of shares (ELVIRA; Pilliod, Puckett 2004). phi and share must be valid two cells around the box. Local.
+template <int Dim>
+SurfacePieces<Dim> surface_pieces(const Layout<Dim>& layout, const Box<Dim>& box, const CellField<Dim>& phi,
+                                  const CellField<Dim>& share);
+
+// True if phi has no kink within a cell of this one: no second difference above 0.35 h.
+template <int Dim>
+bool is_smooth(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell);
+
+}  // namespace seiche

@@ -1,0 +1,128 @@
+#include "fluid/volume/volume_exchange.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid/volume/surface_pieces.h"
+#include "grid/loops.h"
+
+namespace seiche {
+namespace {
+
+// Calls visit(m) for the cells of the surface around c.
+template <int Dim, class Visit>
+void each_on_surface(const Layout<Dim>& layout, const Difference<Dim>& d, Site c, const Visit& visit) {
+  for (int n = 0; n < neighbour_count<Dim>(); ++n) {
+    const Site m = c + step_of(layout, neighbour_offset<Dim>(n));
+    if (m != c && d.on_surface(m)) visit(m);
+  }
+}
+
+// Flows between neighbours on the surface, and the shares of them that all cells can bear.
+template <int Dim>
+class Exchange {
+ public:
+  Exchange(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& delta,
+           const CellField<Dim, char>& good)
+      : layout_(layout), d_(d), delta_(delta), good_(good), takes_(layout, 1.0), gives_(layout, 1.0) {}
+
+  void limit(const std::vector<Site>& surface, const CellField<Dim>& share) {
+    for_each_listed(surface, [&](Site c) {
+      double in = 0, out = 0;
+      each(c, [&](Site, double f) { (f > 0 ? in : out) += std::abs(f); });
+      takes_[c] = in > 0 ? std::clamp((1 - share[c]) / in, 0.0, 1.0) : 1;
+      gives_[c] = out > 0 ? std::clamp(share[c] / out, 0.0, 1.0) : 1;
+    });
+  }
+  // What cell c gains.
+  double gain(Site c) const {
+    double sum = 0;
+    each(c, [&](Site m, double f) {
+      sum += f * (f > 0 ? std::min(takes_[c], gives_[m]) : std::min(gives_[c], takes_[m]));
+    });
+    return sum;
+  }
+
+ private:
+  template <class Visit>
+  void each(Site c, const Visit& visit) const {
+    if (!good_[c]) return;
+    visit_links(layout_, d_, c, [&](Site m, double w) {
+      if (good_[m]) visit(m, w * (delta_[m] - delta_[c]));
+    });
+  }
+
+  const Layout<Dim>& layout_;
+  const Difference<Dim>& d_;
+  const CellField<Dim>& delta_;
+  const CellField<Dim, char>& good_;
+  CellField<Dim> takes_, gives_;
+};
+
+// Cells where both may move each other: on a smooth surface that is not rebuilt.
+template <int Dim>
+CellField<Dim, char> good_cells(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& phi,
+                                const CellField<Dim, char>& rebuild) {
+  CellField<Dim, char> good(layout);
+  for_each_site(layout, cells_around(layout, 2),
+                [&](Site c) { good[c] = d.on_surface(c) && !rebuild[c] && is_smooth(layout, phi, c); });
+  return good;
+}
+
+}  // namespace
+
+template <int Dim>
+Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& phi,
+                  const CellField<Dim>& share)
+    : rhs(layout), change(layout), rebuild(layout) {
+  constexpr double rounding = 1e-12, least_room = 0.2, most = 0.5, visible = 0.05;
+  const Box<Dim> box = cells_around(layout, 1);
+  for_each_site(layout, box, [&](Site c) { rhs[c] = d.on_surface(c) ? d.missing[c] : 0; });
+  const std::vector<Site> cells = listed_possible(
+      layout, box, [](Site) { return true; },
+      [&](Site c) { return !d.on_surface(c) && std::abs(d.missing[c]) > rounding; });
+  for (const Site c : cells) {
+    double room = 0;
+    each_on_surface(layout, d, c, [&](Site m) { room += d.area[m]; });
+    if (room < least_room || std::abs(d.missing[c]) > most) {
+      rebuild[c] = std::abs(d.missing[c]) > visible;
+      continue;
+    }
+    each_on_surface(layout, d, c, [&](Site m) {
+      const double part = d.missing[c] * d.area[m] / room;
+      rhs[m] += part;
+      if (!is_smooth(layout, phi, m)) return;
+      const double taken = std::clamp(part, -std::max(share[m], 0.0), std::max(1 - share[m], 0.0));
+      change[m] += taken;
+      change[c] -= taken;
+    });
+  }
+}
+
+template <int Dim>
+double exchange_short_waves(const Layout<Dim>& layout, const Difference<Dim>& d, const CellField<Dim>& delta,
+                            const CellField<Dim>& phi, const CellField<Dim, char>& rebuild,
+                            const std::vector<Site>& surface, CellField<Dim>& share) {
+  const CellField<Dim, char> good = good_cells(layout, d, phi, rebuild);
+  Exchange<Dim> exchange(layout, d, delta, good);
+  exchange.limit(listed_possible(
+                     layout, cells_around(layout, 1), [](Site) { return true; }, [&](Site c) { return good[c] != 0; }),
+                 share);
+  double moved = 0;
+  for (const Site c : surface) {
+    const double gain = exchange.gain(c);
+    share[c] += gain;
+    moved += std::max(gain, 0.0);
+  }
+  return moved;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                       \
+  template struct Stray<D>;                                                                                         \
+  template double exchange_short_waves<D>(const Layout<D>&, const Difference<D>&, const CellField<D>&,              \
+                                          const CellField<D>&, const CellField<D, char>&, const std::vector<Site>&, \
+                                          CellField<D>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche

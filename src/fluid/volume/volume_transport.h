@@ -1,0 +1,21 @@
+#pragma once
+// The volume of liquid, carried through the faces of cells along the flow: unsplit, geometric, conserved to rounding.
+#include "fluid/volume/spill.h"
+
+namespace seiche {
+
+// What a step did, in cells, over all ranks.
+struct VolumeStep {
+  double entered = 0;  // through the sides of the domain, net
+  Spill spill;         // moved by hand
+};
+
+// Carries `share`, the liquid's share of each cell, over dt (s) along the frozen flow u (m/s):
+//   V(t + dt) = V(t) - sum of the liquid in the regions that pass the faces.
+// phi (m) gives the normals of smooth surfaces. Paths may cross halo - 2 cells. Ghosts of all fields must be filled;
+// those of `share` are filled afterwards. Results do not depend on the ranks. Collective.
+template <int Dim>
+VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
+                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, CellField<Dim>& share);
+
+}  // namespace seiche
