@@ -142,6 +142,18 @@ TEST_CASE("a disc drawn out to a thread and back is whole again, and its volume 
   }
 }
 
+// Divergence 1/s for half a second: e^0.5 times the area, without holes. Steps of 0.02 s make it (1 + 0.02)^25.
+TEST_CASE("liquid grows with the divergence of a prescribed flow", "[prescribed]") {
+  Scene s = carried(2, 32, ball(2, "0.5"), {"0.5*(x-0.5)", "0.5*(y-0.5)", "0"});
+  s.time.max_step = 0.02;
+  const auto sim = make_simulation(s, Communicator());
+  const double area = sim->stats().liquid_volume;
+  while (sim->time() < 0.5 * (1 - 1e-12)) (void)sim->step(0.5);
+  CHECK(sim->stats().liquid_volume / area == Approx(std::exp(0.5)).epsilon(1e-2));
+  CHECK(sim->stats().liquid_volume == Approx(sim->expected_volume()).epsilon(1e-11));
+  CHECK(worst(*sim, s, "sqrt((x-0.5)^2+(y-0.5)^2)-0.2*exp(0.25)") < 0.1);
+}
+
 // The checkpoint holds the whole state: a resumed run gives the same bits.
 TEST_CASE("a prescribed flow goes on from a checkpoint with the same bits") {
   const Scene s = carried(2, 24, ball(2, "0.4"), {"sin(3*y)*cos(t)", "sin(3*x)", "0"});

@@ -117,7 +117,8 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
-  if (s.tracks_volume()) carry_liquid(s.domain, u, times.lead, before.phi, moved.state);
+  if (s.tracks_volume())
+    carry_liquid(s.domain, u, s.perturbation.surface_advection * times.lead, before.phi, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());

@@ -24,7 +24,7 @@ template <int Dim>
 void carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
                   State<Dim>& state) {
   const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks, u, dt, phi, state.liquid);
-  state.expected_volume += step.entered * domain.layout.geometry().cell_volume();
+  state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
 }
 
 template <int Dim>
@@ -38,8 +38,9 @@ std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before,
   const double was = tracked_volume(domain, before), is = tracked_volume(domain, next),
                entered = next.expected_volume - before.expected_volume;
   if (std::abs(is - was - entered) <= rounding * std::max(was + is, domain.layout.geometry().cell_volume())) return {};
-  return fmt::format("the volume of liquid changes by {:.6g} m^{} in a step, but {:.6g} came in through the sides",
-                     is - was, Dim, entered);
+  return fmt::format(
+      "the volume of liquid changes by {:.6g} m^{} in a step, but {:.6g} came in or by the flow's divergence", is - was,
+      Dim, entered);
 }
 
 template <int Dim>

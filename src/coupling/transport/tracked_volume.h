@@ -10,7 +10,7 @@ template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
 
 // Carries State::liquid over dt (s) along the flow u (m/s) that carries the level set `phi`, as it was before. Books
-// what passes the sides. Collective.
+// what passes the sides, and what the flow's divergence adds. Collective.
 template <int Dim>
 void carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
                   State<Dim>& state);

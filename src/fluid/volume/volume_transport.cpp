@@ -116,6 +116,15 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const FaceField<Dim>& u, double
   return r;
 }
 
+// What liquid in a cell gains by the flow's divergence, in cells: full cells stay full.
+template <int Dim>
+double swelling(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim>& share, Site c) {
+  constexpr double rounding = 1e-12;
+  double net = 0;
+  for (int a = 0; a < Dim; ++a) net += (u.at(a, c + layout.stride(a)) - u.at(a, c)) * dt / layout.h();
+  return std::abs(net) > rounding ? share[c] * net : 0;
+}
+
 // What passes the sides of the domain inwards, in cells.
 template <int Dim>
 double entering(const Layout<Dim>& layout, const FaceField<Dim>& flux) {
@@ -133,12 +142,17 @@ template <int Dim>
 VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
                         const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, CellField<Dim>& share) {
   const FaceField<Dim> flux = fluxes(layout, u, dt, phi, share);
+  const CellField<Dim> old = share;
   for_each_site(layout, layout.cells(), [&](Site c) {
     for (int a = 0; a < Dim; ++a) share[c] += flux.at(a, c) - flux.at(a, c + layout.stride(a));
+    share[c] += swelling(layout, u, dt, old, c);
   });
   fill_share_ghosts(layout, halo, share);
-  const double entered = ranks.global_sum(entering(layout, flux));
-  return {entered, hand_on_excess(layout, halo, ranks, share)};
+  const double swollen =
+      local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return swelling(layout, u, dt, old, c); });
+  std::array<double, 2> sums{entering(layout, flux), swollen};
+  ranks.global_sum(sums);
+  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, share)};
 }
 
 template VolumeStep carry_volume<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const FaceField<2>&, double,

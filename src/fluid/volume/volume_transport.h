@@ -7,11 +7,12 @@ namespace seiche {
 // What a step did, in cells, over all ranks.
 struct VolumeStep {
   double entered = 0;  // through the sides of the domain, net
+  double swollen = 0;  // by the flow's divergence
   Spill spill;         // moved by hand
 };
 
 // Carries `share`, the liquid's share of each cell, over dt (s) along the frozen flow u (m/s):
-//   V(t + dt) = V(t) - sum of the liquid in the regions that pass the faces.
+//   V(t + dt) = V(t) (1 + dt div u) - sum of the liquid in the regions that pass the faces.
 // phi (m) gives the normals of smooth surfaces. Paths may cross halo - 2 cells. Ghosts of all fields must be filled;
 // those of `share` are filled afterwards. Results do not depend on the ranks. Collective.
 template <int Dim>
