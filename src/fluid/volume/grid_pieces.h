@@ -72,7 +72,7 @@ void visit_cells(const Simplex<Dim>& s, const Done& done, const Visit& visit) {
     if (range.upper[a] - range.lower[a] > range.upper[widest] - range.lower[widest]) widest = a;
   const int width = range.upper[widest] - range.lower[widest];
   if (width == 0) return visit(range.lower, s);
-  const double middle = range.lower[widest] + (width + 1) / 2;
+  const int middle = range.lower[widest] + (width + 1) / 2;
   cut_at_plane(s, widest, middle, [&](const Simplex<Dim>& piece) { visit_cells(piece, done, visit); });
 }
 
