@@ -8,7 +8,7 @@
 
 namespace seiche {
 
-// What bringing both together moved, in cells, summed over all ranks.
+// Volumes moved by bringing both together, in cells, over all ranks.
 struct Coupled {
   double level_set = 0;      // volume by which the level set was moved, sum of magnitudes
   double volumes = 0;        // volume handed on between cells

@@ -22,7 +22,7 @@ IVec<Dim> neighbour_offset(int n, int reach = 1) {
   return o;
 }
 
-// What an offset in cells adds to a site.
+// Difference of sites for an offset in cells.
 template <int Dim>
 Site step_of(const Layout<Dim>& layout, const IVec<Dim>& offset) {
   Site s = 0;

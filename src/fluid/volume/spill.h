@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-// What was moved by hand, in cells, over all ranks: all of it, and the most of one cell.
+// Volume moved by hand, in cells, over all ranks: all of it, and the most of one cell.
 struct Spill {
   double moved = 0, worst = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// How far the volumes of liquid and the level set differ, in the cells of the surface.
+// Difference of the volumes of liquid and the level set, in the cells of the surface.
 #include <algorithm>
 #include <vector>
 

@@ -65,7 +65,7 @@ std::array<Vec<Dim>, 3> slopes(const ShareBlock<Dim>& s, int axis) {
   return r;
 }
 
-// Of the normals that any columns' slopes give, the one whose plane meets the shares around best.
+// The normal, of those that any columns' slopes give, whose plane meets the shares around best.
 template <int Dim>
 Vec<Dim> normal_of_columns(const ShareBlock<Dim>& s) {
   Vec<Dim> best = Vec<Dim>::Unit(0);

@@ -34,7 +34,7 @@ class Exchange {
       gives_[c] = out > 0 ? std::clamp(share[c] / out, 0.0, 1.0) : 1;
     });
   }
-  // What cell c gains.
+  // Gain of cell c, in cells.
   double gain(Site c) const {
     double sum = 0;
     each(c, [&](Site m, double f) {

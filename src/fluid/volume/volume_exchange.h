@@ -1,5 +1,5 @@
 #pragma once
-// What the cells of the surface hand on to each other so that their volumes follow a smooth level set.
+// Exchange between the cells of the surface, so that their volumes follow a smooth level set.
 #include "fluid/volume/surface_difference.h"
 
 namespace seiche {

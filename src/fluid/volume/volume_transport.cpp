@@ -51,7 +51,7 @@ CellField<Dim, char> near_surface(const Layout<Dim>& layout, const CellField<Dim
   return near;
 }
 
-// Where the nodes of marked cells come from, in cells.
+// Origins of the nodes of marked cells, in cells.
 template <int Dim>
 class NodeOrigins {
  public:
@@ -116,7 +116,7 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const FaceField<Dim>& u, double
   return r;
 }
 
-// What liquid in a cell gains by the flow's divergence, in cells: full cells stay full.
+// Gain of the liquid in a cell by the flow's divergence, in cells: full cells stay full.
 template <int Dim>
 double swelling(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim>& share, Site c) {
   constexpr double rounding = 1e-12;
@@ -125,7 +125,7 @@ double swelling(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, c
   return std::abs(net) > rounding ? share[c] * net : 0;
 }
 
-// What passes the sides of the domain inwards, in cells.
+// Volume that passes the sides of the domain inwards, in cells.
 template <int Dim>
 double entering(const Layout<Dim>& layout, const FaceField<Dim>& flux) {
   double sum = 0;

@@ -4,7 +4,7 @@
 
 namespace seiche {
 
-// What a step did, in cells, over all ranks.
+// Volumes that a step moved, in cells, over all ranks.
 struct VolumeStep {
   double entered = 0;  // through the sides of the domain, net
   double swollen = 0;  // by the flow's divergence
