@@ -1,6 +1,7 @@
 #pragma once
 // The liquid's volume as a field of its own beside the level set, State::liquid: carried through faces, conserved to
-// rounding but for the flow's divergence. Where Setup::tracks_volume() is false, a shift of the level set keeps the volume.
+// rounding but for the flow's divergence. Where Setup::tracks_volume() is false, a shift of the level set keeps the
+// volume.
 #include "coupling/state/state.h"
 
 namespace seiche {
