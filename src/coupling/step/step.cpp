@@ -31,8 +31,7 @@ Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& befo
   if (!fault.empty()) return failed<Dim>(std::move(fault));
   Attempt<Dim> attempt =
       prescribe_velocity(s, move_surface_and_solids(s, before, times_of_step(s, before, dt), phases));
-  if (s.tracks_volume() && attempt.failure.empty())
-    attempt.failure = fault_of_volume(s.domain, before, attempt.state);
+  if (s.tracks_volume() && attempt.failure.empty()) attempt.failure = fault_of_volume(s.domain, before, attempt.state);
   return attempt;
 }
 
