@@ -1,5 +1,7 @@
 #pragma once
-// Waiting that spins before it yields; the program's sched_yield() is made of it.
+// Waiting that spins before it yields or sleeps; the program's sched_yield() is made of it.
+
+#include <chrono>
 
 namespace seiche {
 
@@ -9,6 +11,15 @@ bool is_patient();
 
 // Marks the return from a yield, which belongs to the wait however long it took.
 void end_yield();
+
+// Takes note of how long a yield took. One of 1 ms or more went to another process.
+void note_yield(std::chrono::microseconds took);
+
+// True for 10 ms after a slow yield, twice as long after each further one, up to 1 s. Quick yields halve that again.
+bool is_crowded();
+
+// Yields, or sleeps for some 70 us where it is crowded.
+void give_way();
 
 // Makes Open MPI call sched_yield() while it waits, unless the environment has its own choice. Waits begin with
 // spinning only if each rank on this machine has a processor. Before MPI_Init.
