@@ -1,5 +1,7 @@
 #pragma once
 // The cells within some cells of one along each axis.
+#include <algorithm>
+
 #include "grid/layout.h"
 
 namespace seiche {
@@ -35,6 +37,18 @@ bool lies_in_domain(const Geometry<Dim>& g, const IVec<Dim>& cell) {
   for (int a = 0; a < Dim; ++a)
     if (!g.periodic[a] && (cell[a] < 0 || cell[a] >= g.cells[a])) return false;
   return true;
+}
+
+// The owned cells and n cells around them, as far as they lie in the domain.
+template <int Dim>
+Box<Dim> cells_around(const Layout<Dim>& layout, int n) {
+  Box<Dim> box = layout.grown(n);
+  for (int a = 0; a < Dim; ++a) {
+    if (layout.geometry().periodic[a]) continue;
+    box.lower[a] = std::max(box.lower[a], 0);
+    box.upper[a] = std::min(box.upper[a], layout.geometry().cells[a]);
+  }
+  return box;
 }
 
 }  // namespace seiche

@@ -59,7 +59,7 @@ Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, bool
   constexpr double rounding = 1e-13;
   Spill spill;
   const std::vector<Site> cells = listed_possible(
-      layout, layout.grown(1), [](Site) { return true; },
+      layout, cells_around(layout, 1), [](Site) { return true; },
       [&](Site c) { return before[c] > 1 + rounding || before[c] < -rounding; });
   for (const Site c : cells) {
     const Excess<Dim> excess(layout, before, c, anywhere);

@@ -9,18 +9,6 @@
 
 namespace seiche {
 
-// The owned cells and n cells around them, as far as they lie in the domain.
-template <int Dim>
-Box<Dim> cells_around(const Layout<Dim>& layout, int n) {
-  Box<Dim> box = layout.grown(n);
-  for (int a = 0; a < Dim; ++a) {
-    if (layout.geometry().periodic[a]) continue;
-    box.lower[a] = std::max(box.lower[a], 0);
-    box.upper[a] = std::min(box.upper[a], layout.geometry().cells[a]);
-  }
-  return box;
-}
-
 // The surface's area in each cell, A = dV_phi/d(shift) (cells), and the difference of volume and level set, D = V -
 // V_phi.
 template <int Dim>

@@ -162,7 +162,25 @@ void check_conservation() {
   CHECK(most <= 1 + 1e-12);
 }
 
+// Shares above 1 and below 0 everywhere, beside walls and in corners, too.
+template <int Dim>
+void check_spill() {
+  Flow<Dim> s(8);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-0.2, 1.3);
+  for_each_index_in_order(s.layout, s.layout.cells(), [&](Site c, const IVec<Dim>&) { s.share[c] = any(random); });
+  fill_share_ghosts(s.layout, s.halo, s.share);
+  const double before = s.total();
+  CHECK(hand_on_excess(s.layout, s.halo, s.ranks, s.share).worst > 0.2);
+  CHECK(s.total() == Approx(before).epsilon(1e-13));
+}
+
 }  // namespace
+
+TEST_CASE("cells beside walls hand on what they cannot hold, and no more") {
+  check_spill<2>();
+  check_spill<3>();
+}
 
 TEST_CASE("volumes between planes go along with a uniform flow") {
   check_uniform_flow<2>();
