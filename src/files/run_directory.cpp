@@ -25,9 +25,16 @@ namespace {
 bool is_ours(const std::string& name) {
   static const std::regex pattern(
       "(scene\\.toml|stats\\.csv|solids\\.csv|probes\\.csv|summary\\.json|log\\.txt|validate\\.txt|stop|lock)(\\.tmp)?"
-      "|frames/(frame|solids|fluid)\\.[0-9]+\\.(vdb|vtu|vti)(\\.tmp)?|frames/(solids|fluid)\\.pvd(\\.tmp)?"
+      "|frames/(frame|solids|fluid|elastic)\\.[0-9]+\\.(vdb|vtu|vti)(\\.tmp)?"
+      "|frames/(solids|fluid|elastic)\\.pvd(\\.tmp)?|frames/[^/]+\\.pc2(\\.tmp)?"
       "|checkpoints/[0-9]+(\\.tmp)?/(COMMIT|rank\\.[0-9]+)(\\.tmp)?|pictures/.*\\.(png|gif|mp4)");
   return std::regex_match(name, pattern);
+}
+
+// True for the mesh beside a point cache of an elastic solid.
+bool is_mesh_of_cache(const fs::path& file) {
+  const fs::path cache = fs::path(file).replace_extension(".pc2");
+  return file.extension() == ".obj" && file.parent_path().filename() == "frames" && fs::exists(cache);
 }
 
 [[noreturn]] void fail(const fs::path& path, const std::string& action) {
@@ -41,7 +48,7 @@ RemovedFiles remove_run(const fs::path& folder) {
     const std::string name = fs::relative(entry.path(), folder).string();
     if (entry.is_directory() && !entry.is_symlink()) {
       folders.push_back(entry.path());
-    } else if (is_ours(name) && name != "lock") {
+    } else if ((is_ours(name) || is_mesh_of_cache(entry.path())) && name != "lock") {
       files.push_back(entry.path());
       ++(name.starts_with("pictures/") ? removed.pictures : removed.others);
     }

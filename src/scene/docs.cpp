@@ -89,7 +89,7 @@ std::string scene_reference() {
     text += fmt::format("\n## {}{}\n\n| key | value | default | range, unit | meaning |\n|---|---|---|---|---|\n{}",
                         title(table), alike, rows[table]);
   }
-  return text + "\n## Not in this version\n\n" + later;
+  return later.empty() ? text : text + "\n## Not in this version\n\n" + later;
 }
 
 }  // namespace seiche

@@ -70,6 +70,28 @@ TEST_CASE("solids that reach a periodic side are named") {
   CHECK(names == "'box' and the periodic side y_upper (solids cannot cross periodic sides)");
 }
 
+TEST_CASE("a solid that formulas move across a periodic side is told once; one that turns back before it is not") {
+  const auto told = [](const std::string& way) {
+    Scene s = test::box_scene(2, 16);
+    test::make_periodic(s);
+    test::add_liquid(s, "-1");
+    SolidSpec box = test::rigid_box("block", {0.6, 0.4, 0}, {0.8, 0.6, 0}, 2000);
+    box.kind = SolidKind::kinematic;
+    box.motion.translate[0] = way;
+    s.solids = {box};
+    const auto sim = make_simulation(s, Communicator());
+    int count = 0;
+    while (sim->time() < 0.5) {
+      (void)sim->step(0.5);
+      for (const std::string& line : sim->take_warnings())
+        count += line.find("'block' moves across the periodic side x_upper") != std::string::npos;
+    }
+    return count;
+  };
+  CHECK(told("t") == 1);
+  CHECK(told("0.15*sin(6*t)") == 0);
+}
+
 TEST_CASE("elastic solids may end at a periodic side but not reach beyond it", "[elastic]") {
   for (int dim : {2, 3}) {
     const auto ending_at = [&](double x) {

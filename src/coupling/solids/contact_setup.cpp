@@ -107,21 +107,30 @@ std::vector<Vec3> surface_of(const State<Dim>& state, std::size_t k) {
   return points;
 }
 
-// Names of the periodic sides that body k crosses or is within `near` cells of. Empty if the body has no unknowns.
+// Names of the periodic sides across an axis that body k crosses or is within `near` cells of.
+template <int Dim>
+std::vector<std::string> sides_reached(const Domain<Dim>& domain, const State<Dim>& state, std::size_t k, int axis,
+                                       double near) {
+  const Geometry<Dim>& g = domain.layout.geometry();
+  std::vector<std::string> sides;
+  if (!g.periodic[axis]) return sides;
+  const std::vector<Vec3> points = surface_of(state, k);
+  for (const int side : {0, 1}) {
+    const double at = g.lower[axis] + side * g.h * g.cells[axis];
+    const auto reaches = [&](const Vec3& x) { return (side ? x[axis] - at : at - x[axis]) > -near * g.h; };
+    if (std::any_of(points.begin(), points.end(), reaches))
+      sides.push_back(fmt::format("{}_{}", "xyz"[axis], side ? "upper" : "lower"));
+  }
+  return sides;
+}
+
+// The same across all axes. Empty if the body has no unknowns.
 template <int Dim>
 std::vector<std::string> periodic_sides_at(const Domain<Dim>& domain, const State<Dim>& state, std::size_t k,
                                            double near) {
-  const Geometry<Dim>& g = domain.layout.geometry();
   std::vector<std::string> sides;
-  if (state.solids[k].unknowns() == 0) return sides;
-  const std::vector<Vec3> points = surface_of(state, k);
-  for (int a = 0; a < Dim; ++a)
-    for (int side = 0; side < 2 && g.periodic[a]; ++side) {
-      const double at = g.lower[a] + side * g.h * g.cells[a];
-      const auto reaches = [&](const Vec3& x) { return (side ? x[a] - at : at - x[a]) > -near * g.h; };
-      if (std::any_of(points.begin(), points.end(), reaches))
-        sides.push_back(fmt::format("{}_{}", "xyz"[a], side ? "upper" : "lower"));
-    }
+  for (int a = 0; a < Dim && state.solids[k].unknowns() > 0; ++a)
+    for (std::string& side : sides_reached(domain, state, k, a, near)) sides.push_back(std::move(side));
   return sides;
 }
 
@@ -134,6 +143,22 @@ std::string solids_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim
       names += fmt::format("{}'{}' and the periodic side {} (solids cannot cross periodic sides)",
                            names.empty() ? "" : ", ", solids.bodies[k].spec().name, side);
   return names;
+}
+
+template <int Dim>
+std::string prescribed_across_periodic_sides(const Domain<Dim>& domain, const State<Dim>& state,
+                                             const std::vector<Placement>& placed) {
+  constexpr double beyond = 0.5;  // cells; one that ends at the side is not across it
+  for (std::size_t k = 0; k < state.solids.size(); ++k)
+    for (int a = 0; a < Dim; ++a) {
+      if (!state.solids[k].body().is_prescribed() || placed[k].twist.linear[a] == 0) continue;
+      for (const std::string& side : sides_reached(domain, state, k, a, -beyond))
+        return fmt::format(
+            "solid '{}' moves across the periodic side {}; the liquid does not see its part beyond, and "
+            "pictures show it there alone (reported once)",
+            state.solids[k].body().spec().name, side);
+    }
+  return {};
 }
 
 template <int Dim>
@@ -234,6 +259,8 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
   template ContactScene<D> make_contact_scene<D>(const DomainSpec&, const Participants<D>&,                        \
                                                  const OperatorPerturbation&);                                     \
   template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
+  template std::string prescribed_across_periodic_sides<D>(const Domain<D>&, const State<D>&,                      \
+                                                           const std::vector<Placement>&);                         \
   template std::string nearest_solids<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);  \
   template void refuse_overlaps<D>(const Domain<D>&, const Solids<D>&, const DomainSpec&, const State<D>&);        \
   template std::vector<ContactMotion> contact_motions<D>(const State<D>&, double);                                 \

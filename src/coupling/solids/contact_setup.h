@@ -35,6 +35,11 @@ ContactOptions contact_options(const Domain<Dim>& domain, const DomainSpec& exte
 template <int Dim>
 std::string solids_at_periodic_sides(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state);
 
+// Sentence on a solid that formulas move across a periodic side; empty if there is none. `placed`: of the last step.
+template <int Dim>
+std::string prescribed_across_periodic_sides(const Domain<Dim>& domain, const State<Dim>& state,
+                                             const std::vector<Placement>& placed);
+
 // Names of the solids that almost touch each other or a side, for messages.
 template <int Dim>
 std::string nearest_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,

@@ -61,7 +61,10 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
        "the surface is interpolated across its medial axis, and thin films are transported less sharply",
        [](S s) { return s.scene->time.scheme == TimeScheme::second_order; }},
       {F::sealed_cavities, "cavities within elastic solids kept full",
-       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }}};
+       "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }},
+      {F::contact_line_pull, "pull of surface tension on solids along the line where the surface meets them",
+       "it acts on the liquid alone; small bodies that it should carry sink",
+       [](S s) { return s.fluids.has_surface_tension(); }}};
   return table;
 }
 
@@ -72,7 +75,8 @@ bool one_is_inviscid(const Fluids& fluids) {
 const char* const introduction = R"doc(# Features that others switch off
 
 Some features do not go together. At its start, the log of a run names each feature that a scene would have and that
-something else in it switches off; so does `seiche check`. This page is made from the same table.
+something else in it switches off; so does `seiche check` for grids of up to two million cells. This page is made from
+the same table.
 
 Two things change from step to step and are not reported. Near contact, and where a source opens or closes, a step moves
 everything at once even in scenes with the leapfrog. Viscous stress is shared only where liquid fills the domain and
@@ -103,7 +107,8 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::shear_jump, "viscosity by a formula or rheology", [](S s) { return !s.fluids.constant_viscosity(); }},
       {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s.fluids); }},
       {F::one_sided_at_medial_axis, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
-      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }}};
+      {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
+      {F::contact_line_pull, "solids that forces move", [](S s) { return s.solids.has_unknowns(); }}};
   return table;
 }
 

@@ -9,7 +9,14 @@ namespace seiche {
 template <int Dim>
 struct Setup;
 
-enum class Feature { leapfrog, shared_viscosity, shear_jump, one_sided_at_medial_axis, sealed_cavities };
+enum class Feature {
+  leapfrog,
+  shared_viscosity,
+  shear_jump,
+  one_sided_at_medial_axis,
+  sealed_cavities,
+  contact_line_pull
+};
 
 // The features that nothing in the scene switches off.
 class Features {

@@ -231,6 +231,7 @@ class FlowSimulation : public Simulation {
     rheology_iterations_ = a.rheology_iterations;
     separation_error_ = a.separation_error;
     warn_of_separation();
+    warn_of_crossing();
     for (const std::string& line : a.solve.failed_attempts)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
     refresh(a.stats, solids);
@@ -257,6 +258,14 @@ class FlowSimulation : public Simulation {
         "step {}: the search for cells where liquid separates from solids did not converge; the step uses the "
         "best set found, with an error of {:.1e} of the largest pressure (summary.json counts further ones)",
         state_.step, separation_error_));
+  }
+
+  // Warns once.
+  void warn_of_crossing() {
+    if (told_of_crossing_) return;
+    const std::string line = prescribed_across_periodic_sides(setup_->domain, state_, geometry_.placed);
+    told_of_crossing_ = !line.empty();
+    if (told_of_crossing_) phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
   }
 
   // Volumes, energies, momentum and speed of a state.
@@ -308,7 +317,7 @@ class FlowSimulation : public Simulation {
   double divergence_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
   double separation_error_ = 0;
-  bool told_of_separation_ = false;
+  bool told_of_separation_ = false, told_of_crossing_ = false;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };

@@ -56,6 +56,15 @@ TEST_CASE("what switches the leapfrog off is told, and is what the step looks at
   CHECK(told(scene).empty());
 }
 
+TEST_CASE("surface tension that does not pull on moving solids is told") {
+  Scene scene = basin();
+  scene.liquid.surface_tension = 0.07;
+  CHECK(told(scene).empty());
+  scene.solids.push_back(box(SolidKind::rigid, {0.3, 0.3, 0}, {0.7, 0.7, 1}));
+  REQUIRE(told(scene).size() == 1);
+  CHECK_THAT(told(scene)[0], Contains("off: pull of surface tension on solids"));
+}
+
 TEST_CASE("all causes of a scene are told in one line") {
   Scene scene = basin();
   scene.gas.present = true;
