@@ -4,7 +4,6 @@
 #include "coupling/solids/pressure_loads.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
-#include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
@@ -85,7 +84,7 @@ void measure_fluids(const Domain<Dim>& domain, const Fluids& fluids, const State
             gas = sum_gas(domain, state.exterior->flow.now, state.phi, psi, fluids.gas_density(), g);
   domain.ranks.global_sum(liquid.sums);
   domain.ranks.global_sum(gas.sums);
-  stats.liquid_volume = state.liquid.empty() ? liquid.sums[0] : tracked_volume(domain, state);
+  stats.liquid_volume = liquid.sums[0];
   stats.gas_volume = gas.sums[0];
   stats.kinetic_energy = liquid.sums[1] + gas.sums[1];
   stats.potential_energy = liquid.sums[2] + gas.sums[2];

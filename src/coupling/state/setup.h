@@ -35,7 +35,7 @@ struct Setup {
         std::vector<Box<Dim>> blocks = {});
 
   // True if the liquid's volume is a field of its own (State::liquid), not kept by a shift of the level set.
-  bool tracks_volume() const { return fluids.has_prescribed_flow() && sources.empty(); }
+  bool tracks_volume() const { return fluids.has_prescribed_flow() && sources.empty() && !domain.sides.any_inflow(); }
 };
 
 }  // namespace seiche

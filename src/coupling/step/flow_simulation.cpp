@@ -23,6 +23,7 @@
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/liquid_beside.h"
+#include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
 
@@ -275,6 +276,7 @@ class FlowSimulation : public Simulation {
     stats.time = state.time;
     stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
+    if (setup_->tracks_volume()) stats.liquid_volume = tracked_volume(setup_->domain, state);
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
     measure_bodies(setup_->fluids, setup_->scene->time, state, stats);
     return stats;

@@ -214,10 +214,10 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.exterior = s.exterior;
   state.exterior->start(s, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
-  state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state.phi, 0)
+  if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
+  state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);
-  if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
   check_fixed_step(s, state);
   return state;
 }

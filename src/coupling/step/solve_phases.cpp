@@ -279,7 +279,7 @@ Attempt<Dim> prescribe_velocity(const Setup<Dim>& s, Moved<Dim> moved) {
   out.state = std::move(moved.state);
   out.geometry = std::move(moved.geometry);
   out.failure = find_non_finite(s.domain, "phi", s.domain.layout.cells(), out.state.phi.data());
-  out.state.now = prescribed_level(s.domain, s.fluids, out.state.phi, out.state.time);
+  out.state.now = prescribed_level(s.domain, s.fluids, out.state, out.state.time);
   out.divergence = largest_divergence(s.domain, out.state.phi, out.state.now->u);
   return out;
 }

@@ -29,8 +29,9 @@ template <int Dim>
 Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& before, double dt, Phases& phases) {
   std::string fault = fault_of_prescribed(s.domain, s.fluids, s.scene->time, before, dt);
   if (!fault.empty()) return failed<Dim>(std::move(fault));
-  Attempt<Dim> attempt =
-      prescribe_velocity(s, move_surface_and_solids(s, before, times_of_step(s, before, dt), phases));
+  Moved<Dim> moved = move_surface_and_solids(s, before, times_of_step(s, before, dt), phases);
+  if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
+  Attempt<Dim> attempt = prescribe_velocity(s, std::move(moved));
   if (s.tracks_volume() && attempt.failure.empty()) attempt.failure = fault_of_volume(s.domain, before, attempt.state);
   return attempt;
 }

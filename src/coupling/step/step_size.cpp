@@ -176,9 +176,8 @@ template <int Dim>
 std::string fault_of_pinned_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                  const State<Dim>& state, double dt) {
   const double h = domain.layout.h(), cfl = time.cfl, most = std::ceil(cfl);
-  const double speed = fluids.has_prescribed_flow()
-                           ? fastest_prescribed(domain, fluids, state.phi, state.time + 0.5 * dt)
-                           : fastest_component(domain, state);
+  const double speed = fluids.has_prescribed_flow() ? fastest_prescribed(domain, fluids, state, state.time + 0.5 * dt)
+                                                    : fastest_component(domain, state);
   const double crossed = speed * dt / h;
   if (crossed <= most * (1 + relative_rounding)) return {};
   return fmt::format("{} the flow {:.3g} cells of {:g} m; at most {:g} are possible at cfl = {:g}; lower fixed_step{}",

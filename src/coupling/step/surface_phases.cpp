@@ -110,7 +110,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   const PhaseFault fault = phases.enter("transport");
   const auto timed = phases.timers.measure("surface");
   FaceField<Dim> u = s.fluids.has_prescribed_flow()
-                         ? prescribed_flow(s.domain, s.fluids, before.phi, times.start + 0.5 * times.dt)
+                         ? prescribed_flow(s.domain, s.fluids, before, times.start + 0.5 * times.dt)
                          : before.exterior->surface_velocity(s, before);
   CellField<Dim>& phi = moved.state.phi;
   const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
@@ -118,7 +118,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   if (s.tracks_volume())
-    carry_liquid(s.domain, u, s.perturbation.surface_advection * times.lead, before.phi, moved.state);
+    moved.failure = carry_liquid(s.domain, u, s.perturbation.surface_advection * times.lead, before.phi, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());

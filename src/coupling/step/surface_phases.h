@@ -27,6 +27,7 @@ struct Moved {
   std::optional<SurfaceTension<Dim>> tension;
   std::optional<CellField<Dim>> brought{};              // share of each cell that sources brought before the solve
   std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
+  std::string failure{};                                // empty, or why the step cannot be taken
 };
 
 // Moves solids and surface, measures the geometry between them, and keeps the volumes of liquid and enclosed air.

@@ -9,6 +9,7 @@
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/restore.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/volume/surface_pieces.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -30,12 +31,16 @@ void grow(const Layout<Dim>& layout, int layers, Mask<Dim>& mask) {
   }
 }
 
-// Cells of the liquid and of the band around it, phi < band, and `layers` cells around them; `all` false: |phi| < band.
+// Cells of the liquid and of the band around it, phi < band or with a share of it, and `layers` cells around them;
+// `all` false: |phi| < band or in part full.
 template <int Dim>
-Mask<Dim> around_surface(const Domain<Dim>& domain, const CellField<Dim>& phi, int layers, bool all = false) {
+Mask<Dim> around_surface(const Domain<Dim>& domain, const State<Dim>& state, int layers, bool all = false) {
+  const CellField<Dim>&phi = state.phi, &share = state.liquid;
   Mask<Dim> mask(domain.layout);
-  for_each_site(domain.layout, domain.layout.padded(),
-                [&](Site c) { mask[c] = (all ? phi[c] : std::abs(phi[c])) < domain.band(); });
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) {
+    mask[c] = (all ? phi[c] : std::abs(phi[c])) < domain.band();
+    if (!share.empty() && !mask[c]) mask[c] = all ? share[c] != 0 : is_mixed(share[c]);
+  });
   grow(domain.layout, layers, mask);
   return mask;
 }
@@ -90,14 +95,16 @@ FaceField<Dim> evaluate(const Domain<Dim>& domain, const Fluids& fluids, const M
 }  // namespace
 
 template <int Dim>
-FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t) {
-  return evaluate(domain, fluids, around_surface(domain, phi, domain.layout.halo(), true), t);
+FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, double t) {
+  FaceField<Dim> u = evaluate(domain, fluids, around_surface(domain, state, domain.layout.halo(), true), t);
+  domain.halo.fill_ghosts(u);  // near the halo's end ranks know different parts of the liquid
+  return u;
 }
 
 template <int Dim>
 std::shared_ptr<const TimeLevel<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
-                                                       const CellField<Dim>& phi, double t) {
-  const Mask<Dim> wet = around_surface(domain, phi, 1, true);
+                                                       const State<Dim>& state, double t) {
+  const Mask<Dim> wet = around_surface(domain, state, 1, true);
   auto level = std::make_shared<TimeLevel<Dim>>(empty_level(domain.layout, fluids.is_viscous()));
   level->u = evaluate(domain, fluids, wet, t);
   for (int a = 0; a < Dim; ++a)
@@ -110,8 +117,8 @@ std::shared_ptr<const TimeLevel<Dim>> prescribed_level(const Domain<Dim>& domain
 }
 
 template <int Dim>
-double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t) {
-  const FaceField<Dim> u = evaluate(domain, fluids, around_surface(domain, phi, 1), t);
+double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, double t) {
+  const FaceField<Dim> u = evaluate(domain, fluids, around_surface(domain, state, 1), t);
   double fastest = 0;
   for (int a = 0; a < Dim; ++a)
     fastest = std::max(
@@ -125,13 +132,13 @@ double limit_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, cons
                            const State<Dim>& state, double remaining) {
   constexpr int most_looks = 20;
   constexpr double rounding = 1e-9;
-  const double reach = time.cfl * domain.layout.h(), now = fastest_prescribed(domain, fluids, state.phi, state.time);
+  const double reach = time.cfl * domain.layout.h(), now = fastest_prescribed(domain, fluids, state, state.time);
   double dt = state.step > 0 ? std::min(remaining, 2 * state.dt_now) : remaining;
   if (now * dt > reach) dt = reach / now;
   for (int n = 0; n < most_looks; ++n) {
     double fastest = 0;
     for (const double part : {0.29, 0.5, 1.0})
-      fastest = std::max(fastest, fastest_prescribed(domain, fluids, state.phi, state.time + part * dt));
+      fastest = std::max(fastest, fastest_prescribed(domain, fluids, state, state.time + part * dt));
     if (fastest * dt <= reach * (1 + rounding)) break;
     dt = reach / fastest;
   }
@@ -143,7 +150,7 @@ template <int Dim>
 std::string fault_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                 const State<Dim>& state, double dt) {
   const double most = std::ceil(time.cfl);
-  const double crossed = fastest_prescribed(domain, fluids, state.phi, state.time + 0.5 * dt) * dt / domain.layout.h();
+  const double crossed = fastest_prescribed(domain, fluids, state, state.time + 0.5 * dt) * dt / domain.layout.h();
   if (crossed <= most * (1 + 1e-6)) return {};
   return fmt::format(
       "the prescribed flow crosses {:.3g} cells of {:g} m in a step; at most {:g} are possible at cfl = {:g}", crossed,
@@ -160,10 +167,10 @@ double largest_divergence(const Domain<Dim>& domain, const CellField<Dim>& phi, 
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                        \
-  template FaceField<D> prescribed_flow<D>(const Domain<D>&, const Fluids&, const CellField<D>&, double);            \
-  template std::shared_ptr<const TimeLevel<D>> prescribed_level<D>(const Domain<D>&, const Fluids&,                  \
-                                                                   const CellField<D>&, double);                     \
-  template double fastest_prescribed<D>(const Domain<D>&, const Fluids&, const CellField<D>&, double);               \
+  template FaceField<D> prescribed_flow<D>(const Domain<D>&, const Fluids&, const State<D>&, double);                \
+  template std::shared_ptr<const TimeLevel<D>> prescribed_level<D>(const Domain<D>&, const Fluids&, const State<D>&, \
+                                                                   double);                                          \
+  template double fastest_prescribed<D>(const Domain<D>&, const Fluids&, const State<D>&, double);                   \
   template double limit_of_prescribed<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const State<D>&, double); \
   template std::string fault_of_prescribed<D>(const Domain<D>&, const Fluids&, const TimeSpec&, const State<D>&,     \
                                               double);                                                               \

@@ -9,19 +9,19 @@ namespace seiche {
 
 struct TimeSpec;
 
-// Mean velocity (m/s) at time t on the faces, ghosts included, that transport of the liquid below `phi` over a step can
+// Mean velocity (m/s) at time t on the faces, ghosts included, that transport of the state's liquid over a step can
 // read; 0 on others. Throws Error (bad_input at t = 0, else cannot_continue) if a formula is not finite. Collective.
 template <int Dim>
-FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t);
+FaceField<Dim> prescribed_flow(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, double t);
 
 // The same in the liquid and in the band around it, as a time level without pressure. Collective.
 template <int Dim>
 std::shared_ptr<const TimeLevel<Dim>> prescribed_level(const Domain<Dim>& domain, const Fluids& fluids,
-                                                       const CellField<Dim>& phi, double t);
+                                                       const State<Dim>& state, double t);
 
-// Largest |u_a| around the surface `phi` at time t, m/s. Collective.
+// Largest |u_a| around the state's surface and in cells full in part, m/s, at time t. Collective.
 template <int Dim>
-double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi, double t);
+double fastest_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, double t);
 
 // Longest step (s) from the state's time in which the flow crosses at most cfl cells, sampled at its start, end and
 // between. At most `remaining` and twice the last step. Collective.

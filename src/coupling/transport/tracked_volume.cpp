@@ -21,10 +21,13 @@ void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Di
 }
 
 template <int Dim>
-void carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
-                  State<Dim>& state) {
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
+                         State<Dim>& state) {
   const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks, u, dt, phi, state.liquid);
   state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
+  if (step.too_far == 0) return {};
+  return fmt::format("{} paths of the liquid cross more than {} cells in a step, some from beyond the domain's sides",
+                     step.too_far, longest_path(domain.layout));
 }
 
 template <int Dim>
@@ -50,11 +53,11 @@ double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
   return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                   \
-  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                              \
-  template void carry_liquid<D>(const Domain<D>&, const FaceField<D>&, double, const CellField<D>&, State<D>&); \
-  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                             \
-  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                  \
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                     \
+  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, double, const CellField<D>&, State<D>&); \
+  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                    \
+  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                         \
   template double tracked_volume<D>(const Domain<D>&, const State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -11,10 +11,10 @@ template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
 
 // Carries State::liquid over dt (s) along the flow u (m/s) that carries the level set `phi`, as it was before. Books
-// what passes the sides, and what the flow's divergence adds. Collective.
+// what passes the sides, and what the flow's divergence adds. Empty, or a text if paths leave the halo. Collective.
 template <int Dim>
-void carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
-                  State<Dim>& state);
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
+                         State<Dim>& state);
 
 // Brings level set and volume together after both were carried. Collective.
 template <int Dim>

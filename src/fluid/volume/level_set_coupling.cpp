@@ -73,7 +73,7 @@ Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const
   const std::vector<Site> surface = listed_possible(
       layout, layout.cells(), [](Site) { return true; }, [&](Site c) { return d.on_surface(c); });
   const CellField<Dim> delta = smooth_shift(layout, halo, d, surface, stray.rhs);
-  for_each_site(layout, cells_around(layout, 1), [&](Site c) {
+  for_each_site(layout, cells_around(layout, 2), [&](Site c) {
     if (std::abs(delta[c]) > apart) stray.rebuild[c] = 1;
   });
   for_each_site(layout, layout.cells(), [&](Site c) { share[c] += stray.change[c]; });

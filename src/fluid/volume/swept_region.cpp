@@ -72,6 +72,24 @@ std::vector<SweptRegion<2>::Facet> SweptRegion<2>::cap(const TracedFace<2>& f, c
   return {{{middle, f.before[0]}, turn<2>(f.axis)}, {{middle, f.before[1]}, -turn<2>(f.axis)}};
 }
 
+namespace {
+
+// The corner of the box around a face's corners, now and before, less or more a cell: what the halo holds.
+template <int Dim>
+Vec<Dim> lowest_corner(const TracedFace<Dim>& f) {
+  Vec<Dim> r = f.now[0];
+  for (int k = 0; k < TracedFace<Dim>::count; ++k) r = r.cwiseMin(f.now[k]).cwiseMin(f.before[k]);
+  return r.array() - 1;
+}
+template <int Dim>
+Vec<Dim> highest_corner(const TracedFace<Dim>& f) {
+  Vec<Dim> r = f.now[0];
+  for (int k = 0; k < TracedFace<Dim>::count; ++k) r = r.cwiseMax(f.now[k]).cwiseMax(f.before[k]);
+  return r.array() + 1;
+}
+
+}  // namespace
+
 // The volume is linear in the cap's middle m: V(m + t g) = V(m) + t g.g with g its gradient.
 template <int Dim>
 SweptRegion<Dim>::SweptRegion(const TracedFace<Dim>& face, double volume) : origin_(face.now[0]) {
@@ -84,6 +102,7 @@ SweptRegion<Dim>::SweptRegion(const TracedFace<Dim>& face, double volume) : orig
     gradient += f.sign * gradient_in_first(origin_, f.corner);
   }
   if (const double g2 = gradient.squaredNorm(); g2 > 0) middle += (volume - sum) / g2 * gradient;
+  middle = middle.cwiseMax(lowest_corner(face)).cwiseMin(highest_corner(face));
   for (const Facet& f : cap(face, middle)) add(f);
 }
 

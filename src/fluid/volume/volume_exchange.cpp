@@ -69,6 +69,27 @@ CellField<Dim, char> good_cells(const Layout<Dim>& layout, const Difference<Dim>
   return good;
 }
 
+// A share of liquid that cell `to` is to take from cell `from`, or to give where it is negative.
+struct StrayPart {
+  Site from, to;
+  double share;
+};
+
+// Hands the parts over, as far as what each cell takes or gives in all leaves its share in [0, 1].
+template <int Dim>
+void hand_over(const Layout<Dim>& layout, const std::vector<StrayPart>& parts, const CellField<Dim>& share,
+               CellField<Dim>& change) {
+  CellField<Dim> taken(layout), given(layout);
+  for (const StrayPart& p : parts) (p.share > 0 ? taken : given)[p.to] += std::abs(p.share);
+  for (const StrayPart& p : parts) {
+    const double all = (p.share > 0 ? taken : given)[p.to],
+                 room = std::max(p.share > 0 ? 1 - share[p.to] : share[p.to], 0.0);
+    const double part = p.share * (all > room ? room / all : 1);
+    change[p.to] += part;
+    change[p.from] -= part;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -76,11 +97,12 @@ Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const Cel
                   const CellField<Dim>& share)
     : rhs(layout), change(layout), rebuild(layout) {
   constexpr double rounding = 1e-12, least_room = 0.2, most = 0.5, visible = 0.05;
-  const Box<Dim> box = cells_around(layout, 1);
+  const Box<Dim> box = cells_around(layout, 2);  // what cells of the first layer around take hangs on the second
   for_each_site(layout, box, [&](Site c) { rhs[c] = d.on_surface(c) ? d.missing[c] : 0; });
   const std::vector<Site> cells = listed_possible(
       layout, box, [](Site) { return true; },
       [&](Site c) { return !d.on_surface(c) && std::abs(d.missing[c]) > rounding; });
+  std::vector<StrayPart> parts;
   for (const Site c : cells) {
     double room = 0;
     each_on_surface(layout, d, c, [&](Site m) { room += d.area[m]; });
@@ -91,12 +113,10 @@ Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const Cel
     each_on_surface(layout, d, c, [&](Site m) {
       const double part = d.missing[c] * d.area[m] / room;
       rhs[m] += part;
-      if (!is_smooth(layout, phi, m)) return;
-      const double taken = std::clamp(part, -std::max(share[m], 0.0), std::max(1 - share[m], 0.0));
-      change[m] += taken;
-      change[c] -= taken;
+      if (is_smooth(layout, phi, m)) parts.push_back({c, m, part});
     });
   }
+  hand_over(layout, parts, share, change);
 }
 
 template <int Dim>

@@ -1,5 +1,7 @@
 #include "fluid/volume/volume_transport.h"
 
+#include <atomic>
+
 #include "fluid/transport/advection.h"
 #include "fluid/volume/liquid_in_cells.h"
 #include "fluid/volume/swept_region.h"
@@ -63,12 +65,17 @@ class NodeOrigins {
         layout, box, [](Site) { return true; }, [&](Site s) { return touches(layout, near, s); });
     for (std::size_t n = 0; n < nodes.size(); ++n) index_[nodes[n]] = std::int32_t(n);
     origin_.resize(nodes.size());
+    const double longest = longest_path(layout);
     for_each_listed(nodes, [&](Site s) {
-      const Vec<Dim> x = layout.position(layout.index(s), node_offset<Dim>());
+      const IVec<Dim> i = layout.index(s);
+      const Vec<Dim> x = layout.position(i, node_offset<Dim>()), here = i.template cast<double>();
       const Vec<Dim> from = trace_third_order<Dim>(layout, u, sample_velocity<Dim>(layout, u, x), x, dt);
-      origin_[std::size_t(index_[s])] = (from - layout.geometry().lower) / layout.h();
+      const Vec<Dim> way = (from - layout.geometry().lower) / layout.h() - here;
+      origin_[std::size_t(index_[s])] = here + way.cwiseMax(-longest).cwiseMin(longest);
+      if (!(way.cwiseAbs().maxCoeff() <= longest + rounding)) ++too_far_;
     });
   }
+  std::int64_t too_far() const { return too_far_; }
   const Vec<Dim>& operator[](Site node) const { return origin_[std::size_t(index_[node])]; }
 
  private:
@@ -82,17 +89,21 @@ class NodeOrigins {
     return any;
   }
 
+  static constexpr double rounding = 1e-6;  // cells
+
   NodeField<Dim, std::int32_t> index_;
   std::vector<Vec<Dim>> origin_;
+  std::atomic<std::int64_t> too_far_ = 0;
 };
 
-// Liquid that passes each face of the owned cells towards +axis in the step, in cells.
+// Liquid that passes each face of the owned cells towards +axis in the step, in cells. Counts the paths cut short.
 template <int Dim>
 FaceField<Dim> fluxes(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
-                      const CellField<Dim>& share) {
+                      const CellField<Dim>& share, std::int64_t& too_far) {
   const CellField<Dim, char> near = near_surface(layout, share, layout.halo() - 2);
   const LiquidInCells<Dim> liquid(layout, phi, share);
   const NodeOrigins<Dim> origins(layout, u, dt, near);
+  too_far = origins.too_far();
   FaceField<Dim> r(layout);
   for (int a = 0; a < Dim; ++a) {
     const auto steps = corner_steps<Dim>(a);
@@ -141,7 +152,8 @@ double entering(const Layout<Dim>& layout, const FaceField<Dim>& flux) {
 template <int Dim>
 VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
                         const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, CellField<Dim>& share) {
-  const FaceField<Dim> flux = fluxes(layout, u, dt, phi, share);
+  std::int64_t too_far = 0;
+  const FaceField<Dim> flux = fluxes(layout, u, dt, phi, share, too_far);
   const CellField<Dim> old = share;
   for_each_site(layout, layout.cells(), [&](Site c) {
     for (int a = 0; a < Dim; ++a) share[c] += flux.at(a, c) - flux.at(a, c + layout.stride(a));
@@ -150,9 +162,9 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
   fill_share_ghosts(layout, halo, share);
   const double swollen =
       local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return swelling(layout, u, dt, old, c); });
-  std::array<double, 2> sums{entering(layout, flux), swollen};
+  std::array<double, 3> sums{entering(layout, flux), swollen, double(too_far)};
   ranks.global_sum(sums);
-  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, share)};
+  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, share), std::int64_t(sums[2])};
 }
 
 template VolumeStep carry_volume<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const FaceField<2>&, double,
