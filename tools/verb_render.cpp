@@ -47,7 +47,7 @@ void add_render(CLI::App& program, VerbContext& context) {
                    "none, speed, or a field of the frames; auto: speed in 2D, none in 3D")
       ->capture_default_str();
   verb->add_option("--contact-sheet", words->sheet,
-                   "One picture with up to 12 frames; default: contact_sheet.png in --out")
+                   "Also one PNG with up to 12 frames; without a name: contact_sheet.png in --out")
       ->expected(0, 1);
   verb->add_option("--animation", words->animation, "Film of the frames, such as film.mp4; needs ffmpeg");
   verb->callback([words, verb, &context] {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/scene.h"
 #include "console.h"
 #include "run/command.h"
@@ -6,15 +8,30 @@
 namespace seiche {
 namespace {
 
+// A number that scenes may hold, too.
+const CLI::Validator& is_finite() {
+  static const CLI::Validator check(
+      [](const std::string& text) {
+        constexpr double largest = 1e15;
+        double x = 0;
+        const bool fits = CLI::detail::lexical_cast(text, x) && std::abs(x) < largest;  // false for nan
+        return fits ? std::string() : "must be a finite number below 1e15 in magnitude; it is " + text;
+      },
+      "NUMBER");
+  return check;
+}
+
 void add_session_options(CLI::App& verb, SessionOptions& session) {
   verb.add_option("--frames", session.frames, "Number of the last frame")->check(CLI::NonNegativeNumber);
   verb.add_option("--threads", session.threads, "Threads a rank; default: the machine's, shared among its ranks")
       ->check(CLI::Range(1, 4096));
   verb.add_option("--walltime", session.walltime, "Stop with a checkpoint before so many seconds have passed")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->check(is_finite());
   verb.add_option("--watchdog", session.watchdog, "End the run after so many seconds without progress")
       ->envname("SEICHE_WATCHDOG")
       ->check(CLI::PositiveNumber)
+      ->check(is_finite())
       ->capture_default_str();
   verb.add_option("--inject", session.inject, "Test only: phase:rank:kind[:nth]")->group("");
   verb.add_option("--break", session.perturbation, "Test only: operator:factor")->group("");
@@ -59,7 +76,7 @@ void add_resume(CLI::App& program, VerbContext& context) {
   CLI::App* verb = program.add_subcommand("resume", "Continue a stopped, killed or finished run");
   const auto options = std::make_shared<ResumeOptions>();
   verb->add_option("directory", options->folder, "Run directory, such as out/<scene name>")->required();
-  verb->add_option("--end", options->end, "New end time, s");
+  verb->add_option("--end", options->end, "New end time, s")->check(is_finite());
   add_set_option(*verb, options->overrides);
   verb->add_flag_callback(
       "--force", [options] { options->edits = EditPolicy::force; },

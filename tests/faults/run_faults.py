@@ -1077,6 +1077,10 @@ def misspelt_words(bench):
     bench.run("rn", scene).needs(2, "unknown verb 'rn'; did you mean 'run'?")
     bench.run("sail").needs(2, "unknown verb 'sail'; verbs: run, resume, check")
     bench.run("run", scene, "--thread", "2").needs(2, "unknown option '--thread'; did you mean '--threads'?")
+    for option, value in (("--watchdog", "nan"), ("--walltime", "inf")):
+        bench.run("run", scene, option, value).needs(2, option, "must be a finite number")
+    for value in ("nan", "inf", "1e300"):
+        bench.run("resume", "out", "--end", value).needs(2, "--end", "must be a finite number")
     bench.run("run", scene, "--ot=x").needs(2, "unknown option '--ot'; did you mean '--out'?", "seiche run --help")
     bench.run("run", scene, "other.toml").needs(2, "other.toml")
     bench.run("resume", scene).needs(2, "is a file; resume takes the directory of a run, such as out/scene")
