@@ -76,15 +76,16 @@ struct Flow {
   FaceField<Dim> u;
   CellField<Dim> phi, share;
 
-  explicit Flow(int cells, int pad = 5)
-      : g(geometry(cells)),
+  explicit Flow(int cells, int pad = 5, bool periodic = false)
+      : g(geometry(cells, periodic)),
         layout(g, g.box(), pad),
         halo(layout, {g.box()}, ranks),
         u(layout),
         phi(layout),
         share(layout) {}
-  static Geometry<Dim> geometry(int cells) {
+  static Geometry<Dim> geometry(int cells, bool periodic) {
     Geometry<Dim> g;
+    g.periodic[1] = periodic;
     g.h = 1.0 / cells;
     g.cells = IVec<Dim>::Constant(cells);
     return g;
@@ -242,4 +243,62 @@ void check_coupling() {
 TEST_CASE("the level set takes the amount of liquid from the volumes, which keep their sum") {
   check_coupling<2>();
   check_coupling<3>();
+}
+
+namespace {
+
+// A pool below a flat level set, while the volumes have waves of up to a cell, which cross the seam of a periodic axis.
+// Coupling has to rebuild, to hand on and to exchange there.
+template <int Dim>
+void check_coupling_of_waves(unsigned seed) {
+  constexpr int n = 16;
+  constexpr double h = 1.0 / n, turn = 6.28318530717958648;
+  Flow<Dim> s(n, 5, true);
+  const NodeField<Dim> psi(s.layout, 1e30);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> any(0, 1);
+  const double level = 0.45 + h * any(random), height = 0.3 + 0.9 * any(random), waves = 2 + int(4 * any(random)),
+               phase = turn * any(random);
+  s.set_level_set([&](const Vec<Dim>& x) { return x[0] - level - height * h * std::sin(turn * waves * x[1] + phase); });
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { s.share[c] = liquid_share(s.layout, s.phi, psi, c); });
+  fill_share_ghosts(s.layout, s.halo, s.share);
+  s.set_level_set([&](const Vec<Dim>& x) { return x[0] - level; });
+  const double before = s.total();
+  for (int k = 0; k < 3; ++k) {
+    (void)couple_level_set(s.layout, s.halo, s.ranks, psi, s.phi, s.share);
+    double least = 0, most = 1;
+    for_each_site(s.layout, s.layout.cells(),
+                  [&](Site c) { least = std::min(least, s.share[c]), most = std::max(most, s.share[c]); });
+    CAPTURE(seed, k);
+    CHECK(s.total() == Approx(before).epsilon(1e-13));
+    CHECK(least >= -1e-12);
+    CHECK(most <= 1 + 1e-12);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("coupling keeps the sum of the volumes and their bounds, across a periodic seam, too") {
+  for (unsigned seed = 0; seed < 150; ++seed) check_coupling_of_waves<2>(seed);
+  for (unsigned seed = 0; seed < 6; ++seed) check_coupling_of_waves<3>(seed);
+}
+
+namespace {
+
+// Liquid at x = 0 in a flow that is 100 times as fast beyond the side there.
+template <int Dim>
+void check_long_paths() {
+  Flow<Dim> s(12);
+  s.set_liquid([](const Vec<Dim>& x) { return x[0] - 0.3; });
+  for_each_index(s.layout, s.layout.padded(), [&](Site f, const IVec<Dim>& i) { s.u.at(0, f) = i[0] < 0 ? 100 : 1; });
+  CHECK(carry_volume(s.layout, s.halo, s.ranks, s.u, 0.01 * s.g.h, s.phi, s.share).too_far == 0);
+  CHECK(carry_volume(s.layout, s.halo, s.ranks, s.u, 1.5 * s.g.h, s.phi, s.share).too_far > 0);
+  for_each_site(s.layout, s.layout.cells(), [&](Site c) { CHECK(std::isfinite(s.share[c])); });
+}
+
+}  // namespace
+
+TEST_CASE("paths of the volumes that leave the halo are counted and cut short") {
+  check_long_paths<2>();
+  check_long_paths<3>();
 }
