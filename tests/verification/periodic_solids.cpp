@@ -75,7 +75,7 @@ TEST_CASE("a solid that formulas move across a periodic side is told once; one t
     Scene s = test::box_scene(2, 16);
     test::make_periodic(s);
     test::add_liquid(s, "-1");
-    SolidSpec box = test::rigid_box("block", {0.6, 0.4, 0}, {0.8, 0.6, 0}, 2000);
+    SolidSpec box = test::rigid_box("block", {0.2, 0.2, 0}, {0.7, 0.5, 0}, 2000);
     box.kind = SolidKind::kinematic;
     box.motion.translate[0] = way;
     s.solids = {box};

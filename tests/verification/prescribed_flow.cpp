@@ -90,7 +90,7 @@ TEST_CASE("a prescribed flow carries drops far smaller than a cell, and none of 
       REQUIRE(start > 0);
       while (sim->time() < 1 * (1 - 1e-12)) {
         const StepStats stats = sim->step(1);
-        CHECK(stats.dt <= s.domain.cell_size * (1 + 1e-6));
+        CHECK(stats.dt <= 1.01 * s.domain.cell_size);  // means over faces are up to 1 % below the fastest speed, 1
       }
       CHECK(sim->stats().liquid_volume == Approx(start).epsilon(1e-11));
     }

@@ -10,6 +10,7 @@
 #include "coupling/transport/restore.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/volume/surface_pieces.h"
+#include "grid/domain_faces.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -31,8 +32,18 @@ void grow(const Layout<Dim>& layout, int layers, Mask<Dim>& mask) {
   }
 }
 
-// Cells of the liquid and of the band around it, phi < band or with a share of it, and `layers` cells around them;
-// `all` false: |phi| < band or in part full.
+// Marks the cells beside inflow sides, where liquid may begin.
+template <int Dim>
+void mark_inflow(const Domain<Dim>& domain, Mask<Dim>& mask) {
+  for (int a = 0; a < Dim; ++a)
+    for (const int side : {0, 1})
+      if (domain.sides.type(a, side) == SideType::inflow)
+        for_each_site(domain.layout, faces_of_side(domain.layout, a, side),
+                      [&](Site f) { mask[side == 0 ? f : f - domain.layout.stride(a)] = 1; });
+}
+
+// Cells of the liquid and of the band around it, phi < band or with a share of it, those beside inflow sides, and
+// `layers` cells around them; `all` false: |phi| < band or in part full.
 template <int Dim>
 Mask<Dim> around_surface(const Domain<Dim>& domain, const State<Dim>& state, int layers, bool all = false) {
   const CellField<Dim>&phi = state.phi, &share = state.liquid;
@@ -41,6 +52,7 @@ Mask<Dim> around_surface(const Domain<Dim>& domain, const State<Dim>& state, int
     mask[c] = (all ? phi[c] : std::abs(phi[c])) < domain.band();
     if (!share.empty() && !mask[c]) mask[c] = all ? share[c] != 0 : is_mixed(share[c]);
   });
+  mark_inflow(domain, mask);
   grow(domain.layout, layers, mask);
   return mask;
 }
