@@ -26,12 +26,12 @@ void add_session_options(CLI::App& verb, SessionOptions& session) {
   verb.add_option("--threads", session.threads, "Threads a rank; default: the machine's, shared among its ranks")
       ->check(CLI::Range(1, 4096));
   verb.add_option("--walltime", session.walltime, "Stop with a checkpoint before so many seconds have passed")
-      ->check(CLI::NonNegativeNumber)
-      ->check(is_finite());
+      ->check(is_finite())
+      ->check(CLI::NonNegativeNumber);
   verb.add_option("--watchdog", session.watchdog, "End the run after so many seconds without progress")
       ->envname("SEICHE_WATCHDOG")
-      ->check(CLI::PositiveNumber)
       ->check(is_finite())
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb.add_option("--inject", session.inject, "Test only: phase:rank:kind[:nth]")->group("");
   verb.add_option("--break", session.perturbation, "Test only: operator:factor")->group("");
