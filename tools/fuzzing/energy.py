@@ -32,6 +32,15 @@ def is_fed(scene):
     return False
 
 
+def is_driven_round_an_edge(scene):
+    """True if outflow sides of different pressures meet. The flow from one to the other turns within a cell at their
+    edge, and its energy is not known: 0.5 uJ from nowhere with cells of 0.5 mm, 0.014 with half of that."""
+    sides = scene["domain"].get("boundary", {})
+    outflows = {name: side.get("pressure", 0) for name, side in sides.items()
+                if not isinstance(side, str) and side["type"] == "outflow"}
+    return any(a[0] != b[0] and outflows[a] != outflows[b] for a in outflows for b in outflows)
+
+
 def energy_of_films(scene, stats):
     """Kinetic energy, J, that liquid without a pressure may have at inflow sides: half a cell, none of whose centres is
     wet. It moves as the side does, at about the mean speed of all liquid, and no pressure does the work this takes."""
@@ -85,7 +94,8 @@ def energy_margin(scene, stats, given, amiss):
 
 def check_energies(scene, stats):
     """All bounds that hold for this scene."""
-    check_created(scene, stats)
+    if not is_driven_round_an_edge(scene):
+        check_created(scene, stats)
     if not is_fed(scene):
         check_energy(scene, stats)
 

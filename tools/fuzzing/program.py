@@ -14,6 +14,8 @@ MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
 SHOWN = 4000            # number of final characters of the output that are read
 MOST_OUTPUT = 256 << 20   # bytes in one file; the limit ends the program
 MOST_MEMORY = 6 << 30     # bytes of address space; unlimited for sanitizers, which take terabytes
+# Ends by a limit of processor time; mpirun adds the signal to 128.
+CUT = (-signal.SIGXCPU, -signal.SIGKILL, 128 + signal.SIGXCPU, 128 + signal.SIGKILL)
 FRESH_HEAP, OTHER_HEAP = 0x7F, 0x01   # fresh memory then holds doubles of -3e-306 or -5e303
 
 
@@ -124,7 +126,7 @@ def wait(process, until):
         done, status, usage = os.wait4(process.pid, os.WNOHANG)
         if done:
             process.returncode = os.waitstatus_to_exitcode(status)
-            return (None if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else process.returncode), usage
+            return (None if process.returncode in CUT else process.returncode), usage
         if time.monotonic() > until:
             kill_session(process.pid)
             process.wait()

@@ -110,13 +110,15 @@ double power_of_prescribed(const State<Dim>& before, const State<Dim>& state, co
   return sum;
 }
 
-// Work of pins and of forces that the scene applies, J.
+// Work of pins and of forces that the scene applies, J. Loads of the first solve may be the blows of a sudden start,
+// which are over: the way after it counts those of the second alone.
 template <int Dim>
 double driven_work(const State<Dim>& before, const State<Dim>& state, double dt) {
   const double span = state.horizon > 0 ? state.horizon : dt;
+  const Participants<Dim>& earlier = before.step > 1 ? before.solids : state.solids;
   double sum = 0;
   for (std::size_t k = 0; k < state.solids.size(); ++k)
-    sum += state.solids[k].driven_work(before.solids[k], state.time, span);
+    sum += state.solids[k].driven_work(earlier[k], state.time, span);
   return sum;
 }
 

@@ -112,7 +112,7 @@ double most_kinetic_energy(const EnergyBudget& b) {
 template <int Dim>
 EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
                            const NodeField<Dim>& psi, const Attempt<Dim>& attempt) {
-  const double t = before.time, dt = attempt.state.time - t, span = dt + attempt.state.horizon;
+  const double t = before.time, dt = attempt.state.dt_now, span = dt + attempt.state.horizon;
   EnergyBudget b;
   b.kinetic = std::max(start.kinetic_energy, kinetic_energy_of_fluids_before(s.domain, s.fluids, before, psi));
   b.elastic = start.elastic_energy;

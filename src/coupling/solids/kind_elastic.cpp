@@ -186,10 +186,12 @@ void ElasticParticipant<Dim>::measure(const Gravity& gravity, const TimeSpec& ti
   stats.momentum += mass * now.velocity;
 }
 
-// Position, orientation and velocities of the mean motion.
+// Position, orientation and velocities of the mean motion. With backward Euler the velocity is that of the last solve,
+// which fits the liquid's: it belongs to the end of the way ahead.
 template <int Dim>
-void ElasticParticipant<Dim>::describe(const TimeSpec&, const State<Dim>&, SolidState& out) const {
-  const BodyAverage now = average(elements().body, motion_.state.u, motion_.velocity);
+void ElasticParticipant<Dim>::describe(const TimeSpec& time, const State<Dim>&, SolidState& out) const {
+  const bool ahead = elastic_scheme(time) == ElasticScheme::backward_euler;
+  const BodyAverage now = average(elements().body, motion_.state.u, ahead ? motion_.velocity : motion_.state.v);
   const Eigen::Quaterniond q(now.rotation);
   out.position = now.center;
   out.orientation = {q.w(), q.x(), q.y(), q.z()};

@@ -33,6 +33,7 @@ class ElasticParticipant : public Participant<Dim> {
   void take(const SolidCoupling<Dim>& c, int block, const Eigen::VectorXd& v, double horizon) override;
   void take_reactions(const Eigen::VectorXd& forces) override;
   void advance(const Stride<Dim>& stride) override;
+  void inform(const Participant<Dim>& trial) override { motion_.velocity = trial.velocity(); }
   double possible_share(const Eigen::VectorXd& way) const override;
   double limit_of_start(double dt) const override;
 

@@ -77,6 +77,7 @@ void RigidParticipant<Dim>::take(const SolidCoupling<Dim>& c, int block, const E
 
 template <int Dim>
 void RigidParticipant<Dim>::advance(const Stride<Dim>& stride) {
+  if (stride.leading) return go_on(*stride.leading, stride.lead);
   state_ = seiche::advance(body(), state_, stride.lead);
 }
 

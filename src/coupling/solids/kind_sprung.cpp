@@ -49,7 +49,7 @@ class SprungParticipant : public Participant<Dim> {
     c.J.blocks[std::size_t(block)] = translation_columns(step, this->index(), c.freedom, first);
   }
   void take(const SolidCoupling<Dim>&, int, const Eigen::VectorXd& v, double) override { velocity_ = v; }
-  void advance(const Stride<Dim>& stride) override { displacement_ += stride.lead * velocity_; }
+  void advance(const Stride<Dim>& stride) override { go_on(stride.leading ? *stride.leading : *this, stride.lead); }
   void go_on(const Participant<Dim>& leading, double dt) override {
     displacement_ += dt * Vec<Dim>(leading.velocity());
   }

@@ -27,14 +27,19 @@ struct CouplingParts;
 template <int Dim>
 struct CoupledStep;
 
+template <int Dim>
+class Participant;
+
 // Advance over one step. Participants move to their position at the solve, `lead` (s) after the start of the step: dt,
-// or dt/2 in leapfrog steps. `velocity`: of the participant's unknowns over the step.
+// or dt/2 in leapfrog steps. `velocity`: of the participant's unknowns over the step. `leading`: the participant after
+// a look ahead, whose velocities move it, or null.
 template <int Dim>
 struct Stride {
   const Setup<Dim>& setup;
   const State<Dim>& before;
   double dt, lead;
   const Eigen::VectorXd& velocity;
+  const Participant<Dim>* leading = nullptr;
 };
 
 // A solid of the scene with the data that it keeps from step to step. A value: State owns copies. The defaults suit a
@@ -83,6 +88,8 @@ class Participant {
   virtual void take(const SolidCoupling<Dim>&, int /*block*/, const Eigen::VectorXd& /*v*/, double /*horizon*/) {}
   virtual void take_reactions(const Eigen::VectorXd& /*forces*/) {}
   virtual void advance(const Stride<Dim>&) {}
+  // Velocities of the first step from a look ahead.
+  virtual void inform(const Participant& /*trial*/) {}
   // Second half of a leapfrog step, dt (s), with the velocities of `leading`.
   virtual void go_on(const Participant& /*leading*/, double /*dt*/) {}
   // Fraction of the displacement `way` (m) of its unknowns that it can move without damage, and the longest first step

@@ -202,6 +202,8 @@ class FlowSimulation : public Simulation {
     inform(trial, state);
     inform(trial.exterior->flow, state.exterior->flow);
     state.dt_now = dt;
+    if (setup_->solids.plans_steps()) state.horizon = trial.horizon;
+    for (std::size_t k = 0; k < trial.solids.size(); ++k) state.solids[k].inform(trial.solids[k]);
     for (const auto& interaction : setup_->solids.interactions) interaction->inform(trial, state);
     return state;
   }

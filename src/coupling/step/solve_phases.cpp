@@ -258,6 +258,12 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
   const std::optional<SurfaceTension<Dim>> tension = std::exchange(moved.tension, std::nullopt);
   const SolveTask<Dim> task{s, before, tension, predicted, times, phases};
   Solves<Dim> solves;
+  if (times.looks_ahead()) {
+    moved.state.horizon = times.dt;
+    Attempt<Dim> out = solve_for_horizon(task, std::move(moved), solves);
+    if (out.failure.empty()) out.failure = fault_of_start(s, out.state);
+    return out;
+  }
   moved.state.horizon = choose_horizon(s, moved.state, times.dt);
   if (!s.solids.plans_steps() || s.scene->time.fixed_step) return solve_for_horizon(task, std::move(moved), solves);
   for (int plans = 1, failures = 0;;) {

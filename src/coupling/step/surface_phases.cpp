@@ -22,23 +22,38 @@ namespace {
 
 // The state at the end of the step as far as it follows from its length alone.
 template <int Dim>
-State<Dim> shifted_levels(const State<Dim>& before, double dt) {
+State<Dim> shifted_levels(const State<Dim>& before, const StepTimes& times) {
   State<Dim> next = before;
   next.trial = nullptr;
-  next.time = before.time + dt;
+  next.time = times.looks_ahead() ? before.time : before.time + times.dt;
   next.step = before.step + 1;
   age(next);
   age(next.exterior->flow);
   next.dt_before = before.dt_now;
-  next.dt_now = dt;
+  next.dt_now = times.dt;
+  next.since_solve = times.leapfrog ? times.dt - times.lead : 0;
   return next;
 }
 
+// After a look ahead all solids move as it found.
 template <int Dim>
 void move_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Participants<Dim>& solids) {
   const std::vector<Eigen::VectorXd> velocities = each_velocity_over(s.solids, before, times.dt);
+  const bool looked_ahead = before.trial && s.solids.plans_steps();
   for (std::size_t k = 0; k < velocities.size(); ++k)
-    solids[k].advance({s, before, times.dt, times.lead, velocities[k]});
+    solids[k].advance({s, before, times.dt, times.lead, velocities[k],
+                       looked_ahead ? &std::as_const(before.trial->solids)[k] : nullptr});
+}
+
+// Places of the solids at the solve. Prescribed ones have their mean velocity over the step.
+template <int Dim>
+std::vector<Placement> place_at_solve(const State<Dim>& next, const StepTimes& times) {
+  if (times.leapfrog) return place_halfway(next, times.dt);
+  if (!times.looks_ahead()) return place_bodies(next);
+  std::vector<Placement> placed;
+  for (std::size_t k = 0; k < next.solids.size(); ++k)
+    placed.push_back(next.solids[k].place(times.start, times.start + times.dt, times.start));
+  return placed;
 }
 
 // Flags of the deforming bodies that no unknown moves by a tenth of a cell in the step.
@@ -60,8 +75,7 @@ StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, 
                                    Phases& phases) {
   const PhaseFault fault = phases.enter("geometry");
   const auto timed = phases.timers.measure("geometry");
-  StepGeometry<Dim> geometry =
-      s.solids.geometry.measure(times.leapfrog ? place_halfway(next, times.dt) : place_bodies(next), next.time);
+  StepGeometry<Dim> geometry = s.solids.geometry.measure(place_at_solve(next, times), next.time);
   geometry.slow = slow_bodies(s.domain, next, geometry, times.dt);
   check_geometry_of_step(s.domain, s.solids, s.scene->domain, geometry, times.start, next.time);
   inject(s.domain, fault, geometry.faces.closed_flux[0]);
@@ -157,7 +171,7 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const double uncounted =
       gap_volume(s.domain, s.fluids, before.separation) + volume_beyond(s.domain, s.solids, geometry, next.phi);
   const double expected = next.expected_volume + uncounted;
-  next.exterior->follow(s.domain, geometry, before.now->u, times.dt, next.phi);
+  next.exterior->follow(s.domain, geometry, before.now->u, times.looks_ahead() ? 0 : times.dt, next.phi);
   next.corrected_volume +=
       next.exterior->control_volume(s.domain, geometry, expected, largest_shift(s.domain), next.phi);
   keep_sides(s, before, times, geometry, next.phi);
@@ -169,19 +183,18 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
 template <int Dim>
 Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                                    Phases& phases) {
-  Moved<Dim> moved{shifted_levels(before, times.dt), {}, {}};
-  moved.state.since_solve = times.dt - times.lead;
-  move_solids(s, before, times, moved.state.solids);
+  Moved<Dim> moved{shifted_levels(before, times), {}, {}};
+  if (!times.looks_ahead()) move_solids(s, before, times, moved.state.solids);
   moved.geometry = measure_geometry(s, moved.state, times, phases);
   moved.end = find_end(s, before, times, moved, phases);
-  carry_surface(s, before, times, phases, moved);
+  if (!times.looks_ahead()) carry_surface(s, before, times, phases, moved);
   keep_volumes(s, before, times, phases, moved);
   if (s.domain.sides.any_passes())
     find_entering(s.domain, before.exterior->joined_level(s.domain, s.fluids, before)->u, moved.geometry.faces);
   const auto timed = phases.timers.measure("surface");
   if (s.fluids.has_surface_tension())
     moved.tension = surface_tension(s.domain, s.fluids, s.solids, s.perturbation, moved.geometry, before.phi,
-                                    moved.state.phi, times.lead, times.dt);
+                                    moved.state.phi, times.looks_ahead() ? times.dt : times.lead, times.dt);
   return moved;
 }
 

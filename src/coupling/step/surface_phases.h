@@ -11,12 +11,13 @@
 namespace seiche {
 
 // A step from `start` to start + dt. The solve finds surface and solids `lead` after the start: half-way in a leapfrog
-// step (leapfrog.h), else at the end.
+// step (leapfrog.h), else at the end. A look ahead (lead 0) leaves them at the start: its solve finds how solids that
+// plan steps set off.
 struct StepTimes {
   double start, dt, lead;  // s
   bool leapfrog;
 
-  double end() const { return start + dt; }
+  bool looks_ahead() const { return lead == 0; }
 };
 
 // Surface and solids where the solve finds them; flow and pressure are still those of the step before.
