@@ -85,3 +85,22 @@ TEST_CASE("elastic start: a blow of pins does no work later") {
   CAPTURE(dim, last.kinetic_energy, last.work.solids);
   CHECK(std::abs(last.work.lost_numerical) < 0.1 * last.kinetic_energy);
 }
+
+// Liquid at rest takes part of the momentum of a disc of its density that is thrown in it: its added mass is that of
+// the liquid it displaces, so half of the energy is left. Were the liquid to set out from rest twice, it were a
+// quarter.
+TEST_CASE("elastic start: a disc thrown in liquid gives it momentum once") {
+  Scene s = box_scene(2, 32);
+  add_liquid(s, "-1");
+  s.time.end = 1;
+  SolidSpec disc = elastic_solid("disc", 1000, {1e5, 0.3}, 0.03);
+  disc.shape.kind = "sphere";
+  disc.shape.center = {0.5, 0.5, 0};
+  disc.shape.radius = 0.1;
+  disc.rigid.velocity = {0.5, 0, 0};
+  s.solids.push_back(disc);
+  const auto simulation = make_simulation(s, Communicator());
+  const double start = simulation->stats().kinetic_energy;
+  for (int n = 0; n < 3; ++n) simulation->step(s.time.end);
+  CHECK(simulation->stats().kinetic_energy > 0.4 * start);
+}

@@ -35,6 +35,7 @@ struct State : Flow<Dim> {
   Participants<Dim> solids;
   double since_solve = 0;  // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
   std::shared_ptr<const State> trial = {};  // after a trial of the first step, for the step itself; else null
+  bool looks_ahead = false;                 // for a trial that leaves solids where they begin (look_ahead.h)
   double horizon = 0;                       // interval ahead for which the solids' velocities were solved, s
   Separation<Dim> separation;               // only with separating walls
   double viscous_rate = 0;                  // largest mu/(rho h^2) of the last solve, 1/s

@@ -19,6 +19,7 @@
 #include "coupling/state/state.h"
 #include "coupling/step/balance.h"
 #include "coupling/step/initial_state.h"
+#include "coupling/step/look_ahead.h"
 #include "coupling/step/side_flow.h"
 #include "coupling/step/step.h"
 #include "coupling/step/step_size.h"
@@ -171,9 +172,13 @@ class FlowSimulation : public Simulation {
 
   // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
   Attempt<Dim> first_step(double dt) {
-    Attempt<Dim> trial = budgeted_step(state_, dt);
-    if (!trial.failure.empty() || setup_->scene->time.scheme != TimeScheme::second_order) return trial;
+    const bool second_order = setup_->scene->time.scheme == TimeScheme::second_order;
+    State<Dim> before = state_;
+    before.looks_ahead = second_order && can_look_ahead(setup_->domain, setup_->solids, state_, geometry_);
+    Attempt<Dim> trial = budgeted_step(before, dt);
+    if (!trial.failure.empty() || !second_order) return trial;
     State<Dim> start = inform(trial.state, dt);
+    if (before.looks_ahead) set_off(trial.state, start);
     start.trial = std::make_shared<const State<Dim>>(std::move(trial.state));
     Attempt<Dim> informed = budgeted_step(start, dt);
     informed.state.earlier = informed.state.exterior->flow.earlier = nullptr;
@@ -202,8 +207,6 @@ class FlowSimulation : public Simulation {
     inform(trial, state);
     inform(trial.exterior->flow, state.exterior->flow);
     state.dt_now = dt;
-    if (setup_->solids.plans_steps()) state.horizon = trial.horizon;
-    for (std::size_t k = 0; k < trial.solids.size(); ++k) state.solids[k].inform(trial.solids[k]);
     for (const auto& interaction : setup_->solids.interactions) interaction->inform(trial, state);
     return state;
   }

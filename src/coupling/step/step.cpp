@@ -2,7 +2,6 @@
 #include "coupling/step/step.h"
 
 #include "base/scene.h"
-#include "base/time_spec.h"
 #include "coupling/step/leapfrog.h"
 #include "coupling/step/solve_phases.h"
 #include "coupling/step/surface_phases.h"
@@ -12,17 +11,9 @@
 namespace seiche {
 namespace {
 
-// True in the trial of the first step if solids plan steps. They move with velocities of the solve before, and at the
-// start there is none.
-template <int Dim>
-bool looks_ahead(const Setup<Dim>& s, const State<Dim>& before) {
-  return before.step == 0 && !before.trial && s.solids.plans_steps() &&
-         s.scene->time.scheme == TimeScheme::second_order;
-}
-
 template <int Dim>
 StepTimes times_of_step(const Setup<Dim>& s, const State<Dim>& before, double dt) {
-  if (!s.fluids.has_prescribed_flow() && looks_ahead(s, before)) return {before.time, dt, 0, false};
+  if (before.looks_ahead) return {before.time, dt, 0, false};
   const bool leapfrog = is_leapfrog_step(s.solids, s.sources, s.features, before, dt);
   return {before.time, dt, leapfrog ? dt / 2 : dt, leapfrog};
 }

@@ -100,7 +100,8 @@ double limit_of_first_push(const Domain<Dim>& domain, const Solids<Dim>& solids,
   return limit;
 }
 
-// Elastic solids take the first step by backward Euler, which leads them too far by g dt^2/2 for good: h/16 here.
+// A first step by backward Euler leads elastic solids too far by g dt^2/2 for good: h/16 here. Those that touch liquid
+// stand still in it (look_ahead.h).
 template <int Dim>
 double limit_of_first_fall(const Domain<Dim>& domain, const Fluids& fluids, double t, double dt) {
   const double g = fluids.gravity.largest(t, t + dt);

@@ -25,6 +25,7 @@ template <int Dim>
 State<Dim> shifted_levels(const State<Dim>& before, const StepTimes& times) {
   State<Dim> next = before;
   next.trial = nullptr;
+  next.looks_ahead = false;
   next.time = times.looks_ahead() ? before.time : before.time + times.dt;
   next.step = before.step + 1;
   age(next);
@@ -39,7 +40,7 @@ State<Dim> shifted_levels(const State<Dim>& before, const StepTimes& times) {
 template <int Dim>
 void move_solids(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Participants<Dim>& solids) {
   const std::vector<Eigen::VectorXd> velocities = each_velocity_over(s.solids, before, times.dt);
-  const bool looked_ahead = before.trial && s.solids.plans_steps();
+  const bool looked_ahead = before.trial && before.horizon > 0;
   for (std::size_t k = 0; k < velocities.size(); ++k)
     solids[k].advance({s, before, times.dt, times.lead, velocities[k],
                        looked_ahead ? &std::as_const(before.trial->solids)[k] : nullptr});
