@@ -59,12 +59,13 @@ class Ends(unittest.TestCase):
 class CutOff(unittest.TestCase):
     def test_many_short_steps(self):
         """Only a run that advances to the end in short steps is slow; one that stands still hangs."""
-        for steps, wall, expected in ((200, 0.3, True), (20, 3.0, True), (200, 30.0, False), (20, 0.3, False)):
+        for steps, wall, ranks, expected in ((200, 0.3, 1, True), (20, 3.0, 1, True), (200, 30.0, 1, False),
+                                             (200, 30.0, 3, True), (20, 0.3, 1, False), (20, 0.3, 3, False)):
             with tempfile.TemporaryDirectory() as folder:
                 rows = [f"{n},{n * 0.01},0.01,{wall}" for n in range(steps)]
                 (pathlib.Path(folder) / "stats.csv").write_text("\n".join(["step,time,dt,wall_seconds", *rows]) + "\n")
-                self.assertEqual(oracle.goes_on(pathlib.Path(folder), 60.0), expected)
-        self.assertFalse(oracle.goes_on(pathlib.Path("/nonexistent"), 60.0))
+                self.assertEqual(oracle.goes_on(pathlib.Path(folder), 60.0, ranks), expected)
+        self.assertFalse(oracle.goes_on(pathlib.Path("/nonexistent"), 60.0, 1))
 
 
 class Kills(unittest.TestCase):
@@ -111,6 +112,15 @@ class Results(unittest.TestCase):
         for key, value in (("gravity", ["sin(t)", 0]), ("solid", [{"kind": "kinematic"}]),
                            ("liquid", {"source": [{}]}), ("domain", {"boundary": {"x_lower": {"type": "inflow"}}})):
             self.assertTrue(energy.is_fed({**SCENE, key: value}), key)
+
+    def test_edges_between_outflow_sides(self):
+        """Only sides of different pressure that meet drive a flow round their edge."""
+        outflow = [{"type": "outflow", "pressure": p} for p in (0.0, 1.0)]
+        for sides, driven in (({"x_lower": outflow[1], "y_lower": outflow[0]}, True),
+                              ({"x_lower": outflow[1], "x_upper": outflow[0]}, False),
+                              ({"x_lower": outflow[1], "y_lower": outflow[1]}, False),
+                              ({"x_lower": outflow[1], "y_lower": "no_slip"}, False)):
+            self.assertEqual(energy.is_driven_round_an_edge({"domain": {"boundary": sides}}), driven)
 
     def test_overlap(self):
         self.assertEqual(tables.overlap(square(0), square(1.001)), 0)
