@@ -1,5 +1,7 @@
 #pragma once
-// Shear-dependent viscosity: Picard iteration between viscosity and flow within a step.
+// Shear-dependent viscosity: Picard iteration between viscosity and flow within a step. Where viscosity rises with the
+// shear rate as its power n - 1, an error of the flow returns as 1 - n of it, and would swing for ever from n = 2 on.
+// Once the flow swings, the viscosity goes to the geometric mean of the old and the new one.
 #include "coupling/solve/viscous_coupling.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -24,9 +26,10 @@ class RheologyIteration {
  private:
   const Setup<Dim>& setup_;
   const State<Dim>& state_;
-  FaceField<Dim> last_;
+  FaceField<Dim> last_, way_;  // velocities of the last solve, and their change in it, m/s
   ViscosityField<Dim> viscosity_;
   int count_ = 0;
+  bool swings_ = false;
   double change_ = 0;  // relative, of the velocities
 };
 
