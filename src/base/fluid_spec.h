@@ -37,6 +37,11 @@ struct RheologySpec {
 // the waves that are too short for the step, which then has no such limit.
 enum class TensionScheme { explicit_steps, semi_implicit };
 
+// by_shift: the level set alone knows the liquid; one shift of it keeps the volume. in_cells: the liquid's share of
+// each cell is carried as well. automatic: in_cells in prescribed flows without sources and inflow sides, else
+// by_shift.
+enum class VolumeKeeping { automatic, in_cells, by_shift };
+
 struct LiquidSpec {
   double density = 1000;
   double surface_tension = 0;  // N/m
@@ -45,6 +50,7 @@ struct LiquidSpec {
   Formula viscosity = "0.0";  // Pa s; unused if there is a rheology
   RheologySpec rheology;
   bool separates = false;  // separating walls: the pressure at walls and solids is at least 0
+  VolumeKeeping volume = VolumeKeeping::automatic;
   VectorFormula velocity{"0", "0", "0"};
   std::optional<VectorFormula> prescribed_velocity;  // at all times; no solve, only the surface moves
   std::vector<LiquidRegionSpec> regions;

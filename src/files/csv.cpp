@@ -49,7 +49,9 @@ std::vector<Column> columns(const StepStats& s) {
           {"work_sides", s.work.sides},
           {"work_solids", s.work.solids},
           {"lost_viscous", s.work.lost_viscous},
-          {"lost_numerical", s.work.lost_numerical}};
+          {"lost_numerical", s.work.lost_numerical},
+          {"volume_spilled", s.volume_spilled},
+          {"volume_drifting", s.volume_drifting}};
 }
 
 std::vector<Column> columns(const SolidState& s) {

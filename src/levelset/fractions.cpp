@@ -224,19 +224,24 @@ double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi,
 }
 
 template <int Dim>
+VolumeAndArea share_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                             Site cell) {
+  constexpr double probe = 1e-3;  // cells
+  if (const std::optional<double> plain = plain_share(layout, phi, psi, cell)) return {*plain, 0};
+  Cube<Dim> c = corners_of(layout, phi, psi, cell);
+  const double share = share_of(c);
+  for (double& f : c.f) f -= probe * layout.h();
+  c.f_center -= probe * layout.h();
+  return {share, (share_of(c) - share) / probe};
+}
+
+template <int Dim>
 VolumeAndArea local_volume_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
-  const double probe = 1e-3 * layout.h();
   const auto may_matter = [&](Site s) { return !all_above(phi.data() + s, far_above(layout)); };
-  VolumeAndArea sum = local_sum_of_possible(layout, layout.cells(), may_matter, [&](Site s) -> VolumeAndArea {
-    if (const std::optional<double> plain = plain_share(layout, phi, psi, s)) return {*plain, 0};
-    Cube<Dim> c = corners_of(layout, phi, psi, s);
-    const double share = share_of(c);
-    for (double& f : c.f) f -= probe;
-    c.f_center -= probe;
-    return {share, (share_of(c) - share) / probe};
-  });
+  const VolumeAndArea sum = local_sum_of_possible(layout, layout.cells(), may_matter,
+                                                  [&](Site s) { return share_and_area(layout, phi, psi, s); });
   const double cell = layout.geometry().cell_volume();
-  return {cell * sum.volume, cell * sum.area};
+  return {cell * sum.volume, cell / layout.h() * sum.area};
 }
 
 template double negative_measure<1>(const CutSimplex<1>&);
@@ -252,6 +257,8 @@ template double liquid_share<2>(const Layout<2>&, const CellField<2>&, const Nod
 template double liquid_share<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
 template double local_liquid_volume<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
 template double local_liquid_volume<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
+template VolumeAndArea share_and_area<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);
+template VolumeAndArea share_and_area<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
 template VolumeAndArea local_volume_and_area<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
 template VolumeAndArea local_volume_and_area<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
 

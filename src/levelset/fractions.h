@@ -47,6 +47,10 @@ struct VolumeAndArea {
     return *this;
   }
 };
+// Of one cell, in cells: its share of liquid, and the share it gains a cell by which phi falls.
+template <int Dim>
+VolumeAndArea share_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                             Site cell);
 template <int Dim>
 VolumeAndArea local_volume_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi);
 

@@ -221,6 +221,30 @@ void check_gas(const Checker& c, const Scene& scene) {
                                "would flow into the gap where liquid separates from a solid; remove separates");
 }
 
+bool has_side(const DomainSpec& d, SideType type) {
+  return std::any_of(d.sides.begin(), d.sides.end(), [&](const auto& ends) {
+    return std::any_of(ends.begin(), ends.end(), [&](const SideSpec& side) { return side.type == type; });
+  });
+}
+
+// What volumes of cells are not carried beside.
+void check_volume(const Checker& c, const Scene& scene) {
+  if (scene.liquid.volume != VolumeKeeping::in_cells) return;
+  const std::vector<std::pair<const char*, bool>> all{
+      {"[[solid]]", !scene.solids.empty()},
+      {"[gas]", scene.gas.present},
+      {"[[liquid.source]]", !scene.liquid.sources.empty()},
+      {"liquid.separates = true", scene.liquid.separates},
+      {"inflow sides", has_side(scene.domain, SideType::inflow)},
+      {"outflow sides", !scene.liquid.prescribed_velocity && has_side(scene.domain, SideType::outflow)}};
+  std::vector<std::string> names;
+  for (const auto& [name, given] : all)
+    if (given) names.emplace_back(name);
+  if (names.empty()) return;
+  c.report("liquid.volume",
+           fmt::format("liquid.volume = \"cells\" does not work with {} yet; use \"shift\"", fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
@@ -237,8 +261,10 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
-  if (context.clean("gas") && context.clean("liquid") && context.clean("solid"))
+  if (context.clean("gas") && context.clean("liquid") && context.clean("solid")) {
+    check_volume(c, scene);
     check_prescribed_flow(context, root, scene);
+  }
 }
 
 }  // namespace seiche

@@ -72,6 +72,17 @@ Section<LiquidSourceSpec> source_section() {
   return s;
 }
 
+Key<LiquidSpec> volume_key() {
+  return choice_key<LiquidSpec, VolumeKeeping LiquidSpec::*, VolumeKeeping>(
+      {.key = "volume",
+       .doc = "how liquid is kept. \"cells\": the share of each cell is carried, so that liquid stays where it is, to "
+              "rounding; for scenes without solids, gas, sources and open sides. \"shift\": one shift of the whole "
+              "surface keeps the sum. \"auto\": \"cells\" in prescribed flows without sources and inflow sides, else "
+              "\"shift\""},
+      &LiquidSpec::volume,
+      {{"auto", VolumeKeeping::automatic}, {"cells", VolumeKeeping::in_cells}, {"shift", VolumeKeeping::by_shift}});
+}
+
 Key<LiquidSpec> prescribed_velocity_key() {
   return value_key<LiquidSpec>(
       {.key = "prescribed_velocity",
@@ -109,6 +120,7 @@ Section<LiquidSpec> liquid_section() {
                     .doc = "true: liquid separates from walls and solids where its pressure would fall below zero; "
                            "false: they exert suction"},
                    &S::separates),
+      volume_key(),
       viscosity_key(),
       surface_tension_key(),
       tension_scheme_key(),

@@ -24,6 +24,7 @@ SQUARE = numpy.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 
 def stats(kinetic, potential=0.0, moved=0.0):
     rows = {"time": [0, 1], "dt": [0, 0.01], "liquid_volume": [0.5, 0.5], "volume_corrected": [0, moved],
+            "volume_spilled": [0, 0],
             "kinetic_energy": [10, kinetic], "potential_energy": [2500, 2500 + potential], "elastic_energy": [0, 0],
             "max_speed": [0.2, 0.3], "work_gravity": [0, -potential], "work_tension": [0, 0], "work_sides": [0, 0],
             "work_solids": [0, 0], "lost_viscous": [0, 0], "lost_numerical": [0, 10 - kinetic - potential]}

@@ -9,7 +9,7 @@ from fuzzing.values import VALUES, table_of
 # Keys that the plan of a scene sets: dimension, grid and duration.
 PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "probe"),
            ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
-           ("domain", "cell_size"), ("time", "end"), ("time", "frame_rate"),
+           ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
 SHAPES = ("liquid.region[]", "liquid.source[]", "solid[]", "solid[].pinned", "solid[].traction")
 MAKEABLE = {*shapes.GEOMETRY}
@@ -182,4 +182,17 @@ def make_scene(registry, rng: random.Random):
     for table in ("tracking", "solver", "output"):
         if rng.random() < 0.5:
             scene[table] = table_of(table)(c, None)
+    choose_volume(c, scene)
     return {key: value for key, value in scene.items() if value not in ([], {})}, c
+
+
+def choose_volume(c, scene):
+    """How the liquid is kept: by cells only where nothing in the scene stands against it."""
+    liquid, sides = scene["liquid"], str(scene["domain"].get("boundary", {}))
+    against = (scene["solid"] or c.has_gas or liquid.get("source") or liquid.get("separates") or "inflow" in sides
+               or "outflow" in sides)
+    words = [w for w in c.choices("liquid", "volume") if not (w == "cells" and against)]
+    if against and c.rng.random() < 0.9:
+        return
+    liquid["volume"] = c.rng.choice(words if against else [*words, "cells", "cells"])
+    c.use("liquid", "volume", liquid["volume"])

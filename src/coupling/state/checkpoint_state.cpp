@@ -167,6 +167,7 @@ void visit_numbers(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& vi
   if (visitor.has("viscous.dissipation")) visit_power(state.viscous_power, visitor);
   visitor.number("expected_volume", state.expected_volume);
   visitor.number("corrected_volume", state.corrected_volume);
+  if (visitor.has("spilled_volume")) visitor.number("spilled_volume", state.spilled_volume);
   state.step = std::int64_t(step);
   if (visitor.loads() && s.fluids.is_viscous() && state.step > 0) state.viscous_loads.resize(s.solids.bodies.size());
   if (visitor.loads() && visitor.has("convected.0.force0")) state.convected_loads.resize(s.solids.bodies.size());
@@ -180,12 +181,14 @@ void visit_cells(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visitor.field("phi", domain.layout.cells(), state.phi);
   visitor.field("pressure", domain.layout.cells(), state.pressure);
   if (s.tracks_volume()) visitor.field("liquid", domain.layout.cells(), state.liquid);
+  if (s.volume_lags()) visitor.field("liquid_phi", domain.layout.cells(), state.liquid_phi);
   if (s.fluids.liquid.separates) visitor.field("gap", domain.layout.cells(), state.separation.gap);
   if (s.solids.may_seal()) visitor.field("sealed", domain.layout.cells(), state.sealed);
   if (!visitor.loads()) return;
   fill_level_set_ghosts(domain.layout, domain.halo, state.phi);
   domain.halo.fill_ghosts(state.pressure);
   if (s.tracks_volume()) fill_share_ghosts(domain.layout, domain.halo, state.liquid);
+  if (s.volume_lags()) fill_level_set_ghosts(domain.layout, domain.halo, state.liquid_phi);
   if (s.solids.may_seal()) domain.halo.fill_ghosts({state.sealed.data()});
 }
 
@@ -215,6 +218,7 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   state.phi = CellField<Dim>(layout);
   state.pressure = CellField<Dim>(layout);
   if (s.tracks_volume()) state.liquid = CellField<Dim>(layout);
+  if (s.volume_lags()) state.liquid_phi = CellField<Dim>(layout);
   state.gap_flow = GapFlow<Dim>(layout);
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(layout);

@@ -10,6 +10,7 @@
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/volume/ledger.h"
 #include "solid/mesh/point.h"
 
 namespace seiche {
@@ -35,7 +36,13 @@ struct Setup {
         std::vector<Box<Dim>> blocks = {});
 
   // True if the liquid's volume is a field of its own (State::liquid), not kept by a shift of the level set.
-  bool tracks_volume() const { return fluids.has_prescribed_flow() && sources.empty() && !domain.sides.any_inflow(); }
+  bool tracks_volume() const {
+    if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
+    return fluids.has_prescribed_flow() && sources.empty() && !domain.sides.any_inflow();
+  }
+  // True if State::liquid belongs to the time of the solve, the middle of a step.
+  bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
+  Divergence divergence() const { return fluids.has_prescribed_flow() ? Divergence::swells : Divergence::stays; }
 };
 
 }  // namespace seiche

@@ -42,6 +42,8 @@ struct StepStats {
   // further columns
   double gas_volume = 0;           // of flowing gas, or of enclosed air, m^3
   double volume_corrected = 0;     // liquid volume restored by the volume control since the start, m^3
+  double volume_spilled = 0;       // handed to neighbouring cells since the start, m^3
+  double volume_drifting = 0;      // of drops too small for a pressure of their own, m^3
   int rejected = 0;                // attempts at this step that were rejected
   double viscous_dissipation = 0;  // what viscous stress takes from the flow in this step, over dt, W
   std::int64_t bubbles = 0;        // enclosed air regions that keep their volume

@@ -26,12 +26,15 @@ struct State : Flow<Dim> {
   std::int64_t step = 0;
   double dt_now = 0, dt_before = 0;  // steps that led to `now` and `before`, s
   OwnedExterior<Dim> exterior;
-  GapFlow<Dim> gap_flow;        // at `now`
-  CellField<Dim> phi;           // m, ghosts filled
-  CellField<Dim> liquid;        // share of each cell, ghosts filled; empty unless Setup::tracks_volume()
+  GapFlow<Dim> gap_flow;  // at `now`
+  CellField<Dim> phi;     // m, ghosts filled
+  // Share of each cell, ghosts filled; empty unless Setup::tracks_volume(). It belongs to the time of the last solve,
+  // time - since_solve, as does the level set liquid_phi (m); that is empty unless Setup::volume_lags().
+  CellField<Dim> liquid, liquid_phi;
   CellField<Dim> pressure;      // Pa, 0 where the cell has no row
   double expected_volume = 0;   // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim
+  double spilled_volume = 0;    // of `liquid`, handed to neighbouring cells so far, m^Dim
   Participants<Dim> solids;
   double since_solve = 0;  // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
   std::shared_ptr<const State> trial = {};  // after a trial of the first step, for the step itself; else null

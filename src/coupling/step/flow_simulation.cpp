@@ -281,7 +281,11 @@ class FlowSimulation : public Simulation {
     stats.time = state.time;
     stats.dt = state.dt_now;
     measure_fluids(setup_->domain, setup_->fluids, state, geometry.psi, stats);
-    if (setup_->tracks_volume()) stats.liquid_volume = tracked_volume(setup_->domain, state);
+    if (setup_->tracks_volume()) {
+      stats.liquid_volume = tracked_volume(setup_->domain, state);
+      stats.volume_drifting = drifting_volume(setup_->domain, state);
+      stats.volume_spilled = state.spilled_volume;
+    }
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
     measure_bodies(setup_->fluids, setup_->scene->time, state, stats);
     return stats;

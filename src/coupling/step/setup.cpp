@@ -215,6 +215,7 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   state.exterior->start(s, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
+  if (s.volume_lags()) state.liquid_phi = state.phi;
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);

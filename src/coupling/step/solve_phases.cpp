@@ -1,5 +1,6 @@
 #include "coupling/step/solve_phases.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/scene.h"
@@ -10,6 +11,7 @@
 #include "coupling/step/side_flow.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
+#include "coupling/transport/drifting.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
@@ -43,6 +45,12 @@ struct Solves {
   }
 };
 
+// Time in which the excess of full cells flows out, s: ten of the longest of the last steps. Few of them are short.
+template <int Dim>
+double time_of_excess(const State<Dim>& before, double dt) {
+  return 10 * std::max({dt, before.dt_now, before.dt_before});
+}
+
 template <int Dim>
 ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Dim>& state,
                                       const StepGeometry<Dim>& geometry) {
@@ -51,6 +59,10 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
                           geometry.faces,  s.fluids.density(), task.times.dt};
   if (s.fluids.liquid.separates) in.separation = &state.separation;
   if (task.tension) in.surface_jump = &task.tension->jump;
+  if (!state.liquid.empty()) {
+    in.share = &state.liquid;
+    in.excess_time = time_of_excess(task.before, task.times.dt);
+  }
   state.exterior->set_rows(s, in);
   return in;
 }
@@ -155,7 +167,13 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.state.exterior->take(s, out.geometry, phi, *level);
   out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, level->u);
   if (end) place_at(end->geometry, out.geometry);
-  continue_level(s.domain, s.fluids, s.solids, out.geometry, faces_near_liquid(s.domain, phi), *level);
+  FaceField<Dim, char> near = faces_near_liquid(s.domain, phi);
+  if (s.volume_lags()) {
+    const std::vector<Site> drifting = drifting_cells(s.domain, phi, out.state.liquid);
+    take_drifting(s.domain, out.geometry.faces, drifting, task.predicted.u_star, *level);
+    mark_faces(s.domain.layout, drifting, near);
+  }
+  continue_level(s.domain, s.fluids, s.solids, out.geometry, near, *level);
   if (s.fluids.liquid.separates) {
     advance_gaps(liquid, solution.rows, out.state.pressure, solution.u_star, out.state.separation);
     open_gaps(s.domain, out.state);
@@ -238,6 +256,10 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.by_sources = std::move(transported.by_sources);
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
                    s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
+  if (s.volume_lags())
+    let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),
+              before.now->u, s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt,
+              p.u_star);
   if (s.domain.sides.any_passes()) brake_entering(s.domain, moved.geometry.faces, times.dt, p.u_star);
   if (s.domain.sides.any_passes() || !s.solids.bodies.empty())  // else as transported, ghosts filled
     fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);

@@ -133,7 +133,8 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   if (s.tracks_volume())
-    moved.failure = carry_liquid(s.domain, u, s.perturbation.surface_advection * times.lead, before.phi, moved.state);
+    moved.failure = carry_liquid(s.domain, u, s.perturbation.surface_advection * (before.since_solve + times.lead),
+                                 s.divergence(), before, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());
@@ -164,7 +165,7 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = moved.state;
   const StepGeometry<Dim>& geometry = moved.geometry;
-  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, next);
+  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, s.divergence(), next);
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   keep_sides_of_walls(s.domain, geometry, next.phi);
   keep_sealed_full(s, before, next, geometry, next.phi);
@@ -211,6 +212,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
+  if (s.tracks_volume()) return;
   const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);
   next.corrected_volume +=
       next.exterior->control_volume(s.domain, solved.geometry, expected, largest_shift(s.domain), next.phi);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/transport/drifting.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/volume/level_set_coupling.h"
 #include "fluid/volume/spill.h"
@@ -21,18 +22,21 @@ void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Di
 }
 
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
-                         State<Dim>& state) {
-  const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks, u, dt, phi, state.liquid);
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double span, Divergence divergence,
+                         const State<Dim>& before, State<Dim>& state) {
+  const CellField<Dim>& phi = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
+  const VolumeStep step =
+      carry_volume(domain.layout, domain.halo, domain.ranks, u, span, phi, divergence, state.liquid);
   state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
+  state.spilled_volume += step.spill.moved * domain.layout.geometry().cell_volume();
   if (step.too_far == 0) return {};
-  return fmt::format("{} paths of the liquid cross more than {} cells in a step, some from beyond the domain's sides",
-                     step.too_far, longest_path(domain.layout));
+  return fmt::format("{} paths of the liquid cross more than {} cells in a quarter of a step", step.too_far,
+                     longest_path(domain.layout));
 }
 
 template <int Dim>
-void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state) {
-  couple_level_set(domain.layout, domain.halo, domain.ranks, psi, state.phi, state.liquid);
+void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence, State<Dim>& state) {
+  couple_level_set(domain.layout, domain.halo, domain.ranks, psi, divergence, state.phi, state.liquid);
 }
 
 template <int Dim>
@@ -53,12 +57,23 @@ double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state) {
   return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                          \
-  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                     \
-  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, double, const CellField<D>&, State<D>&); \
-  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                    \
-  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                         \
-  template double tracked_volume<D>(const Domain<D>&, const State<D>&);
+template <int Dim>
+double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
+  const CellField<Dim>& phi = state.liquid_phi.empty() ? state.phi : state.liquid_phi;
+  double cells = 0;
+  for (const Site c : drifting_cells(domain, phi, state.liquid))
+    if (domain.layout.cells().contains(domain.layout.index(c))) cells += state.liquid[c];
+  return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                 \
+  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, double, Divergence, const State<D>&, \
+                                       State<D>&);                                                                 \
+  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, Divergence, State<D>&);                    \
+  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                     \
+  template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                            \
+  template double drifting_volume<D>(const Domain<D>&, const State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

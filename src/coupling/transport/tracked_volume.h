@@ -1,7 +1,7 @@
 #pragma once
 // The liquid's volume as a field of its own beside the level set, State::liquid: carried through faces, conserved to
-// rounding but for the flow's divergence. Where Setup::tracks_volume() is false, a shift of the level set keeps the
-// volume.
+// rounding but for the divergence of a prescribed flow. Where Setup::tracks_volume() is false, a shift of the level set
+// keeps the volume.
 #include "coupling/state/state.h"
 
 namespace seiche {
@@ -10,15 +10,16 @@ namespace seiche {
 template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
 
-// Carries State::liquid over dt (s) along the flow u (m/s) that carries the level set `phi`, as it was before. Books
-// what passes the sides, and what the flow's divergence adds. Empty, or a text if paths leave the halo. Collective.
+// Carries State::liquid from the time it belongs to over `span` (s) along the flow u (m/s) that carries the level set.
+// `before`: the state as it was. Books what passes the sides, and what the flow's divergence adds. Empty, or a text if
+// paths leave the halo. Collective.
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
-                         State<Dim>& state);
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double span, Divergence divergence,
+                         const State<Dim>& before, State<Dim>& state);
 
 // Brings level set and volume together after both were carried. Collective.
 template <int Dim>
-void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
+void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence, State<Dim>& state);
 
 // Empty, or a text if State::liquid changed from `before` to `next` by other than what passed the sides, to 1e-11 of
 // it: a hundred times the rounding of a sum over 1e6 cells. Collective.
@@ -28,5 +29,8 @@ std::string fault_of_volume(const Domain<Dim>& domain, const State<Dim>& before,
 // Volume of State::liquid, m^Dim. Collective.
 template <int Dim>
 double tracked_volume(const Domain<Dim>& domain, const State<Dim>& state);
+// The part of it in drifting cells (drifting.h). Collective.
+template <int Dim>
+double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state);
 
 }  // namespace seiche

@@ -54,15 +54,15 @@ double share_below(const Vec<Dim>& normal, double offset) {
 
 // Bisection and secant in turn: the share rises monotonically from 0 at 0 to 1/2 at 1/2.
 template <int Dim>
-double offset_of_share(const Vec<Dim>& normal, double share) {
+double offset_of_share(const Vec<Dim>& normal, double share, double error) {
   const SortedNormal n(normal);
   const double wanted = std::min(share, 1 - share);
   double low = 0, high = 0.5, at_low = 0, at_high = 0.5;
-  for (int k = 0; k < 100 && high - low > 1e-16; ++k) {
+  for (int k = 0; k < 100 && high - low > error; ++k) {
     double a = k % 3 == 2 ? 0.5 * (low + high) : low + (wanted - at_low) / (at_high - at_low) * (high - low);
     a = std::clamp(a, low, high);
     const double found = lower_half(n.m, a);
-    if (found == wanted)
+    if (std::abs(found - wanted) < error)
       low = high = a;
     else if (found < wanted)
       low = a, at_low = found;
@@ -76,7 +76,7 @@ double offset_of_share(const Vec<Dim>& normal, double share) {
 
 #define SEICHE_INSTANTIATE(D)                            \
   template double share_below<D>(const Vec<D>&, double); \
-  template double offset_of_share<D>(const Vec<D>&, double);
+  template double offset_of_share<D>(const Vec<D>&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -15,8 +15,8 @@ struct CellPlane {
 template <int Dim>
 double share_below(const Vec<Dim>& normal, double offset);
 
-// Inverse: the offset below which the given share of the unit cube lies, to rounding. share in [0, 1].
+// Inverse: the offset below which the given share of the unit cube lies, to `error` of it. share in [0, 1].
 template <int Dim>
-double offset_of_share(const Vec<Dim>& normal, double share);
+double offset_of_share(const Vec<Dim>& normal, double share, double error = 1e-16);
 
 }  // namespace seiche

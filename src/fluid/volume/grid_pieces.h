@@ -45,27 +45,47 @@ void cut_at_plane(const Simplex<Dim>& s, int axis, double at, const Visit& visit
   cut_at_plane(near_high, axis, at, visit);
 }
 
-// The cells that a simplex reaches: lower <= i <= upper.
+// Cells lower <= i <= upper.
 template <int Dim>
 struct CellRange {
   IVec<Dim> lower, upper;
-
-  explicit CellRange(const Simplex<Dim>& s) {
-    Vec<Dim> least = s.corner[0], most = s.corner[0];
-    for (const Vec<Dim>& x : s.corner) least = least.cwiseMin(x), most = most.cwiseMax(x);
-    for (int a = 0; a < Dim; ++a) {
-      lower[a] = int(std::floor(least[a]));
-      upper[a] = std::max(lower[a], int(std::ceil(most[a])) - 1);
-    }
-  }
 };
+
+// floor(x) and ceil(x) of numbers that an int holds.
+inline int floor_of(double x) {
+  const int n = int(x);
+  return n - (x < n);
+}
+inline int ceil_of(double x) {
+  const int n = int(x);
+  return n + (x > n);
+}
+
+// The cells between two corners of a box.
+template <int Dim>
+CellRange<Dim> range_of(const Vec<Dim>& least, const Vec<Dim>& most) {
+  CellRange<Dim> r;
+  for (int a = 0; a < Dim; ++a) {
+    r.lower[a] = floor_of(least[a]);
+    r.upper[a] = std::max(r.lower[a], ceil_of(most[a]) - 1);
+  }
+  return r;
+}
+
+// The cells that a simplex reaches.
+template <int Dim>
+CellRange<Dim> range_of(const Simplex<Dim>& s) {
+  Vec<Dim> least = s.corner[0], most = s.corner[0];
+  for (const Vec<Dim>& x : s.corner) least = least.cwiseMin(x), most = most.cwiseMax(x);
+  return range_of(least, most);
+}
 
 // Calls visit(cell, piece) for pieces that tile s, each in one cell. Leaves out those in a range of cells for which
 // done(range, piece) is true.
 template <int Dim, class Done, class Visit>
 void visit_cells(const Simplex<Dim>& s, const Done& done, const Visit& visit) {
   if (s.measure == 0) return;
-  const CellRange<Dim> range(s);
+  const CellRange<Dim> range = range_of(s);
   if (done(range, s)) return;
   int widest = 0;
   for (int a = 1; a < Dim; ++a)

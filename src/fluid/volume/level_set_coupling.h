@@ -3,7 +3,7 @@
 // long waves of their difference move the level set, short ones the volumes
 // (docs/decisions/0061-volumes-and-level-set.md).
 #include "base/communicator.h"
-#include "grid/fields.h"
+#include "fluid/volume/ledger.h"
 #include "grid/halo.h"
 
 namespace seiche {
@@ -19,6 +19,6 @@ struct Coupled {
 // sum of the shares does not change. Fills the ghosts of both. Collective.
 template <int Dim>
 Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                         const NodeField<Dim>& psi, CellField<Dim>& phi, CellField<Dim>& share);
+                         const NodeField<Dim>& psi, Divergence divergence, CellField<Dim>& phi, CellField<Dim>& share);
 
 }  // namespace seiche

@@ -1,7 +1,10 @@
 #pragma once
 // The liquid as a set: full and empty cells, and planes in mixed ones.
+#include <optional>
+
 #include "fluid/volume/grid_pieces.h"
 #include "fluid/volume/surface_pieces.h"
+#include "fluid/volume/swept_region.h"
 #include "levelset/fractions.h"
 
 namespace seiche {
@@ -10,22 +13,34 @@ namespace seiche {
 template <int Dim>
 class LiquidInCells {
  public:
-  LiquidInCells(const Layout<Dim>& layout, const CellField<Dim>& phi, const CellField<Dim>& share)
-      : layout_(layout), share_(share), pieces_(surface_pieces(layout, layout.grown(layout.halo() - 2), phi, share)) {}
+  // quick: one plane may stand for the surface in a whole region, see flat_cell().
+  LiquidInCells(const Layout<Dim>& layout, const CellField<Dim>& phi, const CountedShares<Dim>& share, bool quick)
+      : layout_(layout),
+        share_(share),
+        pieces_(surface_pieces(layout, layout.grown(layout.halo() - 2), phi, share)),
+        quick_(quick) {}
 
   // 0 or 1 if all cells of a range are empty or full, else -1.
   int uniform(const CellRange<Dim>& range) const {
-    IVec<Dim> i = range.lower;
     bool full = true, empty = true;
-    for (;;) {
+    each_cell(range, [&](const IVec<Dim>& i) {
       const double v = share_[layout_.site(i)];
       full = full && v >= 1 - least_share;
       empty = empty && v <= least_share;
-      if (!full && !empty) return -1;
-      int a = 0;
-      while (a < Dim && ++i[a] > range.upper[a]) i[a] = range.lower[a], ++a;
-      if (a == Dim) return full ? 1 : 0;
-    }
+      return full || empty;
+    });
+    return full ? 1 : empty ? 0 : -1;
+  }
+  // Liquid in a region, in cells.
+  double within(const SweptRegion<Dim>& region) const {
+    const int value = uniform(region.range());
+    if (value >= 0) return value * region.measure();
+    double sum = 0;
+    if (const std::optional<IVec<Dim>> cell = quick_ ? flat_cell(region) : std::nullopt)
+      for (const Simplex<Dim>& s : region) sum += below_plane(*cell, s);
+    else
+      for (const Simplex<Dim>& s : region) sum += within(s);
+    return sum;
   }
   // Liquid in a simplex, with its sign, in cells.
   double within(const Simplex<Dim>& s) const {
@@ -41,6 +56,40 @@ class LiquidInCells {
   }
 
  private:
+  // Calls visit(cell) for the cells of a range until it returns false; false if it did.
+  template <class Visit>
+  static bool each_cell(const CellRange<Dim>& range, const Visit& visit) {
+    IVec<Dim> i = range.lower;
+    for (;;) {
+      if (!visit(i)) return false;
+      int a = 0;
+      while (a < Dim && ++i[a] > range.upper[a]) i[a] = range.lower[a], ++a;
+      if (a == Dim) return true;
+    }
+  }
+  static Vec<Dim> centre_of(const IVec<Dim>& cell) { return cell.template cast<double>().array() + 0.5; }
+
+  // A cell whose plane stands for the surface in all cells that a region reaches, to 0.01 of each: the mixed one
+  // nearest to its middle; none if the surface bends.
+  std::optional<IVec<Dim>> flat_cell(const SweptRegion<Dim>& region) const {
+    constexpr double most = 0.01;
+    const CellRange<Dim> range = region.range();
+    std::optional<IVec<Dim>> best;
+    double least = 1e300;
+    each_cell(range, [&](const IVec<Dim>& i) {
+      const double d = (centre_of(i) - region.middle()).squaredNorm();
+      if (pieces_.index[layout_.site(i)] >= 0 && d < least) least = d, best = i;
+      return true;
+    });
+    if (!best) return {};
+    const CellPlane<Dim>& plane = pieces_.planes[std::size_t(pieces_.index[layout_.site(*best)])];
+    const bool flat = each_cell(range, [&](const IVec<Dim>& i) {
+      const double offset = plane.offset - plane.normal.dot((i - *best).template cast<double>());
+      return std::abs(share_below<Dim>(plane.normal, offset) - share_[layout_.site(i)]) < most;
+    });
+    return flat ? best : std::nullopt;
+  }
+
   double below_plane(const IVec<Dim>& cell, const Simplex<Dim>& piece) const {
     const std::int32_t n = pieces_.index[layout_.site(cell)];
     if (n < 0) return share_[layout_.site(cell)] > 0.5 ? piece.measure : 0;
@@ -53,8 +102,9 @@ class LiquidInCells {
   }
 
   const Layout<Dim>& layout_;
-  const CellField<Dim>& share_;
+  const CountedShares<Dim>& share_;
   SurfacePieces<Dim> pieces_;
+  bool quick_;
 };
 
 }  // namespace seiche

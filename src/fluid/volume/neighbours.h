@@ -1,8 +1,10 @@
 #pragma once
 // The cells within some cells of one along each axis.
 #include <algorithm>
+#include <atomic>
 
-#include "grid/layout.h"
+#include "grid/fields.h"
+#include "grid/loops.h"
 
 namespace seiche {
 
@@ -49,6 +51,25 @@ Box<Dim> cells_around(const Layout<Dim>& layout, int n) {
     box.upper[a] = std::min(box.upper[a], layout.geometry().cells[a]);
   }
   return box;
+}
+
+// Sets mask within `reach` cells of each site along each axis, as far as cells are stored.
+template <int Dim>
+void mark_around(const Layout<Dim>& layout, const std::vector<Site>& sites, int reach, CellField<Dim, char>& mask) {
+  const Box<Dim> all = layout.padded();
+  for_each_listed(sites, [&](Site c) {
+    const IVec<Dim> i = layout.index(c);
+    const Box<Dim> around = Box<Dim>{i.array() - reach, i.array() + reach + 1}.cut(all);
+    IVec<Dim> at = around.lower;
+    for (;;) {
+      char* row = &mask[layout.site(at)];
+      for (int n = 0; n < around.upper[0] - around.lower[0]; ++n)  // other threads may set the same
+        std::atomic_ref<char>(row[n]).store(1, std::memory_order_relaxed);
+      int a = 1;
+      while (a < Dim && ++at[a] == around.upper[a]) at[a] = around.lower[a], ++a;
+      if (a == Dim) return;
+    }
+  });
 }
 
 }  // namespace seiche

@@ -13,11 +13,17 @@ template <int Dim>
 double distance_of_piece(const CellPlane<Dim>& plane, const Vec<Dim>& x) {
   double low = -10, high = 10;
   const auto at = [&](double t) { return Vec<Dim>((x - t * plane.normal).cwiseMax(0).cwiseMin(1)); };
-  for (int k = 0; k < 50; ++k) {
+  for (int k = 0; k < 30; ++k) {
     const double t = 0.5 * (low + high);
     (plane.normal.dot(at(t)) > plane.offset ? low : high) = t;
   }
   return (at(0.5 * (low + high)) - x).norm();
+}
+
+// Distance of a cell's centre from the nearest point of the cell `offset` cells away, in cells.
+template <int Dim>
+double distance_of_cell(const IVec<Dim>& offset) {
+  return (offset.template cast<double>().cwiseAbs().array() - 0.5).max(0).matrix().norm();
 }
 
 // Signed distance (m) of a cell's centre from the pieces of the cells within two, at most two cells.
@@ -30,7 +36,7 @@ double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& p
   for (int n = 0; n < neighbour_count<Dim>(reach); ++n) {
     const IVec<Dim> o = neighbour_offset<Dim>(n, reach);
     const std::int32_t piece = pieces.index[c + step_of(layout, o)];
-    if (piece < 0) continue;
+    if (piece < 0 || distance_of_cell<Dim>(o) > least) continue;
     least =
         std::min(least, distance_of_piece<Dim>(pieces.planes[std::size_t(piece)], middle - o.template cast<double>()));
   }
@@ -45,24 +51,27 @@ double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& p
 
 template <int Dim>
 std::int64_t rebuild_level_set(const Layout<Dim>& layout, const CellField<Dim, char>& marked, const CellField<Dim>& old,
-                               const CellField<Dim>& share, CellField<Dim>& phi) {
-  const std::vector<Site> cells = listed_possible(
-      layout, layout.cells(), [](Site) { return true; },
-      [&](Site c) {
-        bool any = false;
-        for (int n = 0; n < neighbour_count<Dim>(); ++n)
-          any = any || marked[c + step_of(layout, neighbour_offset<Dim>(n))];
-        return any;
-      });
-  if (cells.empty()) return 0;
-  const SurfacePieces<Dim> pieces = surface_pieces(layout, layout.grown(2), old, share);
+                               Divergence divergence, const CellField<Dim>& share, CellField<Dim>& phi) {
+  const auto all = [&](int layers, const CellField<Dim, char>& mask) {
+    return listed_possible(
+        layout, layout.grown(layers), [&](Site c) { return any_marked(mask.data() + c); },
+        [&](Site c) { return mask[c] != 0; });
+  };
+  const std::vector<Site> where = all(1, marked);
+  if (where.empty()) return 0;
+  CellField<Dim, char> rebuilt(layout), around(layout);
+  mark_around(layout, where, 1, rebuilt);
+  mark_around(layout, where, 3, around);
+  const std::vector<Site> cells = all(0, rebuilt);
+  const SurfacePieces<Dim> pieces =
+      surface_pieces(layout, layout.grown(2), old, CountedShares<Dim>(layout, divergence, old, share), &around);
   for_each_listed(cells, [&](Site c) { phi[c] = distance_of_pieces(layout, pieces, share, c); });
   return std::int64_t(cells.size());
 }
 
-template std::int64_t rebuild_level_set<2>(const Layout<2>&, const CellField<2, char>&, const CellField<2>&,
+template std::int64_t rebuild_level_set<2>(const Layout<2>&, const CellField<2, char>&, const CellField<2>&, Divergence,
                                            const CellField<2>&, CellField<2>&);
-template std::int64_t rebuild_level_set<3>(const Layout<3>&, const CellField<3, char>&, const CellField<3>&,
+template std::int64_t rebuild_level_set<3>(const Layout<3>&, const CellField<3, char>&, const CellField<3>&, Divergence,
                                            const CellField<3>&, CellField<3>&);
 
 }  // namespace seiche

@@ -1,6 +1,6 @@
 #pragma once
 // The level set as the distance from the pieces of the volumes.
-#include "grid/fields.h"
+#include "fluid/volume/ledger.h"
 
 namespace seiche {
 
@@ -9,6 +9,6 @@ namespace seiche {
 // cell. Fields must be valid four cells around the owned ones, marks one. Returns the number of cells.
 template <int Dim>
 std::int64_t rebuild_level_set(const Layout<Dim>& layout, const CellField<Dim, char>& marked, const CellField<Dim>& old,
-                               const CellField<Dim>& share, CellField<Dim>& phi);
+                               Divergence divergence, const CellField<Dim>& share, CellField<Dim>& phi);
 
 }  // namespace seiche

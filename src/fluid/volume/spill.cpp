@@ -55,12 +55,15 @@ class Excess {
 
 // One round, from the shares `before` it. What this rank's cells gave.
 template <int Dim>
-Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, bool anywhere, CellField<Dim>& share) {
+Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, const CellField<Dim>& phi,
+                   Divergence divergence, bool anywhere, CellField<Dim>& share) {
   constexpr double rounding = 1e-13;
   Spill spill;
   const std::vector<Site> cells = listed_possible(
       layout, cells_around(layout, 1), [](Site) { return true; },
-      [&](Site c) { return before[c] > 1 + rounding || before[c] < -rounding; });
+      [&](Site c) {
+        return (before[c] > 1 + rounding || before[c] < -rounding) && !is_deep(layout, divergence, phi, before, c);
+      });
   for (const Site c : cells) {
     const Excess<Dim> excess(layout, before, c, anywhere);
     excess.hand_on([&](Site n, double amount) { share[n] += amount; });
@@ -82,11 +85,11 @@ void fill_share_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellFie
 
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     CellField<Dim>& share) {
+                     const CellField<Dim>& phi, Divergence divergence, CellField<Dim>& share) {
   Spill all;
   for (int round = 0; round < 3; ++round) {
     const CellField<Dim> before = share;
-    const Spill spill = hand_on_once(layout, before, round > 0, share);
+    const Spill spill = hand_on_once(layout, before, phi, divergence, round > 0, share);
     all.moved += ranks.global_sum(spill.moved);
     if (round == 0) all.worst = ranks.global_max(spill.worst);
     fill_share_ghosts(layout, halo, share);
@@ -94,8 +97,9 @@ Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Com
   return all;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template Spill hand_on_excess<D>(const Layout<D>&, const Halo<D>&, const Communicator&, CellField<D>&); \
+#define SEICHE_INSTANTIATE(D)                                                                                  \
+  template Spill hand_on_excess<D>(const Layout<D>&, const Halo<D>&, const Communicator&, const CellField<D>&, \
+                                   Divergence, CellField<D>&);                                                 \
   template void fill_share_ghosts<D>(const Layout<D>&, const Halo<D>&, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,7 +1,7 @@
 #pragma once
 // Shares of liquid above 1 and below 0, handed to and taken from neighbours.
 #include "base/communicator.h"
-#include "grid/fields.h"
+#include "fluid/volume/ledger.h"
 #include "grid/halo.h"
 
 namespace seiche {
@@ -11,11 +11,11 @@ struct Spill {
   double moved = 0, worst = 0;
 };
 
-// Three rounds, each from the shares before it, so that the result does not depend on the ranks. What finds no room
-// stays. Fills ghosts. Collective.
+// phi (m) tells which cells are deep (ledger.h): they keep their excess. Three rounds, each from the shares before it,
+// so that the result does not depend on the ranks. What finds no room stays. Fills ghosts. Collective.
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     CellField<Dim>& share);
+                     const CellField<Dim>& phi, Divergence divergence, CellField<Dim>& share);
 
 // Ghosts of shares; beyond sides those of the cells at them. Collective.
 template <int Dim>

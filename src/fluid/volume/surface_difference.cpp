@@ -1,5 +1,6 @@
 #include "fluid/volume/surface_difference.h"
 
+#include "base/parallel_range.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 
@@ -18,40 +19,70 @@ bool Difference<Dim>::on_surface(Site c) const {
 
 template <int Dim>
 Difference<Dim>::Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi, const CellField<Dim>& phi,
-                            const CellField<Dim>& share)
+                            Divergence divergence, const CellField<Dim>& share)
     : area(layout), missing(layout) {
-  constexpr double probe = 1e-3;
   const double h = layout.h();
-  CellField<Dim> moved(layout);
-  for_each_site(layout, layout.padded(), [&](Site c) { moved[c] = phi[c] - probe * h; });
   for_each_site(layout, cells_around(layout, layout.halo() - 1), [&](Site c) {
-    double by_level_set = phi[c] < 0;
+    const double v = share[c];
     if (std::abs(phi[c]) < reached * h) {
-      by_level_set = liquid_share(layout, phi, psi, c);
-      area[c] = (liquid_share(layout, moved, psi, c) - by_level_set) / probe;
+      const VolumeAndArea found = share_and_area(layout, phi, psi, c);
+      area[c] = found.area;
+      missing[c] = is_deep(layout, divergence, phi, share, c) ? 0 : v - found.volume;
+    } else if (const double by_level_set = phi[c] < 0;
+               v != by_level_set && !is_deep(layout, divergence, phi, share, c)) {
+      missing[c] = v - by_level_set;
     }
-    missing[c] = share[c] - by_level_set;
   });
 }
+
+namespace {
+
+// The links of each cell of a list, one cell after another.
+template <int Dim>
+struct Links {
+  struct Link {
+    Site to;
+    double weight;
+  };
+  std::vector<Link> all;
+  std::vector<std::size_t> first;  // of each cell, and the end
+
+  Links(const Layout<Dim>& layout, const Difference<Dim>& d, const std::vector<Site>& cells) {
+    all.reserve(16 * cells.size()), first.reserve(cells.size() + 1);
+    for (const Site c : cells) {
+      first.push_back(all.size());
+      visit_links(layout, d, c, [&](Site m, double w) { all.push_back({m, w}); });
+    }
+    first.push_back(all.size());
+  }
+};
+
+}  // namespace
 
 template <int Dim>
 CellField<Dim> smooth_shift(const Layout<Dim>& layout, const Halo<Dim>& halo, const Difference<Dim>& d,
                             const std::vector<Site>& surface, const CellField<Dim>& rhs) {
   constexpr int steps = 24;
   constexpr double largest = 2, least = 1.0 / 90, theta = (largest + least) / 2, width = (largest - least) / 2;
-  CellField<Dim> delta(layout), change(layout), old(layout);
+  const Links<Dim> links(layout, d, surface);
+  CellField<Dim> delta(layout);
+  std::vector<double> change(surface.size()), next(surface.size());
   double rho = width / theta;
   for (int k = 0; k < steps; ++k) {
-    const double next = 1 / (2 * theta / width - rho), keep = k == 0 ? 0 : rho * next,
-                 gain = k == 0 ? 1 / theta : 2 * next / width;
-    old = delta;
-    for_each_listed(surface, [&](Site c) {
-      double residual = rhs[c] - d.area[c] * old[c], diagonal = d.area[c];
-      visit_links(layout, d, c, [&](Site m, double w) { residual += w * (old[m] - old[c]), diagonal += w; });
-      change[c] = keep * change[c] + gain * residual / diagonal;
-      delta[c] = old[c] + change[c];
+    const double after = 1 / (2 * theta / width - rho), keep = k == 0 ? 0 : rho * after,
+                 gain = k == 0 ? 1 / theta : 2 * after / width;
+    parallel_range_in_tasks(surface.size(), 512, [&](std::size_t n) {
+      const Site c = surface[n];
+      double residual = rhs[c] - d.area[c] * delta[c], diagonal = d.area[c];
+      for (std::size_t l = links.first[n]; l < links.first[n + 1]; ++l) {
+        residual += links.all[l].weight * (delta[links.all[l].to] - delta[c]);
+        diagonal += links.all[l].weight;
+      }
+      change[n] = keep * change[n] + gain * residual / diagonal;
+      next[n] = delta[c] + change[n];
     });
-    if (k > 0) rho = next;
+    for (std::size_t n = 0; n < surface.size(); ++n) delta[surface[n]] = next[n];
+    if (k > 0) rho = after;
     halo.fill_ghosts(delta);
   }
   return delta;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "fluid/volume/ledger.h"
 #include "fluid/volume/neighbours.h"
 #include "grid/fields.h"
 #include "grid/halo.h"
@@ -15,8 +16,8 @@ template <int Dim>
 struct Difference {
   CellField<Dim> area, missing;
 
-  // phi (m) and the shares of liquid must be valid in the halo; psi (m): of the solids.
-  Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi, const CellField<Dim>& phi,
+  // phi (m) and the shares of liquid must be valid in the halo; psi (m): of the solids. Deep cells do not differ.
+  Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi, const CellField<Dim>& phi, Divergence divergence,
              const CellField<Dim>& share);
   bool on_surface(Site c) const;
 };

@@ -14,7 +14,7 @@ struct ShareBlock {
   static constexpr int count = neighbour_count<Dim>();
   std::array<double, count> share;
 
-  ShareBlock(const Layout<Dim>& layout, const CellField<Dim>& field, Site c) {
+  ShareBlock(const Layout<Dim>& layout, const CountedShares<Dim>& field, Site c) {
     for (int n = 0; n < count; ++n)
       share[std::size_t(n)] = std::clamp(field[c + step_of(layout, neighbour_offset<Dim>(n))], 0.0, 1.0);
   }
@@ -38,11 +38,18 @@ struct ShareBlock {
       if (neighbour_offset<Dim>(n)[axis] == step) sum += share[std::size_t(n)];
     return sum;
   }
-  // Sum of squares of what the plane through the middle cell misses in all cells.
-  double misfit(const Vec<Dim>& normal) const {
-    const double middle = offset_of_share<Dim>(normal, share[std::size_t(count / 2)]);
+  // Gradient of the shares, by the layers beside the middle cell: it points into the liquid.
+  Vec<Dim> gradient() const {
+    Vec<Dim> g;
+    for (int a = 0; a < Dim; ++a) g[a] = layer(a, 1) - layer(a, -1);
+    return g;
+  }
+  // Sum of squares of what the plane through the middle cell misses in all cells; stops above `most`.
+  double misfit(const Vec<Dim>& normal, double most) const {
+    constexpr double error = 1e-4;  // far below what tells normals apart
+    const double middle = offset_of_share<Dim>(normal, share[std::size_t(count / 2)], error);
     double sum = 0;
-    for (int n = 0; n < count; ++n) {
+    for (int n = 0; n < count && sum < most; ++n) {
       const double below =
           share_below<Dim>(normal, middle - normal.dot(neighbour_offset<Dim>(n).template cast<double>()));
       sum += std::pow(below - share[std::size_t(n)], 2);
@@ -65,14 +72,20 @@ std::array<Vec<Dim>, 3> slopes(const ShareBlock<Dim>& s, int axis) {
   return r;
 }
 
-// The normal, of those that any columns' slopes give, whose plane meets the shares around best.
+// The normal, of those that columns' slopes give, whose plane meets the shares around best. Columns along axes that the
+// surface is far from crossing tell nothing.
 template <int Dim>
 Vec<Dim> normal_of_columns(const ShareBlock<Dim>& s) {
+  constexpr double crossed = 0.5, dust = 1e-4;
+  const Vec<Dim> gradient = s.gradient(), size = gradient.cwiseAbs();
+  const double own = s.share[std::size_t(ShareBlock<Dim>::count / 2)];
+  if (std::min(own, 1 - own) < dust && size.maxCoeff() > dust) return -gradient.normalized();
   Vec<Dim> best = Vec<Dim>::Unit(0);
   double least = 1e300;
   for (int axis = 0; axis < Dim; ++axis) {
+    if (size[axis] < crossed * size.maxCoeff()) continue;
     const auto slope = slopes(s, axis);
-    const double up = s.layer(axis, 1) < s.layer(axis, -1) ? 1 : -1;
+    const double up = gradient[axis] < 0 ? 1 : -1;
     for (int choice = 0; choice < (Dim == 3 ? 9 : 3); ++choice) {
       Vec<Dim> n;
       for (int b = 0, rest = choice; b < Dim; ++b) {
@@ -80,7 +93,7 @@ Vec<Dim> normal_of_columns(const ShareBlock<Dim>& s) {
         if (b != axis) rest /= 3;
       }
       n.normalize();
-      const double found = s.misfit(n);
+      const double found = s.misfit(n, least);
       if (found < least) least = found, best = n;
     }
   }
@@ -118,10 +131,11 @@ bool is_smooth(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) 
 
 template <int Dim>
 SurfacePieces<Dim> surface_pieces(const Layout<Dim>& layout, const Box<Dim>& box, const CellField<Dim>& phi,
-                                  const CellField<Dim>& share) {
+                                  const CountedShares<Dim>& share, const CellField<Dim, char>* where) {
   SurfacePieces<Dim> r{CellField<Dim, std::int32_t>(layout, -1), {}};
   const std::vector<Site> cells = listed_possible(
-      layout, box, [](Site) { return true; }, [&](Site c) { return is_mixed(share[c]); });
+      layout, box, [&](Site c) { return where ? any_marked(where->data() + c) : !share.all_empty(c); },
+      [&](Site c) { return (!where || (*where)[c]) && is_mixed(share[c]); });
   for (std::size_t n = 0; n < cells.size(); ++n) r.index[cells[n]] = std::int32_t(n);
   r.planes.resize(cells.size());
   for_each_listed(cells, [&](Site c) {
@@ -135,7 +149,7 @@ SurfacePieces<Dim> surface_pieces(const Layout<Dim>& layout, const Box<Dim>& box
 #define SEICHE_INSTANTIATE(D)                                                                       \
   template bool is_smooth<D>(const Layout<D>&, const CellField<D>&, Site);                          \
   template SurfacePieces<D> surface_pieces<D>(const Layout<D>&, const Box<D>&, const CellField<D>&, \
-                                              const CellField<D>&);
+                                              const CountedShares<D>&, const CellField<D, char>*);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fluid/volume/cell_plane.h"
-#include "grid/fields.h"
+#include "fluid/volume/ledger.h"
 
 namespace seiche {
 
@@ -22,10 +22,11 @@ struct SurfacePieces {
 };
 
 // Planes below which each mixed cell of `box` has its share of liquid. Normals from phi (m) where it is smooth, else
-// from columns of shares (ELVIRA; Pilliod, Puckett 2004). phi and share must be valid two cells around the box. Local.
+// from columns of shares (ELVIRA; Pilliod, Puckett 2004). phi and share must be valid two cells around the box.
+// `where`: the cells that are wanted; null: all. Local.
 template <int Dim>
 SurfacePieces<Dim> surface_pieces(const Layout<Dim>& layout, const Box<Dim>& box, const CellField<Dim>& phi,
-                                  const CellField<Dim>& share);
+                                  const CountedShares<Dim>& share, const CellField<Dim, char>* where = nullptr);
 
 // True if phi has no kink within a cell of this one: no second difference above 0.35 h.
 template <int Dim>

@@ -20,6 +20,8 @@ double turn(int axis) {
   return Dim == 2 && axis == 1 ? -1 : 1;
 }
 
+constexpr double most_beyond = 0.5;  // cells by which a cap's middle may leave the box around the corners
+
 // True if corner k of a face lies before the next one along the edge between them.
 bool runs_upward(int k) {
   return k < 2;
@@ -34,7 +36,7 @@ void SweptRegion<Dim>::add(const Facet& facet) {
   for (int k = 0; k < Dim; ++k) s.corner[k + 1] = facet.corner[k];
   s.measure = facet.sign * signed_measure<Dim>(origin_, facet.corner);
   sum_ += s.measure;
-  if (s.measure != 0) simplices_.push_back(s);
+  if (s.measure != 0) simplices_[std::size_t(count_++)] = s;
 }
 
 // The surface swept by an edge is cut along the diagonal from the edge's lower end now to its upper end before, for all
@@ -61,34 +63,16 @@ void SweptRegion<2>::add_sides(const TracedFace<2>& f) {
 }
 
 template <>
-std::vector<SweptRegion<3>::Facet> SweptRegion<3>::cap(const TracedFace<3>& f, const Vec<3>& middle) const {
-  std::vector<Facet> r;
-  for (int k = 0; k < 4; ++k) r.push_back({{middle, f.before[(k + 1) % 4], f.before[k]}, 1});
+std::array<SweptRegion<3>::Facet, 4> SweptRegion<3>::cap(const TracedFace<3>& f, const Vec<3>& middle) const {
+  std::array<Facet, 4> r;
+  for (std::size_t k = 0; k < 4; ++k) r[k] = {{middle, f.before[(k + 1) % 4], f.before[k]}, 1};
   return r;
 }
 
 template <>
-std::vector<SweptRegion<2>::Facet> SweptRegion<2>::cap(const TracedFace<2>& f, const Vec<2>& middle) const {
-  return {{{middle, f.before[0]}, turn<2>(f.axis)}, {{middle, f.before[1]}, -turn<2>(f.axis)}};
+std::array<SweptRegion<2>::Facet, 2> SweptRegion<2>::cap(const TracedFace<2>& f, const Vec<2>& middle) const {
+  return {Facet{{middle, f.before[0]}, turn<2>(f.axis)}, Facet{{middle, f.before[1]}, -turn<2>(f.axis)}};
 }
-
-namespace {
-
-// The corner of the box around a face's corners, now and before, less or more a cell: what the halo holds.
-template <int Dim>
-Vec<Dim> lowest_corner(const TracedFace<Dim>& f) {
-  Vec<Dim> r = f.now[0];
-  for (int k = 0; k < TracedFace<Dim>::count; ++k) r = r.cwiseMin(f.now[k]).cwiseMin(f.before[k]);
-  return r.array() - 1;
-}
-template <int Dim>
-Vec<Dim> highest_corner(const TracedFace<Dim>& f) {
-  Vec<Dim> r = f.now[0];
-  for (int k = 0; k < TracedFace<Dim>::count; ++k) r = r.cwiseMax(f.now[k]).cwiseMax(f.before[k]);
-  return r.array() + 1;
-}
-
-}  // namespace
 
 // The volume is linear in the cap's middle m: V(m + t g) = V(m) + t g.g with g its gradient.
 template <int Dim>
@@ -102,7 +86,13 @@ SweptRegion<Dim>::SweptRegion(const TracedFace<Dim>& face, double volume) : orig
     gradient += f.sign * gradient_in_first(origin_, f.corner);
   }
   if (const double g2 = gradient.squaredNorm(); g2 > 0) middle += (volume - sum) / g2 * gradient;
-  middle = middle.cwiseMax(lowest_corner(face)).cwiseMin(highest_corner(face));
+  lowest_ = highest_ = face.now[0];
+  for (std::size_t k = 0; k < face.now.size(); ++k) {
+    lowest_ = lowest_.cwiseMin(face.now[k]).cwiseMin(face.before[k]);
+    highest_ = highest_.cwiseMax(face.now[k]).cwiseMax(face.before[k]);
+  }
+  middle = middle.array().max(lowest_.array() - most_beyond).min(highest_.array() + most_beyond);
+  lowest_ = lowest_.cwiseMin(middle), highest_ = highest_.cwiseMax(middle);
   for (const Facet& f : cap(face, middle)) add(f);
 }
 

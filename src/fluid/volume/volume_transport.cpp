@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "fluid/transport/advection.h"
+#include "fluid/volume/ledger.h"
 #include "fluid/volume/liquid_in_cells.h"
 #include "fluid/volume/swept_region.h"
 #include "grid/domain_faces.h"
@@ -35,21 +36,19 @@ Box<Dim> faces_of_cells(const Layout<Dim>& layout, int axis) {
 
 // Cells that are mixed, or full beside an empty one, and all within `reach` cells of these.
 template <int Dim>
-CellField<Dim, char> near_surface(const Layout<Dim>& layout, const CellField<Dim>& share, int reach) {
+CellField<Dim, char> near_surface(const Layout<Dim>& layout, const CountedShares<Dim>& share, int reach) {
+  const auto full = [&](Site c) { return share[c] > 0.5; };
+  const std::vector<Site> surface = listed_possible(
+      layout, layout.grown(layout.halo() - 1), [&](Site c) { return !share.all_empty(c); },
+      [&](Site c) {
+        if (is_mixed(share[c])) return true;
+        if (!full(c)) return false;
+        for (int a = 0; a < Dim; ++a)
+          if (!full(c - layout.stride(a)) || !full(c + layout.stride(a))) return true;
+        return false;
+      });
   CellField<Dim, char> near(layout);
-  const Box<Dim> all = layout.padded();
-  for_each_index(layout, all, [&](Site c, const IVec<Dim>& i) {
-    near[c] = is_mixed(share[c]);
-    for (int a = 0; a < Dim && !near[c]; ++a)
-      near[c] = i[a] > all.lower[a] && (share[c] > 0.5) != (share[c - layout.stride(a)] > 0.5);
-  });
-  for (int a = 0; a < Dim; ++a) {
-    const CellField<Dim, char> old = near;
-    for_each_index(layout, all, [&](Site c, const IVec<Dim>& i) {
-      const int from = std::max(-reach, all.lower[a] - i[a]), to = std::min(reach, all.upper[a] - 1 - i[a]);
-      for (int k = from; k <= to && !near[c]; ++k) near[c] = old[c + k * layout.stride(a)];
-    });
-  }
+  mark_around(layout, surface, reach, near);
   return near;
 }
 
@@ -57,7 +56,8 @@ CellField<Dim, char> near_surface(const Layout<Dim>& layout, const CellField<Dim
 template <int Dim>
 class NodeOrigins {
  public:
-  NodeOrigins(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim, char>& near)
+  NodeOrigins(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim, char>& near,
+              Trace trace)
       : index_(layout, -1) {
     Box<Dim> box = layout.cells();
     if (!box.empty()) box.upper.array() += 1;
@@ -69,7 +69,9 @@ class NodeOrigins {
     for_each_listed(nodes, [&](Site s) {
       const IVec<Dim> i = layout.index(s);
       const Vec<Dim> x = layout.position(i, node_offset<Dim>()), here = i.template cast<double>();
-      const Vec<Dim> from = trace_third_order<Dim>(layout, u, sample_velocity<Dim>(layout, u, x), x, dt);
+      const Vec<Dim> v = sample_velocity<Dim>(layout, u, x), from = trace == Trace::third_order
+                                                                        ? trace_third_order<Dim>(layout, u, v, x, dt)
+                                                                        : trace_midpoint<Dim>(layout, u, v, x, dt);
       const Vec<Dim> way = (from - layout.geometry().lower) / layout.h() - here;
       origin_[std::size_t(index_[s])] = here + way.cwiseMax(-longest).cwiseMin(longest);
       if (!(way.cwiseAbs().maxCoeff() <= longest + rounding)) ++too_far_;
@@ -96,32 +98,41 @@ class NodeOrigins {
   std::atomic<std::int64_t> too_far_ = 0;
 };
 
-// Liquid that passes each face of the owned cells towards +axis in the step, in cells. Counts the paths cut short.
+// The flow of a step, frozen, and the cells near the surface.
 template <int Dim>
-FaceField<Dim> fluxes(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim>& phi,
-                      const CellField<Dim>& share, std::int64_t& too_far) {
-  const CellField<Dim, char> near = near_surface(layout, share, layout.halo() - 2);
-  const LiquidInCells<Dim> liquid(layout, phi, share);
-  const NodeOrigins<Dim> origins(layout, u, dt, near);
-  too_far = origins.too_far();
+struct FrozenFlow {
+  const FaceField<Dim>& u;
+  double dt;
+  const CellField<Dim, char>& near;
+  const NodeOrigins<Dim>& origins;
+};
+
+// Liquid that passes each face of the owned cells towards +axis in the step, in cells.
+template <int Dim>
+FaceField<Dim> fluxes(const Layout<Dim>& layout, const FrozenFlow<Dim>& flow, const LiquidInCells<Dim>& liquid,
+                      const CountedShares<Dim>& share) {
   FaceField<Dim> r(layout);
   for (int a = 0; a < Dim; ++a) {
     const auto steps = corner_steps<Dim>(a);
-    for_each_index(layout, faces_of_cells(layout, a), [&](Site f, const IVec<Dim>& i) {
-      const double volume = u.at(a, f) * dt / layout.h();
-      if (!near[f] && !near[f - layout.stride(a)]) {
+    const Site low = layout.stride(a);
+    const char* near = flow.near.data();
+    const auto may_matter = [&](Site f) {
+      return any_marked(near + f) || any_marked(near + f - low) || !share.all_empty(f);
+    };
+    for_each_possible(layout, faces_of_cells(layout, a), may_matter, [&](Site f) {
+      const double volume = flow.u.at(a, f) * flow.dt / layout.h();
+      if (!near[f] && !near[f - low]) {
         if (share[f] > 0.5) r.at(a, f) = volume;
         return;
       }
+      const IVec<Dim> i = layout.index(f);
       TracedFace<Dim> face{a, {}, {}};
       for (std::size_t k = 0; k < steps.size(); ++k) {
         face.now[k] = (i + steps[k]).template cast<double>();
-        face.before[k] = origins[layout.site(i + steps[k])];
+        face.before[k] = flow.origins[layout.site(i + steps[k])];
       }
-      const SweptRegion<Dim> region(face, volume);
-      double sum = 0;
-      for (const Simplex<Dim>& s : region.simplices()) sum += liquid.within(s);
-      r.at(a, f) = sum;
+      const int uniform = liquid.uniform(range_of(face));
+      r.at(a, f) = uniform >= 0 ? uniform * volume : liquid.within(SweptRegion<Dim>(face, volume));
     });
   }
   return r;
@@ -147,29 +158,73 @@ double entering(const Layout<Dim>& layout, const FaceField<Dim>& flux) {
   return sum;
 }
 
+// Cells that the fastest path crosses: reaches from a face to the surface that passes it. Collective.
+template <int Dim>
+int cells_of_paths(const Layout<Dim>& layout, const Communicator& ranks, const FaceField<Dim>& u, double dt) {
+  constexpr double rounding = 0.1;
+  double fastest = 0;
+  for (int a = 0; a < Dim; ++a)
+    fastest = std::max(fastest, local_max_of_possible(
+                                    layout, layout.faces(a), 0.0, [&](Site f) { return !all_zero(u[a].data() + f); },
+                                    [&](Site f) { return std::abs(u.at(a, f)); }));
+  return int(std::ceil(ranks.global_max(fastest) * dt / layout.h() - rounding));
+}
+
+// One part of a step.
+template <int Dim>
+VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
+                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, Divergence divergence,
+                      CellField<Dim>& share) {
+  const CountedShares<Dim> counted(layout, divergence, phi, share);
+  const LiquidInCells<Dim> liquid(layout, phi, counted, divergence == Divergence::stays);
+  const FaceField<Dim> flux = fluxes(layout, flow, liquid, counted);
+  double swollen = 0;
+  if (divergence == Divergence::swells) {
+    const CellField<Dim> old = share;
+    const auto gain = [&](Site c) { return swelling(layout, flow.u, flow.dt, old, c); };
+    for_each_site(layout, layout.cells(), [&](Site c) { share[c] += gain(c); });
+    swollen = local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return gain(c); });
+  }
+  for_each_site(layout, layout.cells(), [&](Site c) {
+    double change = 0;
+    for (int a = 0; a < Dim; ++a) change += flux.at(a, c) - flux.at(a, c + layout.stride(a));
+    if (change != 0) share[c] += change;
+  });
+  fill_share_ghosts(layout, halo, share);
+  std::array<double, 2> sums{entering(layout, flux), swollen};
+  ranks.global_sum(sums);
+  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, phi, divergence, share), 0};
+}
+
 }  // namespace
 
 template <int Dim>
 VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, CellField<Dim>& share) {
-  std::int64_t too_far = 0;
-  const FaceField<Dim> flux = fluxes(layout, u, dt, phi, share, too_far);
-  const CellField<Dim> old = share;
-  for_each_site(layout, layout.cells(), [&](Site c) {
-    for (int a = 0; a < Dim; ++a) share[c] += flux.at(a, c) - flux.at(a, c + layout.stride(a));
-    share[c] += swelling(layout, u, dt, old, c);
-  });
-  fill_share_ghosts(layout, halo, share);
-  const double swollen =
-      local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return swelling(layout, u, dt, old, c); });
-  std::array<double, 3> sums{entering(layout, flux), swollen, double(too_far)};
-  ranks.global_sum(sums);
-  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, share), std::int64_t(sums[2])};
+                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, Divergence divergence,
+                        CellField<Dim>& share) {
+  constexpr int most_parts = 4;
+  const Trace trace = divergence == Divergence::stays ? Trace::midpoint : Trace::third_order;
+  VolumeStep all;
+  for (int parts = 1, done = 0; done < parts;) {
+    const double part = dt / parts;
+    const int reach = std::min(layout.halo() - 2, cells_of_paths(layout, ranks, u, part));
+    const CellField<Dim, char> near = near_surface(layout, CountedShares<Dim>(layout, divergence, phi, share), reach);
+    const NodeOrigins<Dim> origins(layout, u, part, near, trace);
+    const std::int64_t too_far = ranks.global_sum(origins.too_far());
+    if (too_far > 0 && done == 0 && parts < most_parts) {
+      parts *= 2;
+      continue;
+    }
+    all += carry_part(layout, halo, ranks, {u, part, near, origins}, phi, divergence, share);
+    all.too_far += too_far;
+    ++done;
+  }
+  return all;
 }
 
 template VolumeStep carry_volume<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const FaceField<2>&, double,
-                                    const CellField<2>&, CellField<2>&);
+                                    const CellField<2>&, Divergence, CellField<2>&);
 template VolumeStep carry_volume<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const FaceField<3>&, double,
-                                    const CellField<3>&, CellField<3>&);
+                                    const CellField<3>&, Divergence, CellField<3>&);
 
 }  // namespace seiche

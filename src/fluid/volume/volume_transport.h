@@ -10,20 +10,28 @@ struct VolumeStep {
   double swollen = 0;        // by the flow's divergence
   Spill spill;               // moved by hand
   std::int64_t too_far = 0;  // nodes whose path is longer than longest_path(), and was cut there
+
+  VolumeStep& operator+=(const VolumeStep& other) {
+    entered += other.entered, swollen += other.swollen;
+    spill.moved += other.spill.moved, spill.worst = std::max(spill.worst, other.spill.worst);
+    too_far += other.too_far;
+    return *this;
+  }
 };
 
 // Cells along each axis that a path may cross: what a halo holds less the layers that planes and regions take.
 template <int Dim>
-int longest_path(const Layout<Dim>& layout) {
-  return layout.halo() - 3;
+double longest_path(const Layout<Dim>& layout) {
+  return layout.halo() - 2.5;
 }
 
 // Carries `share`, the liquid's share of each cell, over dt (s) along the frozen flow u (m/s):
-//   V(t + dt) = V(t) (1 + dt div u) - sum of the liquid in the regions that pass the faces.
-// phi (m) gives the normals of smooth surfaces. Longer paths than longest_path() are cut short. Ghosts of all fields
-// must be filled; those of `share` are filled afterwards. Results do not depend on the ranks. Collective.
+//   V(t + dt) = V(t) - sum of the liquid in the regions that pass the faces.
+// phi (m) gives the normals of smooth surfaces. Steps with paths beyond longest_path() are taken in parts. Ghosts of
+// all fields must be filled; those of `share` are filled afterwards. Results do not depend on the ranks. Collective.
 template <int Dim>
 VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, CellField<Dim>& share);
+                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, Divergence divergence,
+                        CellField<Dim>& share);
 
 }  // namespace seiche

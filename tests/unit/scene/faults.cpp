@@ -232,6 +232,19 @@ TEST_CASE("gas has a density, and flows where liquid does not separate") {
   CHECK(write_scene(parse(small_scene)).find("[gas]") == std::string::npos);
 }
 
+TEST_CASE("volumes are carried in cells only where nothing stands against it") {
+  const std::string cells = small_scene + "[liquid]\nvolume = \"cells\"\n";
+  check_all({{cells + "separates = true\n", "does not work with liquid.separates = true yet; use \"shift\""},
+             {cells + "[gas]\n", "[gas]"},
+             {cells + "[[liquid.source]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n", "[[liquid.source]]"},
+             {cells + "[[solid]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n", "[[solid]]"},
+             {cells + "[domain.boundary]\nx_lower = { type = \"outflow\" }\n", "outflow sides"},
+             {small_scene + "[liquid]\nvolume = \"cell\"\n", "did you mean \"cells\""}});
+  CHECK(parse(cells).liquid.volume == VolumeKeeping::in_cells);
+  CHECK_NOTHROW(
+      parse(cells + "prescribed_velocity = [1, 0, 0]\n[domain.boundary]\nx_lower = { type = \"outflow\" }\n"));
+}
+
 TEST_CASE("names are unique and fit into a table column") {
   const std::string ball = "shape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n";
   check_all(

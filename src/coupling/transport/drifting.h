@@ -1,0 +1,29 @@
+#pragma once
+// Liquid too little for a pressure of its own: shares of cells away from the level set's liquid. It flies freely.
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// Cells, the first beyond the owned ones too, with a share of liquid that have no cell of phi < 0 (m) within one of
+// them.
+template <int Dim>
+std::vector<Site> drifting_cells(const Domain<Dim>& domain, const CellField<Dim>& phi, const CellField<Dim>& share);
+
+// Sets 1 on the faces of drifting cells.
+template <int Dim>
+void mark_faces(const Layout<Dim>& layout, const std::vector<Site>& drifting, FaceField<Dim, char>& marks);
+
+// Sets u* (m/s) on the faces of drifting cells: u(x - dt u) + dt g, with g the mean gravity of the step, m/s^2. A face
+// through which nothing leaves a cell moves with the opposite one, so that what lies on a wall does not gain speed.
+// Fills ghosts. Collective.
+template <int Dim>
+void let_drift(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& share,
+               const std::vector<Site>& drifting, const FaceField<Dim>& u, const Vec3& gravity, double dt,
+               FaceField<Dim>& u_star);
+
+// Takes u on the faces of drifting cells from u*. Valid faces keep theirs. Fills ghosts. Collective.
+template <int Dim>
+void take_drifting(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const std::vector<Site>& drifting,
+                   const FaceField<Dim>& u_star, TimeLevel<Dim>& level);
+
+}  // namespace seiche

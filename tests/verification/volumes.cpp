@@ -1,0 +1,106 @@
+// Flows that are solved for, with the liquid's share of each cell carried beside the level set (liquid.volume =
+// "cells").
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "scenes.h"
+
+using namespace seiche;
+
+namespace {
+
+Scene kept_in_cells(int dim, int cells, const std::string& phi) {
+  Scene s = test::box_scene(dim, cells);
+  s.gravity = {0, -9.81, 0};
+  s.liquid.volume = VolumeKeeping::in_cells;
+  test::add_liquid(s, phi);
+  return s;
+}
+
+Scene dam_break(int dim, int cells) {
+  return kept_in_cells(dim, cells, dim == 2 ? "max(x-0.4,y-0.5)" : "max(x-0.4,max(y-0.5,z-0.6))");
+}
+
+double energy(const StepStats& stats) {
+  return stats.kinetic_energy + stats.potential_energy;
+}
+
+// Mean height of the level set's liquid, m.
+double height(const Simulation& sim, double h) {
+  const FrameField f = sim.frame_field("surface");
+  double sum = 0, liquid = 0;
+  std::size_t n = 0;
+  for (int k = f.lower[2]; k < f.upper[2]; ++k)
+    for (int j = f.lower[1]; j < f.upper[1]; ++j)
+      for (int i = f.lower[0]; i < f.upper[0]; ++i, ++n) {
+        const double share = std::clamp(0.5 - f.values[n] / h, 0.0, 1.0);
+        sum += share * (j + 0.5) * h, liquid += share;
+      }
+  return sum / liquid;
+}
+
+}  // namespace
+
+// The shift of the level set alone moves 2 % of the liquid by then.
+TEST_CASE("a dam break that splashes up a wall keeps its volume to rounding, without a shift", "[volumes]") {
+  for (const int dim : {2, 3}) {
+    const auto sim = make_simulation(dam_break(dim, dim == 2 ? 48 : 16), Communicator());
+    const double volume = sim->stats().liquid_volume;
+    double most = 0;
+    while (sim->time() < 0.8 * (1 - 1e-12)) {
+      const StepStats stats = sim->step(0.8);
+      most = std::max(most, energy(stats));
+      REQUIRE(stats.liquid_volume == Approx(volume).epsilon(1e-11));
+    }
+    const StepStats end = sim->stats();
+    // A short step pushes no excess out at a blow. The surface moves a little, as volumes and level set are coupled.
+    CHECK(sim->step(sim->time() + 1e-7).kinetic_energy < 1.05 * end.kinetic_energy);
+    WARN(dim << "D: spilled " << end.volume_spilled / volume << ", drifting " << end.volume_drifting / volume);
+    CHECK(end.volume_corrected == 0);
+    CHECK(end.volume_spilled < (dim == 2 ? 0.02 : 0.1) * volume);  // in 3D few cells, which jets fill in part
+    // What the first step gains by a surface that moves after it: rho g h^2/8 at most a cell's width.
+    CHECK(most < 1.03 * 1000 * 9.81 * 0.25 * volume);
+  }
+}
+
+TEST_CASE("liquid at rest stays at rest with volumes in cells", "[volumes]") {
+  for (const int dim : {2, 3}) {
+    const auto sim = make_simulation(kept_in_cells(dim, 16, "y-0.53"), Communicator());
+    for (int n = 0; n < 10; ++n) (void)sim->step(1);
+    CHECK(sim->stats().max_speed < 1e-8);  // the solver's tolerance
+    CHECK(sim->stats().volume_spilled < 1e-8);
+  }
+}
+
+// x = x0 + v t + g t^2/2.
+TEST_CASE("a ball with volumes in cells flies along a parabola", "[volumes]") {
+  for (const int dim : {2, 3}) {
+    Scene s = kept_in_cells(dim, 24,
+                            dim == 2 ? "sqrt((x-0.3)^2+(y-0.4)^2)-0.15" : "sqrt((x-0.3)^2+(y-0.4)^2+(z-0.5)^2)-0.15");
+    s.liquid.velocity = {"1", "1.5", "0"};
+    const auto sim = make_simulation(s, Communicator());
+    const double volume = sim->stats().liquid_volume, start = height(*sim, s.domain.cell_size);
+    while (sim->time() < 0.3 * (1 - 1e-12)) (void)sim->step(0.3);
+    const double rise = height(*sim, s.domain.cell_size) - start;
+    WARN(dim << "D: rises by " << rise << " m");
+    CHECK(rise == Approx(1.5 * 0.3 - 0.5 * 9.81 * 0.09).margin(0.05 * s.domain.cell_size));
+    CHECK(sim->stats().liquid_volume == Approx(volume).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a dam break with volumes in cells goes on from a checkpoint with the same bits", "[volumes]") {
+  const Scene s = dam_break(2, 24);
+  const auto whole = make_simulation(s, Communicator()), other = make_simulation(s, Communicator());
+  other->load(whole->save());
+  while (whole->time() < 0.4 * (1 - 1e-12)) (void)whole->step(0.4);
+  other->load(whole->save());
+  for (int n = 0; n < 5; ++n) {
+    const StepStats a = whole->step(1), b = other->step(1);
+    CHECK(a.dt == b.dt);
+    CHECK(a.kinetic_energy == b.kinetic_energy);
+    CHECK(a.liquid_volume == b.liquid_volume);
+    CHECK(a.volume_spilled == b.volume_spilled);
+  }
+  CHECK(whole->frame_field("surface").values == other->frame_field("surface").values);
+}
