@@ -47,7 +47,7 @@ struct VolumeAndArea {
     return *this;
   }
 };
-// Of one cell, in cells: its share of liquid, and the share it gains a cell by which phi falls.
+// Share of liquid of one cell, and what it gains a cell by which phi falls.
 template <int Dim>
 VolumeAndArea share_and_area(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi,
                              Site cell);

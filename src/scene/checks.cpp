@@ -227,7 +227,7 @@ bool has_side(const DomainSpec& d, SideType type) {
   });
 }
 
-// What volumes of cells are not carried beside.
+// Reports what excludes volumes carried in cells.
 void check_volume(const Checker& c, const Scene& scene) {
   if (scene.liquid.volume != VolumeKeeping::in_cells) return;
   const std::vector<std::pair<const char*, bool>> all{

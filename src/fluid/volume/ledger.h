@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-// What a flow's divergence does. `swells`: V grows by V dt div u, so that full cells stay full. `stays`: it is the
+// Effect of a flow's divergence. `swells`: V grows by V dt div u, so that full cells stay full. `stays`: it is the
 // error of a solve; V keeps it as the excess of deep cells.
 enum class Divergence { swells, stays };
 

@@ -38,7 +38,7 @@ class SweptRegion {
   const Simplex<Dim>* end() const { return simplices_.data() + count_; }
   // Sum of the measures, in cells.
   double measure() const { return sum_; }
-  // Of the box around its corners.
+  // Middle of the box around its corners, in cells.
   Vec<Dim> middle() const { return 0.5 * (lowest_ + highest_); }
   // The cells that the region reaches.
   CellRange<Dim> range() const { return range_of(lowest_, highest_); }
