@@ -40,7 +40,7 @@ double Relaxation::next(const Changes& now) {
 template <int Dim>
 void FrictionUpdates<Dim>::restart() {
   relaxation_.restart();
-  count_ = 0;
+  count_ = stuck_ = 0;
 }
 
 template <int Dim>
@@ -58,6 +58,7 @@ void FrictionUpdates<Dim>::update(const Scene<Dim>& scene, const Placement<Dim>&
   }
   for (const auto& [pair, f] : known) changes[pair] -= f.bound;
   share_ = damped ? relaxation_.next(changes) : 1;
+  stuck_ = share_ <= least_taken ? stuck_ + 1 : 0;
   take(known, damped);
   fade(known, largest);
 }

@@ -10,6 +10,8 @@ namespace seiche::contact {
 // Updates after which the bounds of friction are damped: bodies may press in turns, for ever. Points are kept from then
 // on, since they may leap to and fro along edges that are nearly parallel.
 constexpr int damped_from = 8;
+// Updates in a row by the least share after which the bounds go round: no later update settles them.
+constexpr int stuck_after = 5;
 
 // Share of a change that a fixed-point iteration b + s (G(b) - b) takes, by Aitken's rule for vectors (Irons, Tuck
 // 1969).
@@ -43,6 +45,8 @@ class FrictionUpdates {
   const std::vector<FrictionPoint<Dim>>& points() const { return points_; }
   // Share of the last change that was taken.
   double share() const { return share_; }
+  // True if the last updates took no more than the least share, as if bounds that settle did not exist.
+  bool go_round() const { return stuck_ >= stuck_after; }
 
  private:
   using Known = std::map<Relaxation::Key, FrictionPoint<Dim>>;
@@ -51,7 +55,7 @@ class FrictionUpdates {
 
   std::vector<FrictionPoint<Dim>> points_;
   Relaxation relaxation_;
-  int count_ = 0;
+  int count_ = 0, stuck_ = 0;
   double share_ = 1;
 };
 

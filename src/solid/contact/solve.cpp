@@ -162,6 +162,7 @@ class Solver {
       if (rubs) report_.friction = FrictionState::unsettled;
       if (newton(i > 0 && !rubs ? last_of_change : share) == Outcome::failed) return Outcome::failed;
       const double settled = std::max(settled_share * options_.creep_speed, settled_of_change * change());
+      if (friction_.go_round()) break;
       if (i == 0 || first_step_ > friction_.share() * settled) continue;
       if (rubs) report_.friction = FrictionState::settled;
       break;
