@@ -53,10 +53,11 @@ int end_with(const Failure& failure, const Communicator& ranks, const EmergencyC
   return codes->front();
 }
 
-// Refuses empty option values, such as those of unset shell variables.
+// Refuses empty option values, such as those of unset shell variables. Options that need no value have an empty one.
 void require_words(const CLI::App& program) {
   for (const CLI::App* verb : program.get_subcommands()) {
     for (const CLI::Option* option : verb->get_options()) {
+      if (option->get_expected_min() == 0) continue;
       for (const std::string& word : option->results()) {
         if (word.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
       }

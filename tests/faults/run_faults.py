@@ -310,6 +310,14 @@ def existing_output_refused(bench):
     expect(bench.path("out/mine.txt").exists(), "a stranger's file is gone")
 
 
+def options_without_a_value(bench):
+    """An empty word is refused, but for options that need none."""
+    bench.simulate(out="").needs(2, "--out: is empty")
+    bench.simulate("--frames", "1").needs(0)
+    bench.run("render", "out", "--frames", "0", "--size", "160x120", "--contact-sheet").needs(0)
+    expect(bench.path("out/pictures/contact_sheet.png").exists(), "no contact sheet")
+
+
 def two_jobs_in_one_folder(bench):
     """The second job in a folder, and resuming a folder in use."""
     first = bench.start("run", bench.scene(LONG), "--out", "out")
@@ -1117,7 +1125,7 @@ TABLES = {
     "formulas": [formula_not_finite_at_start, shape_not_finite, formula_not_finite_later, pinned_step_too_long],
     "ranks": [ranks_share_a_processor, more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
               openmp_environment, openmp_differs_between_ranks],
-    "output": [output_folder_created, output_is_a_file, output_not_writable, existing_output_refused,
+    "output": [output_folder_created, output_is_a_file, output_not_writable, options_without_a_value, existing_output_refused,
                two_jobs_in_one_folder, file_size_limit, full_device, full_disk, few_file_handles],
     "memory": [grid_larger_than_any_machine, address_space_limit, allocation_fails_on_one_rank],
     "stopping": [stop_by_signal, stop_in_the_first_moments, run_folder_removed, stop_by_file_and_walltime, stop_under_mpirun, hung_rank, killed_and_resumed,

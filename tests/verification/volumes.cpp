@@ -64,6 +64,23 @@ TEST_CASE("a dam break that splashes up a wall keeps its volume to rounding, wit
   }
 }
 
+// Two slabs as wide as the box: the upper one falls on the lower one, and both come to rest. Their volume lies below
+// 0.54 m then: energy 0.5 rho g 0.54^2 an area of 1 m^2. The level set may be off by a tenth of a cell. Without
+// pressure in the closing gap 1.7 % of the liquid was handed on.
+TEST_CASE("a slab that falls on another one brings a closing gap no more than it holds", "[volumes]") {
+  for (const int dim : {2, 3}) {
+    const int cells = dim == 2 ? 48 : 20;
+    const auto sim = make_simulation(kept_in_cells(dim, cells, "min(y-0.3, max(0.46-y,y-0.7))"), Communicator());
+    const double volume = sim->stats().liquid_volume;
+    while (sim->time() < 0.3 * (1 - 1e-12)) sim->step(0.3);
+    const StepStats end = sim->stats();
+    CHECK(end.volume_spilled < 0.02 / (0.54 * cells) * volume);  // what the solve leaves: a fiftieth of a row of cells
+    CHECK(end.kinetic_energy < 1e-4 * end.potential_energy);
+    const double off = 1000 * 9.81 * 0.54 * 0.1 / cells;  // J/m^2
+    CHECK(end.potential_energy == Approx(0.5 * 1000 * 9.81 * 0.54 * 0.54).margin(off));
+  }
+}
+
 TEST_CASE("liquid at rest stays at rest with volumes in cells", "[volumes]") {
   for (const int dim : {2, 3}) {
     const auto sim = make_simulation(kept_in_cells(dim, 16, "y-0.53"), Communicator());

@@ -63,6 +63,7 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
     in.share = &state.liquid;
     in.excess_time = time_of_excess(task.before, task.times.dt);
   }
+  if (!task.predicted.filling.inflow.empty()) in.filling = &task.predicted.filling.inflow;
   state.exterior->set_rows(s, in);
   return in;
 }
@@ -302,6 +303,27 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
 }
 
 template <int Dim>
+Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Moved<Dim> moved,
+                               Predicted<Dim> predicted, const StepTimes& times, Phases& phases) {
+  constexpr int most_solves = 8;
+  const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt);
+  for (int solves = 1, iterations = 0;; ++solves) {
+    Attempt<Dim> out = solve_and_plan(s, before, moved, predicted, times, phases);
+    out.solve.iterations += iterations;
+    if (!out.failure.empty()) return out;
+    const auto timed = phases.timers.measure("surface");
+    if (solves == most_solves ||
+        !add_filling_cells(s.domain, moved.geometry.faces, {moved.state.liquid, before.now->u, gravity, times.dt},
+                           out.state.now->u, moved.state.phi, predicted.u_star, predicted.filling)) {
+      if (!predicted.filling.empty()) out.state.phi = std::move(predicted.filling.phi);
+      return out;
+    }
+    iterations = out.solve.iterations;
+    moved.state.pressure = std::move(out.state.pressure);
+  }
+}
+
+template <int Dim>
 Attempt<Dim> prescribe_velocity(const Setup<Dim>& s, Moved<Dim> moved) {
   Attempt<Dim> out;
   out.state = std::move(moved.state);
@@ -312,11 +334,13 @@ Attempt<Dim> prescribe_velocity(const Setup<Dim>& s, Moved<Dim> moved) {
   return out;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                    \
-  template Predicted<D> predict_velocity<D>(const Setup<D>&, const State<D>&, const Moved<D>&, const StepTimes&, \
-                                            Phases&);                                                            \
-  template Attempt<D> solve_and_plan<D>(const Setup<D>&, const State<D>&, Moved<D>, const Predicted<D>&,         \
-                                        const StepTimes&, Phases&);                                              \
+#define SEICHE_INSTANTIATE(D)                                                                                          \
+  template Predicted<D> predict_velocity<D>(const Setup<D>&, const State<D>&, const Moved<D>&, const StepTimes&,       \
+                                            Phases&);                                                                  \
+  template Attempt<D> solve_within_room<D>(const Setup<D>&, const State<D>&, Moved<D>, Predicted<D>, const StepTimes&, \
+                                           Phases&);                                                                   \
+  template Attempt<D> solve_and_plan<D>(const Setup<D>&, const State<D>&, Moved<D>, const Predicted<D>&,               \
+                                        const StepTimes&, Phases&);                                                    \
   template Attempt<D> prescribe_velocity<D>(const Setup<D>&, Moved<D>);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

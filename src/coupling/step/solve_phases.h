@@ -2,6 +2,7 @@
 // Phases of a step that find its velocity: predict it, solve for pressure and solids, restore it from the pressure.
 #include "coupling/solids/convected_pressure.h"
 #include "coupling/step/surface_phases.h"
+#include "coupling/transport/filling.h"
 #include "coupling/transport/viscous_transport.h"
 
 namespace seiche {
@@ -14,6 +15,7 @@ struct Predicted {
   ViscousPlan viscosity;
   double viscous_power = 0;             // Transported::viscous_power
   std::vector<FaceImpulse> by_sources;  // Transported::by_sources
+  Filling<Dim> filling;                 // cells that count as liquid in the solve
   std::string failure;                  // names a value that is not finite; empty: none
 };
 
@@ -26,6 +28,12 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& setup, const State<Dim>& befor
 template <int Dim>
 Attempt<Dim> solve_and_plan(const Setup<Dim>& setup, const State<Dim>& before, Moved<Dim> moved,
                             const Predicted<Dim>& predicted, const StepTimes& times, Phases& phases);
+
+// The same, where volumes are carried solved again while cells of air are brought more than they hold: these count as
+// liquid (Predicted::filling). Collective.
+template <int Dim>
+Attempt<Dim> solve_within_room(const Setup<Dim>& setup, const State<Dim>& before, Moved<Dim> moved,
+                               Predicted<Dim> predicted, const StepTimes& times, Phases& phases);
 
 // In place of both where the scene prescribes the flow. Collective.
 template <int Dim>

@@ -45,9 +45,11 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   const StepTimes times = times_of_step(s, before, dt);
   Moved<Dim> moved = move_surface_and_solids(s, before, times, phases);
   if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
-  const Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);
+  Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);
   if (!predicted.failure.empty()) return failed<Dim>(predicted.failure);
-  Attempt<Dim> solved = solve_and_plan(s, before, std::move(moved), predicted, times, phases);
+  Attempt<Dim> solved = s.volume_lags()
+                            ? solve_within_room(s, before, std::move(moved), std::move(predicted), times, phases)
+                            : solve_and_plan(s, before, std::move(moved), predicted, times, phases);
   if (s.volume_lags()) solved.state.liquid_phi = solved.state.phi;
   if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, phases, solved);
   if (s.tracks_volume() && solved.failure.empty()) solved.failure = fault_of_volume(s.domain, before, solved.state);

@@ -53,6 +53,14 @@ void mark_faces(const Layout<Dim>& layout, const std::vector<Site>& drifting, Fa
 }
 
 template <int Dim>
+double falling_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec3& gravity, double dt, int axis,
+                        Site face) {
+  const Vec<Dim> from = departure_of_face(layout, u, axis, face, layout.index(face), dt);
+  return interpolate_linear<Dim>(layout, u[axis].data(), index_coordinates<Dim>(layout, from, face_offset<Dim>(axis))) +
+         dt * gravity[axis];
+}
+
+template <int Dim>
 void let_drift(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& share,
                const std::vector<Site>& drifting, const FaceField<Dim>& u, const Vec3& gravity, double dt,
                FaceField<Dim>& u_star) {
@@ -60,9 +68,7 @@ void let_drift(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const 
   const Layout<Dim>& l = domain.layout;
   each_face_of(l, drifting, [&](int a, Site f) {
     if (!faces.is_unknown(a, f)) return;
-    const Vec<Dim> from = departure_of_face(l, u, a, f, l.index(f), dt);
-    u_star.at(a, f) =
-        interpolate_linear<Dim>(l, u[a].data(), index_coordinates<Dim>(l, from, face_offset<Dim>(a))) + dt * gravity[a];
+    u_star.at(a, f) = falling_velocity(l, u, gravity, dt, a, f);
   });
   for (const Site c : drifting)
     for (int a = 0; a < Dim; ++a) join_faces(domain, faces, share, c, a, u_star);
@@ -84,6 +90,7 @@ void take_drifting(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, co
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template std::vector<Site> drifting_cells<D>(const Domain<D>&, const CellField<D>&, const CellField<D>&);           \
   template void mark_faces<D>(const Layout<D>&, const std::vector<Site>&, FaceField<D, char>&);                       \
+  template double falling_velocity<D>(const Layout<D>&, const FaceField<D>&, const Vec3&, double, int, Site);         \
   template void let_drift<D>(const Domain<D>&, const FaceGeometry<D>&, const CellField<D>&, const std::vector<Site>&, \
                              const FaceField<D>&, const Vec3&, double, FaceField<D>&);                                \
   template void take_drifting<D>(const Domain<D>&, const FaceGeometry<D>&, const std::vector<Site>&,                  \

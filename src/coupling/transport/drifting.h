@@ -13,9 +13,13 @@ std::vector<Site> drifting_cells(const Domain<Dim>& domain, const CellField<Dim>
 template <int Dim>
 void mark_faces(const Layout<Dim>& layout, const std::vector<Site>& drifting, FaceField<Dim, char>& marks);
 
-// Sets u* (m/s) on the faces of drifting cells: u(x - dt u) + dt g, with g the mean gravity of the step, m/s^2. A face
-// through which nothing leaves a cell moves with the opposite one, so that what lies on a wall does not gain speed.
-// Fills ghosts. Collective.
+// Velocity of a face in free fall, m/s: u(x - dt u) + dt g, with g the mean gravity of the step, m/s^2.
+template <int Dim>
+double falling_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec3& gravity, double dt, int axis,
+                        Site face);
+
+// Sets u* (m/s) on the faces of drifting cells to that of free fall. A face through which nothing leaves a cell moves
+// with the opposite one, so that what lies on a wall does not gain speed. Fills ghosts. Collective.
 template <int Dim>
 void let_drift(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& share,
                const std::vector<Site>& drifting, const FaceField<Dim>& u, const Vec3& gravity, double dt,

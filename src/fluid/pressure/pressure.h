@@ -28,20 +28,22 @@ struct ProjectionInput {
   const FaceField<Dim>* surface_jump = nullptr;
   const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none
 
-  // Shares of liquid of which those of deep cells may exceed 1 (fluid/volume/ledger.h), null: none do; and the time in
-  // which the excess flows out, s. It must not be that of a single short step: the outflow would be a blow.
+  // Shares of liquid, null: none; and the time in which what is above 1 flows out, s. Deep cells below 1 are filled
+  // (fluid/volume/ledger.h). It must not be that of a single short step: the outflow would be a blow.
   const CellField<Dim>* share = nullptr;
   double excess_time = 0;
+  const CellField<Dim>* filling = nullptr;  // inflow that fills cells, per face area, m/s; null: none
 
   // FaceGeometry::entry_factor of the step. u* has it already.
   double entry_factor(int axis, Site face) const { return faces.entry_factor(axis, face, dt / layout.h()); }
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
   bool is_separated(Site cell) const { return separation && separation->separated[cell]; }
-  // Inflow that fills a cell's gap within the step, less the outflow of its excess, per face area, m/s.
+  // Inflow that fills a cell or its gap within the step, less the outflow of its excess, per face area, m/s.
   double missing_flux(Site cell) const {
     double flux = separation ? separation->gap[cell] * layout.h() / dt : 0;
-    if (share && is_deep(layout, Divergence::stays, phi, *share, cell))
+    if (filling) flux += (*filling)[cell];
+    if (share && ((*share)[cell] > 1 || is_deep(layout, Divergence::stays, phi, *share, cell)))
       flux -= ((*share)[cell] - 1) * layout.h() / excess_time;
     return flux;
   }
