@@ -63,7 +63,7 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
     in.share = &state.liquid;
     in.excess_time = time_of_excess(task.before, task.times.dt);
   }
-  if (!task.predicted.filling.inflow.empty()) in.filling = &task.predicted.filling.inflow;
+  if (!task.predicted.filling.empty()) in.filling = &task.predicted.filling.inflow;
   state.exterior->set_rows(s, in);
   return in;
 }

@@ -29,8 +29,8 @@ template <int Dim>
 Attempt<Dim> solve_and_plan(const Setup<Dim>& setup, const State<Dim>& before, Moved<Dim> moved,
                             const Predicted<Dim>& predicted, const StepTimes& times, Phases& phases);
 
-// The same, where volumes are carried solved again while cells of air are brought more than they hold: these count as
-// liquid (Predicted::filling). Collective.
+// solve_and_plan() for volumes carried in cells. Cells of air that would be brought more than they hold count as liquid
+// (Predicted::filling), and the step is solved again. Collective.
 template <int Dim>
 Attempt<Dim> solve_within_room(const Setup<Dim>& setup, const State<Dim>& before, Moved<Dim> moved,
                                Predicted<Dim> predicted, const StepTimes& times, Phases& phases);

@@ -54,8 +54,7 @@ Site cell_at(const Layout<Dim>& layout, const Vec<Dim>& x) {
   return layout.site(cell);
 }
 
-// Where the liquid of cells lies: phi tells it, up to the level that gives a cell its share. phi alone misses gaps
-// below a cell.
+// Place of the liquid in cells: phi up to the level that gives a cell its share. phi alone misses gaps below a cell.
 template <int Dim>
 class LiquidAtPoints {
  public:

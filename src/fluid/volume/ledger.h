@@ -1,6 +1,6 @@
 #pragma once
 // The excess of cells deep in the liquid: what the error of a solve has moved into them, V - 1. It is not spilled,
-// since no neighbour has room. The next solves push it out (ProjectionInput::excess).
+// since no neighbour has room. The next solves push it out (ProjectionInput::missing_flux).
 #include "grid/fields.h"
 #include "grid/groups.h"
 

@@ -97,7 +97,7 @@ Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const Cel
                   const CellField<Dim>& share)
     : rhs(layout), change(layout), rebuild(layout) {
   constexpr double rounding = 1e-12, least_room = 0.2, most = 0.5, visible = 0.05;
-  // What cells of the first layer around take hangs on the second. Smoothness is known no farther than the first.
+  // Cells of the first layer around take from the second. Smoothness is known no farther than the first.
   const Box<Dim> box = cells_around(layout, 2), first = cells_around(layout, 1);
   for_each_site(layout, box, [&](Site c) { rhs[c] = d.on_surface(c) ? d.missing[c] : 0; });
   const std::vector<Site> cells = listed_possible(

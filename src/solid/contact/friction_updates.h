@@ -45,7 +45,7 @@ class FrictionUpdates {
   const std::vector<FrictionPoint<Dim>>& points() const { return points_; }
   // Share of the last change that was taken.
   double share() const { return share_; }
-  // True if the last updates took no more than the least share, as if bounds that settle did not exist.
+  // True if the last updates took no more than the least share: further ones would not settle the bounds.
   bool go_round() const { return stuck_ >= stuck_after; }
 
  private:
