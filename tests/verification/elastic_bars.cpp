@@ -1,0 +1,72 @@
+// Bars that liquid squeezes, against the displacement of their free ends that elasticity gives.
+#include <catch2/catch.hpp>
+
+#include "elastic_scenes.h"
+
+using namespace seiche;
+using namespace seiche::test;
+
+namespace {
+
+constexpr double length = 0.6, half_width = 0.05, top = 0.8, bottom = top - length;  // m
+
+// A bar of no Poisson ratio, held at its top in a box full of liquid of the pressure p(y) at the side x = 0.
+Scene bar_in_full_box(int dim, int cells, double youngs_modulus, double density, const Formula& p) {
+  Scene s = box_scene(dim, cells);
+  if (dim == 3) s.domain.cells[2] = cells / 2, s.domain.upper[2] = 0.5;
+  add_liquid(s, "-1");
+  s.domain.sides[0][0] = {SideType::outflow, {"0", "0", "0"}, p};
+  const auto z = [dim](double value) { return dim == 3 ? value : 0; };
+  s.solids.push_back(elastic_box("bar", {0.5 - half_width, bottom, z(0.25 - half_width)},
+                                 {0.5 + half_width, top, z(0.25 + half_width)}, density, {youngs_modulus, 0}, 0.05));
+  s.solids.back().elastic.model = "st_venant_kirchhoff";
+  s.solids.back().elastic.mass_damping = 20;  // 1/s: a swing is down to e^-10 after 1 s
+  pin(s.solids.back(), {0, top - 1e-4, -1}, {1, 1, 1});
+  ProbeSpec tip;
+  tip.name = "tip";
+  tip.kind = ProbeKind::displacement;
+  tip.solid = "bar";
+  tip.position = {0.5, bottom, z(0.25)};
+  s.probes.push_back(tip);
+  s.time.end = 1;
+  s.time.max_step = 0.01;
+  return s;
+}
+
+double rise_of_tip(const Scene& s) {
+  const auto sim = make_simulation(s, Communicator());
+  while (sim->time() < s.time.end - 1e-9) (void)sim->step(s.time.end);
+  return sim->probe(0).vector[1];
+}
+
+}  // namespace
+
+// St. Venant-Kirchhoff, no Poisson ratio: the stretch l in both directions has -p = E (l^2 - 1)/2.
+TEST_CASE("bars in liquid: a uniform pressure p shortens a bar by p L/E at any place on the grid", "[elastic]") {
+  const double p = 1e4, E = 1e7;  // Pa
+  const double shortened = (1 - std::sqrt(1 - 2 * p / E)) * length;
+  for (const int cells : {20, 32, 50}) {
+    const double rise = rise_of_tip(bar_in_full_box(2, cells, E, 1000, fmt::format("{}", p)));
+    INFO(cells << " cells a metre, rise " << rise << " m of " << shortened);
+    CHECK(rise == Approx(shortened).epsilon(1e-4));  // pins hold the top's width: 5e-5
+  }
+}
+
+// Liquid of the weight w a volume, up to y = 1, and a bar of the weight w_b. Stress across the bar is -p(y), along it
+//   s(y) = -p(bottom) + w_b (y - bottom).
+// No shear, and du_x/dx = -p/E: u_y has the term -w (x^2 + z^2)/2E, less its mean over a section. So the middle of the
+// lower end rises by
+//   p(bottom) L/E - w_b L^2/2E + w a^2/6E (twice the last in 3D), a: half the width.
+TEST_CASE("bars in liquid: a bar that hangs in liquid at rest is as long as elasticity says", "[elastic]") {
+  const double E = 1e8, g = 9.81, w = 1000 * g;  // Pa, m/s^2, N/m^3
+  for (const int dim : {2, 3})
+    for (const double density : {1000.0, 3000.0}) {
+      Scene s = bar_in_full_box(dim, dim == 2 ? 32 : 16, E, density, "1000*9.81*(1-y)");
+      s.gravity = {0, -g, 0};
+      const double squeezed = w * (1 - bottom) * length / E, sag = density * g * length * length / (2 * E);
+      const double bent = (dim - 1) * w * half_width * half_width / (6 * E);
+      const double rise = rise_of_tip(s), exact = squeezed - sag + bent;
+      INFO(dim << "D, density " << density << ": rise " << rise << " m of " << exact);
+      CHECK(std::abs(rise - exact) <= 2e-4 * squeezed);  // pins hold the width of the top: 1e-4 in 3D
+    }
+}
