@@ -1,4 +1,6 @@
-#include <cmath>
+#include <fmt/format.h>
+
+#include <limits>
 
 #include "base/scene.h"
 #include "console.h"
@@ -8,30 +10,28 @@
 namespace seiche {
 namespace {
 
-// A number that scenes may hold, too.
-const CLI::Validator& is_finite() {
-  static const CLI::Validator check(
-      [](const std::string& text) {
+// A time of at least `least` seconds, within what scenes may hold.
+CLI::Validator is_time(double least) {
+  return CLI::Validator(
+      [least](const std::string& text) {
         constexpr double largest = 1e15;
         double x = 0;
-        const bool fits = CLI::detail::lexical_cast(text, x) && std::abs(x) < largest;  // false for nan
-        return fits ? std::string() : "must be a finite number below 1e15 in magnitude; it is " + text;
+        const bool fits = CLI::detail::lexical_cast(text, x) && x >= least && x <= largest;  // false for nan
+        return fits ? "" : fmt::format("must be a number of seconds from {:g} to {:g}; it is {}", least, largest, text);
       },
-      "NUMBER");
-  return check;
+      "SECONDS");
 }
 
 void add_session_options(CLI::App& verb, SessionOptions& session) {
-  verb.add_option("--frames", session.frames, "Number of the last frame")->check(CLI::NonNegativeNumber);
+  verb.add_option("--frames", session.frames, "Number of the last frame")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   verb.add_option("--threads", session.threads, "Threads a rank; default: the machine's, shared among its ranks")
       ->check(CLI::Range(1, 4096));
   verb.add_option("--walltime", session.walltime, "Stop with a checkpoint before so many seconds have passed")
-      ->check(is_finite())
-      ->check(CLI::NonNegativeNumber);
+      ->check(is_time(0));
   verb.add_option("--watchdog", session.watchdog, "End the run after so many seconds without progress")
       ->envname("SEICHE_WATCHDOG")
-      ->check(is_finite())
-      ->check(CLI::PositiveNumber)
+      ->check(is_time(0.001))
       ->capture_default_str();
   verb.add_option("--inject", session.inject, "Test only: phase:rank:kind[:nth]")->group("");
   verb.add_option("--break", session.perturbation, "Test only: operator:factor")->group("");
@@ -76,7 +76,7 @@ void add_resume(CLI::App& program, VerbContext& context) {
   CLI::App* verb = program.add_subcommand("resume", "Continue a stopped, killed or finished run");
   const auto options = std::make_shared<ResumeOptions>();
   verb->add_option("directory", options->folder, "Run directory, such as out/<scene name>")->required();
-  verb->add_option("--end", options->end, "New end time, s")->check(is_finite());
+  verb->add_option("--end", options->end, "New end time, s")->check(is_time(0));
   add_set_option(*verb, options->overrides);
   verb->add_flag_callback(
       "--force", [options] { options->edits = EditPolicy::force; },

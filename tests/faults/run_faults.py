@@ -131,9 +131,12 @@ def scene_is_accounted_for(bench):
     ball = '[[solid]]\nname = "ball"\nkind = "rigid"\nshape = "box"\nlower = [0.2, 0.6]\nupper = [0.4, 0.8]\ndensity = 250.0\n'
     sheet = ('[[solid]]\nname = "sheet"\nkind = "static"\nshape = "expression"\n'
              'phi = "max(abs(x+0.3*y-0.5)-0.008,abs(y-0.8)-0.15)"\n')
-    text = box_scene([16, 16], pool + lost, block + far + ball + sheet)
+    sources = ('[[liquid.source]]\nshape = "box"\nlower = [1.2, 0.2]\nupper = [1.5, 0.5]\n'
+               '[[liquid.source]]\nshape = "box"\nlower = [0.8, 0.3]\nupper = [0.9, 0.4]\n')
+    text = box_scene([16, 16], pool + lost, sources + block + far + ball + sheet)
     said = ("solid   'block', static: 0.4 m^2, from (0.6, 0.25) to (1.4, 0.75) m; 50 % of it lies outside of the domain",
             "solid   'ball', rigid: 0.04 m^2, 10 kg/m, centre of mass (0.3, 0.7), from (0.2, 0.6) to (0.4, 0.8) m",
+            "liquid.source.0 has no room at the start: it lies outside", "liquid.source.1 has no room at the start: all of its",
             "liquid.region.1 holds no liquid: all of its", "liquid.region.2 holds no liquid: it lies outside",
             "solid 'far' lies outside of the domain, from (2.8, 0.3)",
             "solid 'sheet' has parts thinner than a cell of 0.0625 m")
@@ -1096,9 +1099,9 @@ def misspelt_words(bench):
     bench.run("sail").needs(2, "unknown verb 'sail'; verbs: run, resume, check")
     bench.run("run", scene, "--thread", "2").needs(2, "unknown option '--thread'; did you mean '--threads'?")
     for option, value in (("--watchdog", "nan"), ("--walltime", "inf")):
-        bench.run("run", scene, option, value).needs(2, option, "must be a finite number")
+        bench.run("run", scene, option, value).needs(2, option, "must be a number of seconds from")
     for value in ("nan", "inf", "1e300"):
-        bench.run("resume", "out", "--end", value).needs(2, "--end", "must be a finite number")
+        bench.run("resume", "out", "--end", value).needs(2, "--end", "must be a number of seconds from 0 to 1e+15")
     bench.run("run", scene, "--ot=x").needs(2, "unknown option '--ot'; did you mean '--out'?", "seiche run --help")
     bench.run("run", scene, "other.toml").needs(2, "other.toml")
     bench.run("resume", scene).needs(2, "is a file; resume takes the directory of a run, such as out/scene")

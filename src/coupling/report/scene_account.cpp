@@ -47,21 +47,19 @@ CellField<Dim> level_set_of(const Domain<Dim>& domain, const ShapeSpec& spec) {
   return phi;
 }
 
+// Warns if none of a shape lies in the room for liquid. `name`: liquid.region.2, say; `lack`: what follows from it.
 template <int Dim>
-void account_region(const Domain<Dim>& domain, const Fluids& fluids, std::size_t k, const NodeField<Dim>& psi,
-                    SceneAccount& account) {
-  const ShapeSpec& spec = fluids.liquid.regions[k].shape;
+void account_shape(const Domain<Dim>& domain, const ShapeSpec& spec, const std::string& name, const char* lack,
+                   const NodeField<Dim>& psi, SceneAccount& account) {
   const CellField<Dim> phi = level_set_of(domain, spec);
   const double whole = liquid_volume(domain, phi, no_solids(domain)), wet = liquid_volume(domain, phi, psi);
   if (whole <= nothing * domain.layout.geometry().cell_volume())
     account.warnings.push_back(
-        fmt::format("{}: liquid.region.{} holds no liquid: it lies outside of the domain or is far smaller than a cell",
-                    spec.where, k));
+        fmt::format("{}: {} {}: it lies outside of the domain or is far smaller than a cell", spec.where, name, lack));
   else if (wet < all * whole)
-    account.warnings.push_back(fmt::format(
-        "{}: liquid.region.{} holds no liquid: all of its {} lies inside solids (a container is a solid with "
-        "invert = true)",
-        spec.where, k, volume_text<Dim>(whole)));
+    account.warnings.push_back(
+        fmt::format("{}: {} {}: all of its {} lies inside solids (a container is a solid with invert = true)",
+                    spec.where, name, lack, volume_text<Dim>(whole)));
 }
 
 template <int Dim>
@@ -73,9 +71,13 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   if (whole - wet > all * whole)
     line += fmt::format("; {} of its regions lies inside solids", volume_text<Dim>(whole - wet));
   account.lines.push_back(line);
-  constexpr std::size_t most_regions = 20;  // each costs a loop over the whole grid
-  for (std::size_t k = 0; k < std::min(most_regions, fluids.liquid.regions.size()); ++k)
-    account_region(domain, fluids, k, psi, account);
+  constexpr std::size_t most = 20;  // each costs a loop over the whole grid
+  const LiquidSpec& liquid = fluids.liquid;
+  for (std::size_t k = 0; k < std::min(most, liquid.regions.size()); ++k)
+    account_shape(domain, liquid.regions[k].shape, fmt::format("liquid.region.{}", k), "holds no liquid", psi, account);
+  for (std::size_t k = 0; k < std::min(most, liquid.sources.size()); ++k)
+    account_shape(domain, liquid.sources[k].shape, fmt::format("liquid.source.{}", k), "has no room at the start", psi,
+                  account);
 }
 
 // The surface of a solid at the start.

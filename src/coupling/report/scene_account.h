@@ -12,7 +12,7 @@ struct DomainSpec;
 
 struct SceneAccount {
   std::vector<std::string> lines;     // volume of liquid; mass, size and place of the solids
-  std::vector<std::string> warnings;  // regions without liquid, solids outside the domain
+  std::vector<std::string> warnings;  // regions without liquid, sources without room, solids outside the domain
 };
 
 // Account of the initial state. psi: distance to the solids at nodes, m. Collective; equal on all ranks.

@@ -60,6 +60,11 @@ bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
   return true;
 }
 
+template <int Dim>
+double RheologyIteration<Dim>::change_left() const {
+  return change_ <= setup_.scene->solver.rheology_tolerance ? 0 : change_;
+}
+
 template class RheologyIteration<2>;
 template class RheologyIteration<3>;
 

@@ -16,7 +16,8 @@ class RheologyIteration {
   RheologyIteration(const Setup<Dim>& setup, const State<Dim>& state, const TimeLevel<Dim>& flow);
   const ViscosityField<Dim>& viscosity() const { return viscosity_; }
   int count() const { return count_; }  // number of solves; 0: Newtonian liquid
-  double change() const { return change_; }
+  // Largest change of velocity in the last solve, relative to the fastest; 0 if it is within the tolerance.
+  double change_left() const;
 
   // Takes the velocities of the last solve. True if another solve is due, with the new viscosity(): they changed by
   // more than solver.rheology_tolerance of the fastest, and there were fewer than solver.rheology_iterations solves.

@@ -28,6 +28,7 @@ struct Attempt {
   int newton_iterations = 0, contacts = 0;
   SolvePowers powers;
   int rheology_iterations = 0;  // solves until viscosity and flow agree
+  double rheology_change = 0;   // of velocity in the last of them, relative to the largest; 0: they agree
   double separation_error = 0;  // SeparationSearch::error
 };
 

@@ -43,6 +43,12 @@ bool is_second_order(const Fluids& fluids, const TimeSpec& time) {
   return time.scheme == TimeScheme::second_order && !fluids.has_prescribed_flow();
 }
 
+// True if an angle other than that of no wetting and no repelling is asked for.
+bool has_contact_angles(const Scene& scene) {
+  return scene.liquid.contact_angle != LiquidSpec{}.contact_angle ||
+         std::any_of(scene.solids.begin(), scene.solids.end(), [](const SolidSpec& s) { return s.contact_angle; });
+}
+
 template <int Dim>
 const std::vector<FeatureText<Dim>>& feature_texts() {
   using S = const Setup<Dim>&;
@@ -64,7 +70,9 @@ const std::vector<FeatureText<Dim>>& feature_texts() {
        "the surface alone tells what a sealed cavity holds", [](S s) { return has_elements(s.solids); }},
       {F::contact_line_pull, "pull of surface tension on solids along the line where the surface meets them",
        "it acts on the liquid alone; small bodies that it should carry sink",
-       [](S s) { return s.fluids.has_surface_tension(); }}};
+       [](S s) { return s.fluids.has_surface_tension(); }},
+      {F::contact_angles, "contact angles", "the surface meets sides and solids at the angle that the flow gives",
+       [](S s) { return has_contact_angles(*s.scene); }}};
   return table;
 }
 
@@ -108,7 +116,8 @@ const std::vector<Exclusion<Dim>>& exclusions() {
       {F::shear_jump, "a fluid without viscosity", [](S s) { return one_is_inviscid(s.fluids); }},
       {F::one_sided_at_medial_axis, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
       {F::sealed_cavities, "[gas] that flows", [](S s) { return s.fluids.has_gas(); }},
-      {F::contact_line_pull, "solids that forces move", [](S s) { return s.solids.has_unknowns(); }}};
+      {F::contact_line_pull, "solids that forces move", [](S s) { return s.solids.has_unknowns(); }},
+      {F::contact_angles, "no surface_tension", [](S s) { return !s.fluids.has_surface_tension(); }}};
   return table;
 }
 

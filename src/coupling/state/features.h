@@ -15,7 +15,8 @@ enum class Feature {
   shear_jump,
   one_sided_at_medial_axis,
   sealed_cavities,
-  contact_line_pull
+  contact_line_pull,
+  contact_angles
 };
 
 // The features that nothing in the scene switches off.

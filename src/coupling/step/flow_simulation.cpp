@@ -237,6 +237,7 @@ class FlowSimulation : public Simulation {
     rheology_iterations_ = a.rheology_iterations;
     separation_error_ = a.separation_error;
     warn_of_separation();
+    warn_of_rheology(a);
     warn_of_crossing();
     for (const std::string& line : a.solve.failed_attempts)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
@@ -264,6 +265,15 @@ class FlowSimulation : public Simulation {
         "step {}: the search for cells where liquid separates from solids did not converge; the step uses the "
         "best set found, with an error of {:.1e} of the largest pressure (summary.json counts further ones)",
         state_.step, separation_error_));
+  }
+
+  // Warns once.
+  void warn_of_rheology(const Attempt<Dim>& a) {
+    if (a.rheology_change == 0 || std::exchange(told_of_rheology_, true)) return;
+    phases_.warnings.push_back(fmt::format(
+        "step {}: viscosity and flow do not agree after {} solves: the last one changed velocity by {:.1e} of the "
+        "largest (solver.rheology_tolerance, rheology_iterations); further steps like this one are not reported",
+        state_.step, a.rheology_iterations, a.rheology_change));
   }
 
   // Warns once.
@@ -328,7 +338,7 @@ class FlowSimulation : public Simulation {
   double divergence_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
   double separation_error_ = 0;
-  bool told_of_separation_ = false, told_of_crossing_ = false;
+  bool told_of_separation_ = false, told_of_rheology_ = false, told_of_crossing_ = false;
   StepStats stats_;
   std::vector<SolidState> solids_;
 };

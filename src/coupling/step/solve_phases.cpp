@@ -215,6 +215,7 @@ Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, 
     if (!out.failure.empty()) return out;
     if (!rheology.differs_from(*out.state.now)) {
       out.rheology_iterations = rheology.count();
+      out.rheology_change = rheology.change_left();
       out.state.viscous_rate = rheology.viscosity().largest / (task.s.fluids.density() * layout.h() * layout.h());
       return out;
     }

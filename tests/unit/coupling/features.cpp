@@ -56,6 +56,15 @@ TEST_CASE("what switches the leapfrog off is told, and is what the step looks at
   CHECK(told(scene).empty());
 }
 
+TEST_CASE("contact angles without surface tension are told") {
+  Scene scene = basin();
+  scene.liquid.contact_angle = 40;
+  REQUIRE(told(scene).size() == 1);
+  CHECK_THAT(told(scene)[0], Contains("off: contact angles (because of: no surface_tension)"));
+  scene.liquid.surface_tension = 0.07;
+  CHECK(told(scene).empty());
+}
+
 TEST_CASE("surface tension that does not pull on moving solids is told") {
   Scene scene = basin();
   scene.liquid.surface_tension = 0.07;
