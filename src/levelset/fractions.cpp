@@ -114,14 +114,20 @@ double cube_part(const Cube<3>& c) {
   return sum;
 }
 
-// phi (f) and -psi (g) at the corners of a cell, and phi at its centre.
+// The low corner of a cell is that of its site.
 template <int Dim>
-Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
+Site corner_site(const Layout<Dim>& layout, Site cell, int corner) {
+  for (int a = 0; a < Dim; ++a) cell += ((corner >> a) & 1) * layout.stride(a);
+  return cell;
+}
+
+// phi (f) at the corners of a cell and at its centre; g = -1: no solids.
+template <int Dim>
+Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) {
   constexpr int corners = 1 << Dim;
   Cube<Dim> c;
   for (int k = 0; k < corners; ++k) {
-    Site node = cell;
-    for (int a = 0; a < Dim; ++a) node += ((k >> a) & 1) * layout.stride(a);
+    const Site node = corner_site(layout, cell, k);
     double sum = 0;
     for (int m = 0; m < corners; ++m) {
       Site around = node;
@@ -129,9 +135,23 @@ Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, const
       sum += phi[around];
     }
     c.f[k] = sum / corners;
-    c.g[k] = -psi[node];
+    c.g[k] = -1;
   }
   c.f_center = phi[cell];
+  return c;
+}
+
+// g = -psi at the corners.
+template <int Dim>
+void set_solids(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell, Cube<Dim>& c) {
+  for (int k = 0; k < 1 << Dim; ++k) c.g[k] = -psi[corner_site(layout, cell, k)];
+}
+
+// phi (f) and -psi (g) at the corners of a cell, and phi at its centre.
+template <int Dim>
+Cube<Dim> corners_of(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell) {
+  Cube<Dim> c = corners_of(layout, phi, cell);
+  set_solids(layout, psi, cell, c);
   return c;
 }
 
@@ -216,6 +236,23 @@ double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const 
 }
 
 template <int Dim>
+double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell) {
+  if (std::abs(phi[cell]) > far_above(layout)) return phi[cell] < 0;
+  Cube<Dim> c = corners_of(layout, phi, cell);
+  return share_of(c);
+}
+
+template <int Dim>
+double open_share(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell) {
+  if (psi[cell] > far_above(layout)) return 1;
+  Cube<Dim> c;
+  c.f.fill(-1);
+  c.f_center = -1;
+  set_solids(layout, psi, cell, c);
+  return share_of(c);
+}
+
+template <int Dim>
 double local_liquid_volume(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi) {
   return layout.geometry().cell_volume() * local_sum_of_possible(
                                                layout, layout.cells(),
@@ -255,6 +292,10 @@ template void open_fractions<2>(const Layout<2>&, const NodeField<2>&, FaceField
 template void open_fractions<3>(const Layout<3>&, const NodeField<3>&, FaceField<3>&);
 template double liquid_share<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);
 template double liquid_share<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&, Site);
+template double liquid_share<2>(const Layout<2>&, const CellField<2>&, Site);
+template double liquid_share<3>(const Layout<3>&, const CellField<3>&, Site);
+template double open_share<2>(const Layout<2>&, const NodeField<2>&, Site);
+template double open_share<3>(const Layout<3>&, const NodeField<3>&, Site);
 template double local_liquid_volume<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&);
 template double local_liquid_volume<3>(const Layout<3>&, const CellField<3>&, const NodeField<3>&);
 template VolumeAndArea share_and_area<2>(const Layout<2>&, const CellField<2>&, const NodeField<2>&, Site);

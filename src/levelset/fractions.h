@@ -32,6 +32,12 @@ double open_part_of_face(const Layout<Dim>& layout, const NodeField<Dim>& psi, i
 // Fraction of a cell with phi < 0 (phi at cell centres, valid one cell around) and psi > 0 (psi at nodes).
 template <int Dim>
 double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, const NodeField<Dim>& psi, Site cell);
+// The same without solids.
+template <int Dim>
+double liquid_share(const Layout<Dim>& layout, const CellField<Dim>& phi, Site cell);
+// Fraction of a cell with psi > 0: liquid_share() of a full one.
+template <int Dim>
+double open_share(const Layout<Dim>& layout, const NodeField<Dim>& psi, Site cell);
 
 // Liquid volume of the owned cells, m^Dim.
 template <int Dim>

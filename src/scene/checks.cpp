@@ -227,11 +227,16 @@ bool has_side(const DomainSpec& d, SideType type) {
   });
 }
 
+bool has_solid_that_moves(const Scene& scene) {
+  return std::any_of(scene.solids.begin(), scene.solids.end(),
+                     [](const SolidSpec& s) { return !(s.kind == SolidKind::fixed); });
+}
+
 // Reports what excludes volumes carried in cells.
 void check_volume(const Checker& c, const Scene& scene) {
   if (scene.liquid.volume != VolumeKeeping::in_cells) return;
   const std::vector<std::pair<const char*, bool>> all{
-      {"[[solid]]", !scene.solids.empty()},
+      {"[[solid]] that are not static", has_solid_that_moves(scene)},
       {"[gas]", scene.gas.present},
       {"[[liquid.source]]", !scene.liquid.sources.empty()},
       {"liquid.separates = true", scene.liquid.separates},

@@ -166,6 +166,15 @@ DAM_IN_CELLS_3D = (DAM_IN_CELLS.replace("dimension = 2", "dimension = 3").replac
                    .replace("[1.0, 0.8]", "[1.0, 0.8, 0.65]").replace("[0.38, 0.5]", "[0.38, 0.5, 0.42]")
                    .replace("cell_size = 0.04", "cell_size = 0.05"))
 
+POST_IN_CELLS = DAM_IN_CELLS.replace("fixed_step = 0.01", "fixed_step = 0.005") + """\
+[[solid]]
+name = "post"
+kind = "static"
+shape = "sphere"
+center = [0.52, 0.1]
+radius = 0.12
+"""
+
 # A slanted jet with its upper rim between one and two halo widths beyond the cells of the lowest of three ranks.
 JET = f"""\
 dimension = 2
@@ -382,6 +391,11 @@ def volumes_ranks_agree_2d(bench):
     ranks_agree(bench, DAM_IN_CELLS, (2, 3))
 
 
+def volumes_beside_post_agree(bench):
+    """A dam break with volumes in cells that meets a post, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, POST_IN_CELLS, (2, 3))
+
+
 def volumes_ranks_agree_3d(bench):
     """The same in 3D."""
     ranks_agree(bench, DAM_IN_CELLS_3D, (2, 3))
@@ -494,7 +508,7 @@ def air_killed_at_random(bench):
 TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, sprung_ranks_agree_2d, shared_elements_ranks_agree,
                        shared_unknowns_ranks_agree, twins_ranks_agree, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
-                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d, volumes_ranks_agree_3d, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d, volumes_beside_post_agree, volumes_ranks_agree_3d, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
                       gas_killed_at_random, air_killed_at_random]}

@@ -30,6 +30,7 @@ struct Setup {
   std::vector<Source<Dim>> sources;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
+  std::optional<OpenParts<Dim>> open_parts;  // beside solids, if tracks_volume()
 
   // `blocks`: owned cells of each rank; empty: of equal size.
   Setup(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation = {},
@@ -42,6 +43,9 @@ struct Setup {
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
+  // Beside solids, which stand still, if tracks_volume().
+  Room<Dim> room() const { return open_parts ? Room<Dim>(*open_parts) : Room<Dim>(); }
+  LedgerRules<Dim> ledger() const { return {divergence(), room()}; }
   Divergence divergence() const { return fluids.has_prescribed_flow() ? Divergence::swells : Divergence::stays; }
 };
 

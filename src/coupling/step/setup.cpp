@@ -152,6 +152,21 @@ bool Solids<Dim>::may_seal() const {
   return at_start.any([](const Participant<Dim>& p) { return p.may_seal(); });
 }
 
+namespace {
+
+// Throws Error(bad_input).
+template <int Dim>
+void refuse_thin(const Solids<Dim>& solids) {
+  for (const Body<Dim>& body : solids.bodies)
+    if (body.is_thin())
+      throw Error(ExitCode::bad_input,
+                  fmt::format("{}: solid '{}' is thinner than a cell, which does not work with liquid.volume = "
+                              "\"cells\" yet; use \"shift\", or smaller cells",
+                              body.spec().shape.where, body.spec().name));
+}
+
+}  // namespace
+
 template <int Dim>
 Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPerturbation& operators,
                   std::vector<Box<Dim>> blocks)
@@ -166,6 +181,10 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       followed(find_followed_points(from.probes, solids)) {
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
+  if (!tracks_volume() || solids.bodies.empty()) return;
+  refuse_thin(solids);
+  const StepGeometry<Dim> still = solids.geometry.measure(std::vector<Placement>(solids.bodies.size()), 0);
+  open_parts = measure_open_parts(domain.layout, domain.halo, still.psi, still.faces.open);
 }
 
 // Throws Error(bad_input) if a fixed step is too long for the initial velocity or the solids' motions. Checks a bounded

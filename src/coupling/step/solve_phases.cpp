@@ -61,6 +61,7 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
   if (task.tension) in.surface_jump = &task.tension->jump;
   if (!state.liquid.empty()) {
     in.share = &state.liquid;
+    in.room = s.room();
     in.excess_time = time_of_excess(task.before, task.times.dt);
   }
   if (!task.predicted.filling.empty()) in.filling = &task.predicted.filling.inflow;
@@ -314,8 +315,9 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
     if (!out.failure.empty()) return out;
     const auto timed = phases.timers.measure("surface");
     if (solves == most_solves ||
-        !add_filling_cells(s.domain, moved.geometry.faces, {moved.state.liquid, before.now->u, gravity, times.dt},
-                           out.state.now->u, moved.state.phi, predicted.u_star, predicted.filling)) {
+        !add_filling_cells(s.domain, moved.geometry.faces,
+                           {moved.state.liquid, before.now->u, gravity, times.dt, s.room()}, out.state.now->u,
+                           moved.state.phi, predicted.u_star, predicted.filling)) {
       if (!predicted.filling.empty()) out.state.phi = std::move(predicted.filling.phi);
       return out;
     }

@@ -119,6 +119,19 @@ std::optional<CellField<Dim>> transport_and_book(const Setup<Dim>& s, const Stat
   return std::move(brought.share);
 }
 
+// Carries the volumes of cells. Initial velocities need not go round solids: beside these, the first step takes those
+// that its trial found. Empty, or what fails.
+template <int Dim>
+std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, double span,
+                          State<Dim>& next) {
+  if (!s.tracks_volume()) return {};
+  const bool sets_off = before.step == 0 && !s.room().is_whole();
+  if (sets_off && !before.trial) return {};
+  const State<Dim>& known = sets_off ? *before.trial : before;
+  return carry_liquid(s.domain, sets_off ? known.now->u : u, known.gap_flow, s.perturbation.surface_advection * span,
+                      s.ledger(), before, next);
+}
+
 template <int Dim>
 void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Phases& phases,
                    Moved<Dim>& moved) {
@@ -132,9 +145,7 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
-  if (s.tracks_volume())
-    moved.failure = carry_liquid(s.domain, u, s.perturbation.surface_advection * (before.since_solve + times.lead),
-                                 s.divergence(), before, moved.state);
+  moved.failure = carry_volumes(s, before, u, before.since_solve + times.lead, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());
@@ -165,7 +176,7 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = moved.state;
   const StepGeometry<Dim>& geometry = moved.geometry;
-  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, s.divergence(), next);
+  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, s.ledger(), next);
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   keep_sides_of_walls(s.domain, geometry, next.phi);
   keep_sealed_full(s, before, next, geometry, next.phi);

@@ -1,5 +1,6 @@
 #include "coupling/transport/drifting.h"
 
+#include "coupling/thin/gap_flow.h"
 #include "coupling/transport/restore.h"
 #include "fluid/transport/advection.h"
 #include "fluid/volume/neighbours.h"
@@ -18,6 +19,12 @@ void each_face_of(const Layout<Dim>& layout, const std::vector<Site>& cells, con
     for (int a = 0; a < Dim; ++a) body(a, c), body(a, c + layout.stride(a));
 }
 
+// Faces that solids close, or nearly so, let no drop fall: it would gain speed for as long as it stays.
+template <int Dim>
+bool may_fall(const FaceGeometry<Dim>& faces, int axis, Site face) {
+  return faces.is_unknown(axis, face) && faces.open.at(axis, face) >= least_open;
+}
+
 // The velocities of the faces of a cell along an axis, after those that carry nothing out of it follow the other one.
 // `leads`: a wall, or liquid comes through the face.
 template <int Dim>
@@ -25,8 +32,8 @@ void join_faces(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const
                 int axis, FaceField<Dim>& u) {
   const Site step = domain.layout.stride(axis), top = cell + step;
   double &low = u.at(axis, cell), &high = u.at(axis, top);
-  const bool low_leads = !faces.is_unknown(axis, cell) || low < 0 || share[cell - step] > least_drop,
-             high_leads = !faces.is_unknown(axis, top) || high > 0 || share[top] > least_drop;
+  const bool low_leads = !may_fall(faces, axis, cell) || low < 0 || share[cell - step] > least_drop,
+             high_leads = !may_fall(faces, axis, top) || high > 0 || share[top] > least_drop;
   if (low_leads && !high_leads) high = low;
   if (!low_leads && high_leads) low = high;
   if (!low_leads && !high_leads) low = high = 0.5 * (low + high);
@@ -68,7 +75,7 @@ void let_drift(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const 
   const Layout<Dim>& l = domain.layout;
   each_face_of(l, drifting, [&](int a, Site f) {
     if (!faces.is_unknown(a, f)) return;
-    u_star.at(a, f) = falling_velocity(l, u, gravity, dt, a, f);
+    u_star.at(a, f) = !may_fall(faces, a, f) ? 0 : falling_velocity(l, u, gravity, dt, a, f);
   });
   for (const Site c : drifting)
     for (int a = 0; a < Dim; ++a) join_faces(domain, faces, share, c, a, u_star);
@@ -80,7 +87,7 @@ void take_drifting(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, co
                    const FaceField<Dim>& u_star, TimeLevel<Dim>& level) {
   if (!domain.ranks.any(!drifting.empty())) return;
   each_face_of(domain.layout, drifting, [&](int a, Site f) {
-    if (level.valid.at(a, f) || !faces.is_unknown(a, f)) return;
+    if (level.valid.at(a, f) || !may_fall(faces, a, f)) return;
     level.valid.at(a, f) = face_at_surface;
     level.u.at(a, f) = u_star.at(a, f);
   });

@@ -58,12 +58,13 @@ Site cell_at(const Layout<Dim>& layout, const Vec<Dim>& x) {
 template <int Dim>
 class LiquidAtPoints {
  public:
-  LiquidAtPoints(const Layout<Dim>& layout, const CellField<Dim>& share, const CellField<Dim>& phi)
-      : layout_(layout), share_(share), phi_(phi), width_(layout.h() / points_along<Dim>) {}
+  LiquidAtPoints(const Layout<Dim>& layout, const FillingStep<Dim>& step, const CellField<Dim>& phi)
+      : layout_(layout), share_(step.share), room_(step.room), phi_(phi), width_(layout.h() / points_along<Dim>) {}
 
   // Share of liquid around a point.
   double operator()(const Vec<Dim>& x) {
     const Site c = cell_at(layout_, x);
+    if (room_.of(c) < 1) return liquid(phi_at(x), 0);
     if (share_[c] >= 1 - rounding || share_[c] <= rounding) return share_[c] > 0.5;
     return liquid(phi_at(x), level(c));
   }
@@ -92,7 +93,9 @@ class LiquidAtPoints {
   }
 
   const Layout<Dim>& layout_;
-  const CellField<Dim>&share_, &phi_;
+  const CellField<Dim>& share_;
+  Room<Dim> room_;
+  const CellField<Dim>& phi_;
   double width_;
   std::map<Site, double> levels_;
 };
@@ -101,7 +104,7 @@ class LiquidAtPoints {
 template <int Dim>
 double share_where_from(const Layout<Dim>& layout, const FillingStep<Dim>& step, const CellField<Dim>& phi,
                         const FaceField<Dim>& u, Site c) {
-  LiquidAtPoints<Dim> liquid(layout, step.share, phi);
+  LiquidAtPoints<Dim> liquid(layout, step, phi);
   const double longest = longest_path(layout) * layout.h();
   const IVec<Dim> i = layout.index(c);
   double wet = 0;
@@ -118,15 +121,20 @@ double share_where_from(const Layout<Dim>& layout, const FillingStep<Dim>& step,
 }
 
 // Air that what flows into a cell brings along, as a share of the cell, if there is too much liquid in it for the cell;
-// else none. It comes from a region of the volume 1 - dt div u.
+// else none. It comes from a region of the volume K - dt div u.
 template <int Dim>
 std::optional<double> air_if_overfull(const Layout<Dim>& layout, const FillingStep<Dim>& step,
                                       const CellField<Dim>& phi, const FaceField<Dim>& u, Site c) {
-  double region = 1;
-  for (int a = 0; a < Dim; ++a) region += (u.at(a, c) - u.at(a, c + layout.stride(a))) * step.dt / layout.h();
-  if (region <= 1 + margin && step.share[c] <= 1 + margin) return {};
+  const double room = step.room.of(c);
+  double region = room;
+  for (int a = 0; a < Dim; ++a) {
+    const Site high = c + layout.stride(a);
+    region +=
+        (step.room.through(a, c) * u.at(a, c) - step.room.through(a, high) * u.at(a, high)) * step.dt / layout.h();
+  }
+  if (region <= room + margin && step.share[c] <= room + margin) return {};
   const double liquid = region * share_where_from(layout, step, phi, u, c);
-  if (liquid <= 1 + margin) return {};
+  if (liquid <= room + margin || step.room.host_of(layout, c)) return {};
   return std::max(0.0, region - liquid);
 }
 

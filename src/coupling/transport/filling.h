@@ -14,18 +14,20 @@ struct Filling {
   bool empty() const { return inflow.empty(); }
 };
 
-// A step over dt (s): shares V of liquid, the flow before it, continued into air (m/s), and the mean gravity in it.
+// A step over dt (s): shares V of liquid, the flow before it, continued into air (m/s), the mean gravity in it, and the
+// room beside solids.
 template <int Dim>
 struct FillingStep {
   const CellField<Dim>& share;
   const FaceField<Dim>& before;
   Vec3 gravity;
   double dt;
+  Room<Dim> room = {};
 };
 
 // Finds cells with phi >= 0 (m) beside liquid that have no room for what the flow u (m/s) brings. Adds them to
-// `filling`; sets phi < 0 there, and u* on their faces. Returns false if there are none, or no other air beside liquid:
-// in a closed box its volume could not change. Collective.
+// `filling`, but for those with a host (Room); sets phi < 0 there, and u* on their faces. Returns false if there are
+// none, or no other air beside liquid: in a closed box its volume could not change. Collective.
 template <int Dim>
 bool add_filling_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FillingStep<Dim>& step,
                        const FaceField<Dim>& u, CellField<Dim>& phi, FaceField<Dim>& u_star, Filling<Dim>& filling);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "coupling/transport/drifting.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/volume/level_set_coupling.h"
@@ -21,12 +23,29 @@ void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Di
   state.expected_volume = tracked_volume(domain, state);
 }
 
+namespace {
+
+// u (m/s), with what the solve gave the faces that are hardly open. Collective.
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double span, Divergence divergence,
-                         const State<Dim>& before, State<Dim>& state) {
+FaceField<Dim> flow_through_faces(const Domain<Dim>& domain, const GapFlow<Dim>& solved, FaceField<Dim> u) {
+  for (int a = 0; a < Dim; ++a)
+    solved.u[a].for_each_stored([&](Site f, double value) {
+      if (value != 0) u.at(a, f) = value;
+    });
+  domain.halo.fill_ghosts(u);
+  return u;
+}
+
+}  // namespace
+
+template <int Dim>
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
+                         const Ledger<Dim>& ledger, const State<Dim>& before, State<Dim>& state) {
   const CellField<Dim>& phi = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
-  const VolumeStep step =
-      carry_volume(domain.layout, domain.halo, domain.ranks, u, span, phi, divergence, state.liquid);
+  const std::optional<FaceField<Dim>> through =
+      ledger.room.is_whole() ? std::nullopt : std::optional(flow_through_faces(domain, solved, u));
+  const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks, {u, through ? *through : u}, span, phi,
+                                       ledger, state.liquid);
   state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
   state.spilled_volume += step.spill.moved * domain.layout.geometry().cell_volume();
   if (step.too_far == 0) return {};
@@ -35,8 +54,8 @@ std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, dou
 }
 
 template <int Dim>
-void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence, State<Dim>& state) {
-  couple_level_set(domain.layout, domain.halo, domain.ranks, psi, divergence, state.phi, state.liquid);
+void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, const Ledger<Dim>& ledger, State<Dim>& state) {
+  couple_level_set(domain.layout, domain.halo, domain.ranks, psi, ledger, state.phi, state.liquid);
 }
 
 template <int Dim>
@@ -66,13 +85,13 @@ double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
   return domain.ranks.global_sum(cells) * domain.layout.geometry().cell_volume();
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                      \
-  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                                 \
-  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, double, Divergence, const State<D>&, \
-                                       State<D>&);                                                                 \
-  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, Divergence, State<D>&);                    \
-  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);                     \
-  template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                            \
+#define SEICHE_INSTANTIATE(D)                                                                            \
+  template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                       \
+  template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const GapFlow<D>&, double, \
+                                       const Ledger<D>&, const State<D>&, State<D>&);                    \
+  template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);    \
+  template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);           \
+  template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                  \
   template double drifting_volume<D>(const Domain<D>&, const State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

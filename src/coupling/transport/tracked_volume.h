@@ -11,15 +11,15 @@ template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
 
 // Carries State::liquid from the time it belongs to over `span` (s) along the flow u (m/s) that carries the level set.
-// `before`: the state as it was. Books what passes the sides, and what the flow's divergence adds. Empty, or a text if
-// paths leave the halo. Collective.
+// `solved`: of the same flow, on faces that are hardly open. `before`: the state as it was. Books what passes the
+// sides, and what the flow's divergence adds. Empty, or a text if paths leave the halo. Collective.
 template <int Dim>
-std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, double span, Divergence divergence,
-                         const State<Dim>& before, State<Dim>& state);
+std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
+                         const Ledger<Dim>& ledger, const State<Dim>& before, State<Dim>& state);
 
 // Brings level set and volume together after both were carried. Collective.
 template <int Dim>
-void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, Divergence divergence, State<Dim>& state);
+void couple_liquid(const Domain<Dim>& domain, const NodeField<Dim>& psi, const Ledger<Dim>& ledger, State<Dim>& state);
 
 // Empty, or a text if State::liquid changed from `before` to `next` by other than what passed the sides, to 1e-11 of
 // it: a hundred times the rounding of a sum over 1e6 cells. Collective.

@@ -28,9 +28,10 @@ struct ProjectionInput {
   const FaceField<Dim>* surface_jump = nullptr;
   const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none
 
-  // Shares of liquid, null: none; and the time in which what is above 1 flows out, s. Deep cells below 1 are filled
-  // (fluid/volume/ledger.h). It must not be that of a single short step: the outflow would be a blow.
+  // Shares of liquid, null: none; and the time in which what is beyond a cell's room flows out, s. Deep cells are
+  // filled (fluid/volume/ledger.h). It must not be that of a single short step: the outflow would be a blow.
   const CellField<Dim>* share = nullptr;
+  Room<Dim> room = {};
   double excess_time = 0;
   const CellField<Dim>* filling = nullptr;  // inflow that fills cells, per face area, m/s; null: none
 
@@ -39,13 +40,16 @@ struct ProjectionInput {
   bool has_gas() const { return gas_density > 0; }
   bool is_liquid(Site cell) const { return phi[cell] < 0; }
   bool is_separated(Site cell) const { return separation && separation->separated[cell]; }
+  double outflow_of_excess(Site cell) const {
+    const double excess = (*share)[cell] - room.of(cell);
+    const bool flows = excess > 0 || is_deep<Dim>(layout, {Divergence::stays, room}, phi, *share, cell);
+    return flows ? excess * layout.h() / excess_time : 0;
+  }
   // Inflow that fills a cell or its gap within the step, less the outflow of its excess, per face area, m/s.
   double missing_flux(Site cell) const {
     double flux = separation ? separation->gap[cell] * layout.h() / dt : 0;
     if (filling) flux += (*filling)[cell];
-    if (share && ((*share)[cell] > 1 || is_deep(layout, Divergence::stays, phi, *share, cell)))
-      flux -= ((*share)[cell] - 1) * layout.h() / excess_time;
-    return flux;
+    return share ? flux - outflow_of_excess(cell) : flux;
   }
 };
 

@@ -1,6 +1,10 @@
 #pragma once
-// The excess of cells deep in the liquid: what the error of a solve has moved into them, V - 1. It is not spilled,
-// since no neighbour has room. The next solves push it out (ProjectionInput::missing_flux).
+// How full cells are. A cell holds liquid up to its room K. The excess of cells deep in the liquid, V - K, is what the
+// error of a solve has moved into them. It is not spilled, since no neighbour has room. The next solves push it out
+// (ProjectionInput::missing_flux).
+#include <type_traits>
+
+#include "fluid/volume/room.h"
 #include "grid/fields.h"
 #include "grid/groups.h"
 
@@ -10,33 +14,49 @@ namespace seiche {
 // error of a solve; V keeps it as the excess of deep cells.
 enum class Divergence { swells, stays };
 
+// What V is measured by.
+template <int Dim>
+struct LedgerRules {
+  Divergence divergence;
+  Room<Dim> room;
+
+  LedgerRules(Divergence d, Room<Dim> r = {}) : divergence(d), room(r) {}  // NOLINT: a Divergence alone will do
+};
+template <int Dim>
+using Ledger = std::type_identity_t<LedgerRules<Dim>>;  // converts where Dim follows from other arguments
+
 // True if the cell is full but for an excess: phi (m) knows no surface near it.
 template <int Dim>
-bool is_deep(const Layout<Dim>& layout, Divergence divergence, const CellField<Dim>& phi, const CellField<Dim>& share,
-             Site cell) {
-  constexpr double depth = 1.2, least = 0.95;  // cells; share
-  return divergence == Divergence::stays && phi[cell] < -depth * layout.h() && share[cell] > least;
+bool is_deep(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const CellField<Dim>& phi,
+             const CellField<Dim>& share, Site cell) {
+  constexpr double depth = 1.2, lacking = 0.05;  // cells; share
+  return ledger.divergence == Divergence::stays && phi[cell] < -depth * layout.h() &&
+         share[cell] > ledger.room.of(cell) - lacking && ledger.room.of(cell) > 0;
 }
 
-// Shares that count for planes and regions: deep cells are full.
+// Shares that count for planes and regions: of a cell's room. Deep cells are full.
 template <int Dim>
 class CountedShares {
  public:
-  CountedShares(const Layout<Dim>& layout, Divergence divergence, const CellField<Dim>& phi,
-                const CellField<Dim>& share)
-      : layout_(layout), divergence_(divergence), phi_(phi), share_(share) {}
+  // phi (m) and share must be valid in the halo. Keeps references.
+  CountedShares(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const CellField<Dim>& phi,
+                const CellField<Dim>& share);
 
   double operator[](Site c) const {
+    if (!beside_.empty()) return beside_[c];
     const double v = share_[c];
-    return v != 0 && v != 1 && is_deep(layout_, divergence_, phi_, share_, c) ? 1 : v;
+    return v != 0 && v != 1 && is_deep(layout_, ledger_, phi_, share_, c) ? 1 : v;
   }
-  // True if the cells of a group (grid/groups.h) are empty.
+  // True if the cells of a group (grid/groups.h) hold nothing.
   bool all_empty(Site first) const { return all_zero(share_.data() + first); }
 
  private:
+  double beside_solids(Site cell) const;
+
   const Layout<Dim>& layout_;
-  Divergence divergence_;
+  LedgerRules<Dim> ledger_;
   const CellField<Dim>&phi_, &share_;
+  CellField<Dim> beside_;  // of all cells; empty: there are no solids
 };
 
 }  // namespace seiche

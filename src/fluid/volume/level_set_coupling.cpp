@@ -67,8 +67,9 @@ double shift_level_set(const Layout<Dim>& layout, const Difference<Dim>& d, cons
 
 template <int Dim>
 Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                         const NodeField<Dim>& psi, Divergence divergence, CellField<Dim>& phi, CellField<Dim>& share) {
-  const Difference<Dim> d(layout, psi, phi, divergence, share);
+                         const NodeField<Dim>& psi, const Ledger<Dim>& ledger, CellField<Dim>& phi,
+                         CellField<Dim>& share) {
+  const Difference<Dim> d(layout, psi, phi, ledger, share);
   Stray<Dim> stray(layout, d, phi, share);
   const std::vector<Site> surface = listed_possible(
       layout, layout.cells(), [](Site) { return true; }, [&](Site c) { return d.on_surface(c); });
@@ -83,7 +84,7 @@ Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const
   fill_share_ghosts(layout, halo, share);
   const CellField<Dim> old = phi;
   r.level_set = shift_level_set(layout, d, delta, phi);
-  r.rebuilt = rebuild_level_set(layout, stray.rebuild, old, divergence, share, phi);
+  r.rebuilt = rebuild_level_set(layout, stray.rebuild, old, ledger, share, phi);
   fill_level_set_ghosts(layout, halo, phi);
   std::array<double, 3> sums{r.level_set, r.volumes, double(r.rebuilt)};
   ranks.global_sum(sums);
@@ -91,8 +92,8 @@ Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const
 }
 
 template Coupled couple_level_set<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const NodeField<2>&,
-                                     Divergence, CellField<2>&, CellField<2>&);
+                                     const Ledger<2>&, CellField<2>&, CellField<2>&);
 template Coupled couple_level_set<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const NodeField<3>&,
-                                     Divergence, CellField<3>&, CellField<3>&);
+                                     const Ledger<3>&, CellField<3>&, CellField<3>&);
 
 }  // namespace seiche

@@ -19,6 +19,7 @@ struct Coupled {
 // sum of the shares does not change. Fills the ghosts of both. Collective.
 template <int Dim>
 Coupled couple_level_set(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                         const NodeField<Dim>& psi, Divergence divergence, CellField<Dim>& phi, CellField<Dim>& share);
+                         const NodeField<Dim>& psi, const Ledger<Dim>& ledger, CellField<Dim>& phi,
+                         CellField<Dim>& share);
 
 }  // namespace seiche

@@ -28,7 +28,7 @@ double distance_of_cell(const IVec<Dim>& offset) {
 
 // Signed distance (m) of a cell's centre from the pieces of the cells within two, at most two cells.
 template <int Dim>
-double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& pieces, const CellField<Dim>& share,
+double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& pieces, const CountedShares<Dim>& share,
                           Site c) {
   constexpr int reach = 2;
   const Vec<Dim> middle = Vec<Dim>::Constant(0.5);
@@ -51,7 +51,7 @@ double distance_of_pieces(const Layout<Dim>& layout, const SurfacePieces<Dim>& p
 
 template <int Dim>
 std::int64_t rebuild_level_set(const Layout<Dim>& layout, const CellField<Dim, char>& marked, const CellField<Dim>& old,
-                               Divergence divergence, const CellField<Dim>& share, CellField<Dim>& phi) {
+                               const Ledger<Dim>& ledger, const CellField<Dim>& share, CellField<Dim>& phi) {
   const auto all = [&](int layers, const CellField<Dim, char>& mask) {
     return listed_possible(
         layout, layout.grown(layers), [&](Site c) { return any_marked(mask.data() + c); },
@@ -63,15 +63,15 @@ std::int64_t rebuild_level_set(const Layout<Dim>& layout, const CellField<Dim, c
   mark_around(layout, where, 1, rebuilt);
   mark_around(layout, where, 3, around);
   const std::vector<Site> cells = all(0, rebuilt);
-  const SurfacePieces<Dim> pieces =
-      surface_pieces(layout, layout.grown(2), old, CountedShares<Dim>(layout, divergence, old, share), &around);
-  for_each_listed(cells, [&](Site c) { phi[c] = distance_of_pieces(layout, pieces, share, c); });
+  const CountedShares<Dim> counted(layout, ledger, old, share);
+  const SurfacePieces<Dim> pieces = surface_pieces(layout, layout.grown(2), old, counted, &around);
+  for_each_listed(cells, [&](Site c) { phi[c] = distance_of_pieces(layout, pieces, counted, c); });
   return std::int64_t(cells.size());
 }
 
-template std::int64_t rebuild_level_set<2>(const Layout<2>&, const CellField<2, char>&, const CellField<2>&, Divergence,
-                                           const CellField<2>&, CellField<2>&);
-template std::int64_t rebuild_level_set<3>(const Layout<3>&, const CellField<3, char>&, const CellField<3>&, Divergence,
-                                           const CellField<3>&, CellField<3>&);
+template std::int64_t rebuild_level_set<2>(const Layout<2>&, const CellField<2, char>&, const CellField<2>&,
+                                           const Ledger<2>&, const CellField<2>&, CellField<2>&);
+template std::int64_t rebuild_level_set<3>(const Layout<3>&, const CellField<3, char>&, const CellField<3>&,
+                                           const Ledger<3>&, const CellField<3>&, CellField<3>&);
 
 }  // namespace seiche

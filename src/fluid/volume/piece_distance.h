@@ -9,6 +9,6 @@ namespace seiche {
 // cell. Fields must be valid four cells around the owned ones, marks one. Returns the number of cells.
 template <int Dim>
 std::int64_t rebuild_level_set(const Layout<Dim>& layout, const CellField<Dim, char>& marked, const CellField<Dim>& old,
-                               Divergence divergence, const CellField<Dim>& share, CellField<Dim>& phi);
+                               const Ledger<Dim>& ledger, const CellField<Dim>& share, CellField<Dim>& phi);
 
 }  // namespace seiche

@@ -11,13 +11,13 @@ namespace {
 template <int Dim>
 class Excess {
  public:
-  Excess(const Layout<Dim>& layout, const CellField<Dim>& share, Site cell, bool anywhere)
-      : layout_(layout), share_(share), cell_(cell), index_(layout.index(cell)), anywhere_(anywhere) {
-    const double v = share[cell];
-    amount = v > 1 ? v - 1 : std::min(v, 0.0);
+  Excess(const Layout<Dim>& layout, const Room<Dim>& room, const CellField<Dim>& share, Site cell, bool anywhere)
+      : layout_(layout), room_(room), share_(share), cell_(cell), index_(layout.index(cell)), anywhere_(anywhere) {
+    const double v = share[cell], most = room.of(cell);
+    amount = v > most ? v - most : std::min(v, 0.0);
     each_neighbour([&](Site, double room) { total_ += room; });
   }
-  double amount;  // above 1, or below 0
+  double amount;  // beyond its room, or below 0
   double moved() const { return std::copysign(std::min(std::abs(amount), total_), amount); }
 
   // visit(neighbour, what it gets)
@@ -33,19 +33,21 @@ class Excess {
   double room_of(Site n) const {
     constexpr double wet = 1e-6;
     if (amount < 0) return std::max(0.0, share_[n]);
-    return anywhere_ || share_[n] > wet ? std::max(0.0, 1 - share_[n]) : 0;
+    return anywhere_ || share_[n] > wet ? std::max(0.0, room_.of(n) - share_[n]) : 0;
   }
   template <class Visit>
   void each_neighbour(const Visit& visit) const {
     for (int n = 0; n < neighbour_count<Dim>(); ++n) {
       const IVec<Dim> o = neighbour_offset<Dim>(n);
       if (o.isZero() || !lies_in_domain(layout_.geometry(), IVec<Dim>(index_ + o))) continue;
+      if (!room_.joins(layout_, cell_, o)) continue;
       const Site s = cell_ + step_of(layout_, o);
       if (const double room = room_of(s); room > 0) visit(s, room);
     }
   }
 
   const Layout<Dim>& layout_;
+  const Room<Dim>& room_;
   const CellField<Dim>& share_;
   Site cell_;
   IVec<Dim> index_;
@@ -56,16 +58,17 @@ class Excess {
 // One round, from the shares `before` it. What this rank's cells gave.
 template <int Dim>
 Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, const CellField<Dim>& phi,
-                   Divergence divergence, bool anywhere, CellField<Dim>& share) {
+                   const Ledger<Dim>& ledger, bool anywhere, CellField<Dim>& share) {
   constexpr double rounding = 1e-13;
   Spill spill;
   const std::vector<Site> cells = listed_possible(
       layout, cells_around(layout, 1), [](Site) { return true; },
       [&](Site c) {
-        return (before[c] > 1 + rounding || before[c] < -rounding) && !is_deep(layout, divergence, phi, before, c);
+        return (before[c] > ledger.room.of(c) + rounding || before[c] < -rounding) &&
+               !is_deep(layout, ledger, phi, before, c);
       });
   for (const Site c : cells) {
-    const Excess<Dim> excess(layout, before, c, anywhere);
+    const Excess<Dim> excess(layout, ledger.room, before, c, anywhere);
     excess.hand_on([&](Site n, double amount) { share[n] += amount; });
     share[c] -= excess.moved();
     if (!layout.cells().contains(layout.index(c))) continue;
@@ -73,6 +76,22 @@ Spill hand_on_once(const Layout<Dim>& layout, const CellField<Dim>& before, cons
     spill.worst = std::max(spill.worst, std::abs(excess.amount));
   }
   return spill;
+}
+
+// Cells with little room beside solids hand what is beyond it to their hosts, which may have to spill it.
+template <int Dim>
+void hand_to_hosts(const Layout<Dim>& layout, const Halo<Dim>& halo, const Room<Dim>& room, CellField<Dim>& share) {
+  constexpr int rounds = 3;  // a host may have a host
+  if (room.is_whole()) return;
+  for (int round = 0; round < rounds; ++round) {
+    const CellField<Dim> before = share;
+    room.each_with_host(layout, cells_around(layout, 1), [&](Site c, Site host) {
+      const double beyond = before[c] - std::clamp(before[c], 0.0, room.of(c));
+      share[host] += beyond;
+      share[c] -= beyond;
+    });
+    fill_share_ghosts(layout, halo, share);
+  }
 }
 
 }  // namespace
@@ -85,11 +104,12 @@ void fill_share_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, CellFie
 
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     const CellField<Dim>& phi, Divergence divergence, CellField<Dim>& share) {
+                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, CellField<Dim>& share) {
   Spill all;
+  hand_to_hosts(layout, halo, ledger.room, share);
   for (int round = 0; round < 3; ++round) {
     const CellField<Dim> before = share;
-    const Spill spill = hand_on_once(layout, before, phi, divergence, round > 0, share);
+    const Spill spill = hand_on_once(layout, before, phi, ledger, round > 0, share);
     all.moved += ranks.global_sum(spill.moved);
     if (round == 0) all.worst = ranks.global_max(spill.worst);
     fill_share_ghosts(layout, halo, share);
@@ -99,7 +119,7 @@ Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Com
 
 #define SEICHE_INSTANTIATE(D)                                                                                  \
   template Spill hand_on_excess<D>(const Layout<D>&, const Halo<D>&, const Communicator&, const CellField<D>&, \
-                                   Divergence, CellField<D>&);                                                 \
+                                   const Ledger<D>&, CellField<D>&);                                           \
   template void fill_share_ghosts<D>(const Layout<D>&, const Halo<D>&, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

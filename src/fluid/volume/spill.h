@@ -1,5 +1,5 @@
 #pragma once
-// Shares of liquid above 1 and below 0, handed to and taken from neighbours.
+// Liquid beyond the room of a cell or below 0, handed to and taken from neighbours.
 #include "base/communicator.h"
 #include "fluid/volume/ledger.h"
 #include "grid/halo.h"
@@ -15,7 +15,7 @@ struct Spill {
 // so that the result does not depend on the ranks. What finds no room stays. Fills ghosts. Collective.
 template <int Dim>
 Spill hand_on_excess(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                     const CellField<Dim>& phi, Divergence divergence, CellField<Dim>& share);
+                     const CellField<Dim>& phi, const Ledger<Dim>& ledger, CellField<Dim>& share);
 
 // Ghosts of shares; beyond sides those of the cells at them. Collective.
 template <int Dim>

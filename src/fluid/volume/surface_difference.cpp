@@ -19,17 +19,17 @@ bool Difference<Dim>::on_surface(Site c) const {
 
 template <int Dim>
 Difference<Dim>::Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi, const CellField<Dim>& phi,
-                            Divergence divergence, const CellField<Dim>& share)
-    : area(layout), missing(layout) {
+                            const Ledger<Dim>& ledger, const CellField<Dim>& share)
+    : area(layout), missing(layout), room(ledger.room) {
   const double h = layout.h();
   for_each_site(layout, cells_around(layout, layout.halo() - 1), [&](Site c) {
     const double v = share[c];
     if (std::abs(phi[c]) < reached * h) {
       const VolumeAndArea found = share_and_area(layout, phi, psi, c);
       area[c] = found.area;
-      missing[c] = is_deep(layout, divergence, phi, share, c) ? 0 : v - found.volume;
-    } else if (const double by_level_set = phi[c] < 0;
-               v != by_level_set && !is_deep(layout, divergence, phi, share, c)) {
+      missing[c] = is_deep(layout, ledger, phi, share, c) ? 0 : v - found.volume;
+    } else if (const double by_level_set = phi[c] < 0 ? room.of(c) : 0;
+               v != by_level_set && !is_deep(layout, ledger, phi, share, c)) {
       missing[c] = v - by_level_set;
     }
   });

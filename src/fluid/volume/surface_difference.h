@@ -15,9 +15,10 @@ namespace seiche {
 template <int Dim>
 struct Difference {
   CellField<Dim> area, missing;
+  Room<Dim> room;
 
   // phi (m) and the shares of liquid must be valid in the halo; psi (m): of the solids. Deep cells do not differ.
-  Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi, const CellField<Dim>& phi, Divergence divergence,
+  Difference(const Layout<Dim>& layout, const NodeField<Dim>& psi, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
              const CellField<Dim>& share);
   bool on_surface(Site c) const;
 };
@@ -31,7 +32,7 @@ void visit_links(const Layout<Dim>& layout, const Difference<Dim>& d, Site c, co
   for (int n = 0; n < neighbour_count<Dim>(); ++n) {
     const IVec<Dim> o = neighbour_offset<Dim>(n);
     const Site m = c + step_of(layout, o);
-    if (m == c || !d.on_surface(m)) continue;
+    if (m == c || !d.on_surface(m) || !d.room.joins(layout, c, o)) continue;
     visit(m, filter_length * filter_length * std::min(d.area[c], d.area[m]) / o.squaredNorm());
   }
 }

@@ -76,7 +76,7 @@ std::array<Vec<Dim>, 3> slopes(const ShareBlock<Dim>& s, int axis) {
 // surface is far from crossing tell nothing.
 template <int Dim>
 Vec<Dim> normal_of_columns(const ShareBlock<Dim>& s) {
-  constexpr double crossed = 0.5, dust = 1e-4;
+  constexpr double crossed = 0.5, dust = 1e-4, tie = 1e-6;  // of equal misfits the first one counts, not rounding
   const Vec<Dim> gradient = s.gradient(), size = gradient.cwiseAbs();
   const double own = s.share[std::size_t(ShareBlock<Dim>::count / 2)];
   if (std::min(own, 1 - own) < dust && size.maxCoeff() > dust) return -gradient.normalized();
@@ -94,7 +94,7 @@ Vec<Dim> normal_of_columns(const ShareBlock<Dim>& s) {
       }
       n.normalize();
       const double found = s.misfit(n, least);
-      if (found < least) least = found, best = n;
+      if (found < (1 - tie) * least) least = found, best = n;
     }
   }
   return best;

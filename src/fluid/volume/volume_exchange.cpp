@@ -13,8 +13,9 @@ namespace {
 template <int Dim, class Visit>
 void each_on_surface(const Layout<Dim>& layout, const Difference<Dim>& d, Site c, const Visit& visit) {
   for (int n = 0; n < neighbour_count<Dim>(); ++n) {
-    const Site m = c + step_of(layout, neighbour_offset<Dim>(n));
-    if (m != c && d.on_surface(m)) visit(m);
+    const IVec<Dim> o = neighbour_offset<Dim>(n);
+    const Site m = c + step_of(layout, o);
+    if (m != c && d.on_surface(m) && d.room.joins(layout, c, o)) visit(m);
   }
 }
 
@@ -30,7 +31,7 @@ class Exchange {
     for_each_listed(surface, [&](Site c) {
       double in = 0, out = 0;
       each(c, [&](Site, double f) { (f > 0 ? in : out) += std::abs(f); });
-      takes_[c] = in > 0 ? std::clamp((1 - share[c]) / in, 0.0, 1.0) : 1;
+      takes_[c] = in > 0 ? std::clamp((d_.room.of(c) - share[c]) / in, 0.0, 1.0) : 1;
       gives_[c] = out > 0 ? std::clamp(share[c] / out, 0.0, 1.0) : 1;
     });
   }
@@ -69,21 +70,34 @@ CellField<Dim, char> good_cells(const Layout<Dim>& layout, const Difference<Dim>
   return good;
 }
 
+// Cells with little room have what the level set gives them. Their hosts have the rest.
+template <int Dim>
+void settle_with_hosts(const Layout<Dim>& layout, const Difference<Dim>& d, const Box<Dim>& box, CellField<Dim>& rhs,
+                       CellField<Dim>& change) {
+  d.room.each_with_host(layout, box, [&](Site c, Site host) {
+    const double missing = d.missing[c];
+    change[c] -= missing;
+    change[host] += missing;
+    rhs[c] = 0;
+    if (d.on_surface(host)) rhs[host] += missing;
+  });
+}
+
 // A share of liquid that cell `to` is to take from cell `from`, or to give where it is negative.
 struct StrayPart {
   Site from, to;
   double share;
 };
 
-// Hands the parts over, as far as what each cell takes or gives in all leaves its share in [0, 1].
+// Hands the parts over, as far as what each cell takes or gives in all leaves it between empty and full.
 template <int Dim>
-void hand_over(const Layout<Dim>& layout, const std::vector<StrayPart>& parts, const CellField<Dim>& share,
-               CellField<Dim>& change) {
+void hand_over(const Layout<Dim>& layout, const Room<Dim>& cells, const std::vector<StrayPart>& parts,
+               const CellField<Dim>& share, CellField<Dim>& change) {
   CellField<Dim> taken(layout), given(layout);
   for (const StrayPart& p : parts) (p.share > 0 ? taken : given)[p.to] += std::abs(p.share);
   for (const StrayPart& p : parts) {
     const double all = (p.share > 0 ? taken : given)[p.to],
-                 room = std::max(p.share > 0 ? 1 - share[p.to] : share[p.to], 0.0);
+                 room = std::max(p.share > 0 ? cells.of(p.to) - share[p.to] : share[p.to], 0.0);
     const double part = p.share * (all > room ? room / all : 1);
     change[p.to] += part;
     change[p.from] -= part;
@@ -103,8 +117,10 @@ Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const Cel
   const std::vector<Site> cells = listed_possible(
       layout, box, [](Site) { return true; },
       [&](Site c) { return !d.on_surface(c) && std::abs(d.missing[c]) > rounding; });
+  settle_with_hosts(layout, d, first, rhs, change);
   std::vector<StrayPart> parts;
   for (const Site c : cells) {
+    if (d.room.host_of(layout, c)) continue;
     double room = 0;
     each_on_surface(layout, d, c, [&](Site m) { room += d.area[m]; });
     if (room < least_room || std::abs(d.missing[c]) > most) {
@@ -117,7 +133,7 @@ Stray<Dim>::Stray(const Layout<Dim>& layout, const Difference<Dim>& d, const Cel
       if (first.contains(layout.index(m)) && is_smooth(layout, phi, m)) parts.push_back({c, m, part});
     });
   }
-  hand_over(layout, parts, share, change);
+  hand_over(layout, d.room, parts, share, change);
 }
 
 template <int Dim>

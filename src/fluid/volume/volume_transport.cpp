@@ -5,6 +5,7 @@
 #include "fluid/transport/advection.h"
 #include "fluid/volume/ledger.h"
 #include "fluid/volume/liquid_in_cells.h"
+#include "fluid/volume/neighbours.h"
 #include "fluid/volume/swept_region.h"
 #include "grid/domain_faces.h"
 #include "grid/loops.h"
@@ -101,7 +102,7 @@ class NodeOrigins {
 // The flow of a step, frozen, and the cells near the surface.
 template <int Dim>
 struct FrozenFlow {
-  const FaceField<Dim>& u;
+  const FaceField<Dim>& through;
   double dt;
   const CellField<Dim, char>& near;
   const NodeOrigins<Dim>& origins;
@@ -109,8 +110,8 @@ struct FrozenFlow {
 
 // Liquid that passes each face of the owned cells towards +axis in the step, in cells.
 template <int Dim>
-FaceField<Dim> fluxes(const Layout<Dim>& layout, const FrozenFlow<Dim>& flow, const LiquidInCells<Dim>& liquid,
-                      const CountedShares<Dim>& share) {
+FaceField<Dim> fluxes(const Layout<Dim>& layout, const Room<Dim>& room, const FrozenFlow<Dim>& flow,
+                      const LiquidInCells<Dim>& liquid, const CountedShares<Dim>& share) {
   FaceField<Dim> r(layout);
   for (int a = 0; a < Dim; ++a) {
     const auto steps = corner_steps<Dim>(a);
@@ -120,9 +121,10 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const FrozenFlow<Dim>& flow, co
       return any_marked(near + f) || any_marked(near + f - low) || !share.all_empty(f);
     };
     for_each_possible(layout, faces_of_cells(layout, a), may_matter, [&](Site f) {
-      const double volume = flow.u.at(a, f) * flow.dt / layout.h();
+      const double volume = flow.through.at(a, f) * flow.dt / layout.h(), open = room.through(a, f);
+      if (open == 0 || (volume == 0 && !room.is_whole())) return;  // beside solids, paths may lead out of walls
       if (!near[f] && !near[f - low]) {
-        if (share[f] > 0.5) r.at(a, f) = volume;
+        if (share[f] > 0.5) r.at(a, f) = open * volume;
         return;
       }
       const IVec<Dim> i = layout.index(f);
@@ -132,7 +134,7 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const FrozenFlow<Dim>& flow, co
         face.before[k] = flow.origins[layout.site(i + steps[k])];
       }
       const int uniform = liquid.uniform(range_of(face));
-      r.at(a, f) = uniform >= 0 ? uniform * volume : liquid.within(SweptRegion<Dim>(face, volume));
+      r.at(a, f) = open * (uniform >= 0 ? uniform * volume : liquid.within(SweptRegion<Dim>(face, volume)));
     });
   }
   return r;
@@ -140,10 +142,15 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const FrozenFlow<Dim>& flow, co
 
 // Gain of the liquid in a cell by the flow's divergence, in cells: full cells stay full.
 template <int Dim>
-double swelling(const Layout<Dim>& layout, const FaceField<Dim>& u, double dt, const CellField<Dim>& share, Site c) {
+double swelling(const Layout<Dim>& layout, const Room<Dim>& room, const FrozenFlow<Dim>& flow,
+                const CountedShares<Dim>& share, Site c) {
   constexpr double rounding = 1e-12;
   double net = 0;
-  for (int a = 0; a < Dim; ++a) net += (u.at(a, c + layout.stride(a)) - u.at(a, c)) * dt / layout.h();
+  for (int a = 0; a < Dim; ++a) {
+    const Site high = c + layout.stride(a);
+    net += (room.through(a, high) * flow.through.at(a, high) - room.through(a, c) * flow.through.at(a, c)) * flow.dt /
+           layout.h();
+  }
   return std::abs(net) > rounding ? share[c] * net : 0;
 }
 
@@ -173,17 +180,17 @@ int cells_of_paths(const Layout<Dim>& layout, const Communicator& ranks, const F
 // One part of a step.
 template <int Dim>
 VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, Divergence divergence,
+                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
                       CellField<Dim>& share) {
-  const CountedShares<Dim> counted(layout, divergence, phi, share);
-  const LiquidInCells<Dim> liquid(layout, phi, counted, divergence == Divergence::stays);
-  const FaceField<Dim> flux = fluxes(layout, flow, liquid, counted);
+  const CountedShares<Dim> counted(layout, ledger, phi, share);
+  const LiquidInCells<Dim> liquid(layout, phi, counted, ledger.divergence == Divergence::stays);
+  const FaceField<Dim> flux = fluxes(layout, ledger.room, flow, liquid, counted);
   double swollen = 0;
-  if (divergence == Divergence::swells) {
-    const CellField<Dim> old = share;
-    const auto gain = [&](Site c) { return swelling(layout, flow.u, flow.dt, old, c); };
-    for_each_site(layout, layout.cells(), [&](Site c) { share[c] += gain(c); });
-    swollen = local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return gain(c); });
+  if (ledger.divergence == Divergence::swells) {
+    CellField<Dim> gain(layout);
+    for_each_site(layout, layout.cells(), [&](Site c) { gain[c] = swelling(layout, ledger.room, flow, counted, c); });
+    for_each_site(layout, layout.cells(), [&](Site c) { share[c] += gain[c]; });
+    swollen = local_sum(layout, layout.cells(), [&](Site c, const IVec<Dim>&) { return gain[c]; });
   }
   for_each_site(layout, layout.cells(), [&](Site c) {
     double change = 0;
@@ -193,38 +200,38 @@ VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Co
   fill_share_ghosts(layout, halo, share);
   std::array<double, 2> sums{entering(layout, flux), swollen};
   ranks.global_sum(sums);
-  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, phi, divergence, share), 0};
+  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, phi, ledger, share), 0};
 }
 
 }  // namespace
 
 template <int Dim>
 VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, Divergence divergence,
-                        CellField<Dim>& share) {
+                        const std::type_identity_t<VolumeFlow<Dim>>& flow, double dt, const CellField<Dim>& phi,
+                        const Ledger<Dim>& ledger, CellField<Dim>& share) {
   constexpr int most_parts = 4;
-  const Trace trace = divergence == Divergence::stays ? Trace::midpoint : Trace::third_order;
+  const Trace trace = ledger.divergence == Divergence::stays ? Trace::midpoint : Trace::third_order;
   VolumeStep all;
   for (int parts = 1, done = 0; done < parts;) {
     const double part = dt / parts;
-    const int reach = std::min(layout.halo() - 2, cells_of_paths(layout, ranks, u, part));
-    const CellField<Dim, char> near = near_surface(layout, CountedShares<Dim>(layout, divergence, phi, share), reach);
-    const NodeOrigins<Dim> origins(layout, u, part, near, trace);
+    const int reach = std::min(layout.halo() - 2, cells_of_paths(layout, ranks, flow.u, part));
+    const CellField<Dim, char> near = near_surface(layout, CountedShares<Dim>(layout, ledger, phi, share), reach);
+    const NodeOrigins<Dim> origins(layout, flow.u, part, near, trace);
     const std::int64_t too_far = ranks.global_sum(origins.too_far());
     if (too_far > 0 && done == 0 && parts < most_parts) {
       parts *= 2;
       continue;
     }
-    all += carry_part(layout, halo, ranks, {u, part, near, origins}, phi, divergence, share);
+    all += carry_part(layout, halo, ranks, {flow.through, part, near, origins}, phi, ledger, share);
     all.too_far += too_far;
     ++done;
   }
   return all;
 }
 
-template VolumeStep carry_volume<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const FaceField<2>&, double,
-                                    const CellField<2>&, Divergence, CellField<2>&);
-template VolumeStep carry_volume<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const FaceField<3>&, double,
-                                    const CellField<3>&, Divergence, CellField<3>&);
+template VolumeStep carry_volume<2>(const Layout<2>&, const Halo<2>&, const Communicator&, const VolumeFlow<2>&, double,
+                                    const CellField<2>&, const Ledger<2>&, CellField<2>&);
+template VolumeStep carry_volume<3>(const Layout<3>&, const Halo<3>&, const Communicator&, const VolumeFlow<3>&, double,
+                                    const CellField<3>&, const Ledger<3>&, CellField<3>&);
 
 }  // namespace seiche

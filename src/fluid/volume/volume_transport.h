@@ -19,19 +19,30 @@ struct VolumeStep {
   }
 };
 
+// What carries volumes, m/s. Paths follow u. What passes a face is `through` times its open share: the same, but beside
+// solids, where u is continued across faces that are hardly open.
+template <int Dim>
+struct VolumeFlow {
+  const FaceField<Dim>&u, &through;
+
+  VolumeFlow(const FaceField<Dim>& path) : u(path), through(path) {}  // NOLINT: without solids u will do
+  VolumeFlow(const FaceField<Dim>& path, const FaceField<Dim>& solved) : u(path), through(solved) {}
+};
+
 // Cells along each axis that a path may cross: what a halo holds less the layers that planes and regions take.
 template <int Dim>
 double longest_path(const Layout<Dim>& layout) {
   return layout.halo() - 2.5;
 }
 
-// Carries `share`, the liquid's share of each cell, over dt (s) along the frozen flow u (m/s):
+// Carries `share`, the liquid's share of each cell, over dt (s) along the frozen flow:
 //   V(t + dt) = V(t) - sum of the liquid in the regions that pass the faces.
-// phi (m) gives the normals of smooth surfaces. Steps with paths beyond longest_path() are taken in parts. Ghosts of
-// all fields must be filled; those of `share` are filled afterwards. Results do not depend on the ranks. Collective.
+// phi (m) gives the normals of smooth surfaces. Steps with paths beyond
+// longest_path() are taken in parts. Ghosts of all fields must be filled; those of `share` are filled afterwards.
+// Results do not depend on the ranks. Collective.
 template <int Dim>
 VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                        const FaceField<Dim>& u, double dt, const CellField<Dim>& phi, Divergence divergence,
-                        CellField<Dim>& share);
+                        const std::type_identity_t<VolumeFlow<Dim>>& flow, double dt, const CellField<Dim>& phi,
+                        const Ledger<Dim>& ledger, CellField<Dim>& share);
 
 }  // namespace seiche

@@ -233,14 +233,16 @@ TEST_CASE("gas has a density, and flows where liquid does not separate") {
 }
 
 TEST_CASE("volumes are carried in cells only where nothing stands against it") {
-  const std::string cells = small_scene + "[liquid]\nvolume = \"cells\"\n";
+  const std::string cells = small_scene + "[liquid]\nvolume = \"cells\"\n",
+                    ball = "[[solid]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n";
   check_all({{cells + "separates = true\n", "does not work with liquid.separates = true yet; use \"shift\""},
              {cells + "[gas]\n", "[gas]"},
              {cells + "[[liquid.source]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n", "[[liquid.source]]"},
-             {cells + "[[solid]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 1\n", "[[solid]]"},
+             {cells + ball + "kind = \"rigid\"\ndensity = 500\n", "[[solid]] that are not static"},
              {cells + "[domain.boundary]\nx_lower = { type = \"outflow\" }\n", "outflow sides"},
              {small_scene + "[liquid]\nvolume = \"cell\"\n", "did you mean \"cells\""}});
   CHECK(parse(cells).liquid.volume == VolumeKeeping::in_cells);
+  CHECK_NOTHROW(parse(cells + ball + "kind = \"static\"\n"));
   CHECK_NOTHROW(
       parse(cells + "prescribed_velocity = [1, 0, 0]\n[domain.boundary]\nx_lower = { type = \"outflow\" }\n"));
 }

@@ -1,0 +1,55 @@
+#pragma once
+// The part of cells and faces that solids leave to the liquid.
+#include <optional>
+
+#include "grid/halo.h"
+#include "grid/paged_fields.h"
+
+namespace seiche {
+
+// Open shares of cells and faces, 0..1, equal on all ranks and at periodic images.
+template <int Dim>
+struct OpenParts {
+  PagedCellField<Dim> cells;
+  PagedFaceField<Dim> faces;
+};
+// psi: distance to the solids at nodes (m). open: share of the faces. Collective.
+template <int Dim>
+OpenParts<Dim> measure_open_parts(const Layout<Dim>& layout, const Halo<Dim>& halo, const NodeField<Dim>& psi,
+                                  const PagedFaceField<Dim>& open);
+
+// Beside solids that stand still and are thicker than a cell.
+template <int Dim>
+class Room {
+ public:
+  Room() = default;                                               // no solids
+  explicit Room(const OpenParts<Dim>& parts) : parts_(&parts) {}  // keeps the reference
+
+  bool is_whole() const { return !parts_; }
+  // K of a cell, w of a face.
+  double of(Site cell) const { return parts_ ? parts_->cells[cell] : 1; }
+  double through(int axis, Site face) const { return parts_ ? parts_->faces.at(axis, face) : 1; }
+
+  // True if open faces lead from a cell to the one `offset` away (-1..1), one along each axis that this names. Cells on
+  // both sides of a wall may touch.
+  bool joins(const Layout<Dim>& layout, Site cell, const IVec<Dim>& offset) const;
+
+  // Calls visit(cell, host) in order for the cells of a box that have little room. The host is the neighbour that such
+  // a cell shares its liquid with: the one behind the most open face of those with more room.
+  template <class Visit>
+  void each_with_host(const Layout<Dim>& layout, const Box<Dim>& box, const Visit& visit) const {
+    if (!parts_) return;
+    parts_->cells.for_each_stored([&](Site c, double room) {
+      if (room == 0 || room >= little || !box.contains(layout.index(c))) return;
+      if (const std::optional<Site> host = host_of(layout, c)) visit(c, *host);
+    });
+  }
+  std::optional<Site> host_of(const Layout<Dim>& layout, Site cell) const;
+
+ private:
+  static constexpr double little = 0.3;
+
+  const OpenParts<Dim>* parts_ = nullptr;
+};
+
+}  // namespace seiche
