@@ -29,8 +29,8 @@ namespace {
 template <int Dim>
 FaceField<Dim> flow_through_faces(const Domain<Dim>& domain, const GapFlow<Dim>& solved, FaceField<Dim> u) {
   for (int a = 0; a < Dim; ++a)
-    solved.u[a].for_each_stored([&](Site f, double value) {
-      if (value != 0) u.at(a, f) = value;
+    for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
+      if (solved.u.at(a, f) != 0) u.at(a, f) = solved.u.at(a, f);
     });
   domain.halo.fill_ghosts(u);
   return u;

@@ -15,7 +15,7 @@ OpenParts<Dim> measure_open_parts(const Layout<Dim>& layout, const Halo<Dim>& ha
   for_each_site(layout, box, [&](Site c) { cells[c] = open_share(layout, psi, c); });
   halo.fill_ghosts(cells);
   FaceField<Dim> faces(layout, 1);
-  for (int a = 0; a < Dim; ++a) open[a].for_each_stored([&](Site f, double w) { faces.at(a, f) = w; });
+  for (int a = 0; a < Dim; ++a) for_each_site(layout, layout.padded(), [&](Site f) { faces.at(a, f) = open.at(a, f); });
   halo.fill_ghosts(faces);
   OpenParts<Dim> parts{PagedCellField<Dim>(layout, 1), PagedFaceField<Dim>(layout, 1)};
   for_each_index_in_order(layout, layout.padded(), [&](Site s, const IVec<Dim>&) {
