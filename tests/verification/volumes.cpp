@@ -4,19 +4,12 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
-#include "scenes.h"
+#include "volume_scenes.h"
 
 using namespace seiche;
+using test::kept_in_cells;
 
 namespace {
-
-Scene kept_in_cells(int dim, int cells, const std::string& phi) {
-  Scene s = test::box_scene(dim, cells);
-  s.gravity = {0, -9.81, 0};
-  s.liquid.volume = VolumeKeeping::in_cells;
-  test::add_liquid(s, phi);
-  return s;
-}
 
 Scene dam_break(int dim, int cells) {
   return kept_in_cells(dim, cells, dim == 2 ? "max(x-0.4,y-0.5)" : "max(x-0.4,max(y-0.5,z-0.6))");

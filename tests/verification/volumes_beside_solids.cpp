@@ -4,9 +4,10 @@
 
 #include "base/error.h"
 #include "base/solid_spec.h"
-#include "scenes.h"
+#include "volume_scenes.h"
 
 using namespace seiche;
+using test::kept_in_cells;
 
 namespace {
 
@@ -29,14 +30,6 @@ SolidSpec& add_sphere(Scene& s, const Vec3& center, double radius) {
   SolidSpec& solid = add_static(s, "sphere");
   solid.shape.center = center, solid.shape.radius = radius;
   return solid;
-}
-
-Scene kept_in_cells(int dim, int cells, const std::string& phi) {
-  Scene s = test::box_scene(dim, cells);
-  s.gravity = {0, -9.81, 0};
-  s.liquid.volume = VolumeKeeping::in_cells;
-  test::add_liquid(s, phi);
-  return s;
 }
 
 // Steps to `end`; the volume must keep to rounding.
