@@ -1,5 +1,5 @@
 #pragma once
-// How full cells are. A cell holds liquid up to its room K. The excess of cells deep in the liquid, V - K, is what the
+// Fullness of cells: a cell holds liquid up to its room K. Cells deep in the liquid have an excess, V - K, which the
 // error of a solve has moved into them. It is not spilled, since no neighbour has room. The next solves push it out
 // (ProjectionInput::missing_flux).
 #include <type_traits>
@@ -14,7 +14,7 @@ namespace seiche {
 // error of a solve; V keeps it as the excess of deep cells.
 enum class Divergence { swells, stays };
 
-// What V is measured by.
+// Measures of V: the room of cells, and the effect of divergence.
 template <int Dim>
 struct LedgerRules {
   Divergence divergence;

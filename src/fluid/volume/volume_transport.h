@@ -19,8 +19,8 @@ struct VolumeStep {
   }
 };
 
-// What carries volumes, m/s. Paths follow u. What passes a face is `through` times its open share: the same, but beside
-// solids, where u is continued across faces that are hardly open.
+// Velocities that carry volumes, m/s. Paths follow u. The volume that passes a face is `through` times its open share.
+// Both are the same but beside solids, where u is continued across faces that are hardly open.
 template <int Dim>
 struct VolumeFlow {
   const FaceField<Dim>&u, &through;
