@@ -9,6 +9,13 @@
 namespace seiche {
 namespace {
 
+constexpr double rounding = 1e-9;  // of Courant numbers: scenes with cfl = 1 or 2 must not change by it
+
+template <int Dim>
+double courant_number(const Domain<Dim>& domain, const State<Dim>& state, double dt) {
+  return fastest_component(domain, state) * dt / domain.layout.h();
+}
+
 // One pass of the (1, 2, 1)/4 filter along every axis, on the `reached` sites; f is 0 elsewhere. `scratch` as well.
 // Each axis takes one layer of ghosts along it, which are filled once at the end. Outer terms are added first, so that
 // both sides of a mirror have the same bits.
@@ -36,9 +43,9 @@ template <int Dim>
 FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, const Flow<Dim>& flow,
                            const CellField<Dim, char>& reached, double dt) {
   FaceField<Dim> trend(domain.layout);
-  if (!flow.before || state.dt_before == 0 || dt > 2 * state.dt_now) return trend;
-  const double courant = fastest_component(domain, state) * dt / domain.layout.h();
-  if (courant > 2) return trend;
+  if (!flow.before || state.dt_before == 0 || dt > 2 * state.dt_now || !may_extrapolate(domain, state, dt))
+    return trend;
+  const double courant = courant_number(domain, state, dt);
   const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before;
   const double ratio = (dt + state.dt_now) / (state.dt_now + state.dt_before);
   for (int a = 0; a < Dim; ++a)
@@ -48,7 +55,7 @@ FaceField<Dim> slope_trend(const Domain<Dim>& domain, const State<Dim>& state, c
     });
   fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, trend);
   FaceField<Dim> scratch(domain.layout);
-  for (int n = 0; n < std::ceil(2 * courant * courant); ++n) smooth(domain, reached, trend, scratch);
+  for (int n = 0; n < std::ceil(2 * courant * courant - 8 * rounding); ++n) smooth(domain, reached, trend, scratch);
   return trend;
 }
 
@@ -71,6 +78,11 @@ bool enters(const Domain<Dim>& domain, int axis, Site face, double u) {
 }
 
 }  // namespace
+
+template <int Dim>
+bool may_extrapolate(const Domain<Dim>& domain, const State<Dim>& state, double dt) {
+  return courant_number(domain, state, dt) <= 2 + rounding;
+}
 
 template <int Dim>
 FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
@@ -100,6 +112,7 @@ FaceField<Dim> carried_acceleration(const Domain<Dim>& domain, const Fluids& flu
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                 \
+  template bool may_extrapolate<D>(const Domain<D>&, const State<D>&, double);                                \
   template FaceField<D> carried_acceleration<D>(const Domain<D>&, const Fluids&, const TimeSpec&,             \
                                                 const OperatorPerturbation&, const State<D>&, const Flow<D>&, \
                                                 const CellField<D, char>&, const FaceField<D, char>&, double);

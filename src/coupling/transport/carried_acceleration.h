@@ -9,6 +9,11 @@ namespace seiche {
 
 struct TimeSpec;
 
+// True if liquid crosses at most two cells in dt. Extrapolation in time amplifies what longer steps carry
+// (docs/decisions/0005-smoothed-pressure-trend.md). Collective.
+template <int Dim>
+bool may_extrapolate(const Domain<Dim>& domain, const State<Dim>& state, double dt);
+
 // A = f - G: acceleration of a fluid at t + dt/2 from state.time = t, m/s^2, with G the pressure slope plus its trend.
 // Faces that are not `deep` in known flow, near a free surface say, take the minmod of A and that of the step before.
 // Flow that is smooth in time keeps A there, thin jets and drops do not

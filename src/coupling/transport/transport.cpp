@@ -114,8 +114,8 @@ struct Surroundings {
   }
 };
 
-// w = u(t + dt/2), m/s: in the interior extrapolated from up to three time levels, elsewhere the present u. Levels that
-// did not know a face count where it lies beside a solid: they were continued into it.
+// w = u(t + dt/2), m/s: in the interior extrapolated from up to three time levels if may_extrapolate(), elsewhere the
+// present u. Levels that did not know a face count where it lies beside a solid: they were continued into it.
 template <int Dim>
 FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, const State<Dim>& state,
                              const Flow<Dim>& flow, const Surroundings<Dim>& around, const ViscousPlan& plan,
@@ -126,6 +126,7 @@ FaceField<Dim> path_velocity(const Domain<Dim>& domain, const TimeSpec& time, co
   let_air_follow(domain.layout, domain.sides, state.time, flow.now->valid, w);
   if (!flow.before || time.scheme == TimeScheme::first_order) return w;
   if (dt > 2 * state.dt_now) return w;  // the weights grow with dt/dt_now and amplify noise
+  if (!may_extrapolate(domain, state, dt)) return w;
   const bool three = flow.earlier != nullptr && state.dt_now <= 2 * state.dt_before;
   const auto c = half_step_weights(dt, state.dt_now, three ? state.dt_before : 0);
   const TimeLevel<Dim>&l0 = *flow.now, &l1 = *flow.before, &l2 = three ? *flow.earlier : *flow.before;
