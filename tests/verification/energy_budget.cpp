@@ -58,6 +58,29 @@ void check_blown_up() {
   CHECK_THAT(fault(), Contains("kinetic energy grows from") && Contains("can supply no more than"));
 }
 
+// Half of a unit box of liquid, 500 kg with 250 J, cells of 1/8 m: what is lifted by one of them takes 625 J. Beyond
+// 875 J and the works, energy comes from nowhere.
+template <int Dim>
+void check_works() {
+  const Setup<Dim> setup(drifting_pool(Dim), Communicator());
+  State<Dim> start = initial_state(setup);
+  const StepStats before = measured(setup, start, setup.solids.geometry.measure(place_bodies(start), 0).psi);
+  Attempt<Dim> a;
+  a.state.phi = start.phi;
+  a.state.dt_now = 0.05;
+  a.stats = before;
+  const auto fault = [&](std::int64_t step, double created, double work) {
+    start.step = step;
+    a.state.work.lost_numerical = -created;
+    a.state.work.sides = work;
+    return fault_of_works(setup, start, before, a);
+  };
+  CHECK(fault(10, 870, 0).empty());
+  CHECK_THAT(fault(10, 880, 0), Contains("come from nowhere; there were 250"));
+  CHECK(fault(10, 880, -20).empty());
+  CHECK(fault(2, 1e6, 0).empty());
+}
+
 // A gradient scaled by c > 1 throws the pool up at (c - 1) g dt.
 std::unique_ptr<Simulation> perturbed(int dim, double factor) {
   OperatorPerturbation wrong;
@@ -90,6 +113,15 @@ TEST_CASE("velocities a thousand times too high in one step are a fault, sound o
   }
   SECTION("3D") {
     check_blown_up<3>();
+  }
+}
+
+TEST_CASE("energy that no work accounts for is a fault once it exceeds all there was", "[ranks]") {
+  SECTION("2D") {
+    check_works<2>();
+  }
+  SECTION("3D") {
+    check_works<3>();
   }
 }
 

@@ -22,7 +22,8 @@ struct Attempt {
   std::string failure;  // empty: accepted
   State<Dim> state;
   StepGeometry<Dim> geometry;
-  StepStats stats;  // volumes, energies, momentum and speed at its end
+  StepStats stats;                 // volumes, energies, momentum and speed at its end
+  std::vector<SolidState> solids;  // measured at its end
   SolveReport solve;
   double divergence = 0;  // largest |net flux|/volume of a cell, 1/s
   int newton_iterations = 0, contacts = 0;

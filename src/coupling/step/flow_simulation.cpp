@@ -31,7 +31,7 @@
 namespace seiche {
 namespace {
 
-constexpr int most_halvings = 7;
+constexpr int most_halvings = 7, most_for_energy = 3;
 constexpr int steps_between_looks = 16;  // at how the work of ranks is balanced
 
 // Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells they feed eddies
@@ -98,6 +98,7 @@ class FlowSimulation : public Simulation {
     for (int halvings = 0; halvings <= most_halvings && dt > 0;
          ++halvings, dt = hold_back(setup_->solids, state_, dt / 2)) {
       Attempt<Dim> a = attempt(dt);
+      if (a.failure.empty() && halvings < most_for_energy) a.failure = fault_of_works(*setup_, state_, stats_, a);
       if (a.failure.empty()) {
         accept(std::move(a));
         stats_.rejected = halvings;
@@ -192,7 +193,11 @@ class FlowSimulation : public Simulation {
     Attempt<Dim> a = attempt_step(*setup_, start, dt, phases_);
     if (!a.failure.empty()) return a;
     a.stats = measure(a.state, a.geometry);
-    if (!setup_->fluids.has_prescribed_flow()) a.failure = fault_of_energy(*setup_, state_, stats_, geometry_.psi, a);
+    const bool solved = !setup_->fluids.has_prescribed_flow();
+    if (solved) a.failure = fault_of_energy(*setup_, state_, stats_, geometry_.psi, a);
+    if (!a.failure.empty()) return a;
+    a.solids = measure_solids(setup_->domain, setup_->solids, setup_->scene->time, a.state, a.geometry);
+    if (solved) a.state.work = work_after(*setup_, state_, stats_, a.solids, a);
     return a;
   }
 
@@ -224,9 +229,6 @@ class FlowSimulation : public Simulation {
   }
 
   void accept(Attempt<Dim> a) {
-    const std::vector<SolidState> solids =
-        measure_solids(setup_->domain, setup_->solids, setup_->scene->time, a.state, a.geometry);
-    if (!setup_->fluids.has_prescribed_flow()) a.state.work = work_after(*setup_, state_, stats_, solids, a);
     a.state.viscous_power = a.powers.viscous;
     state_ = std::move(a.state);
     geometry_ = std::move(a.geometry);
@@ -241,7 +243,7 @@ class FlowSimulation : public Simulation {
     warn_of_crossing();
     for (const std::string& line : a.solve.failed_attempts)
       phases_.warnings.push_back(fmt::format("step {}: {}", state_.step, line));
-    refresh(a.stats, solids);
+    refresh(a.stats, a.solids);
   }
 
   // Advice after a failed step: keys that a resumed run may change.
