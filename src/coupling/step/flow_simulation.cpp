@@ -34,8 +34,8 @@ namespace {
 constexpr int most_halvings = 7, most_for_energy = 3;
 constexpr int steps_between_looks = 16;  // at how the work of ranks is balanced
 
-// Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells they feed eddies
-// that they do not resolve. The flow in a cavity at Re = 5000 oscillated by 0.2 of the lid's speed at Courant number 4.
+// Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells, nothing is
+// extrapolated in time. After 30 s, a cavity at Re = 5000 has 10 % less energy at Courant number 4 than at 1.
 // Collective.
 template <int Dim>
 std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
@@ -46,7 +46,7 @@ std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, 
     return {};
   return fmt::format(
       "time.cfl = {:g}: steps over more than {:g} cells do not resolve eddies of viscous liquid that fills its domain; "
-      "the flow may come out wrong and unsteady where viscosity is low; lower cfl to {:g}",
+      "where viscosity is low the flow loses energy, a tenth in a cavity at Re = 5000; lower cfl to {:g}",
       cfl, resolved, resolved);
 }
 
