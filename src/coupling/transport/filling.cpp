@@ -64,20 +64,22 @@ class LiquidAtPoints {
   // Share of liquid around a point.
   double operator()(const Vec<Dim>& x) {
     const Site c = cell_at(layout_, x);
-    if (room_.of(c) < 1) return liquid(phi_at(x), 0);
-    if (share_[c] >= 1 - rounding || share_[c] <= rounding) return share_[c] > 0.5;
-    return liquid(phi_at(x), level(c));
+    const double room = room_.of(c);
+    if (room < little) return liquid(phi_at(x), 0);
+    const double share = share_[c] / room;
+    if (share >= 1 - rounding || share <= rounding) return share > 0.5;
+    return liquid(phi_at(x), level(c, share));
   }
 
  private:
-  static constexpr double rounding = 1e-6;
+  static constexpr double rounding = 1e-6, little = 0.1;  // room that tells nothing
   static constexpr int halvings = 10;
 
   double liquid(double phi, double level) const { return std::clamp(0.5 + (level - phi) / width_, 0.0, 1.0); }
   double phi_at(const Vec<Dim>& x) const {
     return interpolate_linear<Dim>(layout_, phi_.data(), index_coordinates<Dim>(layout_, x, cell_offset<Dim>()));
   }
-  double level(Site c) {
+  double level(Site c, double wanted) {
     const auto known = levels_.find(c);
     if (known != levels_.end()) return known->second;
     Eigen::Array<double, points_of_cell<Dim>, 1> values;
@@ -87,7 +89,7 @@ class LiquidAtPoints {
     for (int n = 0; n < halvings; ++n) {
       const double middle = 0.5 * (low + high);
       const double share = (0.5 + (middle - values) / width_).max(0.0).min(1.0).mean();
-      (share < share_[c] ? low : high) = middle;
+      (share < wanted ? low : high) = middle;
     }
     return levels_[c] = 0.5 * (low + high);
   }

@@ -140,6 +140,36 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const Room<Dim>& room, const Fr
   return r;
 }
 
+// Cuts what leaves a cell to what is there and comes in. Beside solids, regions of several faces may overlap. A second
+// round covers cells that get less by the first. Collective.
+template <int Dim>
+void keep_to_what_is_there(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
+                           const CellField<Dim>& share, FaceField<Dim>& flux) {
+  constexpr double rounding = 1e-13;
+  for (int round = 0; round < 2; ++round) {
+    CellField<Dim> part(layout, 1);
+    bool any = false;
+    for_each_index_in_order(layout, layout.cells(), [&](Site c, const IVec<Dim>&) {
+      double in = 0, out = 0;
+      for (int a = 0; a < Dim; ++a) {
+        const double low = flux.at(a, c), high = flux.at(a, c + layout.stride(a));
+        in += std::max(low, 0.0) - std::min(high, 0.0);
+        out += std::max(high, 0.0) - std::min(low, 0.0);
+      }
+      if (out <= share[c] + in + rounding) return;
+      part[c] = std::max(share[c] + in, 0.0) / out;
+      any = true;
+    });
+    if (!ranks.any(any)) return;
+    halo.fill_ghosts(part);
+    for (int a = 0; a < Dim; ++a)
+      for_each_site(layout, faces_of_cells(layout, a), [&](Site f) {
+        double& through = flux.at(a, f);
+        if (through != 0) through *= part[through > 0 ? f - layout.stride(a) : f];
+      });
+  }
+}
+
 // Gain of the liquid in a cell by the flow's divergence, in cells: full cells stay full.
 template <int Dim>
 double swelling(const Layout<Dim>& layout, const Room<Dim>& room, const FrozenFlow<Dim>& flow,
@@ -184,7 +214,8 @@ VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Co
                       CellField<Dim>& share) {
   const CountedShares<Dim> counted(layout, ledger, phi, share);
   const LiquidInCells<Dim> liquid(layout, phi, counted, ledger.divergence == Divergence::stays);
-  const FaceField<Dim> flux = fluxes(layout, ledger.room, flow, liquid, counted);
+  FaceField<Dim> flux = fluxes(layout, ledger.room, flow, liquid, counted);
+  if (!ledger.room.is_whole()) keep_to_what_is_there(layout, halo, ranks, share, flux);
   double swollen = 0;
   if (ledger.divergence == Divergence::swells) {
     CellField<Dim> gain(layout);
