@@ -175,39 +175,6 @@ center = [0.52, 0.1]
 radius = 0.12
 """
 
-# Long steps, in which the surface passes places where two slopes fit equally well but for rounding.
-POST_AND_BALL_IN_CELLS = f"""\
-dimension = 3
-[domain]
-upper = [1.5, 0.75, 0.75]
-cell_size = 0.046875
-[time]
-end = 0.15
-max_step = 0.05
-frame_rate = 6.67
-[liquid]
-volume = "cells"
-[[liquid.region]]
-shape = "box"
-lower = [0.0, 0.0, 0.0]
-upper = [0.5, 0.5, 0.75]
-[[solid]]
-name = "post"
-kind = "static"
-shape = "cylinder"
-from = [0.8, -0.1, 0.25]
-to = [0.8, 0.9, 0.25]
-radius = 0.1
-[[solid]]
-name = "ball"
-kind = "static"
-shape = "sphere"
-center = [1.1, 0.1, 0.5]
-radius = 0.15
-[solver]
-tolerance = {TOLERANCE}
-"""
-
 # A slanted jet with its upper rim between one and two halo widths beyond the cells of the lowest of three ranks.
 JET = f"""\
 dimension = 2
@@ -429,11 +396,6 @@ def volumes_beside_post_agree(bench):
     ranks_agree(bench, POST_IN_CELLS, (2, 3))
 
 
-def volumes_beside_post_and_ball_agree(bench):
-    """A dam break in 3D that meets a post and a ball, on 1 and 3 ranks."""
-    ranks_agree(bench, POST_AND_BALL_IN_CELLS, (3,))
-
-
 def volumes_ranks_agree_3d(bench):
     """The same in 3D."""
     ranks_agree(bench, DAM_IN_CELLS_3D, (2, 3))
@@ -546,7 +508,7 @@ def air_killed_at_random(bench):
 TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d, elastic_ranks_agree_2d, sheet_ranks_agree,
                        elastic_ranks_agree_3d, sprung_ranks_agree_2d, shared_elements_ranks_agree,
                        shared_unknowns_ranks_agree, twins_ranks_agree, viscous_ranks_agree_2d, mud_ranks_agree_2d, viscous_ranks_agree_3d,
-                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d, volumes_beside_post_agree, volumes_beside_post_and_ball_agree, volumes_ranks_agree_3d, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
+                       gas_ranks_agree_2d, gas_ranks_agree_3d, tension_ranks_agree_3d, air_ranks_agree_2d, viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d, volumes_beside_post_agree, volumes_ranks_agree_3d, jet_ranks_agree, same_ranks_same_bits, elastic_same_ranks_same_bits],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
                       gas_killed_at_random, air_killed_at_random]}

@@ -86,21 +86,3 @@ TEMPLATE_TEST_CASE_SIG("no axis is preferred at a kink, nor a sign", "", ((int D
     CHECK(minus.one_sided(g) == Approx(-f.one_sided(g)).margin(1e-13));
   });
 }
-
-// Slopes 1, 0.7, 1 on the lines 7 to 8, 8 to 9, 9 to 10: second differences -0.3 and 0.3, of which rounding decides
-// which one is smaller. ENO's parabola jumps there by 0.3 t (1 - t).
-TEMPLATE_TEST_CASE_SIG("rounding does not choose between equal and opposite bends", "", ((int Dim), Dim), 2, 3) {
-  const auto step = [](double dust) {
-    return Sampled<Dim>(
-        [=](const Vec<Dim>& g) { return g[1] < 8.5 ? g[1] - 8 : g[1] - 8.3 + (g[1] > 9.5 ? dust : 0); });
-  };
-  constexpr double dust = 1e-12;
-  const Sampled<Dim> one = step(-dust), other = step(dust);
-  double most = 0, beside_cubic = 0;
-  for_points<Dim>([&](const Vec<Dim>& g) {
-    most = std::max(most, std::abs(one.one_sided(g) - other.one_sided(g)));
-    beside_cubic = std::max(beside_cubic, std::abs(one.one_sided(g) - one.cubic(g)));
-  });
-  CHECK(beside_cubic > 1e-3);  // the detector is at work
-  CHECK(most < 100 * dust);
-}
