@@ -32,7 +32,7 @@ namespace seiche {
 namespace {
 
 constexpr int most_halvings = 7;
-constexpr int most_for_energy = 3;  // then a step with energy from nowhere counts: its account is not exact
+constexpr int most_for_energy = 3;       // then a step with energy from nowhere counts: its account is not exact
 constexpr int steps_between_looks = 16;  // at how the work of ranks is balanced
 
 // Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells, nothing is
