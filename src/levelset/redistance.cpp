@@ -74,6 +74,7 @@ struct BandCell {
   double sign;
   double step;                                   // pseudo-time step: 0.45 times the smallest reach
   unsigned sides;                                // bit 2 axis + side: this side is a side of the domain
+  unsigned unread, unread_behind;                // the same: the next cell there is unread, the one behind it is
   std::array<std::array<double, 2>, Dim> reach;  // distance to the zero crossing towards each neighbour, or 1, cells
 };
 
@@ -81,11 +82,12 @@ template <int Dim>
 class Relaxation {
  public:
   Relaxation(const Layout<Dim>& layout, const Halo<Dim>& halo, const RedistanceOptions& options,
-             const CellField<Dim, char>& fixed, CellField<Dim>& phi)
+             const CellField<Dim, char>* kept, const CellField<Dim, char>& fixed, CellField<Dim>& phi)
       : layout_(layout),
         halo_(halo),
         limit_(options.band),
         entering_(std::min(options.entering, layout.halo())),
+        kept_(kept),
         phi_(phi),
         start_(phi) {
     collect(fixed);
@@ -197,13 +199,19 @@ class Relaxation {
     return !g.periodic[axis] && layout_.index(s)[axis] == (side == 0 ? 0 : g.cells[axis] - 1);
   }
 
+  bool is_unread(Site s) const { return kept_ && (*kept_)[s] == Kept::unread; }
+
   BandCell<Dim> describe(Site s) const {
-    BandCell<Dim> c{s, start_[s] < 0 ? -1.0 : 1.0, 1.0, 0, {}};
+    BandCell<Dim> c{s, start_[s] < 0 ? -1.0 : 1.0, 1.0, 0, 0, 0, {}};
     for (int a = 0; a < Dim; ++a)
       for (int side = 0; side < 2; ++side) {
         const Site d = side == 0 ? -layout_.stride(a) : layout_.stride(a);
-        if (at_side(s, a, side)) c.sides |= 1u << (2 * a + side);
-        const double reach = at_side(s, a, side) || start_[s] * start_[s + d] >= 0 ? 1 : crossing(start_.data() + s, d);
+        const unsigned bit = 1u << (2 * a + side);
+        if (at_side(s, a, side)) c.sides |= bit;
+        if (is_unread(s + d)) c.unread |= bit;
+        if (is_unread(s + 2 * d)) c.unread_behind |= bit;
+        const bool goes_on = ((c.sides | c.unread) & bit) != 0 || start_[s] * start_[s + d] >= 0;
+        const double reach = goes_on ? 1 : crossing(start_.data() + s, d);
         c.reach[a][side] = std::max(reach, 1e-6);
         c.step = std::min(c.step, c.reach[a][side]);
       }
@@ -213,6 +221,29 @@ class Relaxation {
 
   // Values in a row of five cells along an axis, from the second before to the second behind the middle one.
   using Row = std::array<double, 5>;
+
+  // Into unread cells the initial phi goes on straight. It does not change: phi that is relaxed by values which follow
+  // it grows or shrinks without end.
+  Row row(const BandCell<Dim>& c, int axis) const {
+    const double* f = phi_.data() + c.site;
+    const Site d = layout_.stride(axis);
+    const unsigned next = c.unread >> 2 * axis & 3u, any = next | (c.unread_behind >> 2 * axis & 3u);
+    Row r{f[-2 * d], f[-d], f[0], f[d], f[2 * d]};
+    if (any == 0) return r;
+    for (const int side : {0, 1}) {
+      const Site in = side == 0 ? d : -d;
+      double& near = r[side == 0 ? 1 : 3];
+      if (next >> side & 1u) near = start_[c.site] + straight_slope(c.site, in, next >> (1 - side) & 1u);
+      if (any >> side & 1u) r[side == 0 ? 0 : 4] = 2 * near - r[2];
+    }
+    return r;
+  }
+
+  // Slope of the initial phi from the direction `in` towards a cell; 0 between two walls.
+  double straight_slope(Site s, Site in, bool between) const {
+    const double slope = start_[s] - start_[s + in];
+    return between ? 0 : std::clamp(minmod(slope, start_[s + in] - start_[s + 2 * in]), -1.0, 1.0);
+  }
 
   // One-sided slopes along the axis, below and above. A difference ends at the interface (phi = 0) if it lies between.
   // Bends of a distance with radii of curvature above a cell are at most 1/2. At a steep peak of two cells larger ones
@@ -234,10 +265,8 @@ class Relaxation {
   };
   Gradient gradient(const BandCell<Dim>& c) const {
     Gradient g;
-    const double* f = phi_.data() + c.site;
     for (int a = 0; a < Dim; ++a) {
-      const Site d = layout_.stride(a);
-      const auto [below, above] = slopes({f[-2 * d], f[-d], f[0], f[d], f[2 * d]}, c.reach[a]);
+      const auto [below, above] = slopes(row(c, a), c.reach[a]);
       const double backward = -below * c.sign, forward = above * c.sign;
       const double steepest = std::max({backward, -forward, 0.0});
       g.norm += steepest * steepest;
@@ -267,6 +296,7 @@ class Relaxation {
   const Halo<Dim>& halo_;
   double limit_;
   int entering_;
+  const CellField<Dim, char>* kept_;
   CellField<Dim>& phi_;
   CellField<Dim> start_;
   std::vector<BandCell<Dim>> cells_;
@@ -288,12 +318,13 @@ void redistance(const Layout<Dim>& layout, const Halo<Dim>& halo, const Redistan
   const double h = layout.h(), limit = options.band;
   for_each_site(layout, layout.cells(), [&](Site s) { phi[s] = std::clamp(phi[s] / h, -limit, limit); });
   fill_ghosts(layout, halo, 1.0, phi);
-  CellField<Dim, char> fixed = kept ? *kept : CellField<Dim, char>(layout, 0);
+  CellField<Dim, char> fixed(layout, 0);
+  for (Site s = 0; kept && s < layout.size(); ++s) fixed[s] = (*kept)[s] != Kept::no;
   if (options.closest_point_cells > 0) {
     correct_by_closest_points(layout, options.closest_point_cells, phi, fixed);
     fill_ghosts(layout, halo, 1.0, phi);
   }
-  Relaxation<Dim>(layout, halo, options, fixed, phi).run(options.iterations);
+  Relaxation<Dim>(layout, halo, options, kept, fixed, phi).run(options.iterations);
   for_each_site(layout, layout.padded(), [&](Site s) { phi[s] *= h; });
 }
 

@@ -12,7 +12,14 @@ struct RedistanceOptions {
   double closest_point_cells = 0;
 };
 
-// Redistances phi (m). Cells where `kept` is set are read but keep phi. Fills ghosts. Collective.
+// What redistancing does with a cell.
+struct Kept {
+  static constexpr char no = 0;
+  static constexpr char yes = 1;     // it keeps phi, which is read
+  static constexpr char unread = 2;  // it keeps phi; relaxation takes phi to go on straight there
+};
+
+// Redistances phi (m), except in cells that are kept (`kept`: a value of Kept). Fills ghosts. Collective.
 //
 // Relaxes |grad phi| = 1 in pseudo-time with second-order ENO differences that stop at the interface (Russo, Smereka
 // 2000; du Chene, Min, Gibou 2008). This moves the zero by some 1e-3 cells per call, non-uniformly, so that volume

@@ -119,6 +119,35 @@ TEST_CASE("liquid rests beside a leaning gate between two levels") {
   }
 }
 
+// A gate `thick` cells thick, inclined by `degrees`, between water at `left` and at `right` m.
+Scene thin_gate(int dim, double thick, double degrees, double left, double right) {
+  const double h = 1.0 / 32, turn = degrees * 3.14159265358979323846 / 180;
+  Scene s = test::box_scene(dim, 32);
+  if (dim == 3) s.domain.upper[2] = 8 * h, s.domain.cells[2] = 8;
+  s.gravity = {0, -9.81, 0};
+  test::add_liquid(s,
+                   fmt::format("(x-0.5)*{}+(y-0.5)*{} < 0 ? y-{} : y-{}", std::cos(turn), std::sin(turn), left, right));
+  SolidSpec gate = container("box");
+  gate.name = "gate";
+  gate.shape.invert = false;
+  gate.shape.lower = {-thick * h / 2, -1, -1};
+  gate.shape.upper = {thick * h / 2, 1, 1};
+  gate.shape.transform.rotate = {Vec3(0, 0, 1), degrees};
+  gate.shape.transform.translate = {0.5, 0.5, 0};
+  s.solids.push_back(gate);
+  return s;
+}
+
+// One or two cells are all that lies between the two waters.
+TEST_CASE("liquid rests beside gates some two cells thick") {
+  for (int dim : {2, 3})
+    for (const auto& [thick, degrees] : {std::pair(2.6, -30.0), std::pair(2.6, 35.0), std::pair(3.2, -45.0)})
+      for (const double right : {0.3, 0.55}) {
+        INFO(dim << "D, " << thick << " cells, " << degrees << " degrees, " << right << " m");
+        CHECK(largest_speed(thin_gate(dim, thick, degrees, 0.6, right)) <= 1e-10);
+      }
+}
+
 TEST_CASE("a pool that fills the tank from wall to wall keeps its volume and presses on the floor with rho g h") {
   Scene s = test::box_scene(2, 32);
   s.gravity = {0, -9.81, 0};

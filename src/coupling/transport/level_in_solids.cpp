@@ -104,6 +104,54 @@ CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<D
   return closed;
 }
 
+namespace {
+
+// True if a wall of one or two closed cells along an axis goes through a cell, with open cells on both sides: phi there
+// may have been continued from either.
+template <int Dim>
+bool is_in_thin_wall(const Layout<Dim>& layout, const CellField<Dim, char>& closed, Site cell, const IVec<Dim>& index) {
+  constexpr int most = 2;
+  const Geometry<Dim>& g = layout.geometry();
+  for (int a = 0; a < Dim; ++a) {
+    const Site d = layout.stride(a);
+    int low = 0, high = 0;
+    while (low < most && closed[cell - low * d]) ++low;
+    while (high < most && closed[cell + high * d]) ++high;
+    const bool ends = g.periodic[a] || (index[a] - low >= 0 && index[a] + high < g.cells[a]);
+    if (ends && low + high - 1 <= most && !closed[cell - low * d] && !closed[cell + high * d]) return true;
+  }
+  return false;
+}
+
+// True if phi in a closed cell differs so much from an open one beside it that it belongs to the wall's other side.
+template <int Dim>
+bool belongs_elsewhere(const Layout<Dim>& layout, const CellField<Dim, char>& closed, const CellField<Dim>& phi,
+                       Site cell) {
+  constexpr double steepest = 1.5;
+  bool differs = false;
+  for (int a = 0; a < Dim; ++a)
+    for (const Site n : {cell - layout.stride(a), cell + layout.stride(a)})
+      differs = differs || (!closed[n] && std::abs(phi[n] - phi[cell]) > steepest * layout.h());
+  return differs;
+}
+
+// What redistancing outside does with the cells.
+template <int Dim>
+CellField<Dim, char> kept_outside(const Domain<Dim>& domain, const CellField<Dim, char>& closed,
+                                  const CellField<Dim>& phi) {
+  CellField<Dim, char> kept(domain.layout, Kept::no);
+  for_each_index(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (!closed[c]) return;
+    const bool unread =
+        is_in_thin_wall(domain.layout, closed, c, i) || belongs_elsewhere(domain.layout, closed, phi, c);
+    kept[c] = unread ? Kept::unread : Kept::yes;
+  });
+  domain.halo.fill_ghosts({kept.data()});
+  return kept;
+}
+
+}  // namespace
+
 template <int Dim>
 void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi) {
@@ -115,11 +163,12 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
   outside.iterations /= passes;
   for (int n = 0; n < passes; ++n) {
     continue_level_set(domain, solids, closed, phi);
-    redistance(domain.layout, domain.halo, outside, phi, &closed);
+    const CellField<Dim, char> kept = kept_outside(domain, closed, phi);
+    redistance(domain.layout, domain.halo, outside, phi, &kept);
   }
-  CellField<Dim, char> open(domain.layout, 0);
+  CellField<Dim, char> open(domain.layout, Kept::no);
   for (Site c = 0; c < cells; ++c) {
-    open[c] = closed[c] ? 0 : 1;
+    open[c] = closed[c] ? Kept::no : Kept::yes;
     if (closed[c]) phi[c] = within[c];
   }
   redistance(domain.layout, domain.halo, options, phi, &open);

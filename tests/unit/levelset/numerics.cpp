@@ -120,6 +120,28 @@ TEMPLATE_TEST_CASE_SIG("redistancing changes no sign at a steep peak", "", ((int
   for_each_index_in_order(f.layout, f.layout.cells(), [&](Site s, const IVec<Dim>&) { CHECK(phi[s] < 0); });
 }
 
+// A slanted surface before a wall whose cells hold what belongs to its other side.
+TEMPLATE_TEST_CASE_SIG("redistancing does not read unread cells", "", ((int Dim), Dim), 2, 3) {
+  const Fixture<Dim> f(16);
+  Vec<Dim> n = Vec<Dim>::LinSpaced(1, 2).normalized();
+  const bool towards_wall = GENERATE(false, true);
+  if (towards_wall) n[0] = -n[0];
+  const auto plane = [&](const Vec<Dim>& x) { return n.dot(x - Vec<Dim>::Constant(0.45)); };
+  CellField<Dim> phi = f.cells(plane);
+  CellField<Dim, char> kept(f.layout, Kept::no);
+  const auto is_wall = [](const IVec<Dim>& i) { return i[0] == 8 || i[0] == 9; };
+  for_each_index_in_order(f.layout, f.layout.cells(), [&](Site s, const IVec<Dim>& i) {
+    if (is_wall(i)) phi[s] = 4.5 * f.layout.h(), kept[s] = Kept::unread;
+  });
+  redistance(f.layout, f.halo, {5, 10}, phi, &kept);
+  double moved = 0;
+  for_each_index_in_order(f.layout, f.layout.cells(), [&](Site s, const IVec<Dim>& i) {
+    const double exact = plane(Vec<Dim>(f.layout.position(i, cell_offset<Dim>())));
+    if (!is_wall(i) && std::abs(exact) < 3 * f.layout.h()) moved = std::max(moved, std::abs(phi[s] - exact));
+  });
+  CHECK(moved < 1e-14);
+}
+
 TEMPLATE_TEST_CASE_SIG("redistancing leaves planes alone and keeps the volume of a distorted ball", "",
                        ((int Dim), Dim), 2, 3) {
   const Fixture<Dim> f(32);
