@@ -261,7 +261,7 @@ class Relaxation {
   // Godunov's |grad phi| for a front moving away from the interface.
   struct Gradient {
     double norm = 0;
-    bool enters = false;  // true if a part of it is upwind from beyond a side of the domain
+    bool enters = false;  // true if a part of it is upwind from beyond a side of the domain, or from an unread cell
   };
   Gradient gradient(const BandCell<Dim>& c) const {
     Gradient g;
@@ -270,14 +270,15 @@ class Relaxation {
       const double backward = -below * c.sign, forward = above * c.sign;
       const double steepest = std::max({backward, -forward, 0.0});
       g.norm += steepest * steepest;
-      g.enters = g.enters || (steepest > 0 && (c.sides >> (2 * a + (steepest == backward ? 0 : 1)) & 1u));
+      const unsigned bit = 1u << (2 * a + (steepest == backward ? 0 : 1));
+      g.enters = g.enters || (steepest > 0 && ((c.sides | c.unread) & bit) != 0);
     }
     g.norm = std::sqrt(g.norm);
     return g;
   }
 
-  // Upwind values from beyond a side may make a distance grow but not shrink, because they are extended from inside: a
-  // lower phi at the wall makes the extended slope steeper, so that phi would shrink without end.
+  // Upwind values from beyond a side or from an unread cell may make a distance grow but not shrink, because they are
+  // extended from inside: a lower phi at the wall makes the extended slope steeper, so that phi would shrink without end.
   double rate(const BandCell<Dim>& c) const {
     const Gradient g = gradient(c);
     return g.enters && g.norm > 1 ? 0 : 1 - g.norm;
