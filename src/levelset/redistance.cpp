@@ -277,8 +277,8 @@ class Relaxation {
     return g;
   }
 
-  // Upwind values from beyond a side or from an unread cell may make a distance grow but not shrink, because they are
-  // extended from inside: a lower phi at the wall makes the extended slope steeper, so that phi would shrink without end.
+  // Upwind values from beyond a side or from an unread cell may make a distance grow but not shrink. They are extended
+  // from inside: a lower phi at the wall makes the extended slope steeper, so that phi would shrink without end.
   double rate(const BandCell<Dim>& c) const {
     const Gradient g = gradient(c);
     return g.enters && g.norm > 1 ? 0 : 1 - g.norm;
