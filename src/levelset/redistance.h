@@ -12,7 +12,7 @@ struct RedistanceOptions {
   double closest_point_cells = 0;
 };
 
-// What redistancing does with a cell.
+// Marks of cells for redistancing.
 struct Kept {
   static constexpr char no = 0;
   static constexpr char yes = 1;     // it keeps phi, which is read

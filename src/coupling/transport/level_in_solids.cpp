@@ -135,7 +135,7 @@ bool belongs_elsewhere(const Layout<Dim>& layout, const CellField<Dim, char>& cl
   return differs;
 }
 
-// What redistancing outside does with the cells.
+// Marks of the cells for redistancing outside, by phi as it is continued into the closed cells.
 template <int Dim>
 CellField<Dim, char> kept_outside(const Domain<Dim>& domain, const CellField<Dim, char>& closed,
                                   const CellField<Dim>& phi) {

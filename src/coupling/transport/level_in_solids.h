@@ -27,7 +27,8 @@ CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<D
                                        const StepGeometry<Dim>& geometry, const CellField<Dim>& phi);
 
 // Makes phi a distance outside the closed cells, with its straight extrapolation inside them. Then makes it a distance
-// inside them, with the outside fixed. A surface redistanced through a wall bends towards the level on its other side,
+// inside them, with the outside fixed. Closed cells that stand for a wall's other side are not read from this one.
+// A surface redistanced through a wall bends towards the level on its other side,
 // which sets liquid at rest beside it in motion. Transport also reads the distance inside, which a front carries along
 // into the wall (docs/decisions/0029-level-set-in-static-solids.md). The iterations outside are divided among `passes`,
 // each of which extrapolates phi anew. Collective.
