@@ -3,6 +3,7 @@
 #include "base/scene.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/transport/ripples.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,6 +11,7 @@
 #include "elastic_scenes.h"
 #include "grid/loops.h"
 
+namespace level_in_solids_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -40,37 +42,128 @@ void check_sides() {
   CHECK(touched == 0);
 }
 
-// A tilted slab about six cells thick. Whatever phi is inside, it becomes the continuation of the plane outside.
+// A tilted slab about six cells thick in a box of 24 cells.
+template <int Dim>
+struct Slab {
+  static Scene scene() {
+    Scene scene = box_scene(Dim, 24);
+    scene.gravity = {0, -9.81, 0};
+    SolidSpec slab;
+    slab.name = "slab";
+    slab.shape.kind = "expression";
+    slab.shape.phi = "abs(0.8*x-0.6*y-0.1)-0.13";
+    slab.shape.where = "test";
+    scene.solids.push_back(slab);
+    return scene;
+  }
+  StepGeometry<Dim> measure() const {
+    State<Dim> state;
+    state.solids = setup.solids.at_start;
+    return setup.solids.geometry.measure(place_bodies(state), 0);
+  }
+  // phi: `outside(x)` but `inside` in closed cells, at all sites.
+  template <class Outside>
+  CellField<Dim> level(double inside, const Outside& outside) const {
+    CellField<Dim> phi(layout);
+    for_each_index_in_order(layout, layout.padded(), [&](Site c, const IVec<Dim>& i) {
+      phi[c] = closed[c] ? inside : outside(layout.position(i, cell_offset<Dim>()));
+    });
+    return phi;
+  }
+
+  Setup<Dim> setup{scene(), Communicator()};
+  const Layout<Dim>& layout = setup.domain.layout;
+  StepGeometry<Dim> geometry = measure();
+  CellField<Dim, char> closed = closed_cells(setup.domain, setup.solids, geometry);
+};
+
+// Whatever phi is inside, it becomes the continuation of the plane outside.
 template <int Dim>
 void check_continuation() {
-  Scene scene = box_scene(Dim, 24);
-  SolidSpec slab;
-  slab.name = "slab";
-  slab.shape.kind = "expression";
-  slab.shape.phi = "abs(0.8*x-0.6*y-0.1)-0.13";
-  slab.shape.where = "test";
-  scene.solids.push_back(slab);
-  const Setup<Dim> setup(scene, Communicator());
-  State<Dim> state;
-  state.solids = setup.solids.at_start;
-  const auto closed = closed_cells(setup.domain, setup.solids, setup.solids.geometry.measure(place_bodies(state), 0));
-  CellField<Dim> phi(setup.domain.layout);
-  const auto plane = [&](const IVec<Dim>& i) {
-    return std::clamp(setup.domain.layout.position(i, cell_offset<Dim>())[1] - 0.47, -setup.domain.band(),
-                      setup.domain.band());
-  };
-  for_each_index_in_order(setup.domain.layout, setup.domain.layout.padded(),
-                          [&](Site c, const IVec<Dim>& i) { phi[c] = closed[c] ? 0.3 : plane(i); });
-  continue_level_set(setup.domain, setup.solids, closed, phi);
+  const Slab<Dim> slab;
+  const double band = slab.setup.domain.band();
+  const auto plane = [&](const Vec<Dim>& x) { return std::clamp(x[1] - 0.47, -band, band); };
+  CellField<Dim> phi = slab.level(0.3, plane);
+  continue_level_set(slab.setup.domain, slab.setup.solids, slab.closed, phi);
   double worst = 0;
   int count = 0;
-  for_each_index_in_order(setup.domain.layout, setup.domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (std::abs(plane(i)) < setup.domain.band() - 2 * setup.domain.layout.h())
-      worst = std::max(worst, std::abs(phi[c] - plane(i)));
-    count += closed[c];
+  for_each_index_in_order(slab.layout, slab.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    const double exact = plane(slab.layout.position(i, cell_offset<Dim>()));
+    if (std::abs(exact) < band - 2 * slab.layout.h()) worst = std::max(worst, std::abs(phi[c] - exact));
+    count += slab.closed[c];
   });
   CHECK(count > 60);
   CHECK(worst < 1e-12);
+}
+
+// Carries phi with a velocity of `way` cells a step, to 0 in cells that transport has left there. Returns the largest
+// error of the carried plane and the number of cells carried.
+template <int Dim>
+std::pair<double, int> error_of_slow_transport(double way) {
+  const Slab<Dim> slab;
+  const double h = slab.layout.h(), band = slab.setup.domain.band(), left = 77;
+  Vec<Dim> u = Vec<Dim>::Constant(-0.5 * way * h);
+  u[1] = way * h;
+  const auto plane = [&](const Vec<Dim>& x) { return 0.6 * (x[1] - 0.47) + 0.3 * (x[0] - 0.5); };
+  const CellField<Dim> before = slab.level(0.02, plane);
+  FaceField<Dim> flow(slab.layout);
+  for (int a = 0; a < Dim; ++a) flow[a].fill(u[a]);
+  CellField<Dim> phi(slab.layout, left);
+  carry_slow_near_closed(slab.setup.domain, slab.closed, flow, 1.0, before, phi);
+  double worst = 0;
+  int count = 0;
+  for_each_index_in_order(slab.layout, slab.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    if (phi[c] == left) return;
+    ++count;
+    worst = std::max(worst, std::abs(phi[c] - plane(slab.layout.position(i, cell_offset<Dim>()) - u)));
+    CHECK((!slab.closed[c] && std::abs(before[c]) < band));
+  });
+  return {worst, count};
+}
+
+// Brakes a velocity (m/s at faces) beside the slab, with the surface at y = 0.47.
+template <int Dim, class Velocity>
+std::pair<FaceField<Dim>, FaceField<Dim>> braked(double speed_now, const Velocity& velocity) {
+  const Slab<Dim> slab;
+  const CellField<Dim> phi = slab.level(0, [](const Vec<Dim>& x) { return x[1] - 0.47; });
+  TimeLevel<Dim> now = empty_level(slab.layout, false);
+  FaceField<Dim> u(slab.layout);
+  for (int a = 0; a < Dim; ++a) {
+    now.u[a].fill(speed_now);
+    for_each_index_in_order(slab.layout, slab.layout.faces(a),
+                            [&](Site f, const IVec<Dim>& i) { u.at(a, f) = velocity(i); });
+  }
+  fill_velocity_ghosts(slab.layout, slab.setup.domain.halo, slab.setup.domain.sides, u);
+  State<Dim> state;
+  state.now = std::make_shared<TimeLevel<Dim>>(std::move(now));
+  FaceField<Dim> v = u;
+  brake_ripples(slab.setup, state, slab.geometry, slab.closed, phi, 0.01, v);
+  return {u, v};
+}
+
+template <int Dim>
+double sum_of_squares(const FaceField<Dim>& u, const Layout<Dim>& layout) {
+  double sum = 0;
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(layout, layout.faces(a), [&](Site f, const IVec<Dim>&) { sum += u.at(a, f) * u.at(a, f); });
+  return sum;
+}
+
+// Ripples of two cells lose energy, uniform and fast flow is as it was.
+template <int Dim>
+void check_brake() {
+  const Slab<Dim> slab;
+  const Layout<Dim>& layout = slab.layout;
+  const auto ripple = [](const IVec<Dim>& i) { return i[0] % 2 == 0 ? 1.0 : -1.0; };
+  const auto [u, v] = braked<Dim>(0, ripple);
+  CHECK(sum_of_squares(v, layout) < sum_of_squares(u, layout) - 0.1);
+  const auto [even, even_after] = braked<Dim>(0, [](const IVec<Dim>&) { return 1.0; });
+  const auto [fast, fast_after] = braked<Dim>(1, ripple);
+  for (int a = 0; a < Dim; ++a)
+    for_each_index_in_order(layout, layout.faces(a), [&](Site f, const IVec<Dim>&) {
+      CHECK(even.at(a, f) == even_after.at(a, f));
+      CHECK(fast.at(a, f) == fast_after.at(a, f));
+    });
 }
 
 }  // namespace
@@ -101,3 +194,21 @@ TEST_CASE("a bag of liquid that falls leaves none behind", "[elastic]") {
   WARN("volume off by " << worst << ", bar 1e-3; " << sim->step_count() << " steps");
   CHECK(worst < 1e-3);  // area of a polygon on the grid; without the correction the error was 2.8e-3
 }
+
+TEST_CASE("phi that moves slowly near closed cells is carried without reading them") {
+  for (const double way : {1e-6, 0.01}) {
+    const auto [flat, cells] = error_of_slow_transport<2>(way);
+    const auto [deep, more] = error_of_slow_transport<3>(way);
+    CHECK(std::max(flat, deep) < 1e-14);
+    CHECK((cells > 20 && more > 24 * 20));
+  }
+  const auto [worst, cells] = error_of_slow_transport<2>(0.1);  // as transported
+  CHECK(cells == 0);
+}
+
+TEST_CASE("slow ripples near a wall between two levels are braked, other flow is not") {
+  check_brake<2>();
+  check_brake<3>();
+}
+
+}  // namespace level_in_solids_tests

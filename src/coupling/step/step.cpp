@@ -47,11 +47,12 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
   Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);
   if (!predicted.failure.empty()) return failed<Dim>(predicted.failure);
+  const std::optional<CellField<Dim, char>> closed = std::exchange(moved.closed, std::nullopt);
   Attempt<Dim> solved = s.volume_lags()
                             ? solve_within_room(s, before, std::move(moved), std::move(predicted), times, phases)
                             : solve_and_plan(s, before, std::move(moved), predicted, times, phases);
   if (s.volume_lags()) solved.state.liquid_phi = solved.state.phi;
-  if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, phases, solved);
+  if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, *closed, phases, solved);
   if (s.tracks_volume() && solved.failure.empty()) solved.failure = fault_of_volume(s.domain, before, solved.state);
   return solved;
 }

@@ -112,8 +112,9 @@ double largest_shift(const Domain<Dim>& domain) {
 // Carries the surface on; books volume and energy of sources. Returns the share of each cell that they brought.
 template <int Dim>
 std::optional<CellField<Dim>> transport_and_book(const Setup<Dim>& s, const State<Dim>& at, FaceField<Dim> path,
-                                                 double from, double span, State<Dim>& next) {
-  Brought<Dim> brought = transport_surface(s, at, std::move(path), from, span, next.phi);
+                                                 double from, double span, const CellField<Dim, char>& closed,
+                                                 State<Dim>& next) {
+  Brought<Dim> brought = transport_surface(s, at, std::move(path), from, span, closed, next.phi);
   next.expected_volume += brought.volume;
   next.work.sides += s.fluids.density() * brought.kinetic;
   return std::move(brought.share);
@@ -141,12 +142,12 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
                          ? prescribed_flow(s.domain, s.fluids, before, times.start + 0.5 * times.dt)
                          : before.exterior->surface_velocity(s, before);
   CellField<Dim>& phi = moved.state.phi;
-  const CellField<Dim, char> closed = cells_to_continue(s.domain, s.solids, moved.geometry, phi);
+  const CellField<Dim, char>& closed = moved.closed.emplace(cells_to_continue(s.domain, s.solids, moved.geometry, phi));
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   moved.failure = carry_volumes(s, before, u, before.since_solve + times.lead, moved.state);
-  moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, moved.state);
+  moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
   inject(s.domain, fault, phi.data());
 }
@@ -212,15 +213,15 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
 }
 
 template <int Dim>
-void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times, Phases& phases,
-                      Attempt<Dim>& solved) {
+void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
+                      const CellField<Dim, char>& closed, Phases& phases, Attempt<Dim>& solved) {
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = solved.state;
   const bool can = can_go_on(s.domain, s.solids, s.scene->time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
   FaceField<Dim> u = leading.exterior->surface_velocity(s, leading);
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
-  (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, next);
+  (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
   if (s.tracks_volume()) return;
@@ -229,9 +230,10 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
       next.exterior->control_volume(s.domain, solved.geometry, expected, largest_shift(s.domain), next.phi);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                \
-  template Moved<D> move_surface_and_solids<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&); \
-  template void move_second_half<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&, Attempt<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template Moved<D> move_surface_and_solids<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&);       \
+  template void move_second_half<D>(const Setup<D>&, const State<D>&, const StepTimes&, const CellField<D, char>&, \
+                                    Phases&, Attempt<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

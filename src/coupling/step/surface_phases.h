@@ -28,6 +28,7 @@ struct Moved {
   std::optional<SurfaceTension<Dim>> tension;
   std::optional<CellField<Dim>> brought{};              // share of each cell that sources brought before the solve
   std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
+  std::optional<CellField<Dim, char>> closed{};         // cells_to_continue(); none in a look ahead
   std::string failure{};                                // empty, or why the step cannot be taken
 };
 
@@ -38,9 +39,9 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& setup, const State<Dim>& be
                                    Phases& phases);
 
 // The second half of a leapfrog step, by the velocities at its end; by those at its start where its end is too fast.
-// Collective.
+// `closed` as in Moved. Collective.
 template <int Dim>
-void move_second_half(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times, Phases& phases,
-                      Attempt<Dim>& solved);
+void move_second_half(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times,
+                      const CellField<Dim, char>& closed, Phases& phases, Attempt<Dim>& solved);
 
 }  // namespace seiche

@@ -58,6 +58,79 @@ bool is_closed(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const std:
   return closed;
 }
 
+// True if a wall of one or two closed cells along an axis goes through a cell, with open cells on both sides: phi there
+// may have been continued from either.
+template <int Dim>
+bool is_in_thin_wall(const Layout<Dim>& layout, const CellField<Dim, char>& closed, Site cell, const IVec<Dim>& index) {
+  constexpr int most = 2;
+  const Geometry<Dim>& g = layout.geometry();
+  for (int a = 0; a < Dim; ++a) {
+    const Site d = layout.stride(a);
+    int low = 0, high = 0;
+    while (low < most && closed[cell - low * d]) ++low;
+    while (high < most && closed[cell + high * d]) ++high;
+    const bool ends = g.periodic[a] || (index[a] - low >= 0 && index[a] + high < g.cells[a]);
+    if (ends && low + high - 1 <= most && !closed[cell - low * d] && !closed[cell + high * d]) return true;
+  }
+  return false;
+}
+
+// True if phi in a closed cell differs so much from an open one beside it that it belongs to the wall's other side.
+template <int Dim>
+bool belongs_elsewhere(const Layout<Dim>& layout, const CellField<Dim, char>& closed, const CellField<Dim>& phi,
+                       Site cell) {
+  constexpr double steepest = 1.5;
+  bool differs = false;
+  for (int a = 0; a < Dim; ++a)
+    for (const Site n : {cell - layout.stride(a), cell + layout.stride(a)})
+      differs = differs || (!closed[n] && std::abs(phi[n] - phi[cell]) > steepest * layout.h());
+  return differs;
+}
+
+// Marks of the cells in thin walls.
+template <int Dim>
+FieldValues<char> cells_in_thin_walls(const Domain<Dim>& domain, const CellField<Dim, char>& closed) {
+  FieldValues<char> thin(std::size_t(domain.layout.size()), 0);
+  for_each_index(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    thin[std::size_t(c)] = closed[c] && is_in_thin_wall(domain.layout, closed, c, i);
+  });
+  return thin;
+}
+
+// Marks of the cells for redistancing outside, by phi as it is continued into the closed cells.
+template <int Dim>
+CellField<Dim, char> kept_outside(const Domain<Dim>& domain, const CellField<Dim, char>& closed,
+                                  const FieldValues<char>& thin, const CellField<Dim>& phi) {
+  CellField<Dim, char> kept(domain.layout, Kept::no);
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    if (!closed[c]) return;
+    const bool unread = thin[std::size_t(c)] || belongs_elsewhere(domain.layout, closed, phi, c);
+    kept[c] = unread ? Kept::unread : Kept::yes;
+  });
+  domain.halo.fill_ghosts({kept.data()});
+  return kept;
+}
+
+// d phi / d(axis) times h, of second order, from open cells alone; 0 where closed cells lie on both sides.
+template <int Dim>
+double open_difference(const CellField<Dim, char>& closed, const CellField<Dim>& phi, Site cell, Site d) {
+  if (!closed[cell - d] && !closed[cell + d]) return 0.5 * (phi[cell + d] - phi[cell - d]);
+  if (closed[cell - d] && closed[cell + d]) return 0;
+  const Site away = closed[cell - d] ? d : -d;
+  const double first = phi[cell + away] - phi[cell];
+  const double second = closed[cell + 2 * away] ? 0 : phi[cell + 2 * away] - 2 * phi[cell + away] + phi[cell];
+  return (away > 0 ? 1 : -1) * (first - 0.5 * second);
+}
+
+// True if a closed cell lies within two of a cell along an axis. Interpolation reads so far at the least way.
+template <int Dim>
+bool is_near_closed(const Layout<Dim>& layout, const CellField<Dim, char>& closed, Site cell) {
+  bool near = false;
+  for (int a = 0; a < Dim; ++a)
+    for (const int n : {-2, -1, 1, 2}) near = near || closed[cell + n * layout.stride(a)];
+  return near;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -104,54 +177,6 @@ CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<D
   return closed;
 }
 
-namespace {
-
-// True if a wall of one or two closed cells along an axis goes through a cell, with open cells on both sides: phi there
-// may have been continued from either.
-template <int Dim>
-bool is_in_thin_wall(const Layout<Dim>& layout, const CellField<Dim, char>& closed, Site cell, const IVec<Dim>& index) {
-  constexpr int most = 2;
-  const Geometry<Dim>& g = layout.geometry();
-  for (int a = 0; a < Dim; ++a) {
-    const Site d = layout.stride(a);
-    int low = 0, high = 0;
-    while (low < most && closed[cell - low * d]) ++low;
-    while (high < most && closed[cell + high * d]) ++high;
-    const bool ends = g.periodic[a] || (index[a] - low >= 0 && index[a] + high < g.cells[a]);
-    if (ends && low + high - 1 <= most && !closed[cell - low * d] && !closed[cell + high * d]) return true;
-  }
-  return false;
-}
-
-// True if phi in a closed cell differs so much from an open one beside it that it belongs to the wall's other side.
-template <int Dim>
-bool belongs_elsewhere(const Layout<Dim>& layout, const CellField<Dim, char>& closed, const CellField<Dim>& phi,
-                       Site cell) {
-  constexpr double steepest = 1.5;
-  bool differs = false;
-  for (int a = 0; a < Dim; ++a)
-    for (const Site n : {cell - layout.stride(a), cell + layout.stride(a)})
-      differs = differs || (!closed[n] && std::abs(phi[n] - phi[cell]) > steepest * layout.h());
-  return differs;
-}
-
-// Marks of the cells for redistancing outside, by phi as it is continued into the closed cells.
-template <int Dim>
-CellField<Dim, char> kept_outside(const Domain<Dim>& domain, const CellField<Dim, char>& closed,
-                                  const CellField<Dim>& phi) {
-  CellField<Dim, char> kept(domain.layout, Kept::no);
-  for_each_index(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    if (!closed[c]) return;
-    const bool unread =
-        is_in_thin_wall(domain.layout, closed, c, i) || belongs_elsewhere(domain.layout, closed, phi, c);
-    kept[c] = unread ? Kept::unread : Kept::yes;
-  });
-  domain.halo.fill_ghosts({kept.data()});
-  return kept;
-}
-
-}  // namespace
-
 template <int Dim>
 void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi) {
@@ -161,9 +186,10 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
   const CellField<Dim> within = phi;
   RedistanceOptions outside = options;
   outside.iterations /= passes;
+  const FieldValues<char> thin = cells_in_thin_walls(domain, closed);
   for (int n = 0; n < passes; ++n) {
     continue_level_set(domain, solids, closed, phi);
-    const CellField<Dim, char> kept = kept_outside(domain, closed, phi);
+    const CellField<Dim, char> kept = kept_outside(domain, closed, thin, phi);
     redistance(domain.layout, domain.halo, outside, phi, &kept);
   }
   CellField<Dim, char> open(domain.layout, Kept::no);
@@ -172,6 +198,26 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
     if (closed[c]) phi[c] = within[c];
   }
   redistance(domain.layout, domain.halo, options, phi, &open);
+}
+
+// phi(x - s) = phi - s . grad phi with the way s = u dt, for |s| <= slow; as transported for |s| >= fast.
+template <int Dim>
+void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const FaceField<Dim>& u,
+                            double dt, const CellField<Dim>& before, CellField<Dim>& phi) {
+  constexpr double slow = 0.02, fast = 0.1;  // cells
+  const Layout<Dim>& layout = domain.layout;
+  for_each_site(layout, layout.cells(), [&](Site c) {
+    if (closed[c] || std::abs(before[c]) >= domain.band() || !is_near_closed(layout, closed, c)) return;
+    double way = 0, carried = before[c];
+    for (int a = 0; a < Dim; ++a) {
+      const Site d = layout.stride(a);
+      const double s = 0.5 * (u.at(a, c) + u.at(a, c + d)) * dt / layout.h();
+      way = std::max(way, std::abs(s));
+      carried -= s * open_difference(closed, before, c, d);
+    }
+    const double share = std::clamp((fast - way) / (fast - slow), 0.0, 1.0);
+    phi[c] += share * (carried - phi[c]);
+  });
 }
 
 template <int Dim>
@@ -194,6 +240,10 @@ template CellField<2, char> cells_to_continue<2>(const Domain<2>&, const Solids<
                                                  const CellField<2>&);
 template CellField<3, char> cells_to_continue<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&,
                                                  const CellField<3>&);
+template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, char>&, const FaceField<2>&, double,
+                                        const CellField<2>&, CellField<2>&);
+template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const FaceField<3>&, double,
+                                        const CellField<3>&, CellField<3>&);
 template void continue_level_set<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&, CellField<2>&);
 template void continue_level_set<3>(const Domain<3>&, const Solids<3>&, const CellField<3, char>&, CellField<3>&);
 template void redistance_beside_solids<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&,

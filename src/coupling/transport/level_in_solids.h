@@ -36,6 +36,13 @@ template <int Dim>
 void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi);
 
+// Transports phi anew from `before` in open cells near closed ones where the velocity u (m/s) moves it by less than a
+// tenth of a cell in dt (s). There phi in closed cells is not read: it bends towards the level on the wall's other
+// side, and the slope along the wall that transport sees drives waves that grow. Faster fronts run on into the wall.
+template <int Dim>
+void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const FaceField<Dim>& u,
+                            double dt, const CellField<Dim>& before, CellField<Dim>& phi);
+
 // Keeps phi on the two sides of thick elastic walls apart. In elastic bodies phi moves with the body only near its
 // surface. Deeper inside it stays behind, and liquid from one side would emerge at the other. Four layers from a depth
 // of 1.5 cells on are checked against the nearest cells less deep: phi with another sign takes their value, the mean of

@@ -244,7 +244,7 @@ double liquid_volume(const Domain<Dim>& domain, const CellField<Dim>& phi, const
 
 template <int Dim>
 Brought<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
-                               CellField<Dim>& phi) {
+                               const CellField<Dim, char>& closed, CellField<Dim>& phi) {
   check_forces_of_step(s.domain, s.fluids, s.sources, t, t + dt);
   CellField<Dim> joined = phi;
   if (s.domain.sides.any_inflow())
@@ -256,7 +256,9 @@ Brought<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, Fac
     continue_beyond_inflows(s.domain.layout, s.domain.sides, t, path);
     let_air_follow(s.domain.layout, s.domain.sides, t, state.now->valid, path);
   }
-  advect_level_set(s.domain.layout, path, s.perturbation.surface_advection * dt, s.domain.band(), joined, phi, how);
+  const double span = s.perturbation.surface_advection * dt;
+  advect_level_set(s.domain.layout, path, span, s.domain.band(), joined, phi, how);
+  carry_slow_near_closed(s.domain, closed, path, span, joined, phi);
   fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
   return add_sources(s.domain, s.solids, s.sources, state, t, t + dt, phi);
 }
@@ -378,7 +380,7 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
 #define SEICHE_INSTANTIATE(D)                                                                                     \
   template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                   \
   template Brought<D> transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double,        \
-                                           CellField<D>&);                                                        \
+                                           const CellField<D, char>&, CellField<D>&);                             \
   template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,              \
                                  const CellField<D, char>&, CellField<D>&);                                       \
   template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                        \

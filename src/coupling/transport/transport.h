@@ -12,11 +12,11 @@ namespace seiche {
 struct TimeSpec;
 
 // Transports phi from time t to t + dt (s) with the velocity `path` (m/s). Joins it with inflow and sources. `state`
-// gives the positions of the solids. Returns what sources brought. Throws as check_forces_of_step() does. Fills ghosts.
-// Collective.
+// gives the positions of the solids, `closed` the cells of cells_to_continue(). Returns what sources brought. Throws as
+// check_forces_of_step() does. Fills ghosts. Collective.
 template <int Dim>
 Brought<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t,
-                               double dt, CellField<Dim>& phi);
+                               double dt, const CellField<Dim, char>& closed, CellField<Dim>& phi);
 
 // Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells. `closed`: see
 // redistance_beside_solids(). Collective.
