@@ -8,7 +8,7 @@ from fuzzing.oracle import check_end
 from fuzzing.tables import Fault
 
 COPIES = 8       # damaged copies of one killed run
-MOST_KILLS = 8   # until a kill leaves two checkpoints and remaining steps
+MOST_KILLS = 40  # until a kill leaves two checkpoints and remaining steps
 OTHERS = ("scene.toml", "stats.csv", "solids.csv", "probes.csv", "log.txt", "summary.json")
 
 

@@ -87,7 +87,8 @@ def energy_margin(scene, stats, given, amiss):
     moved = liquid["density"] * (amiss + numpy.abs(stats["volume_corrected"]) + stats["volume_spilled"])
     speed = numpy.minimum(stats["max_speed"], fastest(scene, stats, given))
     lag = numpy.maximum.accumulate(speed * stats["dt"])
-    jitter = 1e-6 * h / numpy.maximum(stats["dt"], 1e-3 * stats["dt"].max())     # speed by the solver's tolerance
+    step = numpy.maximum(stats["dt"], 1e-3 * stats["dt"].max())
+    jitter = numpy.divide(1e-6 * h, step, out=numpy.zeros_like(step), where=step > 0)  # speed by the solver's tolerance
     return (0.05 * stats["kinetic_energy"][0] + 0.5 * mass * jitter ** 2
             + gravity * (0.5 * mass * (h + lag) + liquid["density"] * amiss * extent.sum())
             + 0.5 * moved * speed ** 2 + liquid.get("surface_tension", 0) * volume / h)
