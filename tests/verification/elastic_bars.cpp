@@ -3,6 +3,7 @@
 
 #include "elastic_scenes.h"
 
+namespace elastic_bars_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -70,3 +71,5 @@ TEST_CASE("bars in liquid: a bar that hangs in liquid at rest is as long as elas
       CHECK(std::abs(rise - exact) <= 2e-4 * squeezed);  // pins hold the width of the top: 1e-4 in 3D
     }
 }
+
+}  // namespace elastic_bars_tests

@@ -11,6 +11,7 @@
 #include "elastic_scenes.h"
 #include "rigid_scenes.h"
 
+namespace elastic_energy_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -260,3 +261,5 @@ TEST_CASE("a run that ends just before a frame ends as one that ends with it", "
     CHECK(energy[1] == Approx(energy[0]).epsilon(1e-5));  // the ends differ by 1e-6 of a step
   }
 }
+
+}  // namespace elastic_energy_tests

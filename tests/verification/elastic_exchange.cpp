@@ -3,6 +3,7 @@
 #include "base/scene.h"
 #include "exchange.h"
 
+namespace elastic_exchange_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -60,3 +61,5 @@ TEST_CASE("linear momentum of liquid and elastic bodies changes by gravity and b
   WARN("imbalance over the largest term: " << worst << ", bar 1e-11");
   CHECK(worst <= 1e-11);
 }
+
+}  // namespace elastic_exchange_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "elastic_scenes.h"
 
+namespace elastic_extremes_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -114,3 +115,5 @@ TEST_CASE("a sheet of density ratio 1e-3 as soft as to roll up moves at bounded 
   s.time.frame_rate = 10;
   check("sheet", s, sheet({1e2, 0.4}), 0.7);
 }
+
+}  // namespace elastic_extremes_tests

@@ -6,6 +6,7 @@
 #include "first_solve.h"
 #include "rigid_scenes.h"
 
+namespace elastic_iterations_tests {
 using namespace seiche;
 
 namespace {
@@ -146,3 +147,5 @@ TEST_CASE("a stiff ball that turns by 0.4 rad a step takes few Newton iterations
     CHECK(most <= 12);  // 8 and 9 found, in the first step; 4 later
   }
 }
+
+}  // namespace elastic_iterations_tests

@@ -3,6 +3,7 @@
 #include "base/scene.h"
 #include "exchange.h"
 
+namespace elastic_pressure_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -116,3 +117,5 @@ TEST_CASE("liquid at rest loads each node of an elastic body as its own surface 
   WARN("largest error over the largest load: " << worst << ", bar 1e-12");
   CHECK(worst <= 1e-12);
 }
+
+}  // namespace elastic_pressure_tests

@@ -8,6 +8,7 @@
 #include "elastic_scenes.h"
 #include "rigid_scenes.h"
 
+namespace elastic_start_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -104,3 +105,5 @@ TEST_CASE("elastic start: a disc thrown in liquid gives it momentum once") {
   for (int n = 0; n < 3; ++n) simulation->step(s.time.end);
   CHECK(simulation->stats().kinetic_energy > 0.4 * start);
 }
+
+}  // namespace elastic_start_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "elastic_scenes.h"
 
+namespace elastic_viscous_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -38,3 +39,5 @@ TEST_CASE("viscous liquid stays free of divergence beside elastic solids whose p
       CHECK(worst <= 1e-4);
     }
 }
+
+}  // namespace elastic_viscous_tests

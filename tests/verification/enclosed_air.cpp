@@ -11,6 +11,7 @@
 #include "levelset/redistance.h"
 #include "rigid_scenes.h"
 
+namespace enclosed_air_tests {
 using namespace seiche;
 
 namespace {
@@ -323,3 +324,5 @@ TEST_CASE("a bubble under an elastic lid keeps its volume") {
   CHECK(worst <= 1e-4);
   CHECK(sim->stats().max_speed < 0.1);
 }
+
+}  // namespace enclosed_air_tests

@@ -1,13 +1,11 @@
 // Work and losses of energy in stats.csv against exact answers.
 #include <catch2/catch.hpp>
-
 #include "elastic_scenes.h"
 #include "scenes.h"
 
+namespace energy_account_tests {
 using namespace seiche;
-
 namespace {
-
 constexpr double pi = 3.14159265358979323846;
 
 SolidSpec disc_of(int dim, double radius, const SolidKind& kind) {
@@ -30,9 +28,10 @@ SolidSpec box_of(int dim, const std::string& name, const SolidKind& kind, const 
   return box;
 }
 
-std::unique_ptr<Simulation> run(const Scene& scene) {
-  auto sim = make_simulation(scene, Communicator());
-  while (sim->time() < scene.time.end * (1 - 1e-9)) (void)sim->step(scene.time.end);
+std::unique_ptr<Simulation> run(const Scene& s) {
+  auto sim = make_simulation(s, Communicator());
+  for (; sim->time() < s.time.end * (1 - 1e-9); (void)sim->step(s.time.end))
+    ;
   return sim;
 }
 
@@ -398,3 +397,4 @@ TEST_CASE("energy account: heat of a stiff liquid is the motion that it loses") 
   check_stiff<3>(SolidKind::rigid);
   check_stiff<2>(SolidKind::elastic);
 }
+}  // namespace energy_account_tests

@@ -14,6 +14,7 @@
 #include "scenes.h"
 #include "unit/coupling/end.h"
 
+namespace energy_budget_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 
@@ -171,3 +172,5 @@ TEST_CASE("what a trial of the first step gained is not gained again", "[ranks]"
   const double gain = 2 * 10 * 2.25 * first.dt + 1e-3 / 8 / first.dt;
   CHECK(first.kinetic_energy <= 2 * std::pow(std::sqrt(mass) + std::sqrt(largest_mass) * gain, 2));
 }
+
+}  // namespace energy_budget_tests

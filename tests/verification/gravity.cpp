@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace gravity_tests {
 using namespace seiche;
 
 namespace {
@@ -114,3 +115,5 @@ TEST_CASE("gravity that flips each step leaves everything where it is") {
   }
   CHECK(fastest <= 1);
 }
+
+}  // namespace gravity_tests

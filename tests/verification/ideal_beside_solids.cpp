@@ -8,6 +8,7 @@
 #include "base/time_spec.h"
 #include "rigid_scenes.h"
 
+namespace ideal_beside_solids_tests {
 using namespace seiche;
 
 namespace {
@@ -213,3 +214,5 @@ TEST_CASE("a disc carried through ideal liquid feels no drag of first order in t
   WARN("mean drag " << drag << " N/m; without the convected pressure " << lag);
   CHECK(std::abs(drag) <= 0.15 * lag);
 }
+
+}  // namespace ideal_beside_solids_tests

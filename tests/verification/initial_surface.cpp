@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace initial_surface_tests {
 using namespace seiche;
 
 namespace {
@@ -35,3 +36,5 @@ TEST_CASE("a smooth formula keeps its volume to second order") {
   WARN("disc: " << coarse << ", " << fine);
   CHECK(test::order(coarse, fine) > 1.6);
 }
+
+}  // namespace initial_surface_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace jets_tests {
 using namespace seiche;
 
 namespace {
@@ -156,3 +157,5 @@ TEST_CASE("liquid comes in with the velocity that the side had when it did") {
     CHECK(test::order(middle, fine) > 1.5);
   }
 }
+
+}  // namespace jets_tests

@@ -4,6 +4,7 @@
 #include "grid/field_memory.h"
 #include "scenes.h"
 
+namespace memory_of_steps_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -22,3 +23,5 @@ TEST_CASE("a warm step of a dam break takes no memory for fields", "[long]") {
   WARN(before << " large fields mapped by the first steps, " << per_step << " by each later one");
   CHECK(per_step == 0);
 }
+
+}  // namespace memory_of_steps_tests

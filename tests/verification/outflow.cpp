@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace outflow_tests {
 using namespace seiche;
 
 // An eddy through the top of a full box: as much liquid enters as leaves, and the expected volume counts both.
@@ -47,3 +48,5 @@ TEST_CASE("the first step books what leaves a full box as it books what enters")
       CHECK(std::abs(sim->expected_volume() - stats.liquid_volume) < 1e-6 * passed);
     }
 }
+
+}  // namespace outflow_tests

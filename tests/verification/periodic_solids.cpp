@@ -12,6 +12,7 @@
 #include "rigid_scenes.h"
 #include "scenes.h"
 
+namespace periodic_solids_tests {
 using namespace seiche;
 
 namespace {
@@ -112,3 +113,5 @@ TEST_CASE("elastic solids may end at a periodic side but not reach beyond it", "
     }
   }
 }
+
+}  // namespace periodic_solids_tests

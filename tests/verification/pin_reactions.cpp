@@ -6,6 +6,7 @@
 #include "elastic_scenes.h"
 #include "rigid_scenes.h"
 
+namespace pin_reactions_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -192,3 +193,5 @@ TEST_CASE("the pins of a block carry what rests on it", "[elastic]") {
     CHECK((block.pin_force - Vec3(0, weight, 0)).norm() <= 1e-4 * weight);
   }
 }
+
+}  // namespace pin_reactions_tests

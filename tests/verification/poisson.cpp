@@ -8,6 +8,7 @@
 #include "levelset/redistance.h"
 #include "scenes.h"
 
+namespace poisson_tests {
 using namespace seiche;
 
 namespace {
@@ -198,3 +199,5 @@ TEMPLATE_TEST_CASE_SIG("pressure converges at second order under a curved free s
   };
   check_order<Dim>("drop", {}, still<Dim>, phi, p, slope);
 }
+
+}  // namespace poisson_tests

@@ -6,6 +6,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace prescribed_flow_tests {
 using namespace seiche;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE("a prescribed flow goes on from a checkpoint with the same bits") {
   CHECK(whole->frame_field("surface").values == other->frame_field("surface").values);
   CHECK(whole->frame_field("vel").values == other->frame_field("vel").values);
 }
+
+}  // namespace prescribed_flow_tests

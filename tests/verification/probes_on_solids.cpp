@@ -3,6 +3,7 @@
 
 #include "scenes.h"
 
+namespace probes_on_solids_tests {
 using namespace seiche;
 
 namespace {
@@ -59,3 +60,5 @@ TEST_CASE("probes on solids: a gate between two levels") {
       check_gate<3>(thick, degrees);
     }
 }
+
+}  // namespace probes_on_solids_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace rigid_tests {
 using namespace seiche;
 
 namespace {
@@ -96,3 +97,5 @@ TEST_CASE("neutrally buoyant bodies stay at rest in liquid at rest", "[long]") {
     CHECK(fastest <= 1e-10);
   }
 }
+
+}  // namespace rigid_tests

@@ -13,6 +13,7 @@
 #include "rigid_scenes.h"
 #include "solid/rigid/motion.h"
 
+namespace rigid_contact_tests {
 using namespace seiche;
 
 namespace {
@@ -189,3 +190,5 @@ TEST_CASE("a body that spins about its middle axis keeps energy and angular mome
   CHECK(momentum_error <= 0.01);
   CHECK(flips < -0.9);
 }
+
+}  // namespace rigid_contact_tests

@@ -2,6 +2,7 @@
 #include "base/scene.h"
 #include "exchange.h"
 
+namespace rigid_exchange_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -130,3 +131,5 @@ TEST_CASE("the bodies eliminated leave the pressure of the whole system") {
   WARN("largest difference over the largest pressure: " << worst << ", bar 1e-12");
   CHECK(worst <= 1e-12);
 }
+
+}  // namespace rigid_exchange_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace rigid_floating_tests {
 using namespace seiche;
 
 namespace {
@@ -74,3 +75,5 @@ TEST_CASE("a square log floats flat, or on a corner, as its density says") {
     if (s != 0.5) CHECK(std::max(-f.least, f.most) <= 12);
   }
 }
+
+}  // namespace rigid_floating_tests

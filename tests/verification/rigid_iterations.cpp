@@ -5,6 +5,7 @@
 #include "first_solve.h"
 #include "rigid_scenes.h"
 
+namespace rigid_iterations_tests {
 using namespace seiche;
 
 namespace {
@@ -103,3 +104,5 @@ TEST_CASE("27 light spheres cost three static solves to set up and thirty iterat
   CHECK(e.coupled <= 30);
   CHECK(e.setup <= 3 * e.fixed);
 }
+
+}  // namespace rigid_iterations_tests

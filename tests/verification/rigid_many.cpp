@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace rigid_many_tests {
 using namespace seiche;
 
 TEST_CASE("a hundred and twenty discs that touch under water take their steps without overlaps") {
@@ -32,3 +33,5 @@ TEST_CASE("a hundred and twenty discs that touch under water take their steps wi
       // Contact surfaces of discs are polygons of at least 16 sides inside the circles.
       CHECK((discs[a].position - discs[b].position).norm() > 2 * r * std::cos(test::pi / 16));
 }
+
+}  // namespace rigid_many_tests

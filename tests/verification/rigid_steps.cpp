@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace rigid_steps_tests {
 using namespace seiche;
 
 namespace {
@@ -185,3 +186,5 @@ TEST_CASE("a raft floats equally high at Courant numbers 0.5, 1, 2 and 5", "[lon
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   CHECK(*high - *low <= 0.01 * *low);
 }
+
+}  // namespace rigid_steps_tests

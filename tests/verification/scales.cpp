@@ -6,6 +6,7 @@
 #include "rigid_scenes.h"
 #include "scenes.h"
 
+namespace scales_tests {
 using namespace seiche;
 
 namespace {
@@ -122,3 +123,5 @@ TEST_CASE("bodies in contact and in liquid run alike from micrometres to kilomet
     check_scales(3, {.rigid = true, .elastic = true}, 3, 1e-10);
   }
 }
+
+}  // namespace scales_tests

@@ -11,6 +11,7 @@
 #include "solid/body/enclosed_volume.h"
 #include "solid/mesh/mesh.h"
 
+namespace sealed_liquid_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -328,3 +329,5 @@ TEST_CASE("a bubble that an elastic lid and walls seal in stays gas", "[elastic]
   CHECK(after.gas_volume == Approx(before.gas_volume).epsilon(0.01));  // the volume control allows for the lid's motion
   CHECK(after.liquid_volume == Approx(before.liquid_volume).epsilon(0.01));
 }
+
+}  // namespace sealed_liquid_tests

@@ -5,6 +5,7 @@
 #include "elastic_scenes.h"
 #include "scenes.h"
 
+namespace separation_tests {
 using namespace seiche;
 
 namespace {
@@ -142,3 +143,5 @@ TEST_CASE("liquid finds which cells part from a light elastic body") {
   const auto sim = make_simulation(s, Communicator());
   while (sim->time() < 0.2) CHECK(sim->step(0.2).separation_error == 0);
 }
+
+}  // namespace separation_tests

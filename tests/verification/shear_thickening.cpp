@@ -4,6 +4,7 @@
 
 #include "scenes.h"
 
+namespace shear_thickening_tests {
 using namespace seiche;
 
 namespace {
@@ -45,3 +46,5 @@ TEST_CASE("viscosity and flow that do not agree within the solves allowed are re
   for (int n = 0; n < 3; ++n) (void)sim->step(10);
   CHECK(count_of_disagreements(sim->take_warnings()) == 1);
 }
+
+}  // namespace shear_thickening_tests

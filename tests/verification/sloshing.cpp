@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace sloshing_tests {
 using namespace seiche;
 
 TEST_CASE("a sloshing tank swings with the period of linear theory") {
@@ -36,3 +37,5 @@ TEST_CASE("a sloshing tank swings with the period of linear theory") {
   WARN("first at the level after " << passes[0] << " s, a quarter is " << exact / 4 << " s");
   CHECK(4 * passes[0] == Approx(exact).epsilon(0.01));
 }
+
+}  // namespace sloshing_tests

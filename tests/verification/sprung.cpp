@@ -5,6 +5,7 @@
 #include "coupling/solids/solid_kinds.h"
 #include "scenes.h"
 
+namespace sprung_tests {
 using namespace seiche;
 
 namespace {
@@ -147,3 +148,5 @@ TEST_CASE("a body on a spring goes on from a checkpoint with the same bits") {
     REQUIRE(whole->solids()[0].velocity == other->solids()[0].velocity);
   }
 }
+
+}  // namespace sprung_tests

@@ -7,6 +7,7 @@
 #include "levelset/redistance.h"
 #include "scenes.h"
 
+namespace surface_tension_tests {
 using namespace seiche;
 
 namespace {
@@ -188,3 +189,5 @@ TEST_CASE("a square of liquid rounds off") {
   WARN("radius " << sim->probe(0).value - 0.5 << " of " << radius << ", speed " << sim->stats().max_speed);
   CHECK(sim->probe(0).value - 0.5 == Approx(radius).epsilon(5e-3));
 }
+
+}  // namespace surface_tension_tests

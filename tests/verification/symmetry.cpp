@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace symmetry_tests {
 using namespace seiche;
 
 namespace {
@@ -109,3 +110,5 @@ TEST_CASE("a turned, mirrored or permuted scene gives the turned result") {
     }
   }
 }
+
+}  // namespace symmetry_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace taylor_green_tests {
 using namespace seiche;
 
 namespace {
@@ -57,3 +58,5 @@ TEST_CASE("carried Taylor-Green vortices converge at second order", "[long]") {
   CHECK(e128 <= 3.5e-4);
   CHECK(test::order(e64, e128) >= 1.8);
 }
+
+}  // namespace taylor_green_tests

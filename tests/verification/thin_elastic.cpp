@@ -6,6 +6,7 @@
 #include "exchange.h"
 #include "geometry/mesh/segment_crossing.h"
 
+namespace thin_elastic_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -194,3 +195,5 @@ TEST_CASE("a thin elastic sheet under water sags as a plate does", "[elastic][th
   WARN("3D: " << square << " of plate theory");
   CHECK(square == Approx(1).margin(0.05));  // elements are a tenth of the side
 }
+
+}  // namespace thin_elastic_tests

@@ -5,6 +5,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace thin_films_tests {
 using namespace seiche;
 
 namespace {
@@ -101,3 +102,5 @@ TEST_CASE("a heavy box sinks to the floor and comes to lie on it", "[long]") {
     CHECK(fastest < 1e-3);
   }
 }
+
+}  // namespace thin_films_tests

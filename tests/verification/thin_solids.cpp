@@ -5,6 +5,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace thin_solids_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -175,3 +176,5 @@ TEST_CASE("a source brings liquid to all sides of a solid thinner than a cell") 
     CHECK(first == Approx(sim->stats().liquid_volume).epsilon(1e-9));  // the source is as full as it will be
   }
 }
+
+}  // namespace thin_solids_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace threads_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -57,3 +58,5 @@ TEST_CASE("threads and sheets of liquid fly on about as thick as they are") {
     }
   WARN(text);
 }
+
+}  // namespace threads_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace two_phase_tests {
 using namespace seiche;
 
 namespace {
@@ -169,3 +170,5 @@ TEST_CASE("drops of a cell that start in gas at rest keep their momentum and gai
       CHECK(after.kinetic_energy <= start.kinetic_energy);
     }
 }
+
+}  // namespace two_phase_tests

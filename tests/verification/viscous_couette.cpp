@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "viscous_case.h"
 
+namespace viscous_couette_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -205,3 +206,5 @@ TEST_CASE("no-slip fluxes of a shear", "[viscous]") {
   check_flux<2>(16);
   check_flux<3>(8);
 }
+
+}  // namespace viscous_couette_tests

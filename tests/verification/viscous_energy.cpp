@@ -3,6 +3,7 @@
 #include "base/scene.h"
 #include "rigid_scenes.h"
 
+namespace viscous_energy_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -145,3 +146,5 @@ TEST_CASE("a light no-slip sphere does not spin up in gas of little viscosity", 
     CHECK(most <= 200);
   }
 }
+
+}  // namespace viscous_energy_tests

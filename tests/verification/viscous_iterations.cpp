@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace viscous_iterations_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -63,3 +64,5 @@ TEST_CASE("viscosity: shear between plates leaves nothing to do for the pressure
   auto run = make_simulation(scene, Communicator());
   while (run->time() < scene.time.end) CHECK(run->step(scene.time.end).solver_iterations <= 12);  // 6 or 7
 }
+
+}  // namespace viscous_iterations_tests

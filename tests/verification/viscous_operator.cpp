@@ -7,6 +7,7 @@
 #include "base/scene.h"
 #include "viscous_case.h"
 
+namespace viscous_operator_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -386,3 +387,5 @@ TEST_CASE("viscous operator 2D", "[viscous]") {
 TEST_CASE("viscous operator 3D", "[viscous]") {
   check_cases<3>(9);
 }
+
+}  // namespace viscous_operator_tests

@@ -4,6 +4,7 @@
 #include "fluid/pressure/separation_search.h"
 #include "viscous_case.h"
 
+namespace viscous_parting_tests {
 using namespace seiche;
 using namespace seiche::test;
 
@@ -57,3 +58,5 @@ TEST_CASE("a search for the cells that part which no guess satisfies ends, and s
   CHECK(rounds == 50);
   CHECK(search.error() >= 1);
 }
+
+}  // namespace viscous_parting_tests

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "volume_scenes.h"
 
+namespace volumes_tests {
 using namespace seiche;
 using test::kept_in_cells;
 
@@ -114,3 +115,5 @@ TEST_CASE("a dam break with volumes in cells goes on from a checkpoint with the 
   }
   CHECK(whole->frame_field("surface").values == other->frame_field("surface").values);
 }
+
+}  // namespace volumes_tests

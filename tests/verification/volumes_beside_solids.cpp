@@ -6,6 +6,7 @@
 #include "base/solid_spec.h"
 #include "volume_scenes.h"
 
+namespace volumes_beside_solids_tests {
 using namespace seiche;
 using test::kept_in_cells;
 
@@ -130,3 +131,5 @@ TEST_CASE("volumes beside solids: a solid thinner than a cell is refused", "[vol
   add_box(s, {0.5, -1, 0}, {0.52, 2, 1});
   CHECK_THROWS_WITH(make_simulation(s, Communicator()), Catch::Matchers::Contains("thinner than a cell"));
 }
+
+}  // namespace volumes_beside_solids_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "scenes.h"
 
+namespace walls_tests {
 using namespace seiche;
 
 namespace {
@@ -117,3 +118,5 @@ TEST_CASE("a shear layer leaves through an outflow side as it came") {
   WARN("largest error " << worst << " m/s");
   CHECK(worst < 1e-6);
 }
+
+}  // namespace walls_tests

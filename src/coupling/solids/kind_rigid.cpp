@@ -6,6 +6,7 @@
 #include "coupling/solids/rigid_coupling.h"
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/state.h"
+#include "linalg/core/dense_factors.h"
 #include "solid/rigid/motion.h"
 
 namespace seiche {
@@ -53,7 +54,8 @@ template <int Dim>
 void RigidParticipant<Dim>::set_target(double dt, int block, SolidCoupling<Dim>& c) const {
   const int first = c.first[std::size_t(block)], n = twist_size<Dim>;
   const Eigen::MatrixXd M = c.mass.block(first, first, n, n);
-  c.target.segment(first, n) = c.free.segment(first, n) + dt * M.ldlt().solve(c.buoyancy_correction.segment(first, n));
+  c.target.segment(first, n) =
+      c.free.segment(first, n) + dt * DenseLdlt(M).solve(c.buoyancy_correction.segment(first, n));
   c.push.segment(first, n) = M * c.target.segment(first, n);
 }
 

@@ -65,7 +65,7 @@ MinimumNormFlux::MinimumNormFlux(const LinkGraph& graph) : graph_(graph), of_row
   const Eigen::VectorXd node_degree = of_row_.transpose() * Eigen::VectorXd::Ones(graph.rows());
   SparseMatrix L = -SparseMatrix(of_row_.transpose() * row_degree_.cwiseInverse().asDiagonal() * of_row_);
   for (int n = 0; n < graph.nodes(); ++n) L.coeffRef(n, n) += node_degree[n] + (n == 0 ? 1 : 0);
-  factor_.compute(L);
+  (void)factor_.factor(L);  // positive definite: a node of each piece is held or tied
 }
 
 std::vector<double> MinimumNormFlux::solve(const Eigen::VectorXd& wanted) const {
@@ -102,7 +102,7 @@ BalancedMinimumNormFlux::BalancedMinimumNormFlux(const LinkGraph& graph, const s
     if (!has_held[piece]) nodes_of_piece_[piece] += 1;
     L.coeffRef(n, n) += is_held(n) ? 1 : node_degree[n] + (tied ? 1 : 0);
   }
-  factor_.compute(L);
+  (void)factor_.factor(L);  // positive definite: a node of each piece is held or tied
 }
 
 // Node sums: the sum of `wanted` over the piece in equal parts; 0 in pieces with held nodes.

@@ -5,10 +5,8 @@
 #include <set>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
 #include "base/communicator.h"
-#include "linalg/core/sparse_cholesky.h"
+#include "linalg/core/sparse_ldlt.h"
 
 namespace seiche {
 
@@ -59,7 +57,7 @@ class MinimumNormFlux {
   const LinkGraph& graph_;
   SparseMatrix of_row_;
   Eigen::VectorXd row_degree_;
-  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+  SparseLdlt factor_;
 };
 
 // Minimum-norm flux d_cn on the links with sum_n d_cn = wanted_c for each row and sum_c d_cn = 0 for each node that is
@@ -81,7 +79,7 @@ class BalancedMinimumNormFlux {
   std::vector<double> nodes_of_piece_;  // number of nodes of each piece; 0: a node of it is held
   SparseMatrix of_row_;                 // incidence matrix, rows x nodes, without held nodes
   Eigen::VectorXd row_degree_;
-  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+  SparseLdlt factor_;
 };
 
 }  // namespace seiche

@@ -1,5 +1,7 @@
 #include "coupling/solve/contact_model.h"
 
+#include "linalg/core/dense_factors.h"
+
 namespace seiche {
 
 AddedMassModel::AddedMassModel(Eigen::MatrixXd T, const Eigen::VectorXd& v0, const Eigen::VectorXd& g0,
@@ -29,8 +31,8 @@ InertiaResponse AddedMassModel::minimise(const SparseMatrix& K, const Eigen::Vec
   Eigen::MatrixXd H = T_;
   if (K.nonZeros() > 0) H += K;
   hold_fixed(H);
-  const Eigen::LLT<Eigen::MatrixXd> factor(H);
-  if (factor.info() != Eigen::Success) return {{}, Shape::indefinite, {}, {}};
+  const DenseLlt factor(H);
+  if (!factor.succeeded()) return {{}, Shape::indefinite, {}, {}};
   return respond(factor.solve(T_ * v0_ - g0_ + masked(r)));
 }
 
@@ -39,7 +41,7 @@ InertiaResponse AddedMassModel::respond(const Eigen::VectorXd& v) {
 }
 
 Eigen::VectorXd AddedMassModel::error(const Eigen::VectorXd& v, const Eigen::VectorXd& g) const {
-  return T_.llt().solve(masked(g) - g0_ - T_ * (v - v0_));
+  return DenseLlt(T_).solve(masked(g) - g0_ - T_ * (v - v0_));
 }
 
 // BFGS: T <- T - T s s'T/(s'T s) + y y'/(y's) for the step s = v - v0 and the true change y of the gradient along it.

@@ -1,11 +1,11 @@
 #include "coupling/tension/tension_balance.h"
 
-#include <Eigen/LU>
 #include <cstring>
 #include <map>
 
 #include "coupling/tension/surface_graph.h"
 #include "fluid/boundary/domain.h"
+#include "linalg/core/dense_factors.h"
 
 namespace seiche {
 namespace {
@@ -59,7 +59,7 @@ struct Piece {
   // c with response c = force; zero if the piece is held or the system has no finite solution.
   Vec<Dim> shift() const {
     if (held > 0) return Vec<Dim>::Zero();
-    const Vec<Dim> c = response.fullPivLu().solve(force);
+    const Vec<Dim> c = least_squares(response, force);
     return c.allFinite() ? c : Vec<Dim>::Zero();
   }
 };

@@ -80,8 +80,7 @@ SparseMatrix BodyMatrix::submatrix(const std::vector<int>& rows) const {
 
 bool BodyMatrix::factor_shared() {
   if (shared_.empty()) return true;
-  shared_factor_.compute(parts_.empty() ? H_ : submatrix(shared_));
-  return shared_factor_.info() == Eigen::Success && (shared_factor_.vectorD().array() > 0).all();
+  return shared_factor_.factor(parts_.empty() ? H_ : submatrix(shared_)) && shared_factor_.is_positive();
 }
 
 bool BodyMatrix::set(SparseMatrix H) {
@@ -110,7 +109,7 @@ Eigen::VectorXd BodyMatrix::multiply(const Eigen::VectorXd& v) const {
 }
 
 Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
-  if (parts_.empty()) return shared_.empty() ? b : Eigen::VectorXd(shared_factor_.solve(b));
+  if (parts_.empty()) return shared_.empty() ? b : shared_factor_.solve(b);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
   for (const Part& part : parts_)
     if (part.owner == ranks_.rank()) x(part.rows) = part.factor.solve(gathered(b, part.rows));
@@ -118,18 +117,17 @@ Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
   ranks_.global_sum(std::span<double>(x.data(), std::size_t(x.size())));
   // Assigned through a temporary vector: otherwise Eigen permutes within the rows of x and reads entries that it has
   // overwritten.
-  if (!shared_.empty()) x(shared_) = Eigen::VectorXd(shared_factor_.solve(gathered(b, shared_)));
+  if (!shared_.empty()) x(shared_) = shared_factor_.solve(gathered(b, shared_));
   return x;
 }
 
 Eigen::MatrixXd BodyMatrix::solve_columns(const Eigen::MatrixXd& B) const {
-  if (parts_.empty()) return shared_.empty() ? B : Eigen::MatrixXd(shared_factor_.solve(B));
+  if (parts_.empty()) return shared_.empty() ? B : shared_factor_.solve_columns(B);
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
   for (const Part& part : parts_)
     if (part.owner == ranks_.rank()) X(part.rows, Eigen::all) = part.factor.solve_columns(B(part.rows, Eigen::all));
   ranks_.global_sum(std::span<double>(X.data(), std::size_t(X.size())));  // without rounding, as in solve()
-  if (!shared_.empty())
-    X(shared_, Eigen::all) = Eigen::MatrixXd(shared_factor_.solve(Eigen::MatrixXd(B(shared_, Eigen::all))));
+  if (!shared_.empty()) X(shared_, Eigen::all) = shared_factor_.solve_columns(B(shared_, Eigen::all));
   return X;
 }
 

@@ -4,10 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
 #include "base/communicator.h"
-#include "linalg/core/sparse_cholesky.h"
+#include "linalg/core/sparse_ldlt.h"
 
 namespace seiche {
 
@@ -50,7 +48,7 @@ class BodyMatrix {
   SparseMatrix H_;
   bool shared_out_ = false;
   std::vector<int> shared_;  // rows of the small parts
-  Eigen::SimplicialLDLT<SparseMatrix> shared_factor_;
+  SparseLdlt shared_factor_;
   std::vector<Part> parts_;
 };
 

@@ -1,9 +1,9 @@
 #include "linalg/core/sparse_inverse.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "base/parallel_range.h"
+#include "linalg/core/dense_factors.h"
 
 namespace seiche {
 namespace {
@@ -31,7 +31,7 @@ void add_row(const SparseMatrix& H, const std::vector<char>& wanted, int i, std:
   }
   if (!any) return;
   const Eigen::MatrixXd part = dense_part(H, S, place);
-  const Eigen::VectorXd y = part.llt().solve(Eigen::VectorXd::Unit(part.rows(), part.rows() - 1));
+  const Eigen::VectorXd y = DenseLlt(part).solve(Eigen::VectorXd::Unit(part.rows(), part.rows() - 1));
   for (std::size_t a = 0; a < S.size(); ++a)
     if (wanted[std::size_t(S[a])]) entries.emplace_back(i, S[a], y[Eigen::Index(a)] / std::sqrt(y[part.rows() - 1]));
 }

@@ -9,4 +9,8 @@ SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+Eigen::MatrixXd positive_part(const SymmetricEigen& eigen) {
+  return eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
+}
+
 }  // namespace seiche

@@ -13,4 +13,7 @@ struct SymmetricEigen {
 // Reads the lower triangle of A.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 
+// V diag(max(values, 0)) V': the nearest positive semi-definite matrix to V diag(values) V'.
+Eigen::MatrixXd positive_part(const SymmetricEigen& eigen);
+
 }  // namespace seiche

@@ -1,6 +1,5 @@
 #include "linalg/kkt/preconditioner.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "linalg/krylov/krylov.h"
@@ -27,7 +26,7 @@ KktPreconditioner::KktPreconditioner(const KktOperator& K, const BodyMatrix& H, 
     add_multiplied(K.system().J, motions_[std::size_t(k)], Jd.back());
   }
   energies_.compute(N);
-  indefinite_ = n > 0 && !(energies_.info() == Eigen::Success && energies_.isPositive());
+  indefinite_ = n > 0 && !energies_.is_positive();
   if (indefinite_) failure_ = "the bodies' motions have no positive energy";
   schur_.set_directions(std::move(Jd));
   if (failure_.empty()) failure_ = schur_.refresh(H, N);
@@ -77,13 +76,10 @@ void KktPreconditioner::add_responses(const ColumnBlock& block, int first, int u
 
 // Replaces one body's motions by an orthonormal basis of their span.
 void KktPreconditioner::orthonormalise(int first, int width, std::size_t begin) {
-  constexpr double dependent = 1e-6;  // relative remainder below which a motion counts as dependent
   Eigen::MatrixXd own(width, Eigen::Index(motions_.size() - begin));
   for (Eigen::Index k = 0; k < own.cols(); ++k)
     own.col(k) = motions_[begin + std::size_t(k)].segment(first, width).normalized();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
-  qr.setThreshold(dependent);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
+  const Eigen::MatrixXd Q = orthonormal_basis(own);
   const Eigen::Index n = K_.solid().pattern().global_rows;
   motions_.resize(begin);
   for (Eigen::Index k = 0; k < Q.cols(); ++k) {
@@ -104,7 +100,7 @@ void KktPreconditioner::apply(const Vector& r, Vector& z) {
     for (std::size_t i = 0; i < rv.size(); ++i)
       felt[k] += motions_[std::size_t(k)][K_.first_unknown() + Eigen::Index(i)] * rv[i];
   if (n > 0) K_.liquid().ranks().global_sum(std::span<double>(felt.data(), std::size_t(n)));
-  const Eigen::VectorXd amount = n > 0 ? Eigen::VectorXd(energies_.solve(felt)) : felt;
+  const Eigen::VectorXd amount = n > 0 ? energies_.solve(felt) : felt;
   for (Eigen::Index k = 0; k < n; ++k)
     for (std::size_t i = 0; i < zv.size(); ++i)
       zv[i] += amount[k] * motions_[std::size_t(k)][K_.first_unknown() + Eigen::Index(i)];

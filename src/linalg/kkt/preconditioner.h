@@ -1,6 +1,7 @@
 #pragma once
 // Block-diagonal preconditioner: multigrid on the Schur complement A + c1 c2 J H^-1 J' (H^-1 approximated by a sparse
 // matrix) and multigrid on H with exact deflation of a few motions of each body.
+#include "linalg/core/dense_factors.h"
 #include "linalg/kkt/operator.h"
 #include "linalg/spd/schur_preconditioner.h"
 
@@ -30,7 +31,7 @@ class KktPreconditioner {
   const KktOperator& K_;
   std::unique_ptr<Preconditioner> B_;  // for H
   Motions& motions_;
-  Eigen::LDLT<Eigen::MatrixXd> energies_;  // M'H M, M = motions_
+  DenseLdlt energies_;  // M'H M, M = motions_
   SchurPreconditioner schur_;
   std::string failure_;
   bool indefinite_ = false;

@@ -1,6 +1,5 @@
 #include "linalg/saddle/velocity.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "linalg/krylov/krylov.h"
@@ -44,16 +43,13 @@ Vector multiply(const BlockColumns& G, const Eigen::VectorXd& m, int rows) {
 
 // Orthonormal responses of a deformable block to its loads.
 Eigen::MatrixXd modes_of(const ColumnBlock& b, int first, const BodyMatrix& H) {
-  constexpr double dependent = 1e-6;  // relative remainder below which a response counts as dependent
   Eigen::MatrixXd own(b.width, b.loads.cols());
   for (Eigen::Index k = 0; k < b.loads.cols(); ++k) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(H.size());
     load.segment(first, b.width) = b.loads.col(k).normalized();
     own.col(k) = H.solve(load).segment(first, b.width).normalized();
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
-  qr.setThreshold(dependent);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
+  return orthonormal_basis(own);
 }
 
 }  // namespace
@@ -181,7 +177,7 @@ bool VelocityPreconditioner::refresh() {
   energies_.topRightCorner(r, n - r).setZero();
   energies_.bottomLeftCorner(n - r, r).setZero();
   if (n > r) E_.compute(energies_.bottomRightCorner(n - r, n - r));
-  return T_.set(body_part()) && (n == r || (E_.info() == Eigen::Success && E_.isPositive()));
+  return T_.set(body_part()) && (n == r || E_.is_positive());
 }
 
 void VelocityPreconditioner::apply(const Vector& ru, const Eigen::VectorXd& rv, Vector& zu, Eigen::VectorXd& zv) {

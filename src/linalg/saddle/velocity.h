@@ -1,7 +1,6 @@
 #pragma once
 // Velocity block of the saddle-point preconditioner: a symmetric positive approximate inverse of [F G; G' H].
-#include <Eigen/Cholesky>
-
+#include "linalg/core/dense_factors.h"
 #include "linalg/precond/chebyshev.h"
 #include "linalg/precond/hypre_adapter.h"
 #include "linalg/precond/pressure_free_faces.h"
@@ -58,7 +57,7 @@ class VelocityPreconditioner {
   Eigen::MatrixXd dragged_;  // W'FW - W'GM - M'G'W
   Eigen::MatrixXd energies_;
   BodyMatrix T_;
-  Eigen::LDLT<Eigen::MatrixXd> E_;
+  DenseLdlt E_;
 };
 
 }  // namespace seiche

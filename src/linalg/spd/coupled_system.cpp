@@ -1,5 +1,6 @@
 #include "linalg/spd/coupled_system.h"
 
+#include "linalg/core/dense_factors.h"
 #include "linalg/core/symmetric_eigen.h"
 
 namespace seiche {
@@ -97,7 +98,7 @@ void CoupledSystem::project(Vector& v) const {
   const Eigen::Map<const Eigen::VectorXd> s(sums.data(), Eigen::Index(sums.size()));
   const Eigen::Map<const Eigen::VectorXd> W(sensed_rows_.data(), Eigen::Index(sums.size()));
   const Eigen::MatrixXd small = combinations_.transpose() * W.asDiagonal() * combinations_;
-  const Eigen::VectorXd part = combinations_ * small.ldlt().solve(combinations_.transpose() * s);
+  const Eigen::VectorXd part = combinations_ * DenseLdlt(small).solve(combinations_.transpose() * s);
   for (std::size_t i = 0; i < component.size(); ++i)
     for (std::size_t k = 0; k < sensed_.size(); ++k)
       if (component[i] == sensed_[k]) v[i] -= part[Eigen::Index(k)];

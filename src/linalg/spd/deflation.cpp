@@ -1,7 +1,5 @@
 #include "linalg/spd/deflation.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 
@@ -111,7 +109,6 @@ int Deflation::mode_count(std::size_t block) const {
 // Per deformable body: an orthonormal basis of its responses to its loads. A free body moves rigidly under forces and
 // moments; a pinned one bends in its softest modes.
 void Deflation::find_modes() {
-  constexpr double dependent = 1e-6;  // relative remainder below which a response counts as dependent
   const auto& blocks = S_.columns().blocks;
   const std::vector<int> first = S_.columns().first_columns();
   modes_.resize(blocks.size());
@@ -127,9 +124,7 @@ void Deflation::find_modes() {
     if (!blocks[b].deforms()) continue;
     Eigen::MatrixXd own = responses.block(first[b], 0, blocks[b].width, blocks[b].loads.cols());
     own.colwise().normalize();
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(own);
-    qr.setThreshold(dependent);
-    modes_[b] = qr.householderQ() * Eigen::MatrixXd::Identity(own.rows(), qr.rank());
+    modes_[b] = orthonormal_basis(own);
   }
 }
 
@@ -233,7 +228,7 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
   for (const auto& t : jz_)
     if (t.col() < body_columns_) jz(t.row(), t.col()) += t.value();
   zaz.diagonal() += regularization(body_columns_);
-  const Eigen::MatrixXd schur = jz * ScaledLdlt(zaz).solve(jz.transpose());
+  const Eigen::MatrixXd schur = jz * ScaledLdlt(zaz).solve_columns(jz.transpose());
   return 0.5 * (schur + schur.transpose());
 }
 
@@ -253,7 +248,7 @@ bool Deflation::multiply_small() {
   weighed_ = S_.weigh_columns(JZ);
   E += JZ.transpose() * weighed_;
   small_.emplace(0.5 * (E + E.transpose()));
-  return small_->info() == Eigen::Success && E.allFinite();
+  return small_->succeeded() && E.allFinite();
 }
 
 // For small H and many bodies. E is the Schur complement of the extended matrix, which is sparse and quasi-definite.
@@ -272,8 +267,7 @@ bool Deflation::factor_extended() {
       entries.emplace_back(n + int(it.row()), n + int(it.col()), -it.value() / S_.scale());
   SparseMatrix E(n + m, n + m);
   E.setFromTriplets(entries.begin(), entries.end());
-  extended_.compute(E);
-  return extended_.info() == Eigen::Success;
+  return extended_.factor(E);
 }
 
 // Computes the factors that do not depend on H if Z'AZ is nearly dense, as for many bodies in 3D: dense factors are
@@ -286,10 +280,10 @@ void Deflation::factor_own() {
   for (const auto& t : zaz_) F(t.row(), t.col()) += t.value();
   F.diagonal() += regularization(n);
   own_.emplace(F);
-  if (own_->info() != Eigen::Success) return own_.reset();
+  if (!own_->succeeded()) return own_.reset();
   W_.setZero(n, m);
   for (const auto& t : jz_) W_(t.col(), t.row()) += t.value();
-  own_->matrixL().solveInPlace(W_);
+  own_->solve_lower_columns(W_);
   added_.setZero(m, m);
   added_.selfadjointView<Eigen::Lower>().rankUpdate(W_.transpose());
 }
@@ -300,16 +294,16 @@ bool Deflation::factor_added_mass() {
   for (int k = 0; k < H.outerSize(); ++k)
     for (SparseMatrix::InnerIterator it(H, k); it; ++it) T(it.row(), it.col()) += it.value() / S_.scale();
   added_mass_.compute(T);
-  return added_mass_.info() == Eigen::Success;
+  return added_mass_.succeeded();
 }
 
 // With F = Z'AZ = LL', W = L^-1 (J'Z)':  E^-1 = L^-T (1 - W (H/c + W'W)^-1 W') L^-1.
 Eigen::VectorXd Deflation::solve_small(const Eigen::VectorXd& f) const {
   if (small_) return small_->solve(f);
   if (own_) {
-    Eigen::VectorXd y = own_->matrixL().solve(f);
+    Eigen::VectorXd y = own_->solve_lower(f);
     y -= W_ * added_mass_.solve(W_.transpose() * y);
-    return own_->matrixU().solve(y);
+    return own_->solve_upper(y);
   }
   Eigen::VectorXd all = Eigen::VectorXd::Zero(f.size() + S_.columns().columns());
   all.head(f.size()) = f;

@@ -4,10 +4,8 @@
 // infinity, B is unchanged. For H -> 0 (massless bodies), Z spans the directions that A alone lacks.
 #include <optional>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
-
-#include "linalg/core/scaled_ldlt.h"
+#include "linalg/core/dense_factors.h"
+#include "linalg/core/sparse_ldlt.h"
 #include "linalg/core/sparse_vector.h"
 #include "linalg/precond/preconditioners.h"
 #include "linalg/spd/body_regions.h"
@@ -75,12 +73,12 @@ class Deflation {
   int body_columns_ = 0;                          // columns of Z that belong to bodies; closed components follow
   std::vector<double> regularization_;            // of the diagonal of Z'AZ
   int applications_ = 0;
-  std::optional<ScaledLdlt> small_;                 // of E
-  Eigen::MatrixXd weighed_;                         // c H^-1 J'Z
-  Eigen::SimplicialLDLT<SparseMatrix> extended_;    // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> own_;  // or, where nearly all columns overlap: Z'AZ = LL',
-  Eigen::MatrixXd W_, added_;                       // W = L^-1 (J'Z)', W'W,
-  Eigen::LLT<Eigen::MatrixXd> added_mass_;          // H/c + W'W
+  std::optional<ScaledLdlt> small_;  // of E
+  Eigen::MatrixXd weighed_;          // c H^-1 J'Z
+  SparseLdlt extended_;              // or of [[Z'AZ, (J'Z)'], [J'Z, -H/c]]
+  std::optional<DenseLlt> own_;      // or, where nearly all columns overlap: Z'AZ = LL',
+  Eigen::MatrixXd W_, added_;        // W = L^-1 (J'Z)', W'W,
+  DenseLlt added_mass_;              // H/c + W'W
 };
 
 }  // namespace seiche

@@ -1,9 +1,10 @@
 #include "linalg/spd/direct_solve.h"
 
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cstring>
+
+#include "linalg/core/sparse_ldlt.h"
 
 namespace seiche {
 namespace {
@@ -91,12 +92,20 @@ Matrix grounded_matrix(const std::vector<Entry>& entries, const std::vector<char
   return A;
 }
 
+struct SparseLu {
+  bool factor(const Matrix& A) {
+    lu.compute(A);
+    return lu.info() == Eigen::Success;
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return lu.solve(r); }
+  Eigen::SparseLU<Matrix> lu;
+};
+
 // Factors A, solves, and refines once. False if the residual stays large.
 template <class Factors>
 bool eliminate(const Matrix& A, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   Factors factors;
-  factors.compute(A);
-  if (factors.info() != Eigen::Success) return false;
+  if (!factors.factor(A)) return false;
   Eigen::VectorXd y = factors.solve(b);
   y += factors.solve(b - A * y);
   if (!y.allFinite() || (b - A * y).norm() > 1e-12 * b.norm() * std::sqrt(double(b.size()))) return false;
@@ -116,7 +125,7 @@ std::vector<double> solve_gathered(const std::vector<Entry>& entries, const std:
     b[i] = grounded[i] ? 0 : rows[i].b;
   }
   const Matrix A = grounded_matrix(entries, grounded);
-  const bool solved = eliminate<Eigen::SimplicialLDLT<Matrix>>(A, b, x) || eliminate<Eigen::SparseLU<Matrix>>(A, b, x);
+  const bool solved = eliminate<SparseLdlt>(A, b, x) || eliminate<SparseLu>(A, b, x);
   return solved ? std::vector<double>(x.begin(), x.end()) : std::vector<double>{};
 }
 

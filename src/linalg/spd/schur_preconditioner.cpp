@@ -83,7 +83,7 @@ std::string SchurPreconditioner::refresh(const BodyMatrix& H, const Eigen::Matri
   if (Jd_.empty()) return {};
   if (fresh || Y_.empty() || !constants_.empty()) solve_columns();
   small_.compute(N / coupled_.scale() + JdY_);
-  return small_.info() == Eigen::Success && small_.isPositive() ? "" : "the bodies' part could not be factored";
+  return small_.is_positive() ? "" : "the bodies' part could not be factored";
 }
 
 void SchurPreconditioner::solve_columns() {

@@ -1,7 +1,6 @@
 #pragma once
 // Preconditioner of the Schur complement for pressure: velocities of liquid and bodies are eliminated.
-#include <Eigen/Cholesky>
-
+#include "linalg/core/dense_factors.h"
 #include "linalg/precond/hypre_adapter.h"
 #include "linalg/spd/coupled_system.h"
 
@@ -52,7 +51,7 @@ class SchurPreconditioner {
   std::vector<Constant> constants_;
   std::vector<Vector> Jd_, Y_;  // Y = S0^-1 Jd
   Eigen::MatrixXd JdY_;
-  Eigen::LDLT<Eigen::MatrixXd> small_;  // N / c + Jd'Y
+  DenseLdlt small_;  // N / c + Jd'Y
 };
 
 }  // namespace seiche

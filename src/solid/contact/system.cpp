@@ -21,8 +21,7 @@ Eigen::MatrixXd without_negative(const Eigen::MatrixXd& symmetric, const Eigen::
   const Eigen::MatrixXd units = lengths * lengths.transpose();
   const SymmetricEigen eigen = symmetric_eigen(symmetric.cwiseQuotient(units));
   if (eigen.values[0] >= 0) return symmetric;
-  const Eigen::MatrixXd positive = eigen.vectors * eigen.values.cwiseMax(0).asDiagonal() * eigen.vectors.transpose();
-  return positive.cwiseProduct(units);
+  return positive_part(eigen).cwiseProduct(units);
 }
 
 // Sums pairs by the two bodies they join. The ordered map keeps sums identical from run to run.
@@ -176,9 +175,11 @@ PairVector<Dim> flat_product(const PointMatrix<Dim>& J, const Eigen::Matrix<doub
 
 // Derivative of each slip component by the twists of both bodies.
 template <int Dim>
-Eigen::Matrix<double, 2 * twist_size<Dim>, Dim - 1> slip_derivative(const FrictionPoint<Dim>& f) {
-  constexpr int n = twist_size<Dim>;
-  Eigen::Matrix<double, 2 * n, Dim - 1> r;
+using SlipDerivative = Eigen::Matrix<double, 2 * twist_size<Dim>, Dim - 1>;
+
+template <int Dim>
+SlipDerivative<Dim> slip_derivative(const FrictionPoint<Dim>& f) {
+  SlipDerivative<Dim> r;
   for (int k = 0; k < Dim - 1; ++k) {
     const Vec<Dim> t = f.tangent.col(k);
     r.col(k) << t, moment<Dim>(f.arm_first, t), -t, -moment<Dim>(f.arm_second, t);
@@ -195,13 +196,13 @@ void add_friction(const Scene<Dim>& scene, const Interval<Dim>& interval,
     terms.energy += w.dt * e.value;
     if (f.deforms()) {
       const PairDofs<Dim> dofs = pair_dofs<Dim>(scene, interval, f.pair);
-      const auto derivative = slip_derivative<Dim>(f, dofs);
-      assembly.add(dofs, w.dt * derivative * e.gradient, w.dt * derivative * e.hessian * derivative.transpose());
+      const typename PairDofs<Dim>::SlipDerivative S = slip_derivative<Dim>(f, dofs), dt_S = w.dt * S;
+      assembly.add(dofs, dt_S * e.gradient, dt_S * e.hessian * S.transpose());
       continue;
     }
-    const auto derivative = slip_derivative<Dim>(f);
-    assembly.add(f.first, f.second, PairVector<Dim>(w.dt * derivative * e.gradient));
-    assembly.add(f.first, f.second, PairMatrix<Dim>(w.dt * derivative * e.hessian * derivative.transpose()));
+    const SlipDerivative<Dim> S = slip_derivative<Dim>(f), dt_S = w.dt * S;
+    assembly.add(f.first, f.second, PairVector<Dim>(dt_S * e.gradient));
+    assembly.add(f.first, f.second, PairMatrix<Dim>(dt_S * e.hessian * S.transpose()));
   }
 }
 
@@ -214,10 +215,10 @@ void add_rigid(const Interval<Dim>& interval, const Placement<Dim>& at, const Tu
   const PairMatrix<Dim> turns = turns_by_twists<Dim>(pair, jacobians);
   PairMatrix<Dim> hessian = J.transpose() * e.hessian * J;
   add_turning<Dim>(pair, at, x, e.gradient, hessian);
-  assembly.add(pair.first, second_body(pair),
-               PairVector<Dim>(w.dt * turns.transpose() * flat_product<Dim>(J, e.gradient)));
-  assembly.add(pair.first, second_body(pair),
-               PairMatrix<Dim>(w.dt * interval.horizon * turns.transpose() * hessian * turns));
+  const PairVector<Dim> gradient = turns.transpose() * flat_product<Dim>(J, e.gradient);
+  hessian = turns.transpose() * hessian * turns;
+  assembly.add(pair.first, second_body(pair), PairVector<Dim>(w.dt * gradient));
+  assembly.add(pair.first, second_body(pair), PairMatrix<Dim>(w.dt * interval.horizon * hessian));
 }
 
 template <int Dim>

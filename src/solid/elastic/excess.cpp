@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "linalg/core/dense_factors.h"
 #include "solid/elastic/step.h"
 
 namespace seiche {
@@ -55,7 +56,7 @@ Eigen::MatrixXd turns(const ElasticBody<Dim>& body, const Eigen::VectorXd& u) {
 Eigen::VectorXd without(const Eigen::MatrixXd& B, const SparseMatrix& mass, const Eigen::VectorXd& v) {
   if (B.cols() == 0) return v;
   const Eigen::MatrixXd MB = mass * B;
-  return v - B * (B.transpose() * MB).ldlt().solve(MB.transpose() * v);
+  return v - B * DenseLdlt(B.transpose() * MB).solve(MB.transpose() * v);
 }
 
 // The rigid motions that are excluded from d.

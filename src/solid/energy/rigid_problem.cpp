@@ -1,6 +1,6 @@
 #include "solid/energy/rigid_problem.h"
 
-#include <Eigen/SparseCholesky>
+#include "linalg/core/sparse_ldlt.h"
 
 namespace seiche {
 
@@ -40,8 +40,8 @@ InertiaResponse DryProblem::minimise(const Eigen::SparseMatrix<double>& K, const
     matrix.coeffRef(i, i) = 1;
     rhs[i] = held_[i];
   }
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0) return {"", Shape::indefinite, {}, {}};
+  SparseLdlt factor;
+  if (!factor.factor(matrix) || !factor.is_positive()) return {"", Shape::indefinite, {}, {}};
   return respond(factor.solve(rhs));
 }
 

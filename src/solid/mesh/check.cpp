@@ -100,10 +100,8 @@ std::vector<int> apart(const ElasticMesh<Dim>& mesh) {
 // Mean ratio: Dim det(A)^(2/Dim) / |A|^2, A the map from the regular simplex.
 template <int Dim>
 double mean_ratio(const Eigen::Matrix<double, Dim, Dim>& edges) {
-  Eigen::Matrix<double, Dim, Dim> gram = Eigen::Matrix<double, Dim, Dim>::Constant(0.5);
-  gram.diagonal().setOnes();
-  const Eigen::Matrix<double, Dim, Dim> regular = gram.llt().matrixU();
-  const Eigen::Matrix<double, Dim, Dim> A = edges * regular.inverse();
+  const Eigen::Matrix3d regular{{1, 0.5, 0.5}, {0, std::sqrt(3. / 4), std::sqrt(1. / 12)}, {0, 0, std::sqrt(2. / 3)}};
+  const Eigen::Matrix<double, Dim, Dim> A = edges * regular.topLeftCorner<Dim, Dim>().inverse();
   return Dim * std::pow(std::max(A.determinant(), 0.), 2. / Dim) / A.squaredNorm();
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/probe_spec.h"
+#include "linalg/core/dense_factors.h"
 
 namespace seiche {
 namespace {
@@ -40,7 +41,7 @@ Eigen::VectorXd nearest_on_corners(const ElasticMesh<Dim>& mesh, int element, co
       edges.col(k) = mesh.nodes[std::size_t(mesh.element(element)[corners[std::size_t(k) + 1]])] - from;
     const Vec<Dim> arm = X - from;
     Eigen::VectorXd share;
-    if (edges.cols() > 0) share = edges.colPivHouseholderQr().solve(arm);
+    if (edges.cols() > 0) share = least_squares(edges, arm);
     const double distance = share.size() > 0 ? (arm - edges * share).norm() : arm.norm();
     if ((share.size() > 0 && (share.minCoeff() < 0 || share.sum() > 1)) || distance >= least) continue;
     least = distance;
@@ -61,7 +62,7 @@ Eigen::VectorXd reference_place(const ElasticMesh<Dim>& mesh, int element, const
     for (int a = 0; a < mesh.nodes_per_element(); ++a)
       map += mesh.nodes[std::size_t(mesh.element(element)[a])] * gradients.row(a);
     const Vec<Dim> miss = X - position(mesh, element, elastic::shape_values(Dim, mesh.order, xi));
-    const Vec<Dim> step = map.fullPivLu().solve(miss);
+    const Vec<Dim> step = least_squares(map, miss);
     xi += step;
     if (!(step.norm() > 1e-14)) break;
     if (xi.cwiseAbs().maxCoeff() > 10) break;  // far outside, where the map may not be invertible

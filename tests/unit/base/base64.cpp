@@ -5,6 +5,7 @@
 
 #include "base/base64.h"
 
+namespace base64_tests {
 using namespace seiche;
 
 TEST_CASE("base64 gives the vectors of RFC 4648, and their bytes back") {
@@ -39,3 +40,5 @@ TEST_CASE("texts that are no base64 are refused") {
     CHECK_FALSE(decode_base64(text));
   }
 }
+
+}  // namespace base64_tests

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 
+namespace checkpoint_boxes_tests {
 using namespace seiche;
 
 namespace {
@@ -48,3 +49,5 @@ TEST_CASE("what ranks exchange arrives by sender, empty texts too") {
   CHECK(alone.exchange({"one"}) == std::vector<std::string>{"one"});
   CHECK(alone.exchange({""}) == std::vector<std::string>{""});
 }
+
+}  // namespace checkpoint_boxes_tests

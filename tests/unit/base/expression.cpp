@@ -9,6 +9,7 @@
 #include "base/expression_names.h"
 #include "base/expression_terms.h"
 
+namespace expression_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 
@@ -88,3 +89,5 @@ TEST_CASE("exponents of numbers are no names") {
   CHECK(names[0].called);
   CHECK(names[1].at == 7);
 }
+
+}  // namespace expression_tests

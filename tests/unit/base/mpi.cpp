@@ -6,6 +6,7 @@
 
 #include "base/emergency_channel.h"
 
+namespace mpi_tests {
 using namespace seiche;
 
 namespace {
@@ -38,3 +39,5 @@ TEST_CASE("the processors of a machine are counted") {
   CHECK(processors_of_this_machine(ranks) >= 1);
   CHECK(ranks_on_this_machine(ranks) == ranks.size());
 }
+
+}  // namespace mpi_tests

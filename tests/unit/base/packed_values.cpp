@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+namespace packed_values_tests {
 using namespace seiche;
 
 namespace {
@@ -62,3 +63,5 @@ TEST_CASE("words that are not packed values are refused") {
   CHECK_FALSE(PackedValues::from_words({0}, 5));                               // a block of nothing
   CHECK_FALSE(PackedValues::from_words({~std::uint64_t(0), 1}, 5));            // a count beyond all bounds
 }
+
+}  // namespace packed_values_tests

@@ -6,6 +6,7 @@
 #include "base/parallel_range.h"
 #include "base/thread_limit.h"
 
+namespace parallel_range_tests {
 using namespace seiche;
 
 TEST_CASE("pieces cover a range once, whatever its length") {
@@ -33,3 +34,5 @@ TEST_CASE("a sum of pieces has the same bits on any number of threads") {
   // The sum of sin(i) / (1 + i) over all i converges like 1 / i; a sum in one piece differs by rounding only.
   CHECK(alone == Approx(piece(0, 100000)).epsilon(1e-12));
 }
+
+}  // namespace parallel_range_tests

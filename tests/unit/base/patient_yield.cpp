@@ -10,6 +10,7 @@
 #include <chrono>
 #include <thread>
 
+namespace patient_yield_tests {
 using namespace seiche;
 
 namespace {
@@ -71,3 +72,5 @@ TEST_CASE("libraries call the program's sched_yield") {
   REQUIRE(dladdr(reinterpret_cast<void*>(&seconds_of_patience), &here) != 0);
   CHECK(found.dli_fbase == here.dli_fbase);
 }
+
+}  // namespace patient_yield_tests

@@ -13,6 +13,7 @@
 #include "base/timers.h"
 #include "base/vec.h"
 
+namespace pieces_tests {
 using namespace seiche;
 
 TEST_CASE("CRC-32C has the values of RFC 3720, B.4") {
@@ -159,3 +160,5 @@ TEST_CASE("time of a phase adds up over its scopes") {
   }
   CHECK(timers.seconds().size() == 1);
 }
+
+}  // namespace pieces_tests

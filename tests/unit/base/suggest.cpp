@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+namespace suggest_tests {
 using namespace seiche;
 
 TEST_CASE("edit distance counts insertions, deletions, substitutions and swaps") {
@@ -33,3 +34,5 @@ TEST_CASE("of names equally near the one that begins alike is suggested") {
   CHECK(suggest("sinn", {"sign", "sin", "sinh"}) == "sin");
   CHECK(suggest("coss", {"cosh", "cos"}) == "cosh");
 }
+
+}  // namespace suggest_tests

@@ -6,6 +6,7 @@
 #include "coupling/state/setup.h"
 #include "verification/scenes.h"
 
+namespace drifting_tests {
 using namespace seiche;
 
 namespace {
@@ -83,3 +84,5 @@ TEST_CASE("only liquid away from the level set's drifts") {
   check_beside_liquid<2>();
   check_beside_liquid<3>();
 }
+
+}  // namespace drifting_tests

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+namespace energy_budget_tests {
 using namespace seiche;
 
 namespace {
@@ -63,3 +64,5 @@ TEST_CASE("a thousand times the velocity is beyond every budget of a step") {
   b.gain = b.given = 1;
   CHECK(1e6 * b.kinetic > most_kinetic_energy(b));
 }
+
+}  // namespace energy_budget_tests

@@ -8,6 +8,7 @@
 #include "grid/loops.h"
 #include "verification/scenes.h"
 
+namespace exteriors_tests {
 using namespace seiche;
 
 namespace {
@@ -133,3 +134,5 @@ TEST_CASE("each face of the joined flow has the velocity of the fluid there") {
     CHECK(joined->u.at(0, f) == (touches_liquid ? 1 : 2));
   });
 }
+
+}  // namespace exteriors_tests

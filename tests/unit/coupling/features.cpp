@@ -9,6 +9,7 @@
 #include "coupling/step/leapfrog.h"
 #include "verification/scenes.h"
 
+namespace features_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 
@@ -91,3 +92,5 @@ TEST_CASE("docs/features.md is what the table says") {
   INFO("the page as it should be: " << fresh.string());
   CHECK(text == feature_reference());
 }
+
+}  // namespace features_tests

@@ -6,6 +6,7 @@
 #include "coupling/state/setup.h"
 #include "verification/scenes.h"
 
+namespace filling_tests {
 using namespace seiche;
 
 namespace {
@@ -72,3 +73,5 @@ TEST_CASE("the last air of a box stays air", "[filling]") {
   CHECK(g.filling.empty());
   CHECK(g.phi[g.cell] > 0);
 }
+
+}  // namespace filling_tests

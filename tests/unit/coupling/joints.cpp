@@ -6,6 +6,7 @@
 #include "coupling/geometry/step_geometry.h"
 #include "unit/solid/wall_specs.h"
 
+namespace joints_tests {
 using namespace seiche;
 using test::box;
 
@@ -63,3 +64,5 @@ TEST_CASE("joints leave no slit between an elastic solid and what it stands on",
     CHECK((step.faces.open.at(0, face) == 0) == joined);
   }
 }
+
+}  // namespace joints_tests

@@ -6,6 +6,7 @@
 
 #include "coupling/solids/link_graph.h"
 
+namespace link_graph_tests {
 using namespace seiche;
 
 namespace {
@@ -112,3 +113,5 @@ TEST_CASE("a balanced flux without held nodes spreads what is left over all node
   CHECK((s.nodes - Eigen::VectorXd::Constant(5, wanted.sum() / 5)).norm() <= round_off);
   check_no_circulation(graph, flux);
 }
+
+}  // namespace link_graph_tests

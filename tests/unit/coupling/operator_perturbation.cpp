@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "coupling/state/operator_perturbation.h"
 
+namespace operator_perturbation_tests {
 using namespace seiche;
 
 TEST_CASE("a perturbation changes the operator that is named and no other") {
@@ -19,3 +20,5 @@ TEST_CASE("a perturbation changes the operator that is named and no other") {
   CHECK_THROWS_AS(parse_perturbation("viscosity:2x"), Error);
   CHECK_THROWS_AS(parse_perturbation("viscosity:nan"), Error);
 }
+
+}  // namespace operator_perturbation_tests

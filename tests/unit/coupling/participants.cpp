@@ -11,6 +11,7 @@
 #include "coupling/step/initial_state.h"
 #include "verification/scenes.h"
 
+namespace participants_tests {
 using namespace seiche;
 
 namespace {
@@ -98,3 +99,5 @@ TEST_CASE("solids of every kind are values with as many velocities as unknowns")
     check_row<3>(row);
   }
 }
+
+}  // namespace participants_tests

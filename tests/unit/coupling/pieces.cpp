@@ -15,6 +15,7 @@
 #include "grid/loops.h"
 #include "verification/scenes.h"
 
+namespace pieces_tests {
 using namespace seiche;
 
 namespace {
@@ -233,3 +234,5 @@ TEST_CASE("entries of one row and column add up, and go to the block of their ki
   CHECK(sums(Freedom::free) == Sums{{0, 0, 1.0}});
   CHECK(sums(Freedom::fixed) == Sums{{2, 1, 0.75}});
 }
+
+}  // namespace pieces_tests

@@ -7,6 +7,7 @@
 #include "grid/loops.h"
 #include "verification/scenes.h"
 
+namespace reached_sites_tests {
 using namespace seiche;
 
 namespace {
@@ -46,3 +47,5 @@ TEST_CASE("transport of a fluid that is nowhere reaches nothing") {
   for_each_index_in_order(setup.domain.layout, setup.domain.layout.padded(),
                           [&](Site s, const IVec<2>&) { CHECK(reached[s] == 0); });
 }
+
+}  // namespace reached_sites_tests

@@ -5,6 +5,7 @@
 #include "unit/coupling/end.h"
 #include "verification/scenes.h"
 
+namespace scene_formulas_tests {
 using namespace seiche;
 
 namespace {
@@ -142,3 +143,5 @@ TEST_CASE("viscosity that is negative somewhere is a mistake at the start and en
     CHECK(text.find("it must be >= 0 there") != std::string::npos);
   }
 }
+
+}  // namespace scene_formulas_tests

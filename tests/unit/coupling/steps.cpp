@@ -5,6 +5,7 @@
 #include "unit/coupling/end.h"
 #include "verification/scenes.h"
 
+namespace steps_tests {
 using namespace seiche;
 
 namespace {
@@ -240,3 +241,5 @@ TEST_CASE("what is told of the start is not told again where a run goes on") {
   REQUIRE(told.size() == 1);  // a resumed run may have changed it
   CHECK(told[0].find("time.cfl = 4") == 0);
 }
+
+}  // namespace steps_tests

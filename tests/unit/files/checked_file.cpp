@@ -8,6 +8,7 @@
 #include "run/signals.h"
 #include "unit/files/scratch.h"
 
+namespace checked_file_tests {
 using namespace seiche;
 namespace fs = std::filesystem;
 
@@ -89,3 +90,5 @@ TEST_CASE("a growing file continues at its end and can be cut to an earlier size
   file.flush();
   CHECK(contents(folder / "t") == "one\n2\n");
 }
+
+}  // namespace checked_file_tests

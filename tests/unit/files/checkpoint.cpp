@@ -13,6 +13,7 @@
 #include "files/checkpoint_file.h"
 #include "unit/files/scratch.h"
 
+namespace checkpoint_tests {
 using namespace seiche;
 
 namespace {
@@ -228,3 +229,5 @@ TEST_CASE("a COMMIT file reads back and any change of it is noticed") {
     CHECK_FALSE(parse_commit(changed));
   }
 }
+
+}  // namespace checkpoint_tests

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+namespace csv_tests {
 using namespace seiche;
 
 TEST_CASE("stats.csv has the contract's columns first, in its order") {
@@ -65,3 +66,5 @@ TEST_CASE("docs/outputs.md lists every column of the tables") {
     }
   }
 }
+
+}  // namespace csv_tests

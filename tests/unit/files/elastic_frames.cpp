@@ -13,6 +13,7 @@
 #include "unit/files/scratch.h"
 #include "unit/run/fake_simulation.h"
 
+namespace elastic_frames_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 
@@ -187,3 +188,5 @@ TEST_CASE("info tells what is in the frames of elastic solids", "[elastic]") {
     }
   }
 }
+
+}  // namespace elastic_frames_tests

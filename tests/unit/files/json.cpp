@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+namespace json_tests {
 using namespace seiche;
 
 TEST_CASE("JSON is written with its members in order") {
@@ -66,3 +67,5 @@ TEST_CASE("damaged JSON holds nothing") {
   }
   CHECK(json_value("{\"time\":" + deep + std::string(deep.size(), ']') + "}", "time").empty());
 }
+
+}  // namespace json_tests

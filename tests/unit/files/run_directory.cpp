@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "unit/files/scratch.h"
 
+namespace run_directory_tests {
 using namespace seiche;
 namespace fs = std::filesystem;
 
@@ -81,3 +82,5 @@ TEST_CASE("a folder that another job holds or that is a file is an output error"
   first.reset();
   CHECK(code_of_opening(scratch / "run", ExistingOutput::refuse) == ExitCode::done);
 }
+
+}  // namespace run_directory_tests

@@ -8,6 +8,7 @@
 #include "run/tables.h"
 #include "unit/files/scratch.h"
 
+namespace table_file_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -98,3 +99,5 @@ TEST_CASE("a table that was removed or replaced while it grows is an output erro
   overwrite(folder / "t.csv", "a\n");
   CHECK_THROWS_AS(table.sync(), Error);
 }
+
+}  // namespace table_file_tests

@@ -5,6 +5,7 @@
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 
+namespace medial_axis_tests {
 using namespace seiche;
 
 namespace {
@@ -86,3 +87,5 @@ TEMPLATE_TEST_CASE_SIG("no axis is preferred at a kink, nor a sign", "", ((int D
     CHECK(minus.one_sided(g) == Approx(-f.one_sided(g)).margin(1e-13));
   });
 }
+
+}  // namespace medial_axis_tests

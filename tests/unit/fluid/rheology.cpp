@@ -7,6 +7,7 @@
 #include "fluid/rheology/rheology.h"
 #include "grid/loops.h"
 
+namespace rheology_tests {
 using namespace seiche;
 
 namespace {
@@ -230,3 +231,5 @@ TEST_CASE("faces that are not valid do not count in the shear rate") {
   set_viscosity(flow.layout, flow.halo, spec, flow.u, mu);
   CHECK(mu[flow.layout.site({4, 5})] > 1e3);
 }
+
+}  // namespace rheology_tests

@@ -5,6 +5,7 @@
 #include "fluid/transport/advection.h"
 #include "grid/loops.h"
 
+namespace trace_tests {
 using namespace seiche;
 
 TEST_CASE("in a turning flow paths are off by the third and fourth power of the angle") {
@@ -29,3 +30,5 @@ TEST_CASE("in a turning flow paths are off by the third and fourth power of the 
           Approx(std::pow(angle, 4) / 24).epsilon(0.02));
   }
 }
+
+}  // namespace trace_tests

@@ -13,6 +13,7 @@
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 
+namespace volume_tests {
 using namespace seiche;
 
 namespace {
@@ -345,3 +346,5 @@ TEST_CASE("paths of the volumes that leave the halo are counted and cut short") 
   check_long_paths<2>();
   check_long_paths<3>();
 }
+
+}  // namespace volume_tests

@@ -5,6 +5,7 @@
 #include "grid/interpolation.h"
 #include "grid/loops.h"
 
+namespace wall_layer_tests {
 using namespace seiche;
 
 namespace {
@@ -128,3 +129,5 @@ TEST_CASE("means and points of a face differ by what its second differences say;
   CHECK(whole.at(0, box.layout.site({3, 5})) == 1);
   CHECK(whole.at(0, box.layout.site({5, 0})) == 1);
 }
+
+}  // namespace wall_layer_tests

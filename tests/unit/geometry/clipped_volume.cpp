@@ -5,6 +5,7 @@
 
 #include "geometry/shapes/shapes.h"
 
+namespace clipped_volume_tests {
 using namespace seiche;
 
 namespace {
@@ -49,3 +50,5 @@ TEST_CASE("parts of a turned box add up to it") {
   }
   CHECK(sum == Approx(2).epsilon(1e-12));
 }
+
+}  // namespace clipped_volume_tests

@@ -16,6 +16,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/vdb/openvdb_adapter.h"
 
+namespace demo_meshes_tests {
 using namespace seiche;
 
 namespace {
@@ -235,3 +236,5 @@ TEST_CASE("the wheel is closed and has the volume of its hub and blades") {
   const double hub = 8 * (0.02 * foot + 0.005 * std::sin(2 * pi / 8 - 2 * foot_angle));
   CHECK(volume == Approx(0.3 * (hub + 8 * 0.04 * (0.3 - foot))).epsilon(1e-5));  // float coordinates
 }
+
+}  // namespace demo_meshes_tests

@@ -4,6 +4,7 @@
 
 #include "geometry/mesh/facet_pieces.h"
 
+namespace facet_pieces_tests {
 using namespace seiche;
 
 namespace {
@@ -74,3 +75,5 @@ TEST_CASE("a facet in the plane between two cells belongs to the one on its oute
   CHECK(cut_at_cells<2>(grid, grid.box(), up, points).at(0).cell == IVec<2>(2, 0));
   CHECK(cut_at_cells<2>(grid, grid.box(), down, points).at(0).cell == IVec<2>(1, 0));
 }
+
+}  // namespace facet_pieces_tests

@@ -5,6 +5,7 @@
 #include "geometry/vdb/openvdb_adapter.h"
 #include "unit/geometry/mesh_files.h"
 
+namespace frame_damage_tests {
 using namespace seiche;
 using mesh_files::TemporaryFolder;
 
@@ -79,3 +80,5 @@ TEST_CASE("a frame with a bit changed anywhere, and one with bytes after its che
   }
   CHECK_FALSE(refusal(folder, whole + "appended").empty());
 }
+
+}  // namespace frame_damage_tests

@@ -8,6 +8,7 @@
 #include "geometry/mesh/intersections.h"
 #include "unit/geometry/mesh_files.h"
 
+namespace intersections_tests {
 using namespace seiche;
 using namespace seiche::mesh_files;
 
@@ -129,3 +130,5 @@ TEST_CASE("a hundred thousand triangles are looked through in a second or two") 
   UNSCOPED_INFO(seconds.count());
   CHECK(seconds.count() < 10);  // 0.3 s alone; debug builds and busy machines are slower
 }
+
+}  // namespace intersections_tests

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "unit/geometry/mesh_files.h"
 
+namespace mesh_tests {
 using namespace seiche;
 using namespace seiche::mesh_files;
 
@@ -236,3 +237,5 @@ TEST_CASE("triangles on a line close the surface and are then dropped") {
   CHECK(volume(read_mesh) == Approx(1));
   CHECK_THAT(notes.at(0), Catch::Contains("1 triangles without area"));
 }
+
+}  // namespace mesh_tests

@@ -7,6 +7,7 @@
 #include "geometry/mesh/pairs.h"
 #include "unit/geometry/mesh_files.h"
 
+namespace mesh_pairs_tests {
 using namespace seiche;
 using namespace seiche::mesh_files;
 
@@ -77,3 +78,5 @@ TEST_CASE("triangles thrown at random, long and short, are found out as by tryin
   CHECK(found.size() > 20);
   CHECK(found == all_intersections(mesh));
 }
+
+}  // namespace mesh_pairs_tests

@@ -8,6 +8,7 @@
 #include "grid/serial.h"
 #include "unit/geometry/mesh_files.h"
 
+namespace mesh_shapes_tests {
 using namespace seiche;
 using namespace seiche::mesh_files;
 
@@ -146,3 +147,5 @@ TEST_CASE("distances of a mesh are the same to the bit on one thread and on all"
   }
   CHECK(different == 0);
 }
+
+}  // namespace mesh_shapes_tests

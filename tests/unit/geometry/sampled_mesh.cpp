@@ -5,6 +5,7 @@
 #include "geometry/shapes/sampled_mesh.h"
 #include "unit/geometry/mesh_files.h"
 
+namespace sampled_mesh_tests {
 using namespace seiche;
 using namespace seiche::mesh_files;
 
@@ -59,3 +60,5 @@ TEST_CASE("distances do not depend on the order in which places are asked for") 
   for (std::size_t i = points.size(); i-- > 0;) different += two(points[i]) != forth[i];
   CHECK(different == 0);
 }
+
+}  // namespace sampled_mesh_tests

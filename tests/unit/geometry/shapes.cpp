@@ -11,6 +11,7 @@
 #include "base/shape_spec.h"
 #include "geometry/shapes/shapes.h"
 
+namespace shapes_tests {
 using namespace seiche;
 
 namespace {
@@ -345,3 +346,5 @@ TEST_CASE("a surface that leaves the box is cut open, not capped") {
     CHECK(normal.dot(spec.normal.normalized()) == Approx(1).epsilon(1e-4));  // float points
   }
 }
+
+}  // namespace shapes_tests

@@ -14,6 +14,7 @@
 #include "geometry/shapes/shapes.h"
 #include "geometry/vdb/openvdb_adapter.h"
 
+namespace vdb_tests {
 using namespace seiche;
 
 namespace {
@@ -258,3 +259,5 @@ TEST_CASE("a frame of the other dimension is no shape of the scene") {
   CHECK_THROWS_WITH(make_shape<3>(spec, {0.1, nullptr}),
                     Catch::StartsWith("scene.toml:7: ") && Catch::Contains("2 dimensions"));
 }
+
+}  // namespace vdb_tests

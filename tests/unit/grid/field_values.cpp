@@ -4,6 +4,7 @@
 
 #include "grid/field_values.h"
 
+namespace field_values_tests {
 using namespace seiche;
 
 namespace {
@@ -35,3 +36,5 @@ TEST_CASE("field values are copied, moved, filled and compared like arrays") {
   CHECK(moved.size() == size);
   CHECK(FieldValues<char>().empty());
 }
+
+}  // namespace field_values_tests

@@ -6,6 +6,7 @@
 #include "grid/fields.h"
 #include "grid/loops.h"
 
+namespace ghosts_tests {
 using namespace seiche;
 
 namespace {
@@ -48,3 +49,5 @@ TEST_CASE("planes stay planes beyond edges and corners") {
                           [&](Site c, const IVec<3>& i) { worst = std::max(worst, std::abs(f[c] - plane(i))); });
   CHECK(worst <= 1e-14);  // six sums of numbers of order 1
 }
+
+}  // namespace ghosts_tests

@@ -6,6 +6,7 @@
 #include "grid/fields.h"
 #include "grid/loops.h"
 
+namespace groups_tests {
 using namespace seiche;
 
 namespace {
@@ -88,3 +89,5 @@ TEST_CASE("loops over possible sites meet every site that matters") {
     CHECK(skipped == 3 * (length % a_group));
   }
 }
+
+}  // namespace groups_tests

@@ -6,6 +6,7 @@
 #include "grid/loops.h"
 #include "grid/partition.h"
 
+namespace layout_tests {
 using namespace seiche;
 
 namespace {
@@ -107,3 +108,5 @@ TEST_CASE("sums and maxima do not depend on how the box is cut into rows") {
   CHECK(local_sum(layout, layout.cells(), count) == 24000);
   CHECK(local_max(layout, layout.cells(), -1.0, [](Site s) { return double(s); }) == double(layout.site({39, 29, 19})));
 }
+
+}  // namespace layout_tests

@@ -6,6 +6,7 @@
 
 #include "grid/loops.h"
 
+namespace partition_tests {
 using namespace seiche;
 
 namespace {
@@ -81,3 +82,5 @@ TEST_CASE("the work of a block is its active cells and a small share of the othe
   CHECK(imbalance(work) == Approx(work[0] * 2 / (work[0] + work[1])));
   CHECK(imbalance({}) == 1);
 }
+
+}  // namespace partition_tests

@@ -8,6 +8,7 @@
 #include "grid/loops.h"
 #include "grid/paged_fields.h"
 
+namespace sparse_fields_tests {
 using namespace seiche;
 
 namespace {
@@ -122,3 +123,5 @@ TEST_CASE("loops over marked sites visit these alone, with their indices") {
     });
   }
 }
+
+}  // namespace sparse_fields_tests

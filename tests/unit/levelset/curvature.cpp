@@ -4,6 +4,7 @@
 #include "grid/loops.h"
 #include "levelset/curvature.h"
 
+namespace curvature_tests {
 using namespace seiche;
 
 namespace {
@@ -111,3 +112,5 @@ TEMPLATE_TEST_CASE_SIG(
   CHECK(tiny.crossings > 0);
   CHECK(tiny.largest <= 2);  // |kappa| <= (Dim - 1)/h
 }
+
+}  // namespace curvature_tests

@@ -7,6 +7,7 @@
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
 
+namespace numerics_tests {
 using namespace seiche;
 
 namespace {
@@ -237,3 +238,5 @@ TEMPLATE_TEST_CASE_SIG("settling a stretched ball again and again leaves its zer
   CHECK(settled < 2e-4);  // a slope of 2 % over the ball moves the linear zero by h^2/8 of it
   CHECK(settled < 0.1 * relaxed);
 }
+
+}  // namespace numerics_tests

@@ -3,6 +3,7 @@
 
 #include "levelset/surface_distance.h"
 
+namespace surface_mean_tests {
 using namespace seiche;
 
 namespace {
@@ -82,3 +83,5 @@ TEST_CASE("a surface has a nearest point, a normal and a distance within two cel
     CHECK(surface.distance(x) == Approx(is_near ? d : 0.2).epsilon(1e-14));
   }
 }
+
+}  // namespace surface_mean_tests

@@ -4,6 +4,7 @@
 
 #include "linalg/core/body_matrix.h"
 
+namespace body_matrix_tests {
 using namespace seiche;
 
 namespace {
@@ -64,3 +65,5 @@ TEST_CASE("a matrix behind bodies that is not positive definite is said to be", 
     CHECK_FALSE(matrix.set(H));
   }
 }
+
+}  // namespace body_matrix_tests

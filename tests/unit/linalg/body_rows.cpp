@@ -6,6 +6,7 @@
 #include "linalg/spd/solve.h"
 #include "unit/linalg/cases.h"
 
+namespace body_rows_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Kind;
@@ -158,3 +159,5 @@ TEST_CASE("elimination of the rows of bodies is symmetric and positive, and exac
       worst = std::max(worst, std::abs(SPx[std::size_t(i)] - x[std::size_t(i)]));
   CHECK(ranks.global_max(worst) < 1e-11);
 }
+
+}  // namespace body_rows_tests

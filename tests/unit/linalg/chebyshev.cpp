@@ -4,6 +4,7 @@
 #include "linalg/precond/chebyshev.h"
 #include "unit/linalg/cases.h"
 
+namespace chebyshev_tests {
 using namespace seiche;
 using cases::Kind;
 
@@ -120,3 +121,5 @@ TEST_CASE("GMRES needs no preconditioned directions where the preconditioner is 
   CHECK(one.iterations == other.iterations);
   CHECK(norm(difference(kept, summed), ranks) <= 1e-12 * norm(kept, ranks));
 }
+
+}  // namespace chebyshev_tests

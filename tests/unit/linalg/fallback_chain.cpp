@@ -9,6 +9,7 @@
 #include "linalg/spd/solve.h"
 #include "unit/linalg/cases.h"
 
+namespace fallback_chain_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Kind;
@@ -196,3 +197,5 @@ TEST_CASE("an unknown preconditioner is refused with the names there are") {
   CHECK_THROWS_WITH(solve_spd(s.A, s.grid, s.null_space, cases::noise_vector(s.A, 1), x, options, ranks),
                     Catch::Contains("boomeramg") && Catch::Contains("multigrid"));
 }
+
+}  // namespace fallback_chain_tests

@@ -8,6 +8,7 @@
 #include "linalg/krylov/krylov.h"
 #include "unit/linalg/cases.h"
 
+namespace geometric_multigrid_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Kind;
@@ -169,3 +170,5 @@ TEST_CASE("Geometric multigrid needs as many iterations on levels that are sprea
   const int gathered = solve(s).iterations, spread = solve(s, {.gathered_cells = 500}).iterations;
   CHECK(std::abs(gathered - spread) <= 2);
 }
+
+}  // namespace geometric_multigrid_tests

@@ -6,6 +6,7 @@
 #include "linalg/spd/solve.h"
 #include "unit/linalg/cases.h"
 
+namespace kkt_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Kind;
@@ -235,3 +236,5 @@ TEST_CASE("kkt: a matrix that the ranks share acts as the whole") {
   CHECK(found.matrix.nonZeros() > 0);
   CHECK(SparseMatrix(found.matrix - expected.matrix).norm() == 0);
 }
+
+}  // namespace kkt_tests

@@ -7,6 +7,7 @@
 #include "linalg/saddle/wall_distance.h"
 #include "unit/linalg/saddle_cases.h"
 
+namespace lsc_preconditioner_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Kind;
@@ -118,3 +119,5 @@ TEST_CASE("loose faces: solved for exactly wherever ranks cut") {
     if (!pressure_free[i]) CHECK(z[i] == 0);
   }
 }
+
+}  // namespace lsc_preconditioner_tests

@@ -4,6 +4,7 @@
 #include "linalg/spd/body_regions.h"
 #include "unit/linalg/cases.h"
 
+namespace regions_tests {
 using namespace seiche;
 
 TEST_CASE("ranges of cells go on beyond periodic sides") {
@@ -40,3 +41,5 @@ TEST_CASE("no range without period goes on beyond a side") {
   CHECK(!range.meets({{0, 2, 0}, {2, 5, 1}}));
   CHECK(range.meets({{11, 4, 0}, {20, 9, 1}}));
 }
+
+}  // namespace regions_tests

@@ -2,6 +2,7 @@
 
 #include "unit/linalg/saddle_problems.h"
 
+namespace saddle_tests {
 using namespace seiche;
 using namespace seiche::cases;
 
@@ -221,3 +222,5 @@ TEST_CASE("saddle: contact may come and go between solves") {
     CHECK((std::abs(a.v[1]) < 1e-6) == (stiffness > 0));
   }
 }
+
+}  // namespace saddle_tests

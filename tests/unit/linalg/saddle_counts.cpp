@@ -1,5 +1,6 @@
 #include "unit/linalg/saddle_problems.h"
 
+namespace saddle_counts_tests {
 using namespace seiche;
 using namespace seiche::cases;
 
@@ -141,3 +142,5 @@ TEST_CASE("saddle: iterations of a thread do not grow with its length") {
     check_flat([](int length) { return thread_across(length, 300); }, {16, 32, 64}, 40);
   }
 }
+
+}  // namespace saddle_counts_tests

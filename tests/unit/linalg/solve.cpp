@@ -7,6 +7,7 @@
 #include "linalg/spd/solve.h"
 #include "unit/linalg/cases.h"
 
+namespace solve_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Kind;
@@ -298,3 +299,5 @@ TEST_CASE("a right-hand side scaled by a power of two scales the solution to the
   for (double& entry : y) entry = std::ldexp(entry, 40);
   CHECK(x == y);
 }
+
+}  // namespace solve_tests

@@ -5,6 +5,7 @@
 #include "linalg/precond/rigid_motion_deflation.h"
 #include "unit/linalg/saddle_cases.h"
 
+namespace stiff_tests {
 using namespace seiche;
 using cases::Cell;
 using cases::Stokes;
@@ -98,3 +99,5 @@ TEST_CASE("stiff: motions are solved for exactly, by a symmetric and positive op
     CHECK(std::abs(left) <= 1e-6 * (1 + std::abs(before)));  // round-off times the viscosity ratio
   }
 }
+
+}  // namespace stiff_tests

@@ -15,6 +15,7 @@
 #include "render/png_writer.h"
 #include "render/run.h"
 
+namespace frames_tests {
 using namespace seiche;
 using namespace seiche::render;
 namespace fs = std::filesystem;
@@ -183,3 +184,5 @@ TEST_CASE("info tells a frame's fields, time and liquid volume") {
   CHECK_THAT(text, Catch::Contains("1 frame, 2 to 2") && Catch::Contains("no checkpoints"));
   CHECK(code_of([&] { describe_path(scratch.folder / "nothing"); }) == ExitCode::bad_input);
 }
+
+}  // namespace frames_tests

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "render/png_writer.h"
 
+namespace png_tests {
 using namespace seiche;
 using namespace seiche::render;
 namespace fs = std::filesystem;
@@ -65,3 +66,5 @@ TEST_CASE("light survives the trip to 8-bit sRGB") {
     CHECK(image.rgb[3 * std::size_t(i) + 2] == 255);
   }
 }
+
+}  // namespace png_tests

@@ -10,6 +10,7 @@
 #include "render/run.h"
 #include "render/trace.h"
 
+namespace render_tests {
 using namespace seiche;
 using namespace seiche::render;
 
@@ -293,3 +294,5 @@ TEST_CASE("options of render are understood or refused with the form they should
     CHECK_THROWS_AS(choose_frames(text, available), Error);
   CHECK_THROWS_WITH(choose_frames("7", available), Catch::Contains("the run has 0-3, 10-11"));
 }
+
+}  // namespace render_tests

@@ -12,6 +12,7 @@
 #include "unit/files/scratch.h"
 #include "unit/run/fake_simulation.h"
 
+namespace loop_tests {
 using namespace seiche;
 namespace fs = std::filesystem;
 
@@ -324,3 +325,5 @@ TEST_CASE("the run's own state goes through a checkpoint unchanged") {
   data.scalars.erase("run.frame");
   CHECK_THROWS_AS(restore_run_state(data), Error);
 }
+
+}  // namespace loop_tests

@@ -8,6 +8,7 @@
 #include "run/mesh_extents.h"
 #include "unit/files/scratch.h"
 
+namespace mesh_extents_tests {
 using namespace seiche;
 
 namespace {
@@ -48,3 +49,5 @@ TEST_CASE("a mesh far wider than the domain is refused or told, with the scale t
   scaled.solids[0].shape.transform.scale = 0.001;
   CHECK(check_mesh_extents(scaled).empty());
 }
+
+}  // namespace mesh_extents_tests

@@ -15,6 +15,7 @@
 #include "run/signals.h"
 #include "run/watchdog.h"
 
+namespace parts_tests {
 using namespace seiche;
 using namespace std::chrono_literals;
 
@@ -146,3 +147,5 @@ TEST_CASE("VTK files hold every field over the whole domain, velocities averaged
   CHECK(surfaces.find("NumberOfPoints=\"3\" NumberOfCells=\"1\"") != std::string::npos);
   CHECK(vtk::series("solids", "vtu", 2, 24).find("solids.0002.vtu") != std::string::npos);
 }
+
+}  // namespace parts_tests

@@ -8,6 +8,7 @@
 #include "scene/writer.h"
 #include "unit/scene/common.h"
 
+namespace elastic_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -271,3 +272,5 @@ TEST_CASE("a displacement probe follows a point of an elastic solid") {
   check_refused(small_scene + "[[probe]]\nkind = \"pressure\"\nposition = [0, 0, 0]\nsolid = \"x\"\n",
                 "'solid' in [[probe]] is only for kind = \"displacement\"");
 }
+
+}  // namespace elastic_tests

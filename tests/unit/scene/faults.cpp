@@ -10,6 +10,7 @@
 #include "base/scene.h"
 #include "unit/scene/common.h"
 
+namespace faults_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -388,3 +389,5 @@ TEST_CASE("no damaged scene does anything but fail with exit code 2 or read") {
     }
   }
 }
+
+}  // namespace faults_tests

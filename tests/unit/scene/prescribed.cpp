@@ -5,6 +5,7 @@
 #include "scene/writer.h"
 #include "unit/scene/common.h"
 
+namespace prescribed_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -45,3 +46,5 @@ TEST_CASE("what a prescribed flow would feel nothing of is refused by name") {
   CHECK_THAT(fault(flat_scene + "[liquid]\nprescribed_velocty = [0, 0]\n"),
              Contains("did you mean 'prescribed_velocity'"));
 }
+
+}  // namespace prescribed_tests

@@ -8,6 +8,7 @@
 #include "base/scene.h"
 #include "unit/scene/common.h"
 
+namespace reader_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -145,3 +146,5 @@ TEST_CASE("numbers and formulas mean the same under a locale with decimal commas
   std::setlocale(LC_ALL, "C");
   CHECK(under_comma == expected);
 }
+
+}  // namespace reader_tests

@@ -15,6 +15,7 @@
 #include "scene/options.h"
 #include "unit/scene/common.h"
 
+namespace registry_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -182,3 +183,5 @@ TEST_CASE("docs/scene-reference.md is what the table of keys says") {
   INFO("the page as it should be: " << fresh.string());
   CHECK(text == scene_reference());
 }
+
+}  // namespace registry_tests

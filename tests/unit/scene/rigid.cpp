@@ -8,6 +8,7 @@
 #include "scene/writer.h"
 #include "unit/scene/common.h"
 
+namespace rigid_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -181,3 +182,5 @@ TEST_CASE("a run does not go on with another rigid solid than it began with") {
     CHECK(scene_hash(before) != scene_hash(after));
   }
 }
+
+}  // namespace rigid_tests

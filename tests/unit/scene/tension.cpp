@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "unit/scene/common.h"
 
+namespace tension_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -29,3 +30,5 @@ TEST_CASE("surface tension and contact angles out of bounds are refused") {
   CHECK_THAT(fault(small_scene + "[liquid]\ncontact_angel = 60\n"), Contains("did you mean 'contact_angle'"));
   CHECK_THAT(fault(small_scene + "[liquid]\nsurface_tension_scheme = \"implicit\"\n"), Contains("semi_implicit"));
 }
+
+}  // namespace tension_tests

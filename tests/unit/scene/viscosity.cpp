@@ -5,6 +5,7 @@
 #include "fluid/rheology/rheology.h"
 #include "unit/scene/common.h"
 
+namespace viscosity_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -107,3 +108,5 @@ TEST_CASE("how viscosity is solved for and its frames are scenes") {
   CHECK(scene.solver.viscosity == ViscousSolve::split);
   CHECK(scene.output.frames == std::vector<std::string>{"viscosity"});
 }
+
+}  // namespace viscosity_tests

@@ -4,6 +4,7 @@
 #include "base/scene.h"
 #include "unit/scene/common.h"
 
+namespace writer_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -96,3 +97,5 @@ TEST_CASE("changed keys are named by their path") {
   CHECK(changed_keys(a, more) == std::vector<std::string>{"solid.5"});
   CHECK(changed_keys(more, a) == std::vector<std::string>{"solid.5"});
 }
+
+}  // namespace writer_tests

@@ -11,6 +11,7 @@
 #include "solid/body/mass_properties.h"
 #include "unit/solid/surface_checks.h"
 
+namespace closed_surface_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -197,3 +198,5 @@ TEST_CASE("impossible shapes have no surface") {
   CHECK_THROWS_AS(surface_of<2>(solid_shape("mesh"), 0.1), Error);
   CHECK_THROWS_AS(surface_of<3>(solid_shape("wedge"), 0.1), Error);
 }
+
+}  // namespace closed_surface_tests

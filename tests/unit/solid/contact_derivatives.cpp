@@ -5,6 +5,7 @@
 #include "solid/contact/system.h"
 #include "unit/solid/contact_cases.h"
 
+namespace contact_derivatives_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 
@@ -116,3 +117,5 @@ TEST_CASE("the friction of a pair") {
   CHECK(contact::pair_friction({}, {}) == 0);
   CHECK(contact::pair_friction(0.0, 0.9) == 0);
 }
+
+}  // namespace contact_derivatives_tests

@@ -5,6 +5,7 @@
 #include "solid/contact/friction_updates.h"
 #include "unit/solid/contact_cases.h"
 
+namespace contact_friction_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 
@@ -145,3 +146,5 @@ TEST_CASE("relaxed updates of bounds recover after noise", "[contact]") {
   CHECK(share(7) == 0.5);  // shrank by an eighth, as where G is constant: the line asks for 1, twice the most is taken
   CHECK(share(3.5) == 1);
 }
+
+}  // namespace contact_friction_tests

@@ -4,6 +4,7 @@
 #include "solid/contact/path.h"
 #include "unit/solid/contact_cases.h"
 
+namespace contact_motion_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 using contact::PairKind;
@@ -195,3 +196,5 @@ TEST_CASE("the safe share of a motion ends before the collision") {
   v[3] = 20;  // rotating as well
   CHECK(largest_safe_fraction<3>(world.scene(), motions, 0.1, v) < 0.5);
 }
+
+}  // namespace contact_motion_tests

@@ -1,6 +1,7 @@
 // Initial overlaps: close, crossing and contained bodies, inverted containers, walls, empty surfaces.
 #include "unit/solid/contact_cases.h"
 
+namespace contact_overlap_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 
@@ -92,3 +93,5 @@ TEST_CASE("a surface whose points do not exist is refused") {
   CHECK_THROWS_WITH(ContactScene<3>({{broken, BodyControl::free, 1, {}, "rock"}}, {}),
                     "rock: its surface uses point 8, but there is no such point");
 }
+
+}  // namespace contact_overlap_tests

@@ -4,6 +4,7 @@
 #include "solid/contact/search.h"
 #include "unit/solid/contact_cases.h"
 
+namespace contact_search_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 
@@ -116,3 +117,5 @@ TEST_CASE("the same input gives the same bits") {
   }
   CHECK(one.report.active > 10);
 }
+
+}  // namespace contact_search_tests

@@ -4,6 +4,7 @@
 #include "contact_cases.h"
 #include "geometry/mesh/surface_tree.h"
 
+namespace contact_sheets_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 
@@ -139,3 +140,5 @@ TEMPLATE_TEST_CASE_SIG("a falling sheet of points drapes over a ball", "", ((int
   CHECK(cloth.point(middle)[1] > 0.19);  // facets of the ball lie up to 2 % within its radius
   CHECK(cloth.point(0)[1] == Approx(0.22 - 0.5 * g * dt * dt * 20 * 21));  // free fall, backward Euler
 }
+
+}  // namespace contact_sheets_tests

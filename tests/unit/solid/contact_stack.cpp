@@ -1,6 +1,7 @@
 // Stacks at rest: equal masses, and the heaviest on top.
 #include "unit/solid/contact_cases.h"
 
+namespace contact_stack_tests {
 using namespace seiche;
 using namespace seiche::contact_cases;
 
@@ -88,3 +89,5 @@ TEST_CASE("bodies without liquid: the minimum, its gradient and what is held") {
   K.coeffRef(2, 2) = -10;
   CHECK(problem.minimise(K, r).shape == Shape::indefinite);
 }
+
+}  // namespace contact_stack_tests

@@ -4,6 +4,7 @@
 
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_body_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -140,3 +141,5 @@ TEST_CASE("A squeezed block stays free of inversions", "[elastic]") {
     }
   }
 }
+
+}  // namespace elastic_body_tests

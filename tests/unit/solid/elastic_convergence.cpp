@@ -3,6 +3,7 @@
 
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_convergence_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -156,3 +157,5 @@ TEST_CASE("Time steps converge at order 1 (backward Euler) and 2 (BDF2), uneven 
       CHECK(rate > expected - 0.2);
     }
 }
+
+}  // namespace elastic_convergence_tests

@@ -4,6 +4,7 @@
 
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_dynamics_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -206,3 +207,5 @@ TEST_CASE("Rayleigh damping acts as given", "[elastic]") {
   CHECK(std::abs(state.v[0] - 1 / 1.3) < 1e-9);
   CHECK(std::abs(state.v[1]) < 1e-9);
 }
+
+}  // namespace elastic_dynamics_tests

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "solid/material/material.h"
 
+namespace elastic_materials_tests {
 using namespace seiche;
 
 namespace {
@@ -131,3 +132,5 @@ TEST_CASE("Wrong elastic constants are refused", "[elastic]") {
   CHECK_THROWS_AS(lame_of(1, -0.1), Error);
   CHECK_THROWS_WITH(elastic_material<2>("jelly"), Catch::Matchers::Contains("stable_neo_hookean, neo_hookean"));
 }
+
+}  // namespace elastic_materials_tests

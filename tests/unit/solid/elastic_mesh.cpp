@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_mesh_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -92,3 +93,5 @@ TEST_CASE("A node that no element has is dropped with a note", "[elastic]") {
   CHECK(mesh.nodes.size() == 3);
   CHECK(mesh.elements == std::vector<int>{0, 1, 2});
 }
+
+}  // namespace elastic_mesh_tests

@@ -10,6 +10,7 @@
 #include "solid/mesh/file.h"
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_mesh_file_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 
@@ -183,3 +184,5 @@ TEST_CASE("Mutated mesh files are read or refused", "[elastic]") {
   WARN("mesh files cut or changed: " << refused << " of " << tried << " refused");
   CHECK(2 * refused > tried);  // all truncated files except for missing trailing white space
 }
+
+}  // namespace elastic_mesh_file_tests

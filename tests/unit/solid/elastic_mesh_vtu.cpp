@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "solid/mesh/file.h"
 
+namespace elastic_mesh_vtu_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 
@@ -217,3 +218,5 @@ TEST_CASE("Mutated binary meshes are read or refused", "[elastic]") {
   WARN("binary meshes cut or changed: " << refused << " of " << tried << " refused");
   CHECK(2 * refused > tried);
 }
+
+}  // namespace elastic_mesh_vtu_tests

@@ -11,6 +11,7 @@
 #include "solid/mesh/outline.h"
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_meshing_tests {
 using namespace seiche;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -346,3 +347,5 @@ TEST_CASE("an elastic solid is thin where no ball of the cell's size fits into i
     CHECK_FALSE(is_thinner_than(round, 0.15));
   }
 }
+
+}  // namespace elastic_meshing_tests

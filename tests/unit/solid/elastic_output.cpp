@@ -5,6 +5,7 @@
 #include "solid/mesh/point.h"
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_output_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -114,3 +115,5 @@ TEST_CASE("A probe beside its solid is refused with the distance", "[elastic][ou
   probe.position = {1.001, 0.5, 0.5};
   CHECK(point_of_probe<3>(mesh, probe).distance == Approx(0.001));
 }
+
+}  // namespace elastic_output_tests

@@ -5,6 +5,7 @@
 #include "solid/energy/rigid_problem.h"
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_potential_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -125,3 +126,5 @@ TEST_CASE("held degrees of freedom have their velocities and pull on the others"
   CHECK(still.holds(Eigen::VectorXd::Zero(n)));
   CHECK(still.minimise(K.sparseView(), r).velocity[1] == 0);
 }
+
+}  // namespace elastic_potential_tests

@@ -1,6 +1,7 @@
 // Static solutions against the literature: Cook's membrane, large deflection, CSM1 of Turek and Hron, locking.
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_statics_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -90,3 +91,5 @@ TEST_CASE("Quadratic elements do not lock in bending", "[elastic]") {
     }
   }
 }
+
+}  // namespace elastic_statics_tests

@@ -3,6 +3,7 @@
 
 #include "unit/solid/elastic_cases.h"
 
+namespace elastic_violent_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -48,3 +49,5 @@ TEMPLATE_TEST_CASE_SIG("Violent motion never inverts an element", "[elastic][lon
     }
   }
 }
+
+}  // namespace elastic_violent_tests

@@ -11,6 +11,7 @@
 #include "solid/body/mass_properties.h"
 #include "unit/solid/surface_checks.h"
 
+namespace mass_properties_tests {
 using namespace seiche;
 using namespace seiche::testing;
 using Catch::Matchers::Contains;
@@ -185,3 +186,5 @@ TEST_CASE("what has no end or no inside is no rigid solid") {
   s.upper[0] = s.lower[0];
   CHECK_THAT(fault<3>(s), Contains("the box is empty"));
 }
+
+}  // namespace mass_properties_tests

@@ -4,6 +4,7 @@
 #include "base/solid_spec.h"
 #include "solid/body/body.h"
 
+namespace reference_point_tests {
 using namespace seiche;
 
 namespace {
@@ -56,3 +57,5 @@ TEST_CASE("planes report their point, containers the centre of their hole") {
   vessel.shape.invert = true;
   CHECK((reference<2>(vessel) - Vec3(0.5, 0.3, 0)).norm() < 1e-12);
 }
+
+}  // namespace reference_point_tests

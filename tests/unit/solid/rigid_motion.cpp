@@ -8,6 +8,7 @@
 
 #include "solid/rigid/motion.h"
 
+namespace rigid_motion_tests {
 using namespace seiche;
 using Matrix = Eigen::Matrix3d;
 
@@ -161,3 +162,5 @@ TEST_CASE("a body spinning about its middle axis turns over and keeps its energy
     CHECK(flips > 10);
   }
 }
+
+}  // namespace rigid_motion_tests

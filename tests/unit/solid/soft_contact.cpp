@@ -3,6 +3,7 @@
 
 #include "unit/solid/soft_cases.h"
 
+namespace soft_contact_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -301,3 +302,5 @@ TEST_CASE("a solve starts from a guess only where gradients there are whole", "[
     CHECK(problem.first.isZero(0) == !full);
   }
 }
+
+}  // namespace soft_contact_tests

@@ -1,6 +1,7 @@
 // Sticking and sliding elastic blocks.
 #include "unit/solid/soft_cases.h"
 
+namespace soft_friction_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -76,3 +77,5 @@ TEMPLATE_TEST_CASE_SIG("an elastic block that slides on a plane stops where Coul
   CHECK(way == Approx(exact).epsilon(0.02));
   CHECK(std::abs(mean(world, world.soft[0].state.v)) < 1e-3);
 }
+
+}  // namespace soft_friction_tests

@@ -1,6 +1,7 @@
 // Hertz contact: a rigid cylinder and a rigid sphere pressed into an elastic half-space.
 #include "unit/solid/soft_cases.h"
 
+namespace soft_hertz_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -154,3 +155,5 @@ TEST_CASE("Hertz: a sphere pressed into an elastic half-space", "[soft][long]") 
   CHECK(found.width == Approx(a).epsilon(0.05));
   CHECK(4 * found.peak == Approx(p0).epsilon(0.05));
 }
+
+}  // namespace soft_hertz_tests

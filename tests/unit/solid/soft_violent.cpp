@@ -1,6 +1,7 @@
 // Impacts do not invert or cross elements or gain energy; a strip is folded onto itself.
 #include "unit/solid/soft_motions.h"
 
+namespace soft_violent_tests {
 using namespace seiche;
 using namespace seiche::testing;
 
@@ -52,3 +53,5 @@ TEMPLATE_TEST_CASE_SIG("a soft strip folded onto itself", "[soft]", ((int Dim), 
            << strip.world.newton_iterations / 80. << " iterations a step");
   CHECK(active > 3);
 }
+
+}  // namespace soft_violent_tests

@@ -6,6 +6,7 @@
 #include "solid/elastic/surface_patches.h"
 #include "unit/solid/wall_specs.h"
 
+namespace surface_patches_tests {
 using namespace seiche;
 using test::box;
 
@@ -121,3 +122,5 @@ TEST_CASE("two walls, floor and lid enclose what lies between them", "[elastic][
     CHECK_FALSE(can_be_closed(CavityWalls<2>{walls[0], {&other, 1, patch_at(other, 0.7)}}));
   }
 }
+
+}  // namespace surface_patches_tests

@@ -7,6 +7,7 @@
 #include "validate/case/checks.h"
 #include "validate/record/record.h"
 
+namespace checks_tests {
 using namespace seiche;
 
 namespace {
@@ -131,3 +132,5 @@ TEST_CASE("rows of a record that no validation has written") {
   refuses_row("one,8,0123abcd,b,2026-11-23,1e99,2.5,1,0.5,2,1,m,\n", "not a row");
   refuses_row(good + good, "line 2: a second row of one/8");
 }
+
+}  // namespace checks_tests

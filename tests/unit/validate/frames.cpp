@@ -12,6 +12,7 @@
 #include "validate/measure/lines.h"
 #include "validate/measure/measures.h"
 
+namespace frames_tests {
 using namespace seiche;
 
 namespace {
@@ -279,3 +280,5 @@ TEST_CASE("a solid's column is measured by its peak and its period in a time") {
   spec.reference = "2*pi/10";
   CHECK(measure(spec, run).error < 1e-3);
 }
+
+}  // namespace frames_tests

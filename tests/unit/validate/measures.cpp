@@ -10,6 +10,7 @@
 #include "validate/measure/kinds.h"
 #include "validate/measure/measures.h"
 
+namespace measures_tests {
 using namespace seiche;
 
 namespace {
@@ -344,3 +345,5 @@ TEST_CASE("a run that does not hold what is measured is said not to be measurabl
   spec.kind = "volume_drift";
   CHECK(measure(spec, run).error == 0.25);
 }
+
+}  // namespace measures_tests

@@ -13,6 +13,7 @@
 #include "validate/record/record.h"
 #include "validate/run/judge.h"
 
+namespace record_tests {
 using namespace seiche;
 
 namespace {
@@ -284,3 +285,5 @@ TEST_CASE("orders are taken within a series, in whatever turn its runs come") {
   one.resolutions[1].reference = "2";
   CHECK_FALSE(same_series(one, one.resolutions[1], report.results[1].resolution));
 }
+
+}  // namespace record_tests

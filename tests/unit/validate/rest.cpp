@@ -8,6 +8,7 @@
 #include "files/json.h"
 #include "unit/validate/cases.h"
 
+namespace rest_tests {
 using namespace seiche;
 
 namespace {
@@ -116,3 +117,5 @@ TEST_CASE("a run that was stopped is made anew where its rest is not to be had")
   }
   stopped.is_made_anew();
 }
+
+}  // namespace rest_tests

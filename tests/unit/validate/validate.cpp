@@ -14,6 +14,7 @@
 #include "validate/run/judge.h"
 #include "validate/run/run.h"
 
+namespace validate_tests {
 using namespace seiche;
 
 namespace {
@@ -385,3 +386,5 @@ TEST_CASE("a wrong scene is refused before any case is run") {
   CHECK_THROWS_AS(validate(folder, {}, "quick"), Error);
   CHECK_FALSE(fs::exists(folder / "out"));
 }
+
+}  // namespace validate_tests
