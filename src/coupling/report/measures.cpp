@@ -12,19 +12,6 @@
 namespace seiche {
 namespace {
 
-// Velocities on the two faces of a cell along an axis. A face that the fluid does not touch has the velocity of the
-// other face. If it touches neither, both are extrapolated.
-struct FacePair {
-  double low = 0, high = 0;
-};
-
-template <int Dim>
-FacePair solved_faces(const Domain<Dim>& domain, const TimeLevel<Dim>& l, int axis, Site cell) {
-  const Site up = cell + domain.layout.stride(axis);
-  const bool low = l.valid.at(axis, cell), high = l.valid.at(axis, up);
-  return {l.u.at(axis, high && !low ? up : cell), l.u.at(axis, low && !high ? cell : up)};
-}
-
 // Larger speed on the faces of a cell along an axis that the fluid touches.
 template <int Dim>
 double fastest_solved(const Domain<Dim>& domain, const TimeLevel<Dim>& l, int axis, Site cell) {
@@ -52,7 +39,7 @@ FluidSums sum_fluid(const Domain<Dim>& domain, const TimeLevel<Dim>& level, cons
     const double mass = density * volume;
     double speed2 = 0;
     for (int a = 0; a < Dim; ++a) {
-      const FacePair u = solved_faces(domain, level, a, c);
+      const FacePair u = solved_faces(domain.layout, level, a, c);
       r.sums[1] += 0.25 * mass * (u.low * u.low + u.high * u.high);
       r.sums[3 + a] += 0.5 * mass * (u.low + u.high);
       speed2 += std::pow(fastest_solved(domain, level, a, c), 2);

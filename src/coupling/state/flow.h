@@ -29,6 +29,18 @@ void age(Flow<Dim>& flow) {
   flow.before = flow.now;
 }
 
+// Velocities on the two faces of a cell along an axis, m/s. A face that the fluid does not touch has the velocity of
+// the other face. If it touches neither, both are extrapolated.
+struct FacePair {
+  double low = 0, high = 0;
+};
+template <int Dim>
+FacePair solved_faces(const Layout<Dim>& layout, const TimeLevel<Dim>& level, int axis, Site cell) {
+  const Site up = cell + layout.stride(axis);
+  const bool low = level.valid.at(axis, cell), high = level.valid.at(axis, up);
+  return {level.u.at(axis, high && !low ? up : cell), level.u.at(axis, low && !high ? cell : up)};
+}
+
 // A level at rest, without valid faces.
 template <int Dim>
 TimeLevel<Dim> empty_level(const Layout<Dim>& layout, bool viscous) {

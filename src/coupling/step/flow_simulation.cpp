@@ -303,6 +303,7 @@ class FlowSimulation : public Simulation {
       stats.volume_spilled = state.spilled_volume;
     }
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
+    stats.kinetic_energy += kinetic_energy_beside(setup_->domain, setup_->fluids, setup_->solids, geometry, state);
     measure_bodies(setup_->fluids, setup_->scene->time, state, stats);
     return stats;
   }

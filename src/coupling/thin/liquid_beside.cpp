@@ -25,16 +25,16 @@ struct Depths {
   double inert = 0, heavy = 0;
 };
 
-// Sums over the cells that this rank owns.
-template <int Dim>
-Depths wet_depths(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
+// Sums over the cells that this rank owns. has_row(cell): its pressure is an unknown.
+template <int Dim, class HasRow>
+Depths wet_depths(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const HasRow& has_row,
                   const CellField<Dim>& phi, const SealedFace& f) {
   const std::array<Site, 2> cells = {f.face - domain.layout.stride(f.axis), f.face};
   Depths sum;
   for (std::size_t side = 0; side < 2; ++side) {
     const Site c = cells[side];
     if (!domain.layout.cells().contains(domain.layout.index(c))) continue;
-    const bool shut = rows.row[c] == PressureRows<Dim>::no_row;
+    const bool shut = !has_row(c);
     if (shut && !is_shut_in(domain, g, phi, c)) continue;
     const double depth = shut ? 0.5 * domain.layout.h() : f.gaps[side];
     sum.inert += depth;
@@ -58,12 +58,13 @@ LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, cons
   const auto size = std::size_t(w.size());
   std::vector<double> sums(3 * size);  // mass, heavy, momentum
   std::size_t n = 0;                   // shares and sealed faces are in the same order
+  const auto has_row = [&](Site c) { return rows.row[c] != PressureRows<Dim>::no_row; };
   for (const SealedFace& f : g.sealed) {
     if (f.body != k) continue;
     while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
     const SurfaceWeights& weights = (*g.face_weights[std::size_t(k)])[n];
     const double area = shares[n].closed * domain.layout.geometry().face_area();
-    const Depths depths = wet_depths(domain, g, rows, state.phi, f);
+    const Depths depths = wet_depths(domain, g, has_row, state.phi, f);
     const double mass = area * fluids.density() * depths.inert, heavy = area * fluids.density() * depths.heavy;
     const double mean = velocity_at<Dim>(weights, f.axis, w), flow = state.now->u.at(f.axis, f.face);
     for (const auto& [node, weight] : weights) {
@@ -78,6 +79,36 @@ LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, cons
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + first, Eigen::Index(size)));
   };
   return {part(0), part(size), part(2 * size)};
+}
+
+// sum_f rho A/2 (s (d_low + d_high) sum_n weight_n w_n^2 - h/2 (share_low u_low^2 + share_high u_high^2)), with the
+// velocities that the cells on both sides take for the face
+template <int Dim>
+double kinetic_energy_beside(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                             const StepGeometry<Dim>& g, const State<Dim>& state) {
+  if (!has_thin_elastic(solids)) return 0;
+  const Layout<Dim>& l = domain.layout;
+  const auto is_wet = [&](Site c) { return state.phi[c] < 0 && !is_shut_in(domain, g, state.phi, c); };
+  double sum = 0;
+  std::vector<std::size_t> next(solids.bodies.size(), 0);  // share of each body; in the order of the sealed faces
+  for (const SealedFace& f : g.sealed) {
+    const auto k = std::size_t(f.body);
+    if (!g.deforms(f.body)) continue;
+    std::size_t& n = next[k];
+    const FaceShares& shares = *g.shares[k];
+    while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
+    const Eigen::VectorXd w = state.solids[k].velocity();
+    double square = 0, counted = 0;
+    for (const auto& [node, weight] : (*g.face_weights[k])[n])
+      square += weight * std::pow(w[Dim * Eigen::Index(node) + f.axis], 2);
+    for (const Site c : {f.face - l.stride(f.axis), f.face}) {
+      if (!l.cells().contains(l.index(c))) continue;
+      const FacePair u = solved_faces(l, *state.now, f.axis, c);
+      counted += 0.5 * l.h() * liquid_share(l, state.phi, g.psi, c) * std::pow(c == f.face ? u.low : u.high, 2);
+    }
+    sum += shares[n].closed * wet_depths(domain, g, is_wet, state.phi, f).inert * square - counted;
+  }
+  return 0.5 * fluids.density() * l.geometry().face_area() * domain.ranks.global_sum(sum);
 }
 
 template <int Dim>
@@ -118,11 +149,13 @@ Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd
   return load;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template LiquidBeside liquid_beside<D>(const Domain<D>&, const Fluids&, const StepGeometry<D>&,                    \
-                                         const PressureRows<D>&, const State<D>&, double, int);                      \
-  template bool has_thin_elastic<D>(const Solids<D>&);                                                               \
-  template double volume_beyond<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, const CellField<D>&); \
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template LiquidBeside liquid_beside<D>(const Domain<D>&, const Fluids&, const StepGeometry<D>&,                     \
+                                         const PressureRows<D>&, const State<D>&, double, int);                       \
+  template double kinetic_energy_beside<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const StepGeometry<D>&, \
+                                           const State<D>&);                                                          \
+  template bool has_thin_elastic<D>(const Solids<D>&);                                                                \
+  template double volume_beyond<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, const CellField<D>&);  \
   template Eigen::VectorXd total_load<D>(const ElasticSolid<D>&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
