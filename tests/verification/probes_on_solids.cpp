@@ -61,4 +61,28 @@ TEST_CASE("probes on solids: a gate between two levels") {
     }
 }
 
+// The liquid's pressure and velocity are continued into solids, where they mean nothing.
+TEST_CASE("probes on solids: nothing is measured inside") {
+  const int dim = GENERATE(2, 3);
+  Scene s = test::box_scene(dim, 16);
+  s.gravity = {0, -10, 0};
+  s.time.end = 0.01;
+  test::add_liquid(s, "y-0.8");
+  const double z = dim == 3 ? 1 : 0;
+  SolidSpec block;
+  block.name = "block";
+  block.shape.kind = "box";
+  block.shape.lower = {0.3, 0.3, 0.3 * z}, block.shape.upper = {0.7, 0.7, 0.7 * z};
+  s.solids.push_back(block);
+  s.probes = {pressure_probe("inside", {0.5, 0.5, 0.5 * z}), pressure_probe("inside, moving", {0.5, 0.5, 0.5 * z}),
+              pressure_probe("on the face", {0.3, 0.5, 0.5 * z})};
+  s.probes[1].kind = ProbeKind::velocity;
+  const auto sim = make_simulation(s, Communicator());
+  (void)sim->step(s.time.end);
+  CAPTURE(dim);
+  CHECK(!sim->probe(0).defined);
+  CHECK(!sim->probe(1).defined);
+  CHECK(sim->probe(2).defined);
+}
+
 }  // namespace probes_on_solids_tests

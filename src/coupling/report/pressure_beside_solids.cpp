@@ -1,11 +1,10 @@
 #include "coupling/report/pressure_beside_solids.h"
 
-#include <Eigen/QR>
-
 #include "coupling/geometry/cell_distance.h"
 #include "coupling/state/solids.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
+#include "linalg/core/dense_factors.h"
 
 namespace seiche {
 namespace {
@@ -164,7 +163,7 @@ double fit(const Layout<Dim>& layout, const Neighbourhood<Dim>& around, const Sa
   Eigen::MatrixXd A(rows.size(), Dim + 1);
   for (std::size_t r = 0; r < rows.size(); ++r) A.row(Eigen::Index(r)) = rows[r];
   const Eigen::VectorXd b = Eigen::Map<const Eigen::VectorXd>(right.data(), Eigen::Index(right.size()));
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(A).solve(b)[0];
+  return shortest_least_squares(A, b)[0];
 }
 
 }  // namespace

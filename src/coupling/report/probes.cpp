@@ -39,17 +39,25 @@ double level_set_at(const Domain<Dim>& domain, const State<Dim>& state, const Ve
                                  index_coordinates<Dim>(domain.layout, x, cell_offset<Dim>()));
 }
 
+// True if x lies in a solid, deeper than half a cell. Points on the surface of a solid belong to the fluid beside it.
+template <int Dim>
+bool in_solid(const Layout<Dim>& layout, const StepGeometry<Dim>& g, const Vec<Dim>& x) {
+  const Vec<Dim> at = index_coordinates<Dim>(layout, x, node_offset<Dim>());
+  return interpolate_linear<Dim>(layout, g.psi.data(), at) < -0.5 * layout.h();
+}
+
 // True, on all ranks, if x lies in a fluid that flows.
 template <int Dim>
-bool is_wet(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
-  return state.exterior->flows() || domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
+bool is_wet(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g, const Vec<Dim>& x) {
+  return domain.ranks.any(holds(domain.layout, x) && !in_solid(domain.layout, g, x) &&
+                          (state.exterior->flows() || level_set_at(domain, state, x) < 0));
 }
 
 // True, on all ranks, if there is a pressure at x: never before the first solve.
 template <int Dim>
-bool has_pressure(const Domain<Dim>& domain, const State<Dim>& state, const Vec<Dim>& x) {
+bool has_pressure(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g, const Vec<Dim>& x) {
   if (state.step == 0) return false;
-  return domain.ranks.any(holds(domain.layout, x) &&
+  return domain.ranks.any(holds(domain.layout, x) && !in_solid(domain.layout, g, x) &&
                           (level_set_at(domain, state, x) < 0 ||
                            state.exterior->has_pressure(domain.layout.site(cell_of(domain.layout, x)))));
 }
@@ -174,12 +182,12 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const St
   };
   switch (probe.kind) {
     case ProbeKind::pressure:
-      out.defined = has_pressure(s.domain, state, x);
+      out.defined = has_pressure(s.domain, state, geometry, x);
       if (out.defined) out.value = pressure_at(s, state, geometry, x);
       break;
     case ProbeKind::velocity:
       out.is_vector = true;
-      out.defined = is_wet(s.domain, state, x);
+      out.defined = is_wet(s.domain, state, geometry, x);
       out.vector = velocity_at(s.domain, s.fluids, state, x, out.defined);
       break;
     case ProbeKind::surface_height:

@@ -52,6 +52,9 @@ class ScaledLdlt {
 // x of least |A x - b|; a column that depends on others gets 0.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+// The shortest x of least |A x - b|.
+Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
 // Orthonormal basis of the span of A's columns, which have length 1. A column whose remainder beyond the others is
 // below 1e-6 counts as dependent on them.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& A);
