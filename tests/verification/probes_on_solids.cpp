@@ -74,7 +74,7 @@ TEST_CASE("probes on solids: nothing is measured inside") {
   block.shape.kind = "box";
   block.shape.lower = {0.3, 0.3, 0.3 * z}, block.shape.upper = {0.7, 0.7, 0.7 * z};
   s.solids.push_back(block);
-  s.probes = {pressure_probe("inside", {0.5, 0.5, 0.5 * z}), pressure_probe("inside, moving", {0.5, 0.5, 0.5 * z}),
+  s.probes = {pressure_probe("inside", {0.5, 0.5, 0.5 * z}), pressure_probe("velocity inside", {0.5, 0.5, 0.5 * z}),
               pressure_probe("on the face", {0.3, 0.5, 0.5 * z})};
   s.probes[1].kind = ProbeKind::velocity;
   const auto sim = make_simulation(s, Communicator());

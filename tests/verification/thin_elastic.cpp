@@ -49,18 +49,8 @@ int wet_beyond(const Simulation& sim, const Scene& s) {
   return count;
 }
 
-// Pins a sheet across the tank where it touches the sides. `motion`: displacement of the pins along x.
-void pin_edges(SolidSpec& sheet, int dim, const std::string& motion) {
-  pin(sheet, {0, -0.1, -0.1}, {1, 0, 1.1});
-  pin(sheet, {0, 1, -0.1}, {1, 1.1, 1.1});
-  if (dim == 3) pin(sheet, {0, 0, -0.1}, {1, 1, 0});
-  if (dim == 3) pin(sheet, {0, 0, 1}, {1, 1, 1.1});
-  if (!motion.empty())
-    for (PinSpec& p : sheet.elastic.pinned) p.motion.translate[0] = motion;
-}
-
 // A sheet that divides the tank at 0.52, pinned at floor and ceiling, with liquid up to about half the height on its
-// low side only. It is soft enough to bulge by about 0.08 m.
+// low side only. It is soft enough to bulge by about 0.08 m. `motion`: displacement of the pins along x.
 Scene dam(int dim, int cells, double thickness, const std::string& motion) {
   Scene s = box_scene(dim, cells);
   s.gravity = {0, -9.81, 0};
@@ -69,7 +59,12 @@ Scene dam(int dim, int cells, double thickness, const std::string& motion) {
   add_liquid(s, "max(x-0.52, y-0.53)");
   s.solids.push_back(
       elastic_box("sheet", {0.52 - t / 2, 0, 0}, {0.52 + t / 2, 1, width}, 1100, {2.3e5 / t, 0.3}, 1. / 12));
-  pin_edges(s.solids[0], dim, motion);
+  pin(s.solids[0], {0, -0.1, -0.1}, {1, 0, 1.1});
+  pin(s.solids[0], {0, 1, -0.1}, {1, 1.1, 1.1});
+  if (dim == 3) pin(s.solids[0], {0, 0, -0.1}, {1, 1, 0});
+  if (dim == 3) pin(s.solids[0], {0, 0, 1}, {1, 1, 1.1});
+  if (!motion.empty())
+    for (PinSpec& p : s.solids[0].elastic.pinned) p.motion.translate[0] = motion;
   return s;
 }
 

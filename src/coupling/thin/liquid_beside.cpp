@@ -43,6 +43,19 @@ Depths wet_depths(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const H
   return sum;
 }
 
+// use(face, share, weights) for the sealed faces of the deforming body k. Its shares are in the order of these faces.
+template <int Dim, class Use>
+void for_each_sealed(const StepGeometry<Dim>& g, int k, const Use& use) {
+  const FaceShares& shares = *g.shares[std::size_t(k)];
+  const FaceWeights& weights = *g.face_weights[std::size_t(k)];
+  std::size_t n = 0;
+  for (const SealedFace& f : g.sealed) {
+    if (f.body != k) continue;
+    while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
+    use(f, shares[n].closed, weights[n]);
+  }
+}
+
 // Explicit Euler step of da/dt = -|a| a/h, clipped at zero: a deviation that would cross a cell in the step vanishes.
 double slowed(double a, double dt, double h) {
   return a * std::max(0., 1 - dt * std::abs(a) / h);
@@ -53,17 +66,12 @@ double slowed(double a, double dt, double h) {
 template <int Dim>
 LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, const StepGeometry<Dim>& g,
                            const PressureRows<Dim>& rows, const State<Dim>& state, double dt, int k) {
-  const FaceShares& shares = *g.shares[std::size_t(k)];
   const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
   const auto size = std::size_t(w.size());
   std::vector<double> sums(3 * size);  // mass, heavy, momentum
-  std::size_t n = 0;                   // shares and sealed faces are in the same order
   const auto has_row = [&](Site c) { return rows.row[c] != PressureRows<Dim>::no_row; };
-  for (const SealedFace& f : g.sealed) {
-    if (f.body != k) continue;
-    while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
-    const SurfaceWeights& weights = (*g.face_weights[std::size_t(k)])[n];
-    const double area = shares[n].closed * domain.layout.geometry().face_area();
+  for_each_sealed(g, k, [&](const SealedFace& f, double share, const SurfaceWeights& weights) {
+    const double area = share * domain.layout.geometry().face_area();
     const Depths depths = wet_depths(domain, g, has_row, state.phi, f);
     const double mass = area * fluids.density() * depths.inert, heavy = area * fluids.density() * depths.heavy;
     const double mean = velocity_at<Dim>(weights, f.axis, w), flow = state.now->u.at(f.axis, f.face);
@@ -73,7 +81,7 @@ LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, cons
       sums[size + i] += heavy * weight;
       sums[2 * size + i] += mass * weight * (flow + slowed(w[Eigen::Index(i)] - mean, dt, domain.layout.h()));
     }
-  }
+  });
   domain.ranks.global_sum(sums);
   const auto part = [&](std::size_t first) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(sums.data() + first, Eigen::Index(size)));
@@ -82,31 +90,29 @@ LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, cons
 }
 
 // sum_f rho A/2 (s (d_low + d_high) sum_n weight_n w_n^2 - h/2 (share_low u_low^2 + share_high u_high^2)), with the
-// velocities that the cells on both sides take for the face
+// velocities that the cells on both sides take for the face.
 template <int Dim>
 double kinetic_energy_beside(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                              const StepGeometry<Dim>& g, const State<Dim>& state) {
   if (!has_thin_elastic(solids)) return 0;
   const Layout<Dim>& l = domain.layout;
-  const auto is_wet = [&](Site c) { return state.phi[c] < 0 && !is_shut_in(domain, g, state.phi, c); };
+  const auto has_pressure = [&](Site c) { return state.phi[c] < 0 && !is_shut_in(domain, g, state.phi, c); };
+  const auto counted = [&](const SealedFace& f, Site c) {
+    if (!l.cells().contains(l.index(c))) return 0.;
+    const FacePair u = solved_faces(l, *state.now, f.axis, c);
+    return 0.5 * l.h() * liquid_share(l, state.phi, g.psi, c) * std::pow(c == f.face ? u.low : u.high, 2);
+  };
   double sum = 0;
-  std::vector<std::size_t> next(solids.bodies.size(), 0);  // share of each body; in the order of the sealed faces
-  for (const SealedFace& f : g.sealed) {
-    const auto k = std::size_t(f.body);
-    if (!g.deforms(f.body)) continue;
-    std::size_t& n = next[k];
-    const FaceShares& shares = *g.shares[k];
-    while (shares[n].axis != f.axis || shares[n].face != f.face) ++n;
-    const Eigen::VectorXd w = state.solids[k].velocity();
-    double square = 0, counted = 0;
-    for (const auto& [node, weight] : (*g.face_weights[k])[n])
-      square += weight * std::pow(w[Dim * Eigen::Index(node) + f.axis], 2);
-    for (const Site c : {f.face - l.stride(f.axis), f.face}) {
-      if (!l.cells().contains(l.index(c))) continue;
-      const FacePair u = solved_faces(l, *state.now, f.axis, c);
-      counted += 0.5 * l.h() * liquid_share(l, state.phi, g.psi, c) * std::pow(c == f.face ? u.low : u.high, 2);
-    }
-    sum += shares[n].closed * wet_depths(domain, g, is_wet, state.phi, f).inert * square - counted;
+  for (int k = 0; k < int(solids.bodies.size()); ++k) {
+    const Body<Dim>& body = solids.bodies[std::size_t(k)];
+    if (!body.is_thin() || !body.elements()) continue;
+    const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
+    for_each_sealed(g, k, [&](const SealedFace& f, double share, const SurfaceWeights& weights) {
+      double square = 0;
+      for (const auto& [node, weight] : weights) square += weight * std::pow(w[Dim * Eigen::Index(node) + f.axis], 2);
+      sum += share * wet_depths(domain, g, has_pressure, state.phi, f).inert * square;
+      sum -= counted(f, f.face - l.stride(f.axis)) + counted(f, f.face);
+    });
   }
   return 0.5 * fluids.density() * l.geometry().face_area() * domain.ranks.global_sum(sum);
 }

@@ -23,9 +23,9 @@ template <int Dim>
 LiquidBeside liquid_beside(const Domain<Dim>& domain, const Fluids& fluids, const StepGeometry<Dim>& geometry,
                            const PressureRows<Dim>& rows, const State<Dim>& state, double dt, int k);
 
-// Kinetic energy of the liquid that moves with thin elastic bodies, less what a sum over cells counts for it by the
-// velocities u_f of sealed faces, J (2D: J/m). Nodes w beside one face may move differently: a body that turns within a
-// cell. Summed over all ranks. Collective.
+// Kinetic energy of the liquid that moves with thin elastic bodies, with the nodes' velocities w, J (2D: J/m), less
+// what a sum over cells counts for it by the velocities of faces. Nodes beside one face may move differently, as where
+// a body turns within a cell. Summed over all ranks. Collective.
 template <int Dim>
 double kinetic_energy_beside(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                              const StepGeometry<Dim>& geometry, const State<Dim>& state);
