@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE_SIG("a soft ball thrown at a wall never intersects", "", ((in
   }
 }
 
-TEMPLATE_TEST_CASE_SIG("a strip folded onto itself never intersects", "", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a strip folded onto itself never intersects", "[long]", ((int Dim), Dim), 2, 3) {
   FoldedStrip<Dim> strip;
   for (int n = 0; n < 80; ++n) {
     strip.fold();

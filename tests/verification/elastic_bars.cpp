@@ -58,7 +58,7 @@ TEST_CASE("bars in liquid: a uniform pressure p shortens a bar by p L/E at any p
 // No shear, and du_x/dx = -p/E: u_y has the term -w (x^2 + z^2)/2E, less its mean over a section. So the middle of the
 // lower end rises by
 //   p(bottom) L/E - w_b L^2/2E + w a^2/6E (twice the last in 3D), a: half the width.
-TEST_CASE("bars in liquid: a bar that hangs in liquid at rest is as long as elasticity says", "[elastic]") {
+TEST_CASE("bars in liquid: a bar that hangs in liquid at rest is as long as elasticity says", "[elastic][long]") {
   const double E = 1e8, g = 9.81, w = 1000 * g;  // Pa, m/s^2, N/m^3
   for (const int dim : {2, 3})
     for (const double density : {1000.0, 3000.0}) {

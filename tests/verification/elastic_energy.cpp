@@ -106,7 +106,7 @@ void report(const std::string& name, const Energies& e) {
 
 }  // namespace
 
-TEST_CASE("a free elastic body gains no energy in any step", "[elastic]") {
+TEST_CASE("a free elastic body gains no energy in any step", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     const Energies e = energies(flying_bar(dim, scheme), dim == 2 ? 200 : 60);
     report(name, e);
@@ -116,7 +116,7 @@ TEST_CASE("a free elastic body gains no energy in any step", "[elastic]") {
 }
 
 // The energy stored by the contact barrier is not counted: a step may regain what an earlier one lost.
-TEST_CASE("an elastic body thrown at a wall never has more energy than it came with", "[elastic]") {
+TEST_CASE("an elastic body thrown at a wall never has more energy than it came with", "[elastic][long]") {
   for_each_scheme([](int dim, TimeScheme scheme, const std::string& name) {
     Scene s = flying_bar(dim, scheme);
     s.solids[0].rigid.velocity = {3, 0.5, 0};

@@ -110,7 +110,7 @@ TEST_CASE("a sheet of density ratio 1e-3 in a full channel moves at bounded spee
 
 // The sheet is rolled up by then. `seiche run` of this scene to 1 s with 2, 10, 24 and 100 frames a second and E = 1e2,
 // 1e4, 1e8, 1e12 Pa: the energy never exceeds the initial one, the liquid reaches 3.7 m/s at most.
-TEST_CASE("a sheet of density ratio 1e-3 as soft as to roll up moves at bounded speeds", "[elastic]") {
+TEST_CASE("a sheet of density ratio 1e-3 as soft as to roll up moves at bounded speeds", "[elastic][long]") {
   Scene s = full_channel();
   s.time.frame_rate = 10;
   check("sheet", s, sheet({1e2, 0.4}), 0.7);

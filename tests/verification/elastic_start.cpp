@@ -108,7 +108,7 @@ TEST_CASE("elastic start: a disc thrown in liquid gives it momentum once") {
 
 // A rod of a third of a cell turns about its pinned end. Counted by mean velocities of faces, the liquid beside its
 // middle carried almost nothing at first and thrice as much a step later.
-TEST_CASE("elastic start: a rod below a cell that turns in liquid gains no energy", "[elastic][thin]") {
+TEST_CASE("elastic start: a rod below a cell that turns in liquid gains no energy", "[elastic][thin][long]") {
   Scene s = box_scene(3, 8);
   add_liquid(s, "y-0.8");
   s.time.end = 1;

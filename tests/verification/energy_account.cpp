@@ -227,7 +227,7 @@ void check_driven() {
   CHECK(last.work.solids == Approx(last.kinetic_energy - first.kinetic_energy).epsilon(0.02));
 }
 
-TEST_CASE("energy account: pins and forces of the scene") {
+TEST_CASE("energy account: pins and forces of the scene", "[long]") {
   SECTION("2D") {
     check_driven<2>();
   }

@@ -177,7 +177,7 @@ void report(const std::string& what, const Carried& c) {
 // Ideal liquid that turns as a whole carries a body of its density along on a circle: an exact solution. Velocities
 // that fit the body's place half-way through the step are late by half a step's motion; the body was thrown outwards,
 // by 23 and 9 % of its distance, and fell 0.42 and 0.23 rad behind. Bars: twice what is left, of second order.
-TEST_CASE("turning liquid carries a disc round with it, to second order") {
+TEST_CASE("turning liquid carries a disc round with it, to second order", "[long]") {
   const Carried coarse = carry(turning_drum(2, 40, 0), 2 * test::pi),
                 fine = carry(turning_drum(2, 80, 0), 2 * test::pi);
   report("8 cells across", coarse);

@@ -167,7 +167,7 @@ TEST_CASE("the pins of a body that liquid flows past hold against weight and liq
     }
 }
 
-TEST_CASE("pins, weight and liquid change the momentum of a bar that swings", "[elastic]") {
+TEST_CASE("pins, weight and liquid change the momentum of a bar that swings", "[elastic][long]") {
   for (int dim : {2, 3})
     for (const char* around : {"air", "liquid", "viscous liquid"}) {
       Scene s = cantilever(dim, g);
@@ -180,7 +180,7 @@ TEST_CASE("pins, weight and liquid change the momentum of a bar that swings", "[
     }
 }
 
-TEST_CASE("the pins of a block carry what rests on it", "[elastic]") {
+TEST_CASE("the pins of a block carry what rests on it", "[elastic][long]") {
   for (int dim : {2, 3}) {
     Scene s = tank(dim, g);
     s.solids.push_back(pinned_block(corner(dim, 0.3, 0.1, 0.3), corner(dim, 0.7, 0.3, 0.7), 1500, 0.2));

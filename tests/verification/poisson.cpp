@@ -183,7 +183,8 @@ TEMPLATE_TEST_CASE_SIG("pressure converges at second order between plane cut cel
   check_order<Dim>("plane cut cells", {cut_box<Dim>()}, still<Dim>, full<Dim>, wave<Dim>, wave_slope<Dim>);
 }
 
-TEMPLATE_TEST_CASE_SIG("pressure converges at second order around a ball and within one", "", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("pressure converges at second order around a ball and within one", "[long]", ((int Dim), Dim), 2,
+                       3) {
   check_order<Dim>("in a ball", {ball<Dim>(true)}, rotation<Dim>, full<Dim>, wave<Dim>, wave_slope<Dim>);
   check_order<Dim>("around a ball", {ball<Dim>(false)}, rotation<Dim>, full<Dim>, wave<Dim>, wave_slope<Dim>);
 }

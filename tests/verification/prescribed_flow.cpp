@@ -51,7 +51,7 @@ std::unique_ptr<Simulation> run_to(const Scene& s, double end) {
 }  // namespace
 
 // It moves by 0.1 (1 - cos 2 pi t) along x and returns. It starts from rest, so the first step must look ahead.
-TEST_CASE("a ball swings to and fro with a prescribed flow, as a ball and of one size") {
+TEST_CASE("a ball swings to and fro with a prescribed flow, as a ball and of one size", "[long]") {
   for (int dim : {2, 3}) {
     const Scene s = carried(dim, 32, ball(dim, "0.4"), {"0.2*pi*sin(2*pi*t)", "0", "0"});
     for (double end : {0.5, 1.0}) {

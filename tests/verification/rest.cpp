@@ -117,7 +117,7 @@ Scene leaning_gate(int dim, int cells) {
   return s;
 }
 
-TEST_CASE("liquid rests beside a leaning gate between two levels") {
+TEST_CASE("liquid rests beside a leaning gate between two levels", "[long]") {
   for (int dim : {2, 3}) {
     const double speed = largest_speed(leaning_gate(dim, 32));
     WARN("leaning gate " << dim << "D: " << speed << " m/s");
@@ -138,7 +138,7 @@ Scene thin_gate(int dim, double thick, double degrees, const std::string& left, 
 }
 
 // One or two cells are all that lies between the two waters.
-TEST_CASE("liquid rests beside gates some two cells thick") {
+TEST_CASE("liquid rests beside gates some two cells thick", "[long]") {
   for (int dim : {2, 3})
     for (const auto& [thick, degrees] : {std::pair(2.6, -30.0), std::pair(2.6, 35.0), std::pair(3.2, -45.0)})
       for (const std::string right : {"0.3", "0.55"}) {
@@ -149,7 +149,7 @@ TEST_CASE("liquid rests beside gates some two cells thick") {
 
 // A gate beside which ripples of two cells grew e-fold in 3 s: from 1e-5 m to 0.03 m/s at 12 s in 2D. Started at 7e-4
 // m/s, they have at most that speed and a third for what their phases add up to.
-TEST_CASE("ripples beside a gate between two levels do not grow") {
+TEST_CASE("ripples beside a gate between two levels do not grow", "[long]") {
   for (const auto& [dim, end] : {std::pair(2, 12), std::pair(3, 5)}) {
     Scene s = thin_gate(dim, 4.1, -20, "(0.55+1e-5*sin(32*_pi*x))", "0.5");
     const auto sim = make_simulation(s, Communicator());

@@ -51,7 +51,7 @@ double acceleration(Scene scene, double from, double until) {
 
 }  // namespace
 
-TEST_CASE("a block slides down an incline as Coulomb says") {
+TEST_CASE("a block slides down an incline as Coulomb says", "[long]") {
   for (int dim : {2, 3})
     for (double mu : {0.0, 0.1, 0.3, 0.5}) {
       const double exact = g * (0.5 - mu * std::sqrt(0.75));
@@ -74,7 +74,7 @@ TEST_CASE("a block sticks or slides on the right side of tan theta = mu", "[long
   CHECK(std::abs(speed_after(incline(2, 60, 1e6), 1)) <= 1e-3);
 }
 
-TEST_CASE("a block with a push comes to a stop where Coulomb says") {
+TEST_CASE("a block with a push comes to a stop where Coulomb says", "[long]") {
   for (int dim : {2, 3})
     for (double mu : {0.1, 0.3}) {
       const double v0 = std::sqrt(2 * mu * g);  // stops after 1 m

@@ -65,7 +65,7 @@ TEST_CASE("a log floats as deep as Archimedes says") {
 }
 
 // Floating flat is stable for 6 s (1 - s) < 1. Between 9/32 and 23/32 a square floats with a corner down.
-TEST_CASE("a square log floats flat, or on a corner, as its density says") {
+TEST_CASE("a square log floats flat, or on a corner, as its density says", "[long]") {
   for (double s : {0.15, 0.5, 0.85}) {
     const Floating f = float_on(log_scene(s, 0, 10), 0, 12);
     const double expected = s == 0.5 ? 45 : 0;

@@ -79,7 +79,7 @@ void check_ratios(std::initializer_list<int> grids) {
 
 }  // namespace
 
-TEST_CASE("iterations do not depend on the density of a sphere", "[ranks]") {
+TEST_CASE("iterations do not depend on the density of a sphere", "[ranks][long]") {
   check_ratios({32, 64});
 }
 

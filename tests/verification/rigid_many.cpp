@@ -7,7 +7,7 @@
 namespace rigid_many_tests {
 using namespace seiche;
 
-TEST_CASE("a hundred and twenty discs that touch under water take their steps without overlaps") {
+TEST_CASE("a hundred and twenty discs that touch under water take their steps without overlaps", "[long]") {
   Scene s = test::box_scene(2, 48);
   s.gravity = {0, -9.81, 0};
   test::add_pool(s, 0.9);

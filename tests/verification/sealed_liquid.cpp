@@ -287,7 +287,7 @@ TEST_CASE("liquid that two walls, floor and plate close off keeps its volume", "
   CHECK(worst <= 1e-8);
 }
 
-TEST_CASE("liquid that a tube, floor and plate close off keeps its volume", "[elastic][sealed]") {
+TEST_CASE("liquid that a tube, floor and plate close off keeps its volume", "[elastic][sealed][long]") {
   const auto file = std::filesystem::temp_directory_path() / fmt::format("seiche_tube_{}.mesh", std::random_device()());
   write_tube(file);
   const Scene scene = flooded_tube(file);

@@ -168,7 +168,7 @@ Swing swing(double factor) {
 
 }  // namespace
 
-TEST_CASE("semi-implicit tension bears steps ten times as long") {
+TEST_CASE("semi-implicit tension bears steps ten times as long", "[long]") {
   // Measured: 0.5 %, 2.2 % and 5.9 %. Ten times the explicit step is 1/27 of a period.
   const std::array<std::pair<double, double>, 3> bars{{{3, 0.01}, {5, 0.03}, {10, 0.07}}};
   for (const auto& [factor, bar] : bars) {
@@ -180,7 +180,7 @@ TEST_CASE("semi-implicit tension bears steps ten times as long") {
   }
 }
 
-TEST_CASE("a square of liquid rounds off") {
+TEST_CASE("a square of liquid rounds off", "[long]") {
   Scene s = drop_scene(2, 32, 1, "max(abs(x-0.5),abs(y-0.5))-0.25", 0.1);
   add_probe(s, ProbeKind::surface_height, {0.5, 0.5, 0});
   const auto sim = make_simulation(s, Communicator());

@@ -52,7 +52,7 @@ TEST_CASE("a light box lifts off a film as the film's inertia lets it") {
   CHECK(rise == Approx(exact).epsilon(0.1));
 }
 
-TEST_CASE("no film is so thin, nor a step so short, that a light box would stick to the floor") {
+TEST_CASE("no film is so thin, nor a step so short, that a light box would stick to the floor", "[long]") {
   for (double gap : {0.003, 0.02})
     for (double dt : {0.03, 0.003}) {
       Scene s = box_near_floor(2, 500, gap);

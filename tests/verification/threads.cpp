@@ -45,7 +45,7 @@ double aslant(int dim, double width) {
 // distance of 16 cells along an axis in 2D, and by 120, 17, 1.4 % at 45 degrees. One-sided interpolation gives 0.5,
 // 1.7, 1.2 % and 1.3, 2.4, 0.3 %; sheets in 3D, at half the distance, less. The rest is due to redistancing and to
 // medial axes that count in part. The bars are about twice these values.
-TEST_CASE("threads and sheets of liquid fly on about as thick as they are") {
+TEST_CASE("threads and sheets of liquid fly on about as thick as they are", "[long]") {
   const std::pair<double, double> bars[] = {{2, 0.03}, {3, 0.05}, {4, 0.025}};  // width in cells; bar
   std::string text;
   for (const int dim : {2, 3})

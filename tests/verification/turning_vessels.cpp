@@ -46,7 +46,7 @@ double kinetic_energy_at(const Scene& scene, double end) {
 
 // A ring of liquid, 0.5 m < r < 1 m, at 1 rad/s without gravity: energy per metre rho w^2 pi (1 - 0.5^4)/4. Before the
 // acceleration was carried near surfaces, 9.6 and 2.2 % of it were missing (docs/decisions/0030).
-TEST_CASE("a turning drum keeps its ring of liquid turning") {
+TEST_CASE("a turning drum keeps its ring of liquid turning", "[long]") {
   const double exact = 1000 * test::pi * (1 - std::pow(0.5, 4)) / 4;
   const auto missing = [&](int n) {
     Scene s = around_axis(2, n, 1);

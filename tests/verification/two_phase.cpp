@@ -119,7 +119,7 @@ TEST_CASE("viscosity between two fluids slows a capillary wave as it should") {
 // Rayleigh-Taylor instability at 3 : 1, Re = 1000, initial height 0.1, t sqrt(At) = 0.5: Fourier coefficients of the
 // surface height. Reference: a one-velocity code with density smoothed over 0.005 on cells of 1/128. Transporting each
 // fluid by its own velocity at 64 cells makes the second and fourth coefficients too large by 8e-4 and 9e-4.
-TEST_CASE("light fluid rises into one three times as dense with a round top") {
+TEST_CASE("light fluid rises into one three times as dense with a round top", "[long]") {
   constexpr int columns = 32;
   constexpr double pi = 3.14159265358979323846, second = -0.0035, fourth = 0.0003;
   Scene s = two_phase_scene(2, 64, 3);

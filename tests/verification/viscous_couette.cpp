@@ -41,7 +41,7 @@ CouetteErrors couette(int n, int turns) {
 }  // namespace
 
 // Without the fluxes of cut faces the order is 1.2 to 1.4; one iteration with them gives 2.
-TEST_CASE("couette cylinders", "[viscous]") {
+TEST_CASE("couette cylinders", "[viscous][long]") {
   const CouetteErrors coarse = couette(32, 1), fine = couette(64, 1), plain = couette(64, 0);
   CAPTURE(coarse.velocity, fine.velocity, plain.velocity, coarse.torque, fine.torque);
   CHECK(coarse.velocity <= 5.5e-4);

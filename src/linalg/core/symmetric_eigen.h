@@ -10,8 +10,9 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;
 };
 
-// Reads the lower triangle of A.
+// Both read the lower triangle of A.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& A);  // ascending; a third of the work
 
 // V diag(max(values, 0)) V': the nearest positive semi-definite matrix to V diag(values) V'.
 Eigen::MatrixXd positive_part(const SymmetricEigen& eigen);

@@ -1,8 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include "linalg/core/dense_factors.h"
+#include "linalg/core/symmetric_eigen.h"
 #include "linalg/saddle/lsc_preconditioner.h"
 #include "linalg/saddle/wall_distance.h"
 #include "unit/linalg/saddle_cases.h"
@@ -65,7 +64,7 @@ Eigen::VectorXd spectrum(const Stokes& s, bool surface) {
   const Communicator alone(MPI_COMM_SELF);
   Parts p(s, alone);
   const Eigen::MatrixXd D = dense(p.m.D, p.m.F.global_rows), F = dense(p.m.F, p.m.F.global_rows);
-  const Eigen::MatrixXd S = D * F.ldlt().solve(D.transpose());
+  const Eigen::MatrixXd S = D * DenseLdlt(F).solve_columns(D.transpose());
   Eigen::MatrixXd B(S.rows(), S.cols());
   for (Eigen::Index k = 0; k < S.cols(); ++k) {
     Vector e(std::size_t(S.rows()), 0.0), z;
@@ -74,9 +73,9 @@ Eigen::VectorXd spectrum(const Stokes& s, bool surface) {
     B.col(k) = Eigen::Map<const Eigen::VectorXd>(z.data(), S.rows());
   }
   CHECK((B - B.transpose()).norm() <= 1e-10 * B.norm());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (B + B.transpose()));
-  const Eigen::MatrixXd root = modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  const Eigen::VectorXd all = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(root.transpose() * S * root).eigenvalues();
+  const SymmetricEigen modes = symmetric_eigen(0.5 * (B + B.transpose()));
+  const Eigen::MatrixXd root = modes.vectors * modes.values.cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::VectorXd all = symmetric_eigenvalues(root.transpose() * S * root);
   return surface ? all : all.tail(all.size() - 1);
 }
 

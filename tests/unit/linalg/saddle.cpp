@@ -1,4 +1,4 @@
-#include <Eigen/QR>
+#include "linalg/core/dense_factors.h"
 
 #include "unit/linalg/saddle_problems.h"
 
@@ -137,7 +137,8 @@ TEST_CASE("saddle: the viscous part alone") {
   CHECK(report.converged);
   CHECK(report.iterations <= 25);
   const Eigen::Index n = m.F.global_rows + m.H.rows();
-  const Eigen::VectorXd exact = dense(m, ranks).topLeftCorner(n, n).ldlt().solve(dense(m, p.f, p.g, {}, ranks).head(n));
+  const Eigen::VectorXd exact =
+      DenseLdlt(dense(m, ranks).topLeftCorner(n, n)).solve(dense(m, p.f, p.g, {}, ranks).head(n));
   CHECK((dense(m, a.u, a.v, {}, ranks).head(n) - exact).norm() <= 1e-7 * exact.norm());
 }
 

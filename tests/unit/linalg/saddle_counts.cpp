@@ -46,7 +46,7 @@ void check_flat(const std::function<Stokes(int)>& make, const std::vector<int>& 
 
 }  // namespace
 
-TEST_CASE("saddle: iterations stay where they are on finer grids") {
+TEST_CASE("saddle: iterations stay where they are on finer grids", "[long]") {
   const double viscosity = GENERATE(1e-3, 0.1, 1.0, 10.0, 1e3, 1e5);
   CAPTURE(viscosity);
   SECTION("full stress") {

@@ -1,10 +1,9 @@
 #include <catch2/catch.hpp>
 
-#include <Eigen/SparseLU>
-
 #include "base/error.h"
 #include "linalg/core/linear_system.h"
 #include "linalg/spd/solve.h"
+#include "lu_solves.h"
 #include "unit/linalg/cases.h"
 
 namespace solve_tests {
@@ -95,9 +94,7 @@ Vector reference(const cases::System& s, const Vector& b, const Communicator& ra
   }
   Eigen::SparseMatrix<double> sparse = dense.leftCols(n).sparseView();
   sparse.makeCompressed();
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(sparse);
-  const Eigen::VectorXd rhs = dense.col(n);
-  Eigen::VectorXd x = lu.solve(rhs);
+  Eigen::VectorXd x = testing::sparse_lu_solve(sparse, dense.col(n));
   for (int c = 0; c < s.null_space.count; ++c) {
     double sum = 0, count = 0;
     for (Eigen::Index i = 0; i < n; ++i) {

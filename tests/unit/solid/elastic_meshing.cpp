@@ -131,7 +131,7 @@ TEST_CASE("2D shapes become triangles that fill them", "[elastic][meshing]") {
   check_shape<2>("bowl", bowl, pi * (0.16 - 0.09) / 2, 1e-2, 0.4);
 }
 
-TEST_CASE("3D shapes become tetrahedra that fill them", "[elastic][meshing]") {
+TEST_CASE("3D shapes become tetrahedra that fill them", "[elastic][meshing][long]") {
   check_shape<3>("box", block({0, 0, 0}, {0.3, 0.2, 0.1}, 0.05), 0.006, 1e-12, 0.7);
   check_shape<3>("ball", ball(0.3, 0.12), 4 * pi / 3 * 0.027, 2e-3, 0.15);
   SolidSpec rod = solid_of("cylinder", 0.08);
@@ -147,7 +147,7 @@ TEST_CASE("3D shapes become tetrahedra that fill them", "[elastic][meshing]") {
   check_shape<3>("bowl", bowl, 2 * pi / 3 * (0.064 - 0.021952), 2e-2, 0.1);
 }
 
-TEST_CASE("A closed surface from a file becomes tetrahedra", "[elastic][meshing]") {
+TEST_CASE("A closed surface from a file becomes tetrahedra", "[elastic][meshing][long]") {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / fmt::format("seiche_torus_{}.obj", getpid());
   std::ofstream(file) << torus_obj(40, 20);

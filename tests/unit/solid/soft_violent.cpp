@@ -36,12 +36,12 @@ TEST_CASE("a fast soft disc against a wall", "[soft]") {
   for (double E : {1e2, 1e3, 1e5, 1e7, 1e9}) check_impact<2>(E, 5, 4, 30);
 }
 
-TEST_CASE("a fast soft ball against a wall", "[soft]") {
+TEST_CASE("a fast soft ball against a wall", "[soft][long]") {
   check_impact<3>(1e2, 0.5, 2, 20);
   for (double E : {1e4, 1e6, 1e9}) check_impact<3>(E, 5, 2, 12);
 }
 
-TEMPLATE_TEST_CASE_SIG("a soft strip folded onto itself", "[soft]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a soft strip folded onto itself", "[soft][long]", ((int Dim), Dim), 2, 3) {
   FoldedStrip<Dim> strip;
   int active = 0;
   for (int n = 0; n < 80; ++n) {
