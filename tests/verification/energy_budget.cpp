@@ -74,7 +74,7 @@ void check_works() {
     start.step = step;
     a.state.work.lost_numerical = -created;
     a.state.work.sides = work;
-    return fault_of_works(setup, start, before, a);
+    return fault_of_works(setup.domain, setup.fluids, setup.solids, start, before, a);
   };
   CHECK(fault(10, 870, 0).empty());
   CHECK_THAT(fault(10, 880, 0), Contains("come from nowhere; there were 250"));

@@ -158,7 +158,7 @@ struct Balance {
     for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
       const int k = p.coupling.bodies[b];
       const double m = p.setup.solids.bodies[k].mass().mass;
-      if (p.setup.solids.bodies[k].elements()) {
+      if (p.setup.solids.bodies[k].deforms()) {
         add_elastic(p, k, p.coupling.first[b]);
         continue;
       }
@@ -230,7 +230,7 @@ double adjointness_error(Projection<Dim>& p) {
   const double forces = v.dot(multiply_transposed(p.coupling.J, pressure, p.setup.domain.ranks));
   for (std::size_t b = 0; b < p.coupling.bodies.size(); ++b) {
     const int k = p.coupling.bodies[b], first = p.coupling.first[b], n = p.coupling.first[b + 1] - first;
-    if (p.setup.solids.bodies[k].elements()) {
+    if (p.setup.solids.bodies[k].deforms()) {
       p.geometry.cell_fluxes[std::size_t(k)] = p.coupling.cell_fluxes[b];
       set_node_velocity(p.setup.domain.layout, k, v.segment(first, n), p.geometry);
       continue;

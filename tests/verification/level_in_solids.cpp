@@ -137,7 +137,7 @@ std::pair<FaceField<Dim>, FaceField<Dim>> braked(double speed_now, const Velocit
   State<Dim> state;
   state.now = std::make_shared<TimeLevel<Dim>>(std::move(now));
   FaceField<Dim> v = u;
-  brake_ripples(slab.setup, state, slab.geometry, slab.closed, phi, 0.01, v);
+  brake_ripples(slab.setup.domain, slab.setup.fluids.gravity, state, slab.geometry, slab.closed, phi, 0.01, v);
   return {u, v};
 }
 

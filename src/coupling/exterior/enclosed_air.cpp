@@ -2,7 +2,6 @@
 #include <numeric>
 
 #include "coupling/exterior/exteriors.h"
-#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 #include "coupling/transport/air_volume.h"
 
@@ -15,9 +14,9 @@ class EnclosedAir : public Exterior<Dim> {
   explicit EnclosedAir(const Layout<Dim>& layout) { air_.label = CellField<Dim, std::int64_t>(layout, no_air); }
   std::unique_ptr<Exterior<Dim>> copy() const override { return std::make_unique<EnclosedAir>(*this); }
 
-  void start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, FaceField<Dim>&,
-             std::string&) override {
-    air_ = initial_air(s.domain, g, phi);
+  void start(const Domain<Dim>& domain, const Fluids&, const Solids<Dim>&, const StepGeometry<Dim>& g,
+             const CellField<Dim>& phi, FaceField<Dim>&, std::string&) override {
+    air_ = initial_air(domain, g, phi);
   }
 
   void follow(const Domain<Dim>& domain, const StepGeometry<Dim>& g, const FaceField<Dim>& u, double dt,
@@ -30,7 +29,7 @@ class EnclosedAir : public Exterior<Dim> {
     return control_volumes(domain, g, expected, limit, air_, phi);
   }
 
-  void set_rows(const Setup<Dim>&, ProjectionInput<Dim>& in) const override { in.air = &air_; }
+  void set_rows(const Fluids&, const OperatorPerturbation&, ProjectionInput<Dim>& in) const override { in.air = &air_; }
 
   bool has_pressure(Site cell) const override { return air_.label[cell] >= 0; }
 

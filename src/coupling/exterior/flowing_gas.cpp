@@ -67,16 +67,17 @@ class FlowingGas : public Exterior<Dim> {
   using Exterior<Dim>::flow;
   std::unique_ptr<Exterior<Dim>> copy() const override { return std::make_unique<FlowingGas>(*this); }
 
-  void start(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi, FaceField<Dim>& u,
-             std::string& fault) override {
-    const FaceField<Dim, char> near = faces_near_gas(s.domain, phi);
-    FaceField<Dim> gas = initial_gas_velocity(s.domain, s.fluids, near, fault);
-    if (flow_as_one(s.fluids)) join_both(s.domain, s.fluids, phi, gas, u);
-    flow.now = initial_level(s.domain, s.fluids, s.solids, g, near, std::move(gas));
+  void start(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+             const CellField<Dim>& phi, FaceField<Dim>& u, std::string& fault) override {
+    const FaceField<Dim, char> near = faces_near_gas(domain, phi);
+    FaceField<Dim> gas = initial_gas_velocity(domain, fluids, near, fault);
+    if (flow_as_one(fluids)) join_both(domain, fluids, phi, gas, u);
+    flow.now = initial_level(domain, fluids, solids, g, near, std::move(gas));
   }
 
-  FaceField<Dim> surface_velocity(const Setup<Dim>& s, const State<Dim>& state) const override {
-    return flow_at_surface(s.domain, s.fluids, state);
+  FaceField<Dim> surface_velocity(const Domain<Dim>& domain, const Fluids& fluids,
+                                  const State<Dim>& state) const override {
+    return flow_at_surface(domain, fluids, state);
   }
 
   Transported<Dim> transported_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi,
@@ -106,14 +107,15 @@ class FlowingGas : public Exterior<Dim> {
     mix_gas_viscosity(domain, fluids, phi, mu.value, *mu.edge);
   }
 
-  void set_rows(const Setup<Dim>& s, ProjectionInput<Dim>& in) const override {
-    in.gas_density = s.perturbation.gas_density * s.fluids.gas_density();
+  void set_rows(const Fluids& fluids, const OperatorPerturbation& perturbation,
+                ProjectionInput<Dim>& in) const override {
+    in.gas_density = perturbation.gas_density * fluids.gas_density();
   }
 
-  void take(const Setup<Dim>& s, const StepGeometry<Dim>& g, const CellField<Dim>& phi,
-            const TimeLevel<Dim>& solved) override {
+  void take(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+            const CellField<Dim>& phi, const TimeLevel<Dim>& solved) override {
     auto level = std::make_shared<TimeLevel<Dim>>(solved);
-    continue_level(s.domain, s.fluids, s.solids, g, faces_near_gas(s.domain, phi), *level);
+    continue_level(domain, fluids, solids, g, faces_near_gas(domain, phi), *level);
     flow.now = std::move(level);
   }
 

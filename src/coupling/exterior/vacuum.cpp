@@ -5,7 +5,7 @@
 namespace seiche {
 
 template <int Dim>
-FaceField<Dim> Exterior<Dim>::surface_velocity(const Setup<Dim>&, const State<Dim>& state) const {
+FaceField<Dim> Exterior<Dim>::surface_velocity(const Domain<Dim>&, const Fluids&, const State<Dim>& state) const {
   return state.now->u;
 }
 

@@ -38,7 +38,7 @@ template <int Dim>
 std::vector<JoinedFacet<Dim>> find_joints(const std::vector<Body<Dim>>& bodies, double clearance) {
   std::vector<JoinedFacet<Dim>> joints;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    if (!bodies[k].elements()) continue;
+    if (!bodies[k].deforms()) continue;
     const ElasticSolid<Dim>& solid = bodies[k].elastic();
     for (const PinnedNodes& pins : solid.pins)
       for (const Body<Dim>& other : bodies) {

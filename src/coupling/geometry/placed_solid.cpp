@@ -127,7 +127,7 @@ class DeformedSolid : public PlacedSolid<Dim> {
 template <int Dim>
 std::unique_ptr<PlacedSolid<Dim>> place_solid(const Layout<Dim>& layout, const Body<Dim>& body,
                                               const Placement& placed) {
-  if (body.elements()) return std::make_unique<DeformedSolid<Dim>>(layout, body, placed.displacement);
+  if (body.deforms()) return std::make_unique<DeformedSolid<Dim>>(layout, body, placed.displacement);
   return std::make_unique<PosedSolid<Dim>>(layout, body, placed.pose);
 }
 

@@ -111,7 +111,7 @@ SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const DomainBoundar
   still_.faces = FaceGeometry<Dim>(layout);
   joints_ = find_joints(bodies, joint_gap * layout.h());
   for (const Body<Dim>& body : bodies)
-    radius_.push_back(body.moves() && !body.elements() ? surface_radius(layout, body) : 0);
+    radius_.push_back(body.moves() && !body.deforms() ? surface_radius(layout, body) : 0);
   measure_static();
 }
 

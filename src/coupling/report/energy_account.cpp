@@ -49,16 +49,17 @@ double kinetic_inflow_of(const Domain<Dim>& domain, const FaceGeometry<Dim>& fac
 // Kinetic energy that enters through the sides with the velocities of a state, less that which leaves, W. Each fluid
 // flows with its own velocity. An inflow side feeds liquid; elsewhere the cell inside tells the shares. Collective.
 template <int Dim>
-double kinetic_inflow(const Setup<Dim>& s, const FaceGeometry<Dim>& faces, const State<Dim>& state) {
+double kinetic_inflow(const Domain<Dim>& domain, const Fluids& fluids, const FaceGeometry<Dim>& faces,
+                      const State<Dim>& state) {
   const auto liquid = [&](int a, Site inside, double inward, double flow) {
-    const bool fed = flow > 0 && s.domain.sides.type(a, inward > 0 ? 0 : 1) == SideType::inflow;
-    return fed ? 1.0 : std::clamp(0.5 - state.phi[inside] / s.domain.layout.h(), 0.0, 1.0);
+    const bool fed = flow > 0 && domain.sides.type(a, inward > 0 ? 0 : 1) == SideType::inflow;
+    return fed ? 1.0 : std::clamp(0.5 - state.phi[inside] / domain.layout.h(), 0.0, 1.0);
   };
   const auto gas = [&](int a, Site inside, double inward, double flow) { return 1 - liquid(a, inside, inward, flow); };
-  double sum = s.fluids.density() * kinetic_inflow_of(s.domain, faces, state.now->u, liquid);
+  double sum = fluids.density() * kinetic_inflow_of(domain, faces, state.now->u, liquid);
   if (state.exterior->flows())
-    sum += s.fluids.gas_density() * kinetic_inflow_of(s.domain, faces, state.exterior->flow.now->u, gas);
-  return s.domain.ranks.global_sum(sum);
+    sum += fluids.gas_density() * kinetic_inflow_of(domain, faces, state.exterior->flow.now->u, gas);
+  return domain.ranks.global_sum(sum);
 }
 
 // F v + T omega, W, with the torque about `position`.
@@ -124,14 +125,16 @@ double driven_work(const State<Dim>& before, const State<Dim>& state, double dt)
 
 // Power of pressure, shear and what enters, on the fluids through the sides, W: means over the step.
 template <int Dim>
-double power_of_sides(const Setup<Dim>& s, const State<Dim>& before, const Attempt<Dim>& a) {
+double power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& before,
+                      const Attempt<Dim>& a) {
   const double w = weight_of_start(a.state, a.state.time - before.time);
   const double viscous = w * before.viscous_power.sides + (1 - w) * a.powers.viscous.sides;
-  if (!s.domain.sides.any_passes()) return viscous;
-  const auto from = before.exterior->joined_level(s.domain, s.fluids, before);
-  const auto to = a.state.exterior->joined_level(s.domain, s.fluids, a.state);
-  const double entering = kinetic_inflow(s, a.geometry.faces, before) + kinetic_inflow(s, a.geometry.faces, a.state);
-  return pressure_power_of_sides(s.domain, s.fluids, from->u, to->u, a) + viscous + 0.5 * entering;
+  if (!domain.sides.any_passes()) return viscous;
+  const auto from = before.exterior->joined_level(domain, fluids, before);
+  const auto to = a.state.exterior->joined_level(domain, fluids, a.state);
+  const double entering = kinetic_inflow(domain, fluids, a.geometry.faces, before) +
+                          kinetic_inflow(domain, fluids, a.geometry.faces, a.state);
+  return pressure_power_of_sides(domain, fluids, from->u, to->u, a) + viscous + 0.5 * entering;
 }
 
 }  // namespace
@@ -157,15 +160,15 @@ double pressure_power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, 
 // Pressure and tension of the solve times the mean of the velocities before and after it; the trapezoidal rule for the
 // rest. The first step is not counted, since a sudden start has no work of its own.
 template <int Dim>
-Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
+Work work_after(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& before, const StepStats& start,
                 const std::vector<SolidState>& solids, const Attempt<Dim>& a) {
   if (before.step == 0) return {};
   const double dt = a.state.time - before.time;
   const SolvePowers& powers = a.powers;
   Work w = a.state.work;
-  w.gravity += 0.5 * dt * s.fluids.gravity.of_step(a.state.time, dt).dot(start.momentum + a.stats.momentum);
+  w.gravity += 0.5 * dt * fluids.gravity.of_step(a.state.time, dt).dot(start.momentum + a.stats.momentum);
   w.tension += dt * powers.tension;
-  w.sides += dt * power_of_sides(s, before, a) + powers.work_of_sources;
+  w.sides += dt * power_of_sides(domain, fluids, before, a) + powers.work_of_sources;
   w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
               driven_work(before, a.state, dt);
   w.lost_viscous += heat_of_step(before, a.state, powers, dt);
@@ -176,11 +179,11 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
   return w;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template double pressure_power_of_sides<D>(const Domain<D>&, const Fluids&, const FaceField<D>&,                \
-                                             const FaceField<D>&, const Attempt<D>&);                             \
-  template Work work_after<D>(const Setup<D>&, const State<D>&, const StepStats&, const std::vector<SolidState>&, \
-                              const Attempt<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                      \
+  template double pressure_power_of_sides<D>(const Domain<D>&, const Fluids&, const FaceField<D>&, \
+                                             const FaceField<D>&, const Attempt<D>&);              \
+  template Work work_after<D>(const Domain<D>&, const Fluids&, const State<D>&, const StepStats&,  \
+                              const std::vector<SolidState>&, const Attempt<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -143,8 +143,8 @@ std::string fault_of_energy(const Setup<Dim>& s, const State<Dim>& before, const
 }
 
 template <int Dim>
-std::string fault_of_works(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
-                           const Attempt<Dim>& attempt) {
+std::string fault_of_works(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                           const State<Dim>& before, const StepStats& start, const Attempt<Dim>& attempt) {
   constexpr int begun = 4;
   const Work &was = before.work, &is = attempt.state.work;
   const double created = was.lost_numerical - is.lost_numerical, there = start.kinetic_energy + start.elastic_energy;
@@ -152,11 +152,11 @@ std::string fault_of_works(const Setup<Dim>& s, const State<Dim>& before, const 
   const double works = std::abs(is.gravity - was.gravity) + std::abs(is.tension - was.tension) +
                        std::abs(is.sides - was.sides) + std::abs(is.solids - was.solids) +
                        std::abs(is.lost_viscous - was.lost_viscous);
-  const double h = s.domain.layout.h(), dt = attempt.state.dt_now,
-               mass = std::max(total_mass(s.fluids, s.solids, start), total_mass(s.fluids, s.solids, attempt.stats)),
-               lift = mass * h * s.fluids.gravity.of_step(before.time + dt, dt).norm(),
+  const double h = domain.layout.h(), dt = attempt.state.dt_now,
+               mass = std::max(total_mass(fluids, solids, start), total_mass(fluids, solids, attempt.stats)),
+               lift = mass * h * fluids.gravity.of_step(before.time + dt, dt).norm(),
                jitter = 0.5 * mass * std::pow(still * h / dt, 2),
-               known = there + works + lift + jitter + surface_energy(s.domain, s.fluids, attempt.state.phi);
+               known = there + works + lift + jitter + surface_energy(domain, fluids, attempt.state.phi);
   if (created <= known) return {};
   return fmt::format("{:.4g} {} of kinetic energy come from nowhere; there were {:.4g}, work included", created,
                      Dim == 2 ? "J/m" : "J", there + works);
@@ -165,7 +165,8 @@ std::string fault_of_works(const Setup<Dim>& s, const State<Dim>& before, const 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template EnergyBudget energy_budget<D>(const Setup<D>&, const State<D>&, const StepStats&, const NodeField<D>&,  \
                                          const Attempt<D>&);                                                       \
-  template std::string fault_of_works<D>(const Setup<D>&, const State<D>&, const StepStats&, const Attempt<D>&);   \
+  template std::string fault_of_works<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const State<D>&,       \
+                                         const StepStats&, const Attempt<D>&);                                     \
   template std::string fault_of_energy<D>(const Setup<D>&, const State<D>&, const StepStats&, const NodeField<D>&, \
                                           const Attempt<D>&);
 SEICHE_INSTANTIATE(2)

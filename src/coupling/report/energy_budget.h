@@ -42,7 +42,7 @@ std::string fault_of_energy(const Setup<Dim>& setup, const State<Dim>& before, c
 // with W its works and the rest what a surface known to a cell leaves open. Else empty. The first steps do not count: a
 // sudden start has no work of its own. Reads Attempt::state.work. Collective.
 template <int Dim>
-std::string fault_of_works(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
-                           const Attempt<Dim>& attempt);
+std::string fault_of_works(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                           const State<Dim>& before, const StepStats& start, const Attempt<Dim>& attempt);
 
 }  // namespace seiche

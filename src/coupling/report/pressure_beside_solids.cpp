@@ -1,8 +1,6 @@
 #include "coupling/report/pressure_beside_solids.h"
 
 #include "coupling/geometry/cell_distance.h"
-#include "coupling/state/solids.h"
-#include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "linalg/core/dense_factors.h"
 
@@ -84,13 +82,14 @@ Samples<Dim> gather(const Domain<Dim>& domain, const State<Dim>& state, const St
 
 // Outward normal of the nearest solid that has a distance, if that is within two cells; else zero.
 template <int Dim>
-Vec<Dim> normal_at(const Setup<Dim>& s, const StepGeometry<Dim>& g, const Vec<Dim>& x) {
-  const double h = s.domain.layout.h(), step = 1e-3 * h;
+Vec<Dim> normal_at(const Layout<Dim>& layout, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
+                   const Vec<Dim>& x) {
+  const double h = layout.h(), step = 1e-3 * h;
   double nearest = 2 * h;
   Vec<Dim> normal = Vec<Dim>::Zero();
-  for (std::size_t k = 0; k < s.solids.bodies.size(); ++k) {
-    const Body<Dim>& body = s.solids.bodies[k];
-    if (body.elements()) continue;
+  for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
+    const Body<Dim>& body = solids.bodies[k];
+    if (body.deforms()) continue;
     const auto distance = [&](const Vec<Dim>& y) { return body.distance_in(g.placed[k].pose, y); };
     if (std::abs(distance(x)) >= nearest) continue;
     nearest = std::abs(distance(x));
@@ -169,14 +168,16 @@ double fit(const Layout<Dim>& layout, const Neighbourhood<Dim>& around, const Sa
 }  // namespace
 
 template <int Dim>
-std::optional<double> pressure_beside_solids(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g,
-                                             const Vec<Dim>& x, bool liquid) {
-  if (s.solids.bodies.empty()) return {};
-  const Layout<Dim>& layout = s.domain.layout;
+std::optional<double> pressure_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                             const State<Dim>& state, const StepGeometry<Dim>& g, const Vec<Dim>& x,
+                                             bool liquid) {
+  if (solids.bodies.empty()) return {};
+  const Layout<Dim>& layout = domain.layout;
   const Neighbourhood<Dim> around(layout.geometry(), x);
-  const Samples<Dim> samples = gather(s.domain, state, g, around, liquid);
+  const Samples<Dim> samples = gather(domain, state, g, around, liquid);
   if (!samples.any_solid) return {};
-  const int start = nearest_usable(layout, around, samples, Vec<Dim>(x + 0.5 * layout.h() * normal_at(s, g, x)));
+  const int start =
+      nearest_usable(layout, around, samples, Vec<Dim>(x + 0.5 * layout.h() * normal_at(layout, solids, g, x)));
   if (start < 0) return {};
   const std::vector<char> cells = joined(around, samples, start);
   if (all_joined(samples, cells)) return {};
@@ -184,9 +185,9 @@ std::optional<double> pressure_beside_solids(const Setup<Dim>& s, const State<Di
   return fit(layout, around, samples, cells, x, std::max(farthest_fit, to_start + 1));
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template std::optional<double> pressure_beside_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&, \
-                                                           const Vec<D>&, bool);
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template std::optional<double> pressure_beside_solids<D>(const Domain<D>&, const Solids<D>&, const State<D>&, \
+                                                           const StepGeometry<D>&, const Vec<D>&, bool);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

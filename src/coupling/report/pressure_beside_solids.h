@@ -3,8 +3,9 @@
 #include <optional>
 
 #include "coupling/geometry/step_geometry.h"
-#include "coupling/state/setup.h"
+#include "coupling/state/solids.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -12,7 +13,8 @@ namespace seiche {
 // and which open faces join to the cell that the nearest solid's normal leads to. Pa; empty if there is no such cell,
 // or none near that a solid parts from it. `liquid`: the point's fluid. Collective; equal on all ranks.
 template <int Dim>
-std::optional<double> pressure_beside_solids(const Setup<Dim>& setup, const State<Dim>& state,
-                                             const StepGeometry<Dim>& geometry, const Vec<Dim>& x, bool liquid);
+std::optional<double> pressure_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
+                                             const State<Dim>& state, const StepGeometry<Dim>& geometry,
+                                             const Vec<Dim>& x, bool liquid);
 
 }  // namespace seiche

@@ -65,10 +65,10 @@ bool has_pressure(const Domain<Dim>& domain, const State<Dim>& state, const Step
 // Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall, one
 // on a solid that of the solid's side.
 template <int Dim>
-double pressure_at(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& geometry, const Vec<Dim>& x) {
-  const Domain<Dim>& domain = s.domain;
+double pressure_at(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state,
+                   const StepGeometry<Dim>& geometry, const Vec<Dim>& x) {
   const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
-  if (const auto beside = pressure_beside_solids(s, state, geometry, x, in_liquid)) return *beside;
+  if (const auto beside = pressure_beside_solids(domain, solids, state, geometry, x, in_liquid)) return *beside;
   FieldValues<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
   FieldValues<char> known(p.size(), 0);
   for_each_site(domain.layout, domain.layout.cells(),
@@ -183,7 +183,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const St
   switch (probe.kind) {
     case ProbeKind::pressure:
       out.defined = has_pressure(s.domain, state, geometry, x);
-      if (out.defined) out.value = pressure_at(s, state, geometry, x);
+      if (out.defined) out.value = pressure_at(s.domain, s.solids, state, geometry, x);
       break;
     case ProbeKind::velocity:
       out.is_vector = true;

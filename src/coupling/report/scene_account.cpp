@@ -116,7 +116,7 @@ double sampled_volume(const DomainSpec& extent, const Body<Dim>& body) {
 template <int Dim>
 void warn_of_missed_parts(const DomainSpec& extent, const Body<Dim>& body, double found, SceneAccount& account) {
   constexpr double notable = 0.2;  // the contour of a disc of one cell's radius is 10 % too small
-  if (body.spec().shape.kind != "expression" || body.elements()) return;
+  if (body.spec().shape.kind != "expression" || body.deforms()) return;
   const double there = sampled_volume(extent, body);
   if (found > (1 - notable) * there) return;
   account.warnings.push_back(fmt::format(

@@ -221,7 +221,7 @@ std::vector<std::string> faults_at_periodic_sides(const Domain<Dim>& domain, con
   constexpr double rounding = 1e-6;  // cells
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
-    if (!solids.bodies[k].elements()) continue;
+    if (!solids.bodies[k].deforms()) continue;
     const SolidSpec& spec = solids.bodies[k].spec();
     for (const std::string& side : periodic_sides_at(domain, state, k, -rounding))
       lines.push_back(

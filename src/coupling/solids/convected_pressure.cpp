@@ -11,7 +11,7 @@ namespace {
 
 template <int Dim>
 bool carries_pressure(const Body<Dim>& body) {
-  return body.moves() && !body.is_thin() && body.elements() == nullptr;
+  return body.moves() && !body.is_thin() && !body.deforms();
 }
 
 // Velocities of solids in the cells beside the faces that they close, weighted by closed shares.

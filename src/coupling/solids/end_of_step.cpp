@@ -11,7 +11,7 @@ namespace {
 
 template <int Dim>
 bool moves_freely(const Body<Dim>& body) {
-  return body.is_free() && body.elements() == nullptr;
+  return body.is_free() && !body.deforms();
 }
 
 // Placements with the known velocities, one a solid.

@@ -3,7 +3,6 @@
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
-#include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
@@ -72,23 +71,22 @@ void fill_marked(const Domain<Dim>& domain, const CellField<Dim, char>& sealed, 
 }  // namespace
 
 template <int Dim>
-void keep_sealed_full(const Setup<Dim>& s, const State<Dim>& before, const State<Dim>& after,
-                      const StepGeometry<Dim>& g, CellField<Dim>& phi) {
-  if (!s.features.has(Feature::sealed_cavities)) return;  // gas may be sealed in; only phi tells it from liquid
-  bool any = s.solids.may_seal();
-  if (any) fill_marked(s.domain, before.sealed, g.faces, phi);
+void keep_sealed_full(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& before,
+                      const State<Dim>& after, const StepGeometry<Dim>& g, CellField<Dim>& phi) {
+  bool any = solids.may_seal();
+  if (any) fill_marked(domain, before.sealed, g.faces, phi);
   const ElasticMotions old = elastic_motions(before.solids), now = elastic_motions(after.solids);
   for (std::size_t k = 0; k < old.size(); ++k) {
     if (!old[k]) continue;
-    const ElasticSolid<Dim>& solid = s.solids.bodies[k].elastic();
+    const ElasticSolid<Dim>& solid = solids.bodies[k].elastic();
     const Eigen::VectorXd& cavity = old[k]->cavity;
     for (int p = 0; p < int(cavity.size()); ++p) {
       if (!(cavity[p] >= 0) || !solid.patches[std::size_t(p)].is_closed()) continue;
-      fill_cavity(s.domain, solid, p, now[k]->state.u, *before.exterior, phi);
+      fill_cavity(domain, solid, p, now[k]->state.u, *before.exterior, phi);
       any = true;
     }
   }
-  if (any) fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
+  if (any) fill_level_set_ghosts(domain.layout, domain.halo, phi);
 }
 
 template <int Dim>
@@ -101,10 +99,10 @@ void mark_sealed(const Domain<Dim>& domain, const Solids<Dim>& solids, const Pre
   domain.halo.fill_ghosts({state.sealed.data()});
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                  \
-  template void keep_sealed_full<D>(const Setup<D>&, const State<D>&, const State<D>&, const StepGeometry<D>&, \
-                                    CellField<D>&);                                                            \
-  template void mark_sealed<D>(const Domain<D>&, const Solids<D>&, const PressureRows<D>&,                     \
+#define SEICHE_INSTANTIATE(D)                                                                             \
+  template void keep_sealed_full<D>(const Domain<D>&, const Solids<D>&, const State<D>&, const State<D>&, \
+                                    const StepGeometry<D>&, CellField<D>&);                               \
+  template void mark_sealed<D>(const Domain<D>&, const Solids<D>&, const PressureRows<D>&,                \
                                const std::vector<CavityConstraint<D>>&, State<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

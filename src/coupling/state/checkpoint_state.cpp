@@ -154,7 +154,7 @@ void visit_power(ViscousPower& power, StateVisitor& visitor) {
 
 // Checkpoints of earlier versions have neither since_solve nor convected loads nor work.
 template <int Dim>
-void visit_numbers(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visitor) {
+void visit_numbers(const Fluids& fluids, std::size_t solids, State<Dim>& state, FieldVisitor<Dim>& visitor) {
   double step = double(state.step);
   visitor.number("time", state.time);
   visitor.number("step", step);
@@ -169,8 +169,8 @@ void visit_numbers(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& vi
   visitor.number("corrected_volume", state.corrected_volume);
   if (visitor.has("spilled_volume")) visitor.number("spilled_volume", state.spilled_volume);
   state.step = std::int64_t(step);
-  if (visitor.loads() && s.fluids.is_viscous() && state.step > 0) state.viscous_loads.resize(s.solids.bodies.size());
-  if (visitor.loads() && visitor.has("convected.0.force0")) state.convected_loads.resize(s.solids.bodies.size());
+  if (visitor.loads() && fluids.is_viscous() && state.step > 0) state.viscous_loads.resize(solids);
+  if (visitor.loads() && visitor.has("convected.0.force0")) state.convected_loads.resize(solids);
   visit_loads("viscous", state.viscous_loads, visitor);
   visit_loads("convected", state.convected_loads, visitor);
 }
@@ -197,7 +197,7 @@ template <int Dim>
 void visit_state(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visitor) {
   double levels = state.earlier ? 3 : state.before ? 2 : 1;
   visitor.number("levels", levels);
-  visit_numbers(s, state, visitor);
+  visit_numbers(s.fluids, s.solids.bodies.size(), state, visitor);
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].visit(visitor);
   visit_cells(s, state, visitor);
   for (int a = 0; a < Dim; ++a) {

@@ -16,11 +16,14 @@ namespace seiche {
 template <int Dim>
 struct Setup;
 template <int Dim>
+struct Solids;
+template <int Dim>
 struct State;
 template <int Dim>
 struct ViscosityField;
 template <int Dim>
 struct Transported;
+struct OperatorPerturbation;
 struct StepStats;
 struct ViscousPlan;
 
@@ -37,11 +40,11 @@ class Exterior {
 
   // Sets its data at the start; may change the liquid's velocity u beside it. `fault`: set if it is empty and a formula
   // is not finite. Collective.
-  virtual void start(const Setup<Dim>&, const StepGeometry<Dim>&, const CellField<Dim>& /*phi*/, FaceField<Dim>& /*u*/,
-                     std::string& /*fault*/) {}
+  virtual void start(const Domain<Dim>&, const Fluids&, const Solids<Dim>&, const StepGeometry<Dim>&,
+                     const CellField<Dim>& /*phi*/, FaceField<Dim>& /*u*/, std::string& /*fault*/) {}
 
   // Velocity that transports the surface from `state`, m/s. Default: the liquid's. Collective.
-  virtual FaceField<Dim> surface_velocity(const Setup<Dim>&, const State<Dim>& state) const;
+  virtual FaceField<Dim> surface_velocity(const Domain<Dim>&, const Fluids&, const State<Dim>& state) const;
   // Follows the surface to phi, dt (s) after the last call, along the velocity u (m/s); dt = 0: in place. Collective.
   virtual void follow(const Domain<Dim>&, const StepGeometry<Dim>&, const FaceField<Dim>& /*u*/, double /*dt*/,
                       const CellField<Dim>& /*phi*/) {}
@@ -58,10 +61,10 @@ class Exterior {
   virtual void add_viscosity(const Domain<Dim>&, const Fluids&, const CellField<Dim>& /*phi*/,
                              ViscosityField<Dim>&) const {}
   // Sets the density or the regions of air that have rows of the pressure. The input keeps references to the exterior.
-  virtual void set_rows(const Setup<Dim>&, ProjectionInput<Dim>&) const {}
+  virtual void set_rows(const Fluids&, const OperatorPerturbation&, ProjectionInput<Dim>&) const {}
   // Takes its flow from a level that was solved for in all fluids. Collective.
-  virtual void take(const Setup<Dim>&, const StepGeometry<Dim>&, const CellField<Dim>& /*phi*/,
-                    const TimeLevel<Dim>& /*solved*/) {}
+  virtual void take(const Domain<Dim>&, const Fluids&, const Solids<Dim>&, const StepGeometry<Dim>&,
+                    const CellField<Dim>& /*phi*/, const TimeLevel<Dim>& /*solved*/) {}
 
   // The flow at present on all faces, each with the value of the fluid there. Default: the liquid's. Collective.
   virtual std::shared_ptr<const TimeLevel<Dim>> joined_level(const Domain<Dim>&, const Fluids&,

@@ -36,7 +36,7 @@ bool has_kinematic(const Solids<Dim>& solids) {
 
 template <int Dim>
 bool has_elements(const Solids<Dim>& solids) {
-  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.elements() != nullptr; });
+  return any_body<Dim>(solids, [](const Body<Dim>& b) { return b.deforms(); });
 }
 
 bool is_second_order(const Fluids& fluids, const TimeSpec& time) {

@@ -99,7 +99,8 @@ class FlowSimulation : public Simulation {
     for (int halvings = 0; halvings <= most_halvings && dt > 0;
          ++halvings, dt = hold_back(setup_->solids, state_, dt / 2)) {
       Attempt<Dim> a = attempt(dt);
-      if (a.failure.empty() && halvings < most_for_energy) a.failure = fault_of_works(*setup_, state_, stats_, a);
+      if (a.failure.empty() && halvings < most_for_energy)
+        a.failure = fault_of_works(setup_->domain, setup_->fluids, setup_->solids, state_, stats_, a);
       if (a.failure.empty()) {
         accept(std::move(a));
         stats_.rejected = halvings;
@@ -201,7 +202,7 @@ class FlowSimulation : public Simulation {
     if (solved) a.failure = fault_of_energy(*setup_, state_, stats_, geometry_.psi, a);
     if (!a.failure.empty()) return a;
     a.solids = measure_solids(setup_->domain, setup_->solids, setup_->scene->time, a.state, a.geometry);
-    if (solved) a.state.work = work_after(*setup_, state_, stats_, a.solids, a);
+    if (solved) a.state.work = work_after(setup_->domain, setup_->fluids, state_, stats_, a.solids, a);
     return a;
   }
 

@@ -190,14 +190,14 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
 // Throws Error(bad_input) if a fixed step is too long for the initial velocity or the solids' motions. Checks a bounded
 // number of steps, evenly spread over the run.
 template <int Dim>
-void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
+void check_fixed_step(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids, const TimeSpec& time,
+                      const State<Dim>& start) {
   constexpr double most_looks = 1e4, budget = 2e6;  // steps checked; steps times bodies: a second or two
-  const TimeSpec& time = s.scene->time;
   if (!time.fixed_step || time.end <= 0) return;
   const double dt = std::min({*time.fixed_step, 1 / time.frame_rate, time.end});
-  const double most = std::min(most_looks, budget / double(s.solids.bodies.size() + 1));
+  const double most = std::min(most_looks, budget / double(solids.bodies.size() + 1));
   const double looks = std::clamp(std::floor(time.end / dt), 1.0, most);
-  std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene->time, start, dt);
+  std::string fault = fault_of_pinned_flow(domain, fluids, time, start, dt);
   for (int n = 0; fault.empty() && n < looks; ++n) {
     const double t = time.end * n / looks;
     std::vector<Placement> placed;
@@ -205,7 +205,7 @@ void check_fixed_step(const Setup<Dim>& s, const State<Dim>& start) {
       placed.push_back(start.solids[k].place(t, t + dt, t + dt));
       if (n == 0) start.solids[k].set_velocity(placed.back());
     }
-    fault = fault_of_pinned_solids(s.domain, s.solids, s.scene->time, placed, t, dt);
+    fault = fault_of_pinned_solids(domain, solids, time, placed, t, dt);
   }
   if (!fault.empty()) throw Error(ExitCode::bad_input, fault);
 }
@@ -231,14 +231,14 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   const FaceField<Dim, char> wet = faces_near_liquid(s.domain, state.phi);
   FaceField<Dim> u = initial_velocity(s.domain, s.fluids, wet, shapes, fault);
   state.exterior = s.exterior;
-  state.exterior->start(s, g, state.phi, u, fault);
+  state.exterior->start(s.domain, s.fluids, s.solids, g, state.phi, u, fault);
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
   if (s.volume_lags()) state.liquid_phi = state.phi;
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);
-  check_fixed_step(s, state);
+  check_fixed_step(s.domain, s.fluids, s.solids, s.scene->time, state);
   return state;
 }
 

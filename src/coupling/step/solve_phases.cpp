@@ -66,7 +66,7 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
     in.excess_time = time_of_excess(task.before, task.times.dt);
   }
   if (!task.predicted.filling.empty()) in.filling = &task.predicted.filling.inflow;
-  state.exterior->set_rows(s, in);
+  state.exterior->set_rows(s.fluids, s.perturbation, in);
   return in;
 }
 
@@ -167,7 +167,7 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
                                                     out.state.pressure, solution.u_star, out.geometry));
   out.divergence = max_divergence(liquid, solution.rows, level->u);
   set_viscous_acceleration(task, solution.u_star, *level);
-  out.state.exterior->take(s, out.geometry, phi, *level);
+  out.state.exterior->take(s.domain, s.fluids, s.solids, out.geometry, phi, *level);
   out.state.gap_flow = measure_gap_flow(s.domain, out.geometry.faces, level->u);
   if (end) place_at(end->geometry, out.geometry);
   FaceField<Dim, char> near = faces_near_liquid(s.domain, phi);
@@ -264,7 +264,8 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
     let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),
               before.now->u, s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt,
               p.u_star);
-  if (moved.closed) brake_ripples(s, before, moved.geometry, *moved.closed, phi, times.dt, p.u_star);
+  if (moved.closed)
+    brake_ripples(s.domain, s.fluids.gravity, before, moved.geometry, *moved.closed, phi, times.dt, p.u_star);
   if (s.domain.sides.any_passes()) brake_entering(s.domain, moved.geometry.faces, times.dt, p.u_star);
   if (s.domain.sides.any_passes() || !s.solids.bodies.empty())  // else as transported, ghosts filled
     fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);
@@ -288,7 +289,7 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
   if (times.looks_ahead()) {
     moved.state.horizon = times.dt;
     Attempt<Dim> out = solve_for_horizon(task, std::move(moved), solves);
-    if (out.failure.empty()) out.failure = fault_of_start(s, out.state);
+    if (out.failure.empty()) out.failure = fault_of_start(s.domain.layout.h(), s.solids, out.state);
     return out;
   }
   moved.state.horizon = choose_horizon(s, moved.state, times.dt);
@@ -329,13 +330,13 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
 }
 
 template <int Dim>
-Attempt<Dim> prescribe_velocity(const Setup<Dim>& s, Moved<Dim> moved) {
+Attempt<Dim> prescribe_velocity(const Domain<Dim>& domain, const Fluids& fluids, Moved<Dim> moved) {
   Attempt<Dim> out;
   out.state = std::move(moved.state);
   out.geometry = std::move(moved.geometry);
-  out.failure = find_non_finite(s.domain, "phi", s.domain.layout.cells(), out.state.phi.data());
-  out.state.now = prescribed_level(s.domain, s.fluids, out.state, out.state.time);
-  out.divergence = largest_divergence(s.domain, out.state.phi, out.state.now->u);
+  out.failure = find_non_finite(domain, "phi", domain.layout.cells(), out.state.phi.data());
+  out.state.now = prescribed_level(domain, fluids, out.state, out.state.time);
+  out.divergence = largest_divergence(domain, out.state.phi, out.state.now->u);
   return out;
 }
 
@@ -346,7 +347,7 @@ Attempt<Dim> prescribe_velocity(const Setup<Dim>& s, Moved<Dim> moved) {
                                            Phases&);                                                                   \
   template Attempt<D> solve_and_plan<D>(const Setup<D>&, const State<D>&, Moved<D>, const Predicted<D>&,               \
                                         const StepTimes&, Phases&);                                                    \
-  template Attempt<D> prescribe_velocity<D>(const Setup<D>&, Moved<D>);
+  template Attempt<D> prescribe_velocity<D>(const Domain<D>&, const Fluids&, Moved<D>);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -37,6 +37,6 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& setup, const State<Dim>& before
 
 // In place of both where the scene prescribes the flow. Collective.
 template <int Dim>
-Attempt<Dim> prescribe_velocity(const Setup<Dim>& setup, Moved<Dim> moved);
+Attempt<Dim> prescribe_velocity(const Domain<Dim>& domain, const Fluids& fluids, Moved<Dim> moved);
 
 }  // namespace seiche

@@ -12,9 +12,10 @@ namespace seiche {
 namespace {
 
 template <int Dim>
-StepTimes times_of_step(const Setup<Dim>& s, const State<Dim>& before, double dt) {
+StepTimes times_of_step(const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources, const Features& features,
+                        const State<Dim>& before, double dt) {
   if (before.looks_ahead) return {before.time, dt, 0, false};
-  const bool leapfrog = is_leapfrog_step(s.solids, s.sources, s.features, before, dt);
+  const bool leapfrog = is_leapfrog_step(solids, sources, features, before, dt);
   return {before.time, dt, leapfrog ? dt / 2 : dt, leapfrog};
 }
 
@@ -30,9 +31,10 @@ template <int Dim>
 Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& before, double dt, Phases& phases) {
   std::string fault = fault_of_prescribed(s.domain, s.fluids, s.scene->time, before, dt);
   if (!fault.empty()) return failed<Dim>(std::move(fault));
-  Moved<Dim> moved = move_surface_and_solids(s, before, times_of_step(s, before, dt), phases);
+  Moved<Dim> moved =
+      move_surface_and_solids(s, before, times_of_step(s.solids, s.sources, s.features, before, dt), phases);
   if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
-  Attempt<Dim> attempt = prescribe_velocity(s, std::move(moved));
+  Attempt<Dim> attempt = prescribe_velocity(s.domain, s.fluids, std::move(moved));
   if (s.tracks_volume() && attempt.failure.empty()) attempt.failure = fault_of_volume(s.domain, before, attempt.state);
   return attempt;
 }
@@ -42,7 +44,7 @@ Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& befo
 template <int Dim>
 Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double dt, Phases& phases) {
   if (s.fluids.has_prescribed_flow()) return attempt_prescribed_step(s, before, dt, phases);
-  const StepTimes times = times_of_step(s, before, dt);
+  const StepTimes times = times_of_step(s.solids, s.sources, s.features, before, dt);
   Moved<Dim> moved = move_surface_and_solids(s, before, times, phases);
   if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
   Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);

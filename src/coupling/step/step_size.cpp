@@ -235,8 +235,8 @@ bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
 }
 
 template <int Dim>
-std::string fault_of_start(const Setup<Dim>& s, const State<Dim>& found) {
-  const double way = largest_way(s.solids, found, found.horizon), h = s.domain.layout.h();
+std::string fault_of_start(double h, const Solids<Dim>& solids, const State<Dim>& found) {
+  const double way = largest_way(solids, found, found.horizon);
   if (way <= h * (1 + relative_rounding)) return {};
   return fmt::format("a solid would move by {:.3g} cells", way / h);
 }
@@ -290,8 +290,8 @@ template double choose_horizon<2>(const Setup<2>&, const State<2>&, double);
 template double choose_horizon<3>(const Setup<3>&, const State<3>&, double);
 template bool can_go_as_planned<2>(const Setup<2>&, const State<2>&);
 template bool can_go_as_planned<3>(const Setup<3>&, const State<3>&);
-template std::string fault_of_start<2>(const Setup<2>&, const State<2>&);
-template std::string fault_of_start<3>(const Setup<3>&, const State<3>&);
+template std::string fault_of_start<2>(double, const Solids<2>&, const State<2>&);
+template std::string fault_of_start<3>(double, const Solids<3>&, const State<3>&);
 template double hold_back<2>(const Solids<2>&, const State<2>&, double);
 template double hold_back<3>(const Solids<3>&, const State<3>&, double);
 template double choose_step<2>(const Setup<2>&, const State<2>&, double);

@@ -30,9 +30,10 @@ double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& setup, const State<Dim>& state);
 
-// Message if solids that plan steps cannot take the first one as a look ahead found it, else empty.
+// Message if solids that plan steps cannot take the first one as a look ahead found it, else empty. h: width of a cell,
+// m.
 template <int Dim>
-std::string fault_of_start(const Setup<Dim>& setup, const State<Dim>& found);
+std::string fault_of_start(double h, const Solids<Dim>& solids, const State<Dim>& found);
 
 // dt, or a shorter step in which no rigid body meets another solid and no element inverts. 0: none is short enough.
 template <int Dim>

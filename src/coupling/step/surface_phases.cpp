@@ -72,26 +72,27 @@ std::vector<char> slow_bodies(const Domain<Dim>& domain, const State<Dim>& next,
 }
 
 template <int Dim>
-StepGeometry<Dim> measure_geometry(const Setup<Dim>& s, const State<Dim>& next, const StepTimes& times,
-                                   Phases& phases) {
+StepGeometry<Dim> measure_geometry(const Domain<Dim>& domain, const Solids<Dim>& solids, const DomainSpec& extent,
+                                   const State<Dim>& next, const StepTimes& times, Phases& phases) {
   const PhaseFault fault = phases.enter("geometry");
   const auto timed = phases.timers.measure("geometry");
-  StepGeometry<Dim> geometry = s.solids.geometry.measure(place_at_solve(next, times), next.time);
-  geometry.slow = slow_bodies(s.domain, next, geometry, times.dt);
-  check_geometry_of_step(s.domain, s.solids, s.scene->domain, geometry, times.start, next.time);
-  inject(s.domain, fault, geometry.faces.closed_flux[0]);
+  StepGeometry<Dim> geometry = solids.geometry.measure(place_at_solve(next, times), next.time);
+  geometry.slow = slow_bodies(domain, next, geometry, times.dt);
+  check_geometry_of_step(domain, solids, extent, geometry, times.start, next.time);
+  inject(domain, fault, geometry.faces.closed_flux[0]);
   return geometry;
 }
 
 // Null in the first step, unless a trial of it tells how the flow starts.
 template <int Dim>
-std::shared_ptr<const EndOfStep<Dim>> find_end(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
-                                               const Moved<Dim>& moved, Phases& phases) {
-  if (!times.leapfrog || !fits_end_of_step(s.fluids, s.solids)) return nullptr;
+std::shared_ptr<const EndOfStep<Dim>> find_end(const Domain<Dim>& domain, const Fluids& fluids,
+                                               const Solids<Dim>& solids, const State<Dim>& before,
+                                               const StepTimes& times, const Moved<Dim>& moved, Phases& phases) {
+  if (!times.leapfrog || !fits_end_of_step(fluids, solids)) return nullptr;
   if (before.step == 0 && !before.trial) return nullptr;
   const auto timed = phases.timers.measure("geometry");
   const State<Dim>& known = before.trial ? *before.trial : before;
-  return end_of_step(s.domain, s.solids, known, moved.state, moved.geometry, times.dt);
+  return end_of_step(domain, solids, known, moved.state, moved.geometry, times.dt);
 }
 
 // Empty volume at walls that phi still counts as liquid, m^Dim.
@@ -140,9 +141,10 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   const auto timed = phases.timers.measure("surface");
   FaceField<Dim> u = s.fluids.has_prescribed_flow()
                          ? prescribed_flow(s.domain, s.fluids, before, times.start + 0.5 * times.dt)
-                         : before.exterior->surface_velocity(s, before);
+                         : before.exterior->surface_velocity(s.domain, s.fluids, before);
   CellField<Dim>& phi = moved.state.phi;
-  const CellField<Dim, char>& closed = moved.closed.emplace(cells_to_continue(s.domain, s.solids, moved.geometry, phi));
+  const CellField<Dim, char>& closed =
+      moved.closed.emplace(cells_to_continue(s.domain, s.solids, moved.geometry, phi, u, times.lead));
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
@@ -154,21 +156,23 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
 
 // phi before the step, with what sources bring on all sides of thin solids.
 template <int Dim>
-CellField<Dim> known_phi(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times) {
+CellField<Dim> known_phi(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const State<Dim>& before,
+                         const StepTimes& times) {
   CellField<Dim> phi = before.phi;
-  join_sources(s.domain, s.sources, times.start, times.start + times.lead, phi);
-  fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
+  join_sources(domain, sources, times.start, times.start + times.lead, phi);
+  fill_level_set_ghosts(domain.layout, domain.halo, phi);
   return phi;
 }
 
 // Keeps the liquid on its own side of thin solids.
 template <int Dim>
-void keep_sides(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
-                const StepGeometry<Dim>& geometry, CellField<Dim>& phi) {
-  if (!has_thin(s.solids)) return;
+void keep_sides(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+                const State<Dim>& before, const StepTimes& times, const StepGeometry<Dim>& geometry,
+                CellField<Dim>& phi) {
+  if (!has_thin(solids)) return;
   const std::vector<Placement> placed = place_bodies(before);
-  if (s.sources.empty()) return keep_sides_apart(s.domain, s.solids, placed, before.phi, geometry, phi);
-  keep_sides_apart(s.domain, s.solids, placed, known_phi(s, before, times), geometry, phi);
+  if (sources.empty()) return keep_sides_apart(domain, solids, placed, before.phi, geometry, phi);
+  keep_sides_apart(domain, solids, placed, known_phi(domain, sources, before, times), geometry, phi);
 }
 
 template <int Dim>
@@ -180,15 +184,15 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, s.ledger(), next);
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   keep_sides_of_walls(s.domain, geometry, next.phi);
-  keep_sealed_full(s, before, next, geometry, next.phi);
-  if (has_thin_elastic(s.solids)) keep_sides(s, before, times, geometry, next.phi);
+  if (s.features.has(Feature::sealed_cavities)) keep_sealed_full(s.domain, s.solids, before, next, geometry, next.phi);
+  if (has_thin_elastic(s.solids)) keep_sides(s.domain, s.solids, s.sources, before, times, geometry, next.phi);
   const double uncounted =
       gap_volume(s.domain, s.fluids, before.separation) + volume_beyond(s.domain, s.solids, geometry, next.phi);
   const double expected = next.expected_volume + uncounted;
   next.exterior->follow(s.domain, geometry, before.now->u, times.looks_ahead() ? 0 : times.dt, next.phi);
   next.corrected_volume +=
       next.exterior->control_volume(s.domain, geometry, expected, largest_shift(s.domain), next.phi);
-  keep_sides(s, before, times, geometry, next.phi);
+  keep_sides(s.domain, s.solids, s.sources, before, times, geometry, next.phi);
   next.exterior->follow(s.domain, geometry, before.now->u, 0, next.phi);
 }
 
@@ -199,8 +203,8 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
                                    Phases& phases) {
   Moved<Dim> moved{shifted_levels(before, times), {}, {}};
   if (!times.looks_ahead()) move_solids(s, before, times, moved.state.solids);
-  moved.geometry = measure_geometry(s, moved.state, times, phases);
-  moved.end = find_end(s, before, times, moved, phases);
+  moved.geometry = measure_geometry(s.domain, s.solids, s.scene->domain, moved.state, times, phases);
+  moved.end = find_end(s.domain, s.fluids, s.solids, before, times, moved, phases);
   if (!times.looks_ahead()) carry_surface(s, before, times, phases, moved);
   keep_volumes(s, before, times, phases, moved);
   if (s.domain.sides.any_passes())
@@ -219,7 +223,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   State<Dim>& next = solved.state;
   const bool can = can_go_on(s.domain, s.solids, s.scene->time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
-  FaceField<Dim> u = leading.exterior->surface_velocity(s, leading);
+  FaceField<Dim> u = leading.exterior->surface_velocity(s.domain, s.fluids, leading);
   next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);

@@ -105,7 +105,7 @@ double kinetic_energy_beside(const Domain<Dim>& domain, const Fluids& fluids, co
   double sum = 0;
   for (int k = 0; k < int(solids.bodies.size()); ++k) {
     const Body<Dim>& body = solids.bodies[std::size_t(k)];
-    if (!body.is_thin() || !body.elements()) continue;
+    if (!body.is_thin() || !body.deforms()) continue;
     const Eigen::VectorXd w = state.solids[std::size_t(k)].velocity();
     for_each_sealed(g, k, [&](const SealedFace& f, double share, const SurfaceWeights& weights) {
       double square = 0;
@@ -120,7 +120,7 @@ double kinetic_energy_beside(const Domain<Dim>& domain, const Fluids& fluids, co
 template <int Dim>
 bool has_thin_elastic(const Solids<Dim>& solids) {
   return std::any_of(solids.bodies.begin(), solids.bodies.end(),
-                     [](const Body<Dim>& b) { return b.is_thin() && b.elements(); });
+                     [](const Body<Dim>& b) { return b.is_thin() && b.deforms(); });
 }
 
 template <int Dim>

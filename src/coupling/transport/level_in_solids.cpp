@@ -11,8 +11,10 @@
 namespace seiche {
 namespace {
 
-constexpr double filled_depth = 1.5;  // cells; psi of deforming bodies is exact to two
-constexpr int layers = 4;             // a wall moves less in a step
+constexpr double filled_depth = 1.5;       // cells; psi of deforming bodies is exact to two
+constexpr int layers = 4;                  // a wall moves less in a step
+constexpr double near_zero = 2;            // cells
+constexpr double slow = 0.02, fast = 0.1;  // ways of liquid in a step, cells
 
 template <int Dim>
 bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
@@ -122,6 +124,20 @@ double open_difference(const CellField<Dim, char>& closed, const CellField<Dim>&
   return (away > 0 ? 1 : -1) * (first - 0.5 * second);
 }
 
+// Least difference of phi from its straight extrapolation that counts as a bend, cells. phi in closed cells creeps to
+// its distance step by step, and a bend that fell below the bound would set liquid at rest in motion.
+template <int Dim>
+double least_bend(const Domain<Dim>& domain, const CellField<Dim>& phi, const FaceField<Dim>& u, double dt) {
+  const double h = domain.layout.h();
+  double way = 0;
+  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
+    if (std::abs(phi[c]) >= near_zero * h) return;
+    for (int a = 0; a < Dim; ++a)
+      way = std::max({way, std::abs(u.at(a, c)), std::abs(u.at(a, c + domain.layout.stride(a)))});
+  });
+  return std::clamp(domain.ranks.global_max(way) * dt / h, slow, fast);
+}
+
 // True if a closed cell lies within two of a cell along an axis. Interpolation reads so far at the least way.
 template <int Dim>
 bool is_near_closed(const Layout<Dim>& layout, const CellField<Dim, char>& closed, Site cell) {
@@ -158,16 +174,16 @@ void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, co
 
 template <int Dim>
 CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
-                                       const CellField<Dim>& phi) {
-  constexpr double near = 2, least = 0.1;  // cells
+                                       const CellField<Dim>& phi, const FaceField<Dim>& u, double dt) {
   CellField<Dim, char> closed = closed_cells(domain, solids, g);
   if (solids.bodies.empty()) return closed;
+  const double h = domain.layout.h(), least = least_bend(domain, phi, u, dt) * h;
   CellField<Dim> straight = phi;
   continue_level_set(domain, solids, closed, straight);
   std::vector<double> differing(solids.bodies.size(), 0);
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) {
-    if (!closed[c] || std::min(std::abs(phi[c]), std::abs(straight[c])) >= near * domain.layout.h()) return;
-    if (std::abs(phi[c] - straight[c]) > least * domain.layout.h()) ++differing[std::size_t(g.body[c])];
+    if (!closed[c] || std::min(std::abs(phi[c]), std::abs(straight[c])) >= near_zero * h) return;
+    if (std::abs(phi[c] - straight[c]) > least) ++differing[std::size_t(g.body[c])];
   });
   domain.ranks.global_sum(differing);
   for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
@@ -204,7 +220,6 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
 template <int Dim>
 void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const FaceField<Dim>& u,
                             double dt, const CellField<Dim>& before, CellField<Dim>& phi) {
-  constexpr double slow = 0.02, fast = 0.1;  // cells
   const Layout<Dim>& layout = domain.layout;
   for_each_site(layout, layout.cells(), [&](Site c) {
     if (closed[c] || std::abs(before[c]) >= domain.band() || !is_near_closed(layout, closed, c)) return;
@@ -237,9 +252,9 @@ void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& g, 
 template CellField<2, char> closed_cells<2>(const Domain<2>&, const Solids<2>&, const StepGeometry<2>&);
 template CellField<3, char> closed_cells<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&);
 template CellField<2, char> cells_to_continue<2>(const Domain<2>&, const Solids<2>&, const StepGeometry<2>&,
-                                                 const CellField<2>&);
+                                                 const CellField<2>&, const FaceField<2>&, double);
 template CellField<3, char> cells_to_continue<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&,
-                                                 const CellField<3>&);
+                                                 const CellField<3>&, const FaceField<3>&, double);
 template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, char>&, const FaceField<2>&, double,
                                         const CellField<2>&, CellField<2>&);
 template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const FaceField<3>&, double,

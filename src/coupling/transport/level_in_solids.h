@@ -20,11 +20,13 @@ void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, co
                         CellField<Dim>& phi);
 
 // Closed cells of the solids in which phi is bent: in some cell near the zero it differs from its straight
-// extrapolation by more than a tenth of a cell. In other solids both are equally good and phi is kept, since narrow
-// gaps between small solids amplify extrapolation. Ghosts filled. Collective.
+// extrapolation by more than a fiftieth of a cell. The bound is the way of the fastest liquid near the surface in
+// dt (s), by u (m/s), where that is longer, up to a tenth of a cell. In other solids both are equally good and phi is
+// kept, since narrow gaps between small solids amplify extrapolation. Ghosts filled. Collective.
 template <int Dim>
 CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<Dim>& solids,
-                                       const StepGeometry<Dim>& geometry, const CellField<Dim>& phi);
+                                       const StepGeometry<Dim>& geometry, const CellField<Dim>& phi,
+                                       const FaceField<Dim>& u, double dt);
 
 // Makes phi a distance outside the closed cells, with its straight extrapolation inside them. Then makes it a distance
 // inside them, with the outside fixed. Closed cells that stand for a wall's other side are not read from this one.

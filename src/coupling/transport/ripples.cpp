@@ -71,25 +71,26 @@ FaceField<Dim> laplacian(const Domain<Dim>& domain, const FaceField<Dim, char>& 
 // u <- u - s L^2 u / (4 Dim)^2, s = dt/2 sqrt(g/h) at most 1: waves of two cells lose up to half of sqrt(g/h) a second,
 // waves of n cells (2/n)^4 of that. L is symmetric, hence u loses energy.
 template <int Dim>
-void brake_ripples(const Setup<Dim>& s, const State<Dim>& before, const StepGeometry<Dim>& geometry,
-                   const CellField<Dim, char>& closed, const CellField<Dim>& phi, double dt, FaceField<Dim>& u_star) {
-  const Layout<Dim>& layout = s.domain.layout;
+void brake_ripples(const Domain<Dim>& domain, const Gravity& gravity, const State<Dim>& before,
+                   const StepGeometry<Dim>& geometry, const CellField<Dim, char>& closed, const CellField<Dim>& phi,
+                   double dt, FaceField<Dim>& u_star) {
+  const Layout<Dim>& layout = domain.layout;
   const bool any = std::any_of(closed.data(), closed.data() + layout.size(), [](char c) { return c != 0; });
-  if (!s.domain.ranks.any(any)) return;
-  const double g = s.fluids.gravity.of_step(before.time + dt, dt).norm();
+  if (!domain.ranks.any(any)) return;
+  const double g = gravity.of_step(before.time + dt, dt).norm();
   const double strength = std::min(1.0, ripple_strength * dt * std::sqrt(g / layout.h())) / (16 * Dim * Dim);
   const FaceField<Dim, char> faces =
-      faces_to_brake(s.domain, geometry, cells_near(s.domain, closed), phi, before.now->u, dt);
-  fill_velocity_ghosts(layout, s.domain.halo, s.domain.sides, u_star);
-  const FaceField<Dim> L2u = laplacian(s.domain, faces, laplacian(s.domain, faces, u_star));
+      faces_to_brake(domain, geometry, cells_near(domain, closed), phi, before.now->u, dt);
+  fill_velocity_ghosts(layout, domain.halo, domain.sides, u_star);
+  const FaceField<Dim> L2u = laplacian(domain, faces, laplacian(domain, faces, u_star));
   for (int a = 0; a < Dim; ++a)
     for_each_marked(layout, layout.faces(a), faces[a].data(),
                     [&](Site f) { u_star.at(a, f) -= strength * L2u.at(a, f); });
 }
 
-template void brake_ripples<2>(const Setup<2>&, const State<2>&, const StepGeometry<2>&, const CellField<2, char>&,
-                               const CellField<2>&, double, FaceField<2>&);
-template void brake_ripples<3>(const Setup<3>&, const State<3>&, const StepGeometry<3>&, const CellField<3, char>&,
-                               const CellField<3>&, double, FaceField<3>&);
+template void brake_ripples<2>(const Domain<2>&, const Gravity&, const State<2>&, const StepGeometry<2>&,
+                               const CellField<2, char>&, const CellField<2>&, double, FaceField<2>&);
+template void brake_ripples<3>(const Domain<3>&, const Gravity&, const State<3>&, const StepGeometry<3>&,
+                               const CellField<3, char>&, const CellField<3>&, double, FaceField<3>&);
 
 }  // namespace seiche

@@ -1,8 +1,9 @@
 #pragma once
 // Ripples of the waterline at walls between two levels.
+#include "base/gravity.h"
 #include "coupling/geometry/step_geometry.h"
-#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "fluid/boundary/domain.h"
 
 namespace seiche {
 
@@ -11,7 +12,8 @@ namespace seiche {
 // not each other's adjoint where cut cells meet a waterline, so that ripples of some two cells may grow by a few tenths
 // a second (docs/decisions/0029-level-set-in-static-solids.md). Collective.
 template <int Dim>
-void brake_ripples(const Setup<Dim>& setup, const State<Dim>& before, const StepGeometry<Dim>& geometry,
-                   const CellField<Dim, char>& closed, const CellField<Dim>& phi, double dt, FaceField<Dim>& u_star);
+void brake_ripples(const Domain<Dim>& domain, const Gravity& gravity, const State<Dim>& before,
+                   const StepGeometry<Dim>& geometry, const CellField<Dim, char>& closed, const CellField<Dim>& phi,
+                   double dt, FaceField<Dim>& u_star);
 
 }  // namespace seiche

@@ -164,12 +164,12 @@ double trust_in_viscous_trend(const Domain<Dim>& domain, const State<Dim>& state
 // to second order. For c1 = 1 the explicit part is a trend, -dt^2/(2 dt_now) (N(t) - N(t - dt_now)) times
 // trust_in_viscous_trend(). Zero where either level is unknown, for dt > 2 dt_now, and in first order.
 template <int Dim>
-FaceField<Dim> viscous_memory(const Setup<Dim>& s, const State<Dim>& state, const Flow<Dim>& flow,
-                              const Surroundings<Dim>& around, double dt, const ViscousPlan& plan) {
-  const Domain<Dim>& domain = s.domain;
+FaceField<Dim> viscous_memory(const Domain<Dim>& domain, const Fluids& fluids, TimeScheme scheme,
+                              const State<Dim>& state, const Flow<Dim>& flow, const Surroundings<Dim>& around,
+                              double dt, const ViscousPlan& plan) {
   const FaceField<Dim, char>& interior = around.liquid;  // docs/decisions/0026-steady-flow-and-steps.md
   FaceField<Dim> memory(domain.layout);
-  if (!s.fluids.is_viscous() || !flow.before || s.scene->time.scheme == TimeScheme::first_order) return memory;
+  if (!fluids.is_viscous() || !flow.before || scheme == TimeScheme::first_order) return memory;
   if (dt > 2 * state.dt_now) return memory;
   const double trust = trust_in_viscous_trend(domain, state, around.liquid, dt);
   if (trust == 0) return memory;
@@ -302,7 +302,7 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   const Surroundings<Dim> around(s, geometry, flow.now->valid, near, plan);
   const FaceField<Dim, char>& interior = around.interior;
   const FaceField<Dim> path = path_velocity(s.domain, s.scene->time, state, flow, around, plan, dt),
-                       memory = viscous_memory(s, state, flow, around, dt, plan);
+                       memory = viscous_memory(s.domain, s.fluids, s.scene->time.scheme, state, flow, around, dt, plan);
   Transported<Dim> r;
   r.acceleration = carried_acceleration(s.domain, s.fluids, s.scene->time, s.perturbation, state, flow, around.reached,
                                         around.deep, dt);
@@ -337,13 +337,12 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
 // Mass of liquid that a face of unknown velocity stands for, kg (2D: kg/m), where a source acts on what was there
 // before: half of that in the cells beside it, less what the source has brought.
 template <int Dim>
-double mass_at_face(const Setup<Dim>& s, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+double mass_at_face(const Layout<Dim>& l, const Fluids& fluids, const CellField<Dim>& phi, const NodeField<Dim>& psi,
                     const CellField<Dim>* brought, int axis, Site face) {
-  const Layout<Dim>& l = s.domain.layout;
   double share = 0;
   for (const Site c : {face - l.stride(axis), face})
     if (l.cells().contains(l.index(c))) share += liquid_share(l, phi, psi, c) - (brought ? (*brought)[c] : 0);
-  return 0.5 * share * l.geometry().cell_volume() * s.fluids.density();
+  return 0.5 * share * l.geometry().cell_volume() * fluids.density();
 }
 
 template <int Dim>
@@ -353,7 +352,9 @@ Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state
   Transported<Dim> r = state.exterior->transported_velocity(s, state, phi, dt, plan, geometry);
   const auto mass = [&](int a, Site f) {
     const bool was_within = state.phi[f - s.domain.layout.stride(a)] < 0 && state.phi[f] < 0;
-    return was_within && geometry.faces.is_unknown(a, f) ? mass_at_face(s, phi, geometry.psi, brought, a, f) : 0;
+    return was_within && geometry.faces.is_unknown(a, f)
+               ? mass_at_face(s.domain.layout, s.fluids, phi, geometry.psi, brought, a, f)
+               : 0;
   };
   r.by_sources = set_source_velocity<Dim>(s.domain, s.sources, state.time, state.time + dt, mass, r.u);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);

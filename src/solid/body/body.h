@@ -40,11 +40,11 @@ class Body {
   const SolidKind& kind() const { return spec_.kind; }
   bool moves() const { return spec_.kind.moves(); }
   bool is_prescribed() const { return spec_.kind.is_prescribed(); }
-  bool is_free() const { return spec_.kind.is_free(); }                 // forces move it: it has mass and unknowns
-  const ElasticSolid<Dim>* elements() const { return elastic_.get(); }  // null: not elastic
-  const ElasticSolid<Dim>& elastic() const { return *elastic_; }        // of an elastic solid only
-  const MassProperties& mass() const { return mass_; }                  // at rest; zero unless forces move it
-  const SurfaceMesh& contact_surface() const { return surface_; }       // in the rest pose
+  bool is_free() const { return spec_.kind.is_free(); }            // forces move it: it has mass and unknowns
+  bool deforms() const { return elastic_ != nullptr; }             // its surface follows nodes, not a pose
+  const ElasticSolid<Dim>& elastic() const { return *elastic_; }   // of a solid that deforms only
+  const MassProperties& mass() const { return mass_; }             // at rest; zero unless forces move it
+  const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
   double radius() const { return radius_; }  // of a rigid body about its centre of mass, m; 0 for other solids
   // True if a grid can miss the solid (solid/body/thinness.h).
   bool is_thin() const { return thin_; }

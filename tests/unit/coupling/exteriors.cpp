@@ -59,7 +59,7 @@ void check_kind(Kind kind) {
   const StepGeometry<Dim> g = setup.solids.geometry.measure({}, 0);
   ProjectionInput<Dim> in{layout, setup.domain.halo, setup.domain.ranks, state.phi, g.faces, setup.fluids.density(),
                           0.01};
-  state.exterior->set_rows(setup, in);
+  state.exterior->set_rows(setup.fluids, setup.perturbation, in);
   CHECK(in.has_gas() == (kind == Kind::flowing_gas));
   CHECK((in.air != nullptr) == (kind == Kind::enclosed_air));
   if (in.air) CHECK(in.air->count() == 2);
