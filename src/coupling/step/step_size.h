@@ -30,8 +30,8 @@ double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& setup, const State<Dim>& state);
 
-// Message if solids that plan steps cannot take the first one as a look ahead found it, else empty. h: width of a cell,
-// m.
+// Message if solids that plan steps cannot take the first one as a look ahead found it, else empty. h (m): a cell's
+// width.
 template <int Dim>
 std::string fault_of_start(double h, const Solids<Dim>& solids, const State<Dim>& found);
 
