@@ -221,12 +221,6 @@ void check_gas(const Checker& c, const Scene& scene) {
                                "would flow into the gap where liquid separates from a solid; remove separates");
 }
 
-bool has_side(const DomainSpec& d, SideType type) {
-  return std::any_of(d.sides.begin(), d.sides.end(), [&](const auto& ends) {
-    return std::any_of(ends.begin(), ends.end(), [&](const SideSpec& side) { return side.type == type; });
-  });
-}
-
 bool has_solid_that_moves(const Scene& scene) {
   return std::any_of(scene.solids.begin(), scene.solids.end(),
                      [](const SolidSpec& s) { return !(s.kind == SolidKind::fixed); });
@@ -235,13 +229,9 @@ bool has_solid_that_moves(const Scene& scene) {
 // Reports what excludes volumes carried in cells.
 void check_volume(const Checker& c, const Scene& scene) {
   if (scene.liquid.volume != VolumeKeeping::in_cells) return;
-  const std::vector<std::pair<const char*, bool>> all{
-      {"[[solid]] that are not static", has_solid_that_moves(scene)},
-      {"[gas]", scene.gas.present},
-      {"[[liquid.source]]", !scene.liquid.sources.empty()},
-      {"liquid.separates = true", scene.liquid.separates},
-      {"inflow sides", has_side(scene.domain, SideType::inflow)},
-      {"outflow sides", !scene.liquid.prescribed_velocity && has_side(scene.domain, SideType::outflow)}};
+  const std::vector<std::pair<const char*, bool>> all{{"[[solid]] that are not static", has_solid_that_moves(scene)},
+                                                      {"[gas]", scene.gas.present},
+                                                      {"liquid.separates = true", scene.liquid.separates}};
   std::vector<std::string> names;
   for (const auto& [name, given] : all)
     if (given) names.emplace_back(name);

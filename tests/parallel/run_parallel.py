@@ -175,6 +175,20 @@ center = [0.52, 0.1]
 radius = 0.12
 """
 
+# A jet and a source, whose volumes are carried in cells, above an open bottom.
+POURED_IN_CELLS = (DAM_IN_CELLS.replace("[time]", """\
+[domain.boundary]
+x_lower = { type = "inflow", velocity = ["y > 0.4 && y < 0.64 ? 1.5 : 0", "y > 0.4 && y < 0.64 ? 0.5 : 0"] }
+y_lower = "outflow"
+[time]""").replace("fixed_step = 0.01", "fixed_step = 0.005").replace("[output]", """\
+[[liquid.source]]
+shape = "sphere"
+center = [0.72, 0.6]
+radius = 0.09
+velocity = [-0.5, -1.0]
+from = 0.03
+[output]"""))
+
 # A slanted jet with its upper rim between one and two halo widths beyond the cells of the lowest of three ranks.
 JET = f"""\
 dimension = 2
@@ -401,6 +415,11 @@ def volumes_ranks_agree_3d(bench):
     ranks_agree(bench, DAM_IN_CELLS_3D, (2, 3))
 
 
+def poured_volumes_agree(bench):
+    """A jet and a source with volumes in cells above an open bottom, on 1, 2 and 3 ranks."""
+    ranks_agree(bench, POURED_IN_CELLS, (2, 3))
+
+
 def jet_ranks_agree(bench):
     """A slanted jet on 1, 2 and 3 ranks; its rim lies beyond the halo of a rank that it enters."""
     ranks_agree(bench, JET, (2, 3))
@@ -509,8 +528,8 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
                        elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, viscous_ranks_agree_2d,
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
-                       volumes_beside_post_agree, volumes_ranks_agree_3d, jet_ranks_agree, same_ranks_same_bits,
-                       elastic_same_ranks_same_bits],
+                       volumes_beside_post_agree, volumes_ranks_agree_3d, poured_volumes_agree, jet_ranks_agree,
+                       same_ranks_same_bits, elastic_same_ranks_same_bits],
           "long_equality": [shared_elements_ranks_agree, shared_unknowns_ranks_agree, twins_ranks_agree,
                             elastic_ranks_agree_3d, viscous_ranks_agree_3d, tension_ranks_agree_3d],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,

@@ -1,5 +1,7 @@
 #pragma once
 // Scenes whose liquid is kept in cells (liquid.volume = "cells").
+#include <algorithm>
+
 #include "scenes.h"
 
 namespace seiche::test {
@@ -11,6 +13,20 @@ inline Scene kept_in_cells(int dim, int cells, const Formula& phi) {
   s.liquid.volume = VolumeKeeping::in_cells;
   add_liquid(s, phi);
   return s;
+}
+
+// Mean height of the level set's liquid, m.
+inline double height(const Simulation& sim, double h) {
+  const FrameField f = sim.frame_field("surface");
+  double sum = 0, liquid = 0;
+  std::size_t n = 0;
+  for (int k = f.lower[2]; k < f.upper[2]; ++k)
+    for (int j = f.lower[1]; j < f.upper[1]; ++j)
+      for (int i = f.lower[0]; i < f.upper[0]; ++i, ++n) {
+        const double share = std::clamp(0.5 - f.values[n] / h, 0.0, 1.0);
+        sum += share * (j + 0.5) * h, liquid += share;
+      }
+  return sum / liquid;
 }
 
 }  // namespace seiche::test

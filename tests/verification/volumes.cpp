@@ -8,6 +8,7 @@
 
 namespace volumes_tests {
 using namespace seiche;
+using test::height;
 using test::kept_in_cells;
 
 namespace {
@@ -18,20 +19,6 @@ Scene dam_break(int dim, int cells) {
 
 double energy(const StepStats& stats) {
   return stats.kinetic_energy + stats.potential_energy;
-}
-
-// Mean height of the level set's liquid, m.
-double height(const Simulation& sim, double h) {
-  const FrameField f = sim.frame_field("surface");
-  double sum = 0, liquid = 0;
-  std::size_t n = 0;
-  for (int k = f.lower[2]; k < f.upper[2]; ++k)
-    for (int j = f.lower[1]; j < f.upper[1]; ++j)
-      for (int i = f.lower[0]; i < f.upper[0]; ++i, ++n) {
-        const double share = std::clamp(0.5 - f.values[n] / h, 0.0, 1.0);
-        sum += share * (j + 0.5) * h, liquid += share;
-      }
-  return sum / liquid;
 }
 
 }  // namespace

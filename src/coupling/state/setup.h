@@ -43,6 +43,8 @@ struct Setup {
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
+  // True if initial velocities need not fit the solids and the sides that volumes pass.
+  bool volume_sets_off() const { return volume_lags() && (!room().is_whole() || domain.sides.any_passes()); }
   // Beside solids, which stand still, if tracks_volume().
   Room<Dim> room() const { return open_parts ? Room<Dim>(*open_parts) : Room<Dim>(); }
   LedgerRules<Dim> ledger() const { return {divergence(), room()}; }

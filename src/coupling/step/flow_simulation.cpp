@@ -174,14 +174,13 @@ class FlowSimulation : public Simulation {
   }
 
   // Takes the first step twice: a trial finds the pressure slope and the trend of the velocity, the second uses both.
-  // Volumes beside solids set off with the velocity of the trial, in first order too.
+  // Volumes beside solids and open sides set off with the velocity of the trial, in first order too.
   Attempt<Dim> first_step(double dt) {
     const bool second_order = setup_->scene->time.scheme == TimeScheme::second_order;
     State<Dim> before = state_;
     before.looks_ahead = second_order && can_look_ahead(setup_->domain, setup_->solids, state_, geometry_);
     Attempt<Dim> trial = budgeted_step(before, dt);
-    const bool sets_off_volumes = setup_->tracks_volume() && !setup_->room().is_whole();
-    if (!trial.failure.empty() || !(second_order || sets_off_volumes)) return trial;
+    if (!trial.failure.empty() || !(second_order || setup_->volume_sets_off())) return trial;
     State<Dim> start = second_order ? inform(trial.state, dt) : state_;
     if (before.looks_ahead) set_off(trial.state, start);
     start.trial = std::make_shared<const State<Dim>>(std::move(trial.state));

@@ -48,7 +48,7 @@ void brake_entering(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, d
 template <int Dim>
 void book_first_flow(const Setup<Dim>& s, const State<Dim>& start, const StepGeometry<Dim>& geometry, double dt,
                      Phases& phases, State<Dim>& end) {
-  if (!s.domain.sides.any_passes()) return;
+  if (!s.domain.sides.any_passes() || s.tracks_volume()) return;
   constexpr double next_to_nothing = 1e-3;  // of the step; the mean errs by this share of what forces do in it
   const std::vector<std::string> told = phases.warnings;
   const Attempt<Dim> at_once = attempt_step(s, start, next_to_nothing * dt, phases);

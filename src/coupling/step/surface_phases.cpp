@@ -12,6 +12,7 @@
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
+#include "coupling/transport/sources.h"
 #include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
@@ -116,22 +117,32 @@ std::optional<CellField<Dim>> transport_and_book(const Setup<Dim>& s, const Stat
                                                  double from, double span, const CellField<Dim, char>& closed,
                                                  State<Dim>& next) {
   Brought<Dim> brought = transport_surface(s, at, std::move(path), from, span, closed, next.phi);
-  next.expected_volume += brought.volume;
+  if (!s.tracks_volume()) next.expected_volume += brought.volume;
   next.work.sides += s.fluids.density() * brought.kinetic;
   return std::move(brought.share);
 }
 
-// Carries the volumes of cells. Initial velocities need not go round solids: beside these, the first step takes those
-// that its trial found. Empty, or what fails.
+// Carries the volumes of cells. Where initial velocities need not fit, the first step takes those that its trial found;
+// the trial itself carries nothing. Empty, or what fails.
 template <int Dim>
 std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, double span,
                           State<Dim>& next) {
-  if (!s.tracks_volume()) return {};
-  const bool sets_off = before.step == 0 && !s.room().is_whole();
+  const bool sets_off = before.step == 0 && s.volume_sets_off();
   if (sets_off && !before.trial) return {};
   const State<Dim>& known = sets_off ? *before.trial : before;
   return carry_liquid(s.domain, sets_off ? known.now->u : u, known.gap_flow, s.perturbation.surface_advection * span,
                       s.ledger(), before, next);
+}
+
+// Volumes of cells from their last time to that of the solve. Empty, or what fails.
+template <int Dim>
+std::string move_volumes(const Setup<Dim>& s, const State<Dim>& before, const FaceField<Dim>& u, const StepTimes& times,
+                         const StepGeometry<Dim>& geometry, State<Dim>& next) {
+  if (!s.tracks_volume()) return {};
+  const double from = times.start - before.since_solve, until = times.start + times.lead;
+  std::string fault = carry_volumes(s, before, u, before.since_solve + times.lead, next);
+  next.expected_volume += add_source_shares(s.domain, s.sources, geometry.psi, from, until, next.liquid);
+  return fault;
 }
 
 template <int Dim>
@@ -148,9 +159,11 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
     make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
-  moved.failure = carry_volumes(s, before, u, before.since_solve + times.lead, moved.state);
+  moved.failure = move_volumes(s, before, u, times, moved.geometry, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
+  const bool is_trial = before.step == 0 && s.volume_sets_off() && !before.trial;
+  if (is_trial && s.domain.sides.any_passes()) start_volume(s.domain, moved.geometry.psi, moved.state);
   inject(s.domain, fault, phi.data());
 }
 
@@ -224,7 +237,8 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   const bool can = can_go_on(s.domain, s.solids, s.scene->time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
   FaceField<Dim> u = leading.exterior->surface_velocity(s.domain, s.fluids, leading);
-  next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
+  if (!s.tracks_volume())
+    next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));

@@ -7,6 +7,7 @@
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/volume/spill.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
 #include "levelset/redistance.h"
@@ -56,6 +57,29 @@ void join_all(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources
     if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
 }
 
+// Share of a cell that a source fills, from the distances at equally spaced points of it.
+template <int Dim>
+double share_within(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open, const IVec<Dim>& cell) {
+  constexpr int along = 4, count = Dim == 2 ? along * along : along * along * along;
+  const double h = layout.h(),
+               middle = distance_to_brought(layout, source, open, layout.position(cell, cell_offset<Dim>()));
+  if (std::abs(middle) > h) return middle < 0;
+  double sum = 0;
+  for (int n = 0; n < count; ++n) {
+    Vec<Dim> at;
+    for (int a = 0, left = n; a < Dim; ++a, left /= along) at[a] = (left % along + 0.5) / along;
+    const double distance = distance_to_brought(layout, source, open, layout.position(cell, at));
+    sum += std::clamp(0.5 - along * distance / h, 0.0, 1.0);
+  }
+  return sum / count;
+}
+
+template <int Dim>
+bool any_open(const std::vector<Source<Dim>>& sources, double t0, double t1) {
+  return std::any_of(sources.begin(), sources.end(),
+                     [&](const Source<Dim>& x) { return open_in_step(x.spec, t0, t1).has_value(); });
+}
+
 // Share of each cell's volume that is liquid after but not before.
 template <int Dim>
 CellField<Dim> share_brought(const Domain<Dim>& domain, const CellField<Dim>& before, const CellField<Dim>& after,
@@ -79,9 +103,7 @@ std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, 
 template <int Dim>
 Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
                          const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
-  const bool any = std::any_of(sources.begin(), sources.end(),
-                               [&](const auto& x) { return open_in_step(x.spec, t0, t1).has_value(); });
-  if (!any) return {};
+  if (!any_open(sources, t0, t1)) return {};
   const NodeField<Dim> psi = solids.geometry.measure(place_bodies(state), t0).psi;
   const double before = liquid_volume(domain, phi, psi);
   const CellField<Dim> phi_before = phi;
@@ -92,6 +114,24 @@ Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, c
   const double kinetic = domain.ranks.global_sum(local_sum(
       domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return share[c] * half_square[c]; }));
   return {liquid_volume(domain, phi, psi) - before, kinetic * domain.layout.geometry().cell_volume(), std::move(share)};
+}
+
+template <int Dim>
+double add_source_shares(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const NodeField<Dim>& psi,
+                         double t0, double t1, CellField<Dim>& share) {
+  if (!any_open(sources, t0, t1)) return 0;
+  const Layout<Dim>& l = domain.layout;
+  double cells = 0;
+  for (const Source<Dim>& source : sources)
+    if (const auto open = open_in_step(source.spec, t0, t1))
+      for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>& i) {
+        const double within = share_within(l, source, *open, i);
+        const double lacking = within > 0 ? std::max(0.0, within * open_share(l, psi, c) - share[c]) : 0;
+        share[c] += lacking;
+        cells += lacking;
+      });
+  fill_share_ghosts(l, domain.halo, share);
+  return domain.ranks.global_sum(cells) * l.geometry().cell_volume();
 }
 
 template <int Dim>
@@ -138,13 +178,15 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
   return fault;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&,             \
-                                     const State<D>&, double, double, CellField<D>&);                               \
-  template void join_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double, CellField<D>&);    \
-  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double, \
-                                                           double, const std::function<double(int, Site)>&,         \
-                                                           FaceField<D>&);                                          \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&,              \
+                                     const State<D>&, double, double, CellField<D>&);                                \
+  template double add_source_shares<D>(const Domain<D>&, const std::vector<Source<D>>&, const NodeField<D>&, double, \
+                                       double, CellField<D>&);                                                       \
+  template void join_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double, CellField<D>&);     \
+  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double,  \
+                                                           double, const std::function<double(int, Site)>&,          \
+                                                           FaceField<D>&);                                           \
   template std::string fault_of_source<D>(const Domain<D>&, const std::vector<Source<D>>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

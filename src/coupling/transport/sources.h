@@ -33,6 +33,12 @@ template <int Dim>
 Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
                          const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
+// The same for the shares of liquid in cells: fills them up to what lies within the sources. psi: distance to the
+// solids at nodes (m). Fills ghosts. Returns the volume brought, m^Dim. Collective.
+template <int Dim>
+double add_source_shares(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const NodeField<Dim>& psi,
+                         double t0, double t1, CellField<Dim>& share);
+
 // Joins phi at t1 with the liquid that sources keep from t0 to t1. Ghosts are not filled.
 template <int Dim>
 void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,

@@ -6,6 +6,7 @@
 
 #include "coupling/transport/drifting.h"
 #include "fluid/boundary/domain.h"
+#include "fluid/boundary/inflow.h"
 #include "fluid/volume/level_set_coupling.h"
 #include "fluid/volume/spill.h"
 #include "fluid/volume/volume_transport.h"
@@ -36,6 +37,18 @@ FaceField<Dim> flow_through_faces(const Domain<Dim>& domain, const GapFlow<Dim>&
   return u;
 }
 
+// u continued beyond inflow sides for paths, as those of the level set, m/s. Empty if there are none, or the flow is
+// prescribed: it is known there.
+template <int Dim>
+std::optional<FaceField<Dim>> path_beyond_sides(const Domain<Dim>& domain, const State<Dim>& before,
+                                                Divergence divergence, const FaceField<Dim>& u) {
+  if (!domain.sides.any_inflow() || divergence == Divergence::swells) return {};
+  FaceField<Dim> path = u;
+  continue_beyond_inflows(domain.layout, domain.sides, before.time, path);
+  let_air_follow(domain.layout, domain.sides, before.time, before.now->valid, path);
+  return path;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -44,8 +57,11 @@ std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, con
   const CellField<Dim>& phi = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
   const std::optional<FaceField<Dim>> through =
       ledger.room.is_whole() ? std::nullopt : std::optional(flow_through_faces(domain, solved, u));
-  const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks, {u, through ? *through : u}, span, phi,
-                                       ledger, state.liquid);
+  const std::optional<FaceField<Dim>> path = path_beyond_sides(domain, before, ledger.divergence, u);
+  const VolumeStep step = carry_volume(
+      domain.layout, domain.halo, domain.ranks,
+      {path ? *path : u, through ? *through : u, cells_beyond_inflows(domain.layout, domain.sides, before.time)}, span,
+      phi, ledger, state.liquid);
   state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
   state.spilled_volume += step.spill.moved * domain.layout.geometry().cell_volume();
   if (step.too_far == 0) return {};

@@ -135,11 +135,35 @@ void continue_beyond_inflows(const Layout<Dim>& layout, const DomainBoundary<Dim
     }
 }
 
+template <int Dim>
+std::vector<Site> cells_beyond_inflows(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t) {
+  std::vector<Site> cells;
+  for (int axis = 0; axis < Dim; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      if (sides.type(axis, side) != SideType::inflow) continue;
+      const int n = layout.geometry().cells[axis];
+      Box<Dim> box = layout.padded();
+      const int layers = side == 0 ? -box.lower[axis] : box.upper[axis] - n;
+      if (layers <= 0) continue;
+      box.lower[axis] = side == 0 ? -1 : n, box.upper[axis] = box.lower[axis] + 1;
+      const Site outward = (side == 0 ? -1 : 1) * layout.stride(axis);
+      for_each_index_in_order(layout, box, [&](Site c, const IVec<Dim>& i) {
+        Vec<Dim> x = layout.position(i, cell_offset<Dim>());
+        x[axis] = side_position(layout, axis, side);
+        x = center_of_face(layout, axis, bring_inside(layout, axis, x));
+        if (!(sides.inward_speed(axis, side, x, t) > 0)) return;
+        for (int k = 0; k < layers; ++k) cells.push_back(c + k * outward);
+      });
+    }
+  return cells;
+}
+
 #define SEICHE_INSTANTIATE(D)                                                                                    \
   template std::optional<Entry<D>> find_entry<D>(const Layout<D>&, const DomainBoundary<D>&, const Vec<D>&,      \
                                                  const Vec<D>&, double, double);                                 \
   template Vec<D> velocity_of<D>(const DomainBoundary<D>&, const Entry<D>&);                                     \
   template void continue_beyond_inflows<D>(const Layout<D>&, const DomainBoundary<D>&, double, FaceField<D>&);   \
+  template std::vector<Site> cells_beyond_inflows<D>(const Layout<D>&, const DomainBoundary<D>&, double);        \
   template void let_air_follow<D>(const Layout<D>&, const DomainBoundary<D>&, double, const FaceField<D, char>&, \
                                   FaceField<D>&);
 SEICHE_INSTANTIATE(2)

@@ -39,6 +39,10 @@ template <int Dim>
 void let_air_follow(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t,
                     const FaceField<Dim, char>& valid, FaceField<Dim>& u);
 
+// Cells beyond the faces of inflow sides that let liquid in at time t, all layers that are stored. Local.
+template <int Dim>
+std::vector<Site> cells_beyond_inflows(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, double t);
+
 // Adds the liquid that enters through inflow sides at time t to the level set, beyond the sides and next to them.
 // Ghosts of phi must be filled; fills them. Collective.
 template <int Dim>

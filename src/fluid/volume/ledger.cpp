@@ -8,12 +8,13 @@ namespace seiche {
 
 template <int Dim>
 CountedShares<Dim>::CountedShares(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const CellField<Dim>& phi,
-                                  const CellField<Dim>& share)
+                                  const CellField<Dim>& share, const std::vector<Site>& fed)
     : layout_(layout), ledger_(ledger), phi_(phi), share_(share) {
   if (ledger.room.is_whole()) return;
   CellField<Dim> counted = share;
   for_each_site(layout, cells_around(layout, layout.halo() - 1), [&](Site c) { counted[c] = beside_solids(c); });
   extend_beyond_sides<Dim>(layout, counted.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::constant));
+  for (const Site c : fed) counted[c] = 1;
   beside_ = std::move(counted);
 }
 

@@ -38,9 +38,9 @@ bool is_deep(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const CellFie
 template <int Dim>
 class CountedShares {
  public:
-  // phi (m) and share must be valid in the halo. Keeps references.
+  // phi (m) and share must be valid in the halo. Keeps references. `fed`: cells beyond the sides that are full.
   CountedShares(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const CellField<Dim>& phi,
-                const CellField<Dim>& share);
+                const CellField<Dim>& share, const std::vector<Site>& fed = {});
 
   double operator[](Site c) const {
     if (!beside_.empty()) return beside_[c];

@@ -102,10 +102,11 @@ class NodeOrigins {
 // The flow of a step, frozen, and the cells near the surface.
 template <int Dim>
 struct FrozenFlow {
-  const FaceField<Dim>& through;
+  const VolumeFlow<Dim>& velocity;
   double dt;
   const CellField<Dim, char>& near;
   const NodeOrigins<Dim>& origins;
+  const CellField<Dim, char>& fed;  // 1 on velocity.fed; empty if there are none
 };
 
 // Liquid that passes each face of the owned cells towards +axis in the step, in cells.
@@ -121,10 +122,11 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const Room<Dim>& room, const Fr
       return any_marked(near + f) || any_marked(near + f - low) || !share.all_empty(f);
     };
     for_each_possible(layout, faces_of_cells(layout, a), may_matter, [&](Site f) {
-      const double volume = flow.through.at(a, f) * flow.dt / layout.h(), open = room.through(a, f);
-      if (open == 0 || (volume == 0 && !room.is_whole())) return;  // beside solids, paths may lead out of walls
-      if (!near[f] && !near[f - low]) {
-        if (share[f] > 0.5) r.at(a, f) = open * volume;
+      const double volume = flow.velocity.through.at(a, f) * flow.dt / layout.h(), open = room.through(a, f);
+      if (open == 0 || (volume == 0 && (!room.is_whole() || !flow.fed.empty()))) return;  // paths may lead out of walls
+      const bool enters = !flow.fed.empty() && flow.fed[volume > 0 ? f - low : f];
+      if (enters || (!near[f] && !near[f - low])) {
+        if (enters || share[f] > 0.5) r.at(a, f) = open * volume;
         return;
       }
       const IVec<Dim> i = layout.index(f);
@@ -178,8 +180,9 @@ double swelling(const Layout<Dim>& layout, const Room<Dim>& room, const FrozenFl
   double net = 0;
   for (int a = 0; a < Dim; ++a) {
     const Site high = c + layout.stride(a);
-    net += (room.through(a, high) * flow.through.at(a, high) - room.through(a, c) * flow.through.at(a, c)) * flow.dt /
-           layout.h();
+    net += (room.through(a, high) * flow.velocity.through.at(a, high) -
+            room.through(a, c) * flow.velocity.through.at(a, c)) *
+           flow.dt / layout.h();
   }
   return std::abs(net) > rounding ? share[c] * net : 0;
 }
@@ -212,7 +215,7 @@ template <int Dim>
 VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
                       const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
                       CellField<Dim>& share) {
-  const CountedShares<Dim> counted(layout, ledger, phi, share);
+  const CountedShares<Dim> counted(layout, ledger, phi, share, flow.velocity.fed);
   const LiquidInCells<Dim> liquid(layout, phi, counted, ledger.divergence == Divergence::stays);
   FaceField<Dim> flux = fluxes(layout, ledger.room, flow, liquid, counted);
   if (!ledger.room.is_whole()) keep_to_what_is_there(layout, halo, ranks, share, flux);
@@ -242,18 +245,23 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
                         const Ledger<Dim>& ledger, CellField<Dim>& share) {
   constexpr int most_parts = 4;
   const Trace trace = ledger.divergence == Divergence::stays ? Trace::midpoint : Trace::third_order;
+  CellField<Dim, char> fed;
+  if (!flow.fed.empty()) fed = CellField<Dim, char>(layout);
+  for (const Site c : flow.fed) fed[c] = 1;
   VolumeStep all;
   for (int parts = 1, done = 0; done < parts;) {
     const double part = dt / parts;
+    for (const Site c : flow.fed) share[c] = 1;
     const int reach = std::min(layout.halo() - 2, cells_of_paths(layout, ranks, flow.u, part));
-    const CellField<Dim, char> near = near_surface(layout, CountedShares<Dim>(layout, ledger, phi, share), reach);
+    const CellField<Dim, char> near =
+        near_surface(layout, CountedShares<Dim>(layout, ledger, phi, share, flow.fed), reach);
     const NodeOrigins<Dim> origins(layout, flow.u, part, near, trace);
     const std::int64_t too_far = ranks.global_sum(origins.too_far());
     if (too_far > 0 && done == 0 && parts < most_parts) {
       parts *= 2;
       continue;
     }
-    all += carry_part(layout, halo, ranks, {flow.through, part, near, origins}, phi, ledger, share);
+    all += carry_part(layout, halo, ranks, {flow, part, near, origins, fed}, phi, ledger, share);
     all.too_far += too_far;
     ++done;
   }

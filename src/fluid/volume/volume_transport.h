@@ -20,13 +20,15 @@ struct VolumeStep {
 };
 
 // Velocities that carry volumes, m/s. Paths follow u. The volume that passes a face is `through` times its open share.
-// Both are the same but beside solids, where u is continued across faces that are hardly open.
+// Both are the same but where u is continued: across faces that solids all but close, and beyond inflow sides.
 template <int Dim>
 struct VolumeFlow {
   const FaceField<Dim>&u, &through;
+  std::vector<Site> fed = {};  // cells beyond the sides, full of liquid that enters
 
-  VolumeFlow(const FaceField<Dim>& path) : u(path), through(path) {}  // NOLINT: without solids u will do
-  VolumeFlow(const FaceField<Dim>& path, const FaceField<Dim>& solved) : u(path), through(solved) {}
+  VolumeFlow(const FaceField<Dim>& path) : u(path), through(path) {}  // NOLINT: alone in closed boxes u will do
+  VolumeFlow(const FaceField<Dim>& path, const FaceField<Dim>& solved, std::vector<Site> full = {})
+      : u(path), through(solved), fed(std::move(full)) {}
 };
 
 // Cells along each axis that a path may cross: what a halo holds less the layers that planes and regions take.
