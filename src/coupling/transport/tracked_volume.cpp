@@ -58,10 +58,10 @@ std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, con
   const std::optional<FaceField<Dim>> through =
       ledger.room.is_whole() ? std::nullopt : std::optional(flow_through_faces(domain, solved, u));
   const std::optional<FaceField<Dim>> path = path_beyond_sides(domain, before, ledger.divergence, u);
-  const VolumeStep step = carry_volume(
-      domain.layout, domain.halo, domain.ranks,
-      {path ? *path : u, through ? *through : u, cells_beyond_inflows(domain.layout, domain.sides, before.time)}, span,
-      phi, ledger, state.liquid);
+  const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks,
+                                       {path ? *path : u, through ? *through : u, domain.sides.any_inflow(),
+                                        cells_beyond_inflows(domain.layout, domain.sides, before.time)},
+                                       span, phi, ledger, state.liquid);
   state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
   state.spilled_volume += step.spill.moved * domain.layout.geometry().cell_volume();
   if (step.too_far == 0) return {};

@@ -123,7 +123,7 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const Room<Dim>& room, const Fr
     };
     for_each_possible(layout, faces_of_cells(layout, a), may_matter, [&](Site f) {
       const double volume = flow.velocity.through.at(a, f) * flow.dt / layout.h(), open = room.through(a, f);
-      if (open == 0 || (volume == 0 && (!room.is_whole() || !flow.fed.empty()))) return;  // paths may lead out of walls
+      if (open == 0 || (volume == 0 && (!room.is_whole() || flow.velocity.enters))) return;  // paths lead out of walls
       const bool enters = !flow.fed.empty() && flow.fed[volume > 0 ? f - low : f];
       if (enters || (!near[f] && !near[f - low])) {
         if (enters || share[f] > 0.5) r.at(a, f) = open * volume;

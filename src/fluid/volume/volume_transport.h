@@ -24,11 +24,12 @@ struct VolumeStep {
 template <int Dim>
 struct VolumeFlow {
   const FaceField<Dim>&u, &through;
+  bool enters = false;         // liquid may enter through sides: the same on all ranks
   std::vector<Site> fed = {};  // cells beyond the sides, full of liquid that enters
 
   VolumeFlow(const FaceField<Dim>& path) : u(path), through(path) {}  // NOLINT: alone in closed boxes u will do
-  VolumeFlow(const FaceField<Dim>& path, const FaceField<Dim>& solved, std::vector<Site> full = {})
-      : u(path), through(solved), fed(std::move(full)) {}
+  VolumeFlow(const FaceField<Dim>& path, const FaceField<Dim>& solved, bool may_enter, std::vector<Site> full)
+      : u(path), through(solved), enters(may_enter), fed(std::move(full)) {}
 };
 
 // Cells along each axis that a path may cross: what a halo holds less the layers that planes and regions take.
