@@ -62,11 +62,13 @@ struct TouchedBody {
     patches.resize(solid.patches.size());
   }
 
-  // Open patches leave out pinned nodes, whose flux is prescribed. The constraint of a closed patch includes all its
-  // nodes.
+  // Open patches leave out pinned nodes, whose flux is prescribed and whose facets may face other liquid. The
+  // constraint of a closed patch includes all its nodes.
+  bool leaves_out(int patch, int node) const {
+    return held[std::size_t(node)] && !solid.patches[std::size_t(patch)].is_closed();
+  }
   void link(int patch, std::int64_t row, int node) {
-    if (held[std::size_t(node)] && !solid.patches[std::size_t(patch)].is_closed()) return;
-    patches[std::size_t(patch)].links.insert({row, node});
+    if (!leaves_out(patch, node)) patches[std::size_t(patch)].links.insert({row, node});
   }
 
   // Skips entries that cancel: some are taken back by a later entry.
@@ -79,7 +81,7 @@ struct TouchedBody {
     for (const FluxEntry& e : entries) {
       const auto& [sum, size] = sums[{e.row, e.column}];
       const int patch = patch_of_node[std::size_t(e.column / Dim)];
-      if (patch < 0 || std::abs(sum) <= 1e-12 * size) continue;
+      if (patch < 0 || leaves_out(patch, e.column / Dim) || std::abs(sum) <= 1e-12 * size) continue;
       const int component = closed.component[std::size_t(e.row)];
       if (component < 0)
         patches[std::size_t(patch)].open = true;

@@ -98,12 +98,6 @@ CellFluxes keep_to_own_side(const Domain<Dim>& domain, const ElasticSolid<Dim>& 
   return changes;
 }
 
-// True if pins divide the surface. It may then enclose liquid together with the solids that the pins stand on.
-template <int Dim>
-bool is_divided(const ElasticSolid<Dim>& solid) {
-  return std::any_of(solid.patches.begin(), solid.patches.end(), [](const auto& patch) { return !patch.is_closed(); });
-}
-
 // Changes that replace the entries of the face shares by those of the facets in each cell (FacetFluxes). Adds the
 // missing buoyancy, so that liquid at rest loads the mesh exactly.
 template <int Dim>
@@ -253,9 +247,8 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   add_to_rows(spread_shares(s.domain, shares, face_weights, with_row(rows)), rows, mine);
   send_air_rows_to_owner(s.domain, rows, 0, mine.entries);
   mine.shown = mine.entries.size();
-  const bool by_shares = body.is_thin() || is_divided(solid);
-  add_to_rows(by_shares ? keep_to_own_side(s.domain, solid, shares, face_weights, rows)
-                        : hang_on_facets(step, e.u, gravity, mine, parts),
+  add_to_rows(body.is_thin() ? keep_to_own_side(s.domain, solid, shares, face_weights, rows)
+                             : hang_on_facets(step, e.u, gravity, mine, parts),
               rows, mine);
   send_air_rows_to_owner(s.domain, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));

@@ -36,7 +36,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   const SolveOptions options{
       .tolerance = s.scene->solver.tolerance, .preconditioner = s.scene->solver.preconditioner, .jumps = in.has_gas()};
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.domain.ranks);
-  refuse_impossible_motion(input, liquid, solver.sensed_components(), r);
+  refuse_impossible_motion(input, liquid, coupling, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);
   for (double& flux : b) flux *= s.perturbation.divergence;
   if (input.fault == PhaseFault::poison && !b.empty()) b[0] = std::numeric_limits<double>::quiet_NaN();

@@ -23,6 +23,35 @@ void refuse(const Solids<Dim>& solids, const StepGeometry<Dim>& g, const VolumeM
                           -m.net, Dim, who));
 }
 
+// Velocities of pinned nodes over the step that ends at t, less those over the step ahead; 0 at others.
+//   w = (u_pin(t) - u_pin(t - dt))/dt - held
+template <int Dim>
+Eigen::VectorXd pin_lag(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupling) {
+  Eigen::VectorXd lag = Eigen::VectorXd::Zero(coupling.size());
+  const double t = in.state.time, dt = in.liquid.dt;
+  for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
+    const Body<Dim>& body = in.setup.solids.bodies[std::size_t(coupling.bodies[b])];
+    if (!body.deforms()) continue;
+    const Pins before = pins_at(body.elastic(), t - dt), now = pins_at(body.elastic(), t);
+    for (std::size_t n = 0; n < now.dofs.size(); ++n) {
+      const Eigen::Index i = coupling.first[b] + now.dofs[n];
+      lag[i] = (now.targets[n] - before.targets[n]) / dt - coupling.held[i];
+    }
+  }
+  return lag;
+}
+
+// Prescribed solids have the velocities of the step that ends at t, pins those of the step ahead. Cells between the two
+// that no free node can fill would not balance, though both move alike. There pins take the solids' time.
+template <int Dim>
+void take_back_lag(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupling, const NullSpace& unchanged,
+                   const PressureRows<Dim>& rows) {
+  Vector flux(rows.cells.size());
+  add_multiplied(coupling.J_held, pin_lag(in, coupling), flux);
+  for (std::size_t n = 0; n < flux.size(); ++n)
+    if (unchanged.component[n] >= 0 && flux[n] != 0) in.geometry.faces.cell_flux.add(rows.cells[n], flux[n]);
+}
+
 // Impulses of contact act about the pivots of prescribed solids.
 template <int Dim>
 double contact_power(const std::vector<BodyImpulse>& impulses, const CoupledInput<Dim>& in) {
@@ -40,9 +69,12 @@ double contact_power(const std::vector<BodyImpulse>& impulses, const CoupledInpu
 
 template <int Dim>
 void refuse_impossible_motion(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
-                              const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
-  if (liquid.closed.count > 0)
-    refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, without(liquid.closed, sensed)));
+                              const SolidCoupling<Dim>& coupling, const std::vector<int>& sensed,
+                              const CoupledSolution<Dim>& r) {
+  if (liquid.closed.count == 0) return;
+  const NullSpace unchanged = without(liquid.closed, sensed);
+  if (coupling.any_held()) take_back_lag(in, coupling, unchanged, r.rows);
+  refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, unchanged));
 }
 
 template <int Dim>
@@ -98,7 +130,8 @@ void set_pressure(const CoupledInput<Dim>& in, const Vector& p, CoupledSolution<
 
 #define SEICHE_INSTANTIATE(D)                                                                                   \
   template void refuse_impossible_motion<D>(const CoupledInput<D>&, const PressureProblem<D>&,                  \
-                                            const std::vector<int>&, const CoupledSolution<D>&);                \
+                                            const SolidCoupling<D>&, const std::vector<int>&,                   \
+                                            const CoupledSolution<D>&);                                         \
   template void refuse_unbalanced_chambers<D>(const CoupledInput<D>&, const PressureProblem<D>&,                \
                                               const std::vector<int>&, const CoupledSolution<D>&);              \
   template Vector guessed_pressure<D>(const CoupledInput<D>&, const PressureRows<D>&);                          \

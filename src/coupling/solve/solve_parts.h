@@ -21,7 +21,8 @@ struct PressureProblem {
 // after it, chambers closed off by bodies: single ones are no null vectors, but combinations may be.
 template <int Dim>
 void refuse_impossible_motion(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
-                              const std::vector<int>& sensed, const CoupledSolution<Dim>& r);
+                              const SolidCoupling<Dim>& coupling, const std::vector<int>& sensed,
+                              const CoupledSolution<Dim>& r);
 template <int Dim>
 void refuse_unbalanced_chambers(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
                                 const std::vector<int>& sensed, const CoupledSolution<Dim>& r);

@@ -169,7 +169,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
     if (!alone) alone.reset(new SaddleSolver(make_solver(in, liquid, viscous.system(), none, none)));
     return *alone;
   };
-  refuse_impossible_motion(in, liquid, solver.sensed_components(), r);
+  refuse_impossible_motion(in, liquid, coupling, solver.sensed_components(), r);
   Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
   for (double& x : p) x *= -dt;
   ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.domain.layout.geometry().face_area(),
