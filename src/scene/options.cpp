@@ -191,7 +191,9 @@ Section<SolverSpec> solver_section() {
   using S = SolverSpec;
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "tolerance", .range = positive(1e-2), .doc = "relative residual of the pressure solve"},
+      value_key<S>({.key = "tolerance",
+                    .range = positive(1e-2),
+                    .doc = "relative residual of the pressure solve; at most 1e-7 beside elastic solids"},
                    &S::tolerance),
       value_key<S>({.key = "preconditioner",
                     .type = T::choice,

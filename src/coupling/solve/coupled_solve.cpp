@@ -34,7 +34,7 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   const ProjectionInput<Dim>& in = input.liquid;
   const double c1 = in.density * in.layout.h() / in.dt, c2 = in.dt * in.layout.geometry().face_area();
   const SolveOptions options{
-      .tolerance = s.scene->solver.tolerance, .preconditioner = s.scene->solver.preconditioner, .jumps = in.has_gas()};
+      .tolerance = liquid_tolerance(input), .preconditioner = s.scene->solver.preconditioner, .jumps = in.has_gas()};
   SpdSolver solver(liquid.A, liquid.grid, liquid.closed, coupling.J, c1 * c2, options, s.domain.ranks);
   refuse_impossible_motion(input, liquid, coupling, solver.sensed_components(), r);
   Vector b = pressure_right_side(in, r.rows, r.u_star), p = guessed_pressure(input, r.rows);

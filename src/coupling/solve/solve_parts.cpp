@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "coupling/state/solids.h"
 #include "grid/loops.h"
@@ -85,6 +87,15 @@ void refuse_unbalanced_chambers(const CoupledInput<Dim>& in, const PressureProbl
 }
 
 template <int Dim>
+double liquid_tolerance(const CoupledInput<Dim>& in) {
+  constexpr double beside_newton = 1e-7;
+  const auto& bodies = in.setup.solids.bodies;
+  const bool any = std::any_of(bodies.begin(), bodies.end(), [](const Body<Dim>& body) { return body.deforms(); });
+  const double asked = in.setup.scene->solver.tolerance;
+  return any ? std::min(asked, beside_newton) : asked;
+}
+
+template <int Dim>
 Vector guessed_pressure(const CoupledInput<Dim>& in, const PressureRows<Dim>& rows) {
   Vector p;
   for (Site c : rows.cells) p.push_back(in.guess[c]);
@@ -134,6 +145,7 @@ void set_pressure(const CoupledInput<Dim>& in, const Vector& p, CoupledSolution<
                                             const CoupledSolution<D>&);                                         \
   template void refuse_unbalanced_chambers<D>(const CoupledInput<D>&, const PressureProblem<D>&,                \
                                               const std::vector<int>&, const CoupledSolution<D>&);              \
+  template double liquid_tolerance<D>(const CoupledInput<D>&);                                                  \
   template Vector guessed_pressure<D>(const CoupledInput<D>&, const PressureRows<D>&);                          \
   template Eigen::VectorXd find_minimum<D>(const CoupledInput<D>&, const SolidCoupling<D>&, CoupledProblem<D>&, \
                                            const InviscidLiquid<D>&, CoupledSolution<D>&);                      \

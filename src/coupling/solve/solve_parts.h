@@ -27,6 +27,11 @@ template <int Dim>
 void refuse_unbalanced_chambers(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
                                 const std::vector<int>& sensed, const CoupledSolution<Dim>& r);
 
+// Relative residual of the solves for the liquid: the scene's tolerance. Beside bodies that deform it is a tenth of the
+// accuracy of Newton's method (solid/contact/solve.cpp) at most: steps of the size of the solves' errors never end.
+template <int Dim>
+double liquid_tolerance(const CoupledInput<Dim>& input);
+
 // First guess of the pressure, in the order of the rows.
 template <int Dim>
 Vector guessed_pressure(const CoupledInput<Dim>& input, const PressureRows<Dim>& rows);

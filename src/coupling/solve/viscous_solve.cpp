@@ -39,7 +39,7 @@ SaddleSolver make_solver(const CoupledInput<Dim>& in, const PressureProblem<Dim>
                        .mass = v.mass,
                        .axis = std::move(axes),
                        .position = std::move(positions)},
-                      {.tolerance = in.setup.scene->solver.tolerance}, in.setup.domain.ranks);
+                      {.tolerance = liquid_tolerance(in)}, in.setup.domain.ranks);
 }
 
 // u + by * slope on faces with an unknown velocity. Ghosts filled.
