@@ -222,8 +222,7 @@ void check_gas(const Checker& c, const Scene& scene) {
 }
 
 bool has_solid_that_moves(const Scene& scene) {
-  return std::any_of(scene.solids.begin(), scene.solids.end(),
-                     [](const SolidSpec& s) { return !(s.kind == SolidKind::fixed); });
+  return std::any_of(scene.solids.begin(), scene.solids.end(), [](const SolidSpec& s) { return s.kind.moves(); });
 }
 
 // Reports what excludes volumes carried in cells.
