@@ -57,7 +57,7 @@ struct CellShares {
   std::vector<std::pair<std::size_t, double>> shares;  // index and sign
 };
 
-// In a cavity wall one or two cells thick, the surface point nearest to a face may lie on the wrong side. All shares of
+// In a thin cavity wall, the surface point nearest to a face may lie on the wrong side. All shares of
 // a cell are therefore attached to the patch that cuts its faces. Others move to the attachment of the nearest share on
 // that patch. Shares attached to pinned facets between the patches stay.
 template <int Dim>

@@ -19,6 +19,8 @@ struct PressureProblem {
 // Throw Error(cannot_continue) if the prescribed volume changes of closed, full liquid do not balance. The first
 // checks, before the solve, components whose mean pressure no body feels (those not in `sensed`). The second checks,
 // after it, chambers closed off by bodies: single ones are no null vectors, but combinations may be.
+// In components that no body feels, the first also gives pinned nodes the velocities of the step that ends: changes
+// faces.cell_flux of the geometry, once a solve.
 template <int Dim>
 void refuse_impossible_motion(const CoupledInput<Dim>& input, const PressureProblem<Dim>& liquid,
                               const SolidCoupling<Dim>& coupling, const std::vector<int>& sensed,
