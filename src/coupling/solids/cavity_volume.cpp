@@ -89,11 +89,6 @@ CavityConstraint<Dim> make_cavity(const Domain<Dim>& domain, const FoundCavity<D
   return cavity;
 }
 
-template <int Dim>
-bool is_closed(const WallPatch<Dim>& wall) {
-  return wall.solid->patches[std::size_t(wall.patch)].is_closed();
-}
-
 }  // namespace
 
 // -(dV/du) w + A_f (prescribed + row_count flux) = -(V(u + H w) - volume)/H, solved for the flux.
@@ -129,7 +124,9 @@ std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Di
     for (const std::int64_t row : touched)
       if (row >= rows.first && row < rows.first + Row(rows.cells.size())) cavity.rows.push_back(int(row - rows.first));
     cavity.row_count = double(touched.size());
-    for (std::size_t n = 0; n < rows.cells.size() && !is_closed(cavity.walls[0]); ++n)
+    const bool open =
+        std::any_of(cavity.walls.begin(), cavity.walls.end(), [](const auto& w) { return !is_closed(w); });
+    for (std::size_t n = 0; n < rows.cells.size() && open; ++n)
       if (found.components.contains(step.closed.component[n])) cavity.cells.push_back(int(n));
     cavities.push_back(std::move(cavity));
   }

@@ -213,14 +213,16 @@ bool is_fed(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeom
   return fed;
 }
 
+bool shares(const std::set<int>& a, const std::set<int>& b) {
+  return std::any_of(a.begin(), a.end(), [&](int c) { return b.contains(c); });
+}
+
 // Adds `found` to the list, merged with the cavities that share liquid with it.
 template <int Dim>
 void join(FoundCavity<Dim> found, std::vector<FoundCavity<Dim>>& list) {
   for (std::size_t n = 0; n < list.size();) {
     FoundCavity<Dim>& other = list[n];
-    const bool shared = std::any_of(other.components.begin(), other.components.end(),
-                                    [&](int c) { return found.components.contains(c); });
-    if (!shared) {
+    if (!shares(other.components, found.components)) {
       ++n;
       continue;
     }
@@ -233,6 +235,39 @@ void join(FoundCavity<Dim> found, std::vector<FoundCavity<Dim>>& list) {
   list.push_back(std::move(found));
 }
 
+// Patch of a body that touches closed and open liquid. It changes the volume of the closed one by some of its motion.
+struct HalfOpenPatch {
+  int body;
+  std::set<int> components;
+};
+
+template <int Dim>
+bool is_moved_by(const FoundCavity<Dim>& cavity, const HalfOpenPatch& patch) {
+  return shares(cavity.components, patch.components) &&
+         std::none_of(cavity.walls.begin(), cavity.walls.end(), [&](const auto& w) { return w.body == patch.body; });
+}
+
+// True if a closed wall has pinned nodes, whose flux is prescribed.
+template <int Dim>
+bool has_pinned_closed_wall(const CavityWalls<Dim>& walls) {
+  return std::any_of(walls.begin(), walls.end(), [](const WallPatch<Dim>& wall) {
+    if (!is_closed(wall)) return false;
+    const std::vector<int> patch = patches_of_nodes(*wall.solid);
+    for (const PinnedNodes& pin : wall.solid->pins)
+      if (std::any_of(pin.nodes.begin(), pin.nodes.end(), [&](int n) { return patch[std::size_t(n)] == wall.patch; }))
+        return true;
+    return false;
+  });
+}
+
+// True if one of the closed walls lies around the liquid.
+template <int Dim>
+bool has_vessel(const CavityWalls<Dim>& walls, const ElasticMotions& motions) {
+  return std::any_of(walls.begin(), walls.end(), [&](const WallPatch<Dim>& wall) {
+    return is_closed(wall) && is_vessel(wall, motions[std::size_t(wall.body)]->state.u);
+  });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -240,28 +275,32 @@ std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Sol
                                             const StepGeometry<Dim>& g, const PressureRows<Dim>& rows,
                                             const NullSpace& closed, const ElasticMotions& motions,
                                             const std::vector<BodyEntries>& bodies) {
-  std::vector<FoundCavity<Dim>> cavities, joined;
-  if (closed.count == 0 || bodies.empty()) return cavities;
+  std::vector<FoundCavity<Dim>> joined;
+  std::vector<HalfOpenPatch> half_open;
+  if (closed.count == 0 || bodies.empty()) return joined;
   const Components<Dim> component = components_of_cells(domain, rows, closed);
   for (const BodyEntries& b : bodies) {
     const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(b.body)].elastic();
-    const Eigen::VectorXd& u = motions[std::size_t(b.body)]->state.u;
     TouchedBody<Dim> body{domain, rows, closed, component, solid};
-    body.look(b.entries, u);
+    body.look(b.entries, motions[std::size_t(b.body)]->state.u);
     for (std::size_t p = 0; p < body.patches.size(); ++p) {
       Touched& patch = body.patches[p];
-      if (patch.open || patch.components.empty() || patch.link_count == 0) continue;
-      FoundCavity<Dim> found{{{&solid, b.body, int(p)}}, {std::move(patch.links)}, patch.components};
-      if (!solid.patches[p].is_closed())
-        join(std::move(found), joined);
-      else if (enclosed_volume(found.walls, {u}) < 0)
-        cavities.push_back(std::move(found));
+      if (patch.components.empty() || patch.link_count == 0) continue;
+      if (patch.open)
+        half_open.push_back({b.body, patch.components});
+      else
+        join({{{&solid, b.body, int(p)}}, {std::move(patch.links)}, patch.components}, joined);
     }
   }
-  for (FoundCavity<Dim>& found : joined)
-    if (can_be_closed(found.walls) && !is_fed(domain, solids, g, rows, component, found))
-      cavities.push_back(std::move(found));
-  return cavities;
+  std::erase_if(joined, [&](const FoundCavity<Dim>& found) {
+    if (std::any_of(half_open.begin(), half_open.end(), [&](const auto& p) { return is_moved_by(found, p); }))
+      return true;
+    if (std::all_of(found.walls.begin(), found.walls.end(), [](const auto& wall) { return is_closed(wall); }))
+      return !has_vessel(found.walls, motions);
+    return has_pinned_closed_wall(found.walls) || !can_be_closed(found.walls) ||
+           is_fed(domain, solids, g, rows, component, found);
+  });
+  return joined;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \

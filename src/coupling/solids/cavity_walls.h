@@ -15,10 +15,10 @@ struct FoundCavity {
   std::set<int> components;           // of the liquid in it, as NullSpace numbers them
 };
 
-// Open patches that touch the same liquid are walls of one cavity; a closed patch is one if its solid lies around the
-// liquid. Walls that do not close, or that touch liquid with a given pressure, are left out. Cavities with open patches
-// are also left out if they hold enclosed air, or if their volume is prescribed in part. An inflow does that, or a
-// prescribed solid that does not move like the pins. Collective.
+// Patches that touch the same liquid are walls of one cavity, if one of them is open or lies around the liquid. Walls
+// that do not close, or that touch liquid with a given pressure, are left out. Cavities with open patches are also left
+// out if they hold enclosed air, or if their volume is prescribed in part. An inflow does that, a pinned node of a
+// closed wall, or a prescribed solid that does not move like the pins. Collective.
 template <int Dim>
 std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                             const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,

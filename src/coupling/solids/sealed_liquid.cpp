@@ -82,6 +82,7 @@ void keep_sealed_full(const Domain<Dim>& domain, const Solids<Dim>& solids, cons
     const Eigen::VectorXd& cavity = old[k]->cavity;
     for (int p = 0; p < int(cavity.size()); ++p) {
       if (!(cavity[p] >= 0) || !solid.patches[std::size_t(p)].is_closed()) continue;
+      if (!is_vessel<Dim>({&solid, int(k), p}, old[k]->state.u)) continue;
       fill_cavity(domain, solid, p, now[k]->state.u, *before.exterior, phi);
       any = true;
     }

@@ -12,6 +12,23 @@ InertiaResponse indefinite_response() {
   return {{}, Shape::indefinite, {}, {}};
 }
 
+Vector component_means(const NullSpace& closed, const std::vector<int>& sensed, const Vector& p,
+                       const Communicator& ranks) {
+  std::vector<double> sums(2 * sensed.size());
+  std::vector<std::size_t> place(std::size_t(closed.count), sensed.size());
+  for (std::size_t k = 0; k < sensed.size(); ++k) place[std::size_t(sensed[k])] = k;
+  const auto place_of = [&](std::size_t row) {
+    return closed.component[row] < 0 ? sensed.size() : place[std::size_t(closed.component[row])];
+  };
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) sums[2 * k] += p[i], sums[2 * k + 1] += 1;
+  ranks.global_sum(sums);
+  Vector means(p.size());
+  for (std::size_t i = 0; i < means.size(); ++i)
+    if (const std::size_t k = place_of(i); k < sensed.size()) means[i] = sums[2 * k] / sums[2 * k + 1];
+  return means;
+}
+
 namespace {
 
 template <int Dim>
@@ -64,9 +81,14 @@ bool CoupledProblem<Dim>::holds(const Eigen::VectorXd& v) const {
   return true;
 }
 
+// Fixed unknowns have reached their velocities by the next minimum, whatever v has there: a constraint that changed
+// with them would leave no direction downhill.
 template <int Dim>
 void CoupledProblem<Dim>::linearise_at(const Eigen::VectorXd& v) {
-  for (std::size_t n = 0; n < missing_.size(); ++n) missing_[n] = coupling_.cavities[n].missing_flux(v);
+  if (missing_.empty()) return;
+  Eigen::VectorXd held = v;
+  hold(held);
+  for (std::size_t n = 0; n < missing_.size(); ++n) missing_[n] = coupling_.cavities[n].missing_flux(held);
 }
 
 template <int Dim>

@@ -39,6 +39,10 @@ class CoupledProblem : public InertiaProblem {
   std::vector<double> missing_;
 };
 
+// Mean of p over the rows of each of the closed components `sensed`, in these rows; 0 in others. Collective.
+Vector component_means(const NullSpace& closed, const std::vector<int>& sensed, const Vector& p,
+                       const Communicator& ranks);
+
 InertiaResponse failed_response(const std::string& why);
 InertiaResponse indefinite_response();
 

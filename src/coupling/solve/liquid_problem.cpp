@@ -97,19 +97,7 @@ template <int Dim>
 Eigen::VectorXd LiquidProblem<Dim>::impulse_of_means() const {
   const std::vector<int>& sensed = solver_.sensed_components();
   if (sensed.empty()) return {};
-  std::vector<double> sums(2 * sensed.size());
-  std::vector<std::size_t> place(std::size_t(closed_.count), sensed.size());
-  for (std::size_t k = 0; k < sensed.size(); ++k) place[std::size_t(sensed[k])] = k;
-  const auto place_of = [&](std::size_t row) {
-    return closed_.component[row] < 0 ? sensed.size() : place[std::size_t(closed_.component[row])];
-  };
-  for (std::size_t i = 0; i < pressure_.size(); ++i)
-    if (const std::size_t k = place_of(i); k < sensed.size()) sums[2 * k] += pressure_[i], sums[2 * k + 1] += 1;
-  ranks_.global_sum(sums);
-  Vector means(pressure_.size());
-  for (std::size_t i = 0; i < means.size(); ++i)
-    if (const std::size_t k = place_of(i); k < sensed.size()) means[i] = sums[2 * k] / sums[2 * k + 1];
-  return impulse_of(means);
+  return impulse_of(component_means(closed_, sensed, pressure_, ranks_));
 }
 
 // c2 J_held'p

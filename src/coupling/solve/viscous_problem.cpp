@@ -6,8 +6,8 @@ namespace seiche {
 
 template <int Dim>
 ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous,
-                                    const ViscousSolvers& solvers, double area, bool closed, Vector& u, Vector& p,
-                                    const Communicator& ranks)
+                                    const ViscousSolvers& solvers, double area, const NullSpace& closed, Vector& u,
+                                    Vector& p, const Communicator& ranks)
     : CoupledProblem<Dim>(coupling),
       viscous_(viscous),
       solvers_(solvers),
@@ -43,7 +43,18 @@ InertiaResponse ViscousProblem<Dim>::response_at(const Eigen::VectorXd& v) const
   reaction += local_transposed(viscous_.G_held(), u_) + local_transposed(viscous_.J_held(), p_);
   ranks_.global_sum(std::span<double>(reaction.data(), std::size_t(reaction.size())));
   make_identical(reaction, ranks_);
-  return {{}, Shape::convex, v, coupling_.mass * v - coupling_.push - system.g + system.Hvv * v + reaction};
+  const Eigen::VectorXd gradient = coupling_.mass * v - coupling_.push - system.g + system.Hvv * v + reaction;
+  return {{}, Shape::convex, v, gradient, reaction_of_means()};
+}
+
+// J'p^ of the mean pressures of closed components, the multipliers of chi'(J v) = given. Empty: bodies feel none.
+template <int Dim>
+Eigen::VectorXd ViscousProblem<Dim>::reaction_of_means() const {
+  const std::vector<int>& sensed = solvers_.coupled.sensed_components();
+  if (sensed.empty()) return {};
+  Eigen::VectorXd reaction = multiply_transposed(viscous_.J(), component_means(closed_, sensed, p_, ranks_), ranks_);
+  make_identical(reaction, ranks_);
+  return reaction;
 }
 
 template <int Dim>

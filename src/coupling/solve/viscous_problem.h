@@ -22,12 +22,11 @@ template <int Dim>
 class ViscousProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references. `area`: of a face. `u` and `p` (rows of the system) are the first guess and hold the last
-  // solution. `closed`: bodies sense mean pressures of closed liquid, which respond() leaves out.
+  // solution.
   ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, const ViscousSolvers& solvers,
-                 double area, bool closed, Vector& u, Vector& p, const Communicator& ranks);
+                 double area, const NullSpace& closed, Vector& u, Vector& p, const Communicator& ranks);
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
-  bool responds_in_full() const override { return !closed_; }
 
  private:
   using CoupledProblem<Dim>::coupling_;
@@ -35,11 +34,12 @@ class ViscousProblem : public CoupledProblem<Dim> {
   std::string solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g,
                     const Vector& q, Eigen::VectorXd& v);
   InertiaResponse response_at(const Eigen::VectorXd& v) const;
+  Eigen::VectorXd reaction_of_means() const;
 
   const ViscousStep<Dim>& viscous_;
   ViscousSolvers solvers_;
   double area_;
-  bool closed_;
+  const NullSpace& closed_;
   Vector &u_, &p_;
   Communicator ranks_;
   BodyMatrix H_, none_;

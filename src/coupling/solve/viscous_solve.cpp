@@ -173,7 +173,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   Vector u = viscous.gather(in.u_star), p = guessed_pressure(in, r.rows);
   for (double& x : p) x *= -dt;
   ViscousProblem<Dim> problem(coupling, viscous, {solver, make_alone}, s.domain.layout.geometry().face_area(),
-                              !solver.sensed_components().empty(), u, p, s.domain.ranks);
+                              liquid.closed, u, p, s.domain.ranks);
   r.solids = find_minimum(in, coupling, problem, {}, r);
   refuse_unbalanced_chambers(in, liquid, solver.sensed_components(), r);
   for (double& x : p) x /= -dt;

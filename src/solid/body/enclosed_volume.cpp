@@ -150,6 +150,16 @@ bool can_be_closed(const CavityWalls<Dim>& walls) {
 }
 
 template <int Dim>
+bool is_closed(const WallPatch<Dim>& wall) {
+  return patch_of(wall).is_closed();
+}
+
+template <int Dim>
+bool is_vessel(const WallPatch<Dim>& wall, const Eigen::VectorXd& u) {
+  return enclosed_volume<Dim>({wall}, {u}) < 0;
+}
+
+template <int Dim>
 double enclosed_volume(const CavityWalls<Dim>& walls, const std::vector<Eigen::VectorXd>& u) {
   const Vec<Dim> origin = origin_of(walls);
   double sum = closing_volume(walls, u, origin);
@@ -240,6 +250,8 @@ void keep_cavities(const std::vector<Body<Dim>>& bodies, const ElasticMotions& m
 
 #define SEICHE_INSTANTIATE(D)                                                                                       \
   template bool can_be_closed<D>(const CavityWalls<D>&);                                                            \
+  template bool is_closed<D>(const WallPatch<D>&);                                                                  \
+  template bool is_vessel<D>(const WallPatch<D>&, const Eigen::VectorXd&);                                          \
   template double enclosed_volume<D>(const CavityWalls<D>&, const std::vector<Eigen::VectorXd>&);                   \
   template Eigen::VectorXd enclosed_volume_gradient<D>(const CavityWalls<D>&, std::size_t, const Eigen::VectorXd&); \
   template SurfaceMesh wall_of_cavity<D>(const ElasticSolid<D>&, int);                                              \

@@ -10,7 +10,14 @@ struct WallPatch {
   int body, patch;  // index of the solid in the scene; index of its patch
 };
 
-// Walls of one cavity: a closed patch, or open patches that are joined by the bodies that move with their pins. A patch
+template <int Dim>
+bool is_closed(const WallPatch<Dim>& wall);
+
+// True if the closed patch lies around its liquid, not inside it.
+template <int Dim>
+bool is_vessel(const WallPatch<Dim>& wall, const Eigen::VectorXd& u);
+
+// Walls of one cavity: closed patches, and open ones that are joined by the bodies that move with their pins. A patch
 // belongs to at most one cavity.
 template <int Dim>
 using CavityWalls = std::vector<WallPatch<Dim>>;

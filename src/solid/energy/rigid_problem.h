@@ -43,8 +43,6 @@ class InertiaProblem {
   virtual InertiaResponse respond(const Eigen::VectorXd& v) = 0;
   // False if minimise() may miss that there is no minimum, and then not converge.
   virtual bool notices_indefinite() const { return true; }
-  // False if gradients of respond() lack multipliers that those of minimise() have and `constraint` does not tell.
-  virtual bool responds_in_full() const { return true; }
   // Linearises the constraints of minimise() about v from now on.
   virtual void linearise_at(const Eigen::VectorXd& /*v*/) {}
   // True if v has the prescribed velocities at the fixed degrees of freedom. Results of minimise() always have.
