@@ -16,8 +16,14 @@
 namespace seiche {
 namespace {
 
-// A step that moves liquid by at most this share of a cell is no blow-up: round-off and the solver's tolerance do that.
-constexpr double still = 1e-3;
+// Speed that round-off and the solver's tolerance may cause, m/s: a thousandth of a cell in a step of mean length. The
+// present step's own length would let speeds grow without bound as steps are halved.
+template <int Dim>
+double jitter_speed(const Domain<Dim>& domain, const State<Dim>& before, double dt) {
+  constexpr double still = 1e-3;
+  const double mean = before.step > 0 ? before.time / double(before.step) : 0;
+  return still * domain.layout.h() / std::max(dt, mean);
+}
 
 template <int Dim>
 double body_mass(const Solids<Dim>& solids) {
@@ -120,7 +126,7 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
       std::max(surface_energy(s.domain, s.fluids, before.phi), surface_energy(s.domain, s.fluids, attempt.state.phi));
   b.mass = std::max(total_mass(s.fluids, s.solids, start), total_mass(s.fluids, s.solids, attempt.stats));
   b.gain = span * (s.fluids.gravity.of_step(t + dt, dt).norm() + s.fluids.gravity.of_step(t, before.dt_now).norm());
-  b.given = still * s.domain.layout.h() / dt + fastest_led(s.solids, attempt, t, span) +
+  b.given = jitter_speed(s.domain, before, dt) + fastest_led(s.solids, attempt, t, span) +
             std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt);
   b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
   b.pushed = pushed(s.domain, s.fluids, s.solids, attempt, t, dt);
@@ -155,7 +161,7 @@ std::string fault_of_works(const Domain<Dim>& domain, const Fluids& fluids, cons
   const double h = domain.layout.h(), dt = attempt.state.dt_now,
                mass = std::max(total_mass(fluids, solids, start), total_mass(fluids, solids, attempt.stats)),
                lift = mass * h * fluids.gravity.of_step(before.time + dt, dt).norm(),
-               jitter = 0.5 * mass * std::pow(still * h / dt, 2),
+               jitter = 0.5 * mass * std::pow(jitter_speed(domain, before, dt), 2),
                known = there + works + lift + jitter + surface_energy(domain, fluids, attempt.state.phi);
   if (created <= known) return {};
   return fmt::format("{:.4g} {} of kinetic energy come from nowhere; there were {:.4g}, work included", created,
