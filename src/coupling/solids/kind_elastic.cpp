@@ -154,9 +154,14 @@ bool ElasticParticipant<Dim>::may_seal() const {
 
 template <int Dim>
 void ElasticParticipant<Dim>::describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const {
-  const BodyAverage mean = average(elements().body, motion_.state.u, motion_.velocity);
-  solid.frame = {mean.velocity, mean.angular_velocity, mean.center};
+  solid.frame = viscous_motion(g);
   solid.surface = surface_weights(g, this->index());
+}
+
+template <int Dim>
+RigidField ElasticParticipant<Dim>::viscous_motion(const StepGeometry<Dim>&) const {
+  const BodyAverage mean = average(elements().body, motion_.state.u, motion_.velocity);
+  return {mean.velocity, mean.angular_velocity, mean.center};
 }
 
 // The state of the last solve, found together with the liquid's: u + H w and the scheme's velocity there. motion_.state

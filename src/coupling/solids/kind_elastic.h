@@ -42,6 +42,7 @@ class ElasticParticipant : public Participant<Dim> {
   bool is_pinned() const override { return !elements().pins.empty(); }
   bool may_seal() const override;
   void describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const override;
+  RigidField viscous_motion(const StepGeometry<Dim>& g) const override;
   void measure(const Gravity& gravity, const TimeSpec& time, const State<Dim>& state, StepStats& stats) const override;
   void describe(const TimeSpec& time, const State<Dim>& state, SolidState& out) const override;
   void add_loads(SolidState& out) const override;

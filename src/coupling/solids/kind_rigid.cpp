@@ -119,7 +119,7 @@ void RigidParticipant<Dim>::describe_viscous(const StepGeometry<Dim>&, ViscousSo
 }
 
 template <int Dim>
-RigidField RigidParticipant<Dim>::viscous_motion(const ViscousSolid<Dim>&) const {
+RigidField RigidParticipant<Dim>::viscous_motion(const StepGeometry<Dim>&) const {
   return {state_.velocity, state_.angular_velocity, state_.center};
 }
 

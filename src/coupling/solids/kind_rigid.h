@@ -34,7 +34,7 @@ class RigidParticipant : public Participant<Dim> {
   void describe_contact(ContactBody& contact) const override;
   ContactMotion contact_motion(double t, double horizon) const override;
   void describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const override;
-  RigidField viscous_motion(const ViscousSolid<Dim>& solid) const override;
+  RigidField viscous_motion(const StepGeometry<Dim>& g) const override;
   void measure(const Gravity& gravity, const TimeSpec& /*time*/, const State<Dim>& state,
                StepStats& stats) const override;
   void add_loads(SolidState& out) const override;

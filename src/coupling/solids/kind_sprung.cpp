@@ -69,8 +69,11 @@ class SprungParticipant : public Participant<Dim> {
     contact.node_count = 1;
   }
   ContactMotion contact_motion(double, double) const override { return {{}, {}, displacement_, velocity_}; }
-  void describe_viscous(const StepGeometry<Dim>&, ViscousSolid<Dim>& solid) const override {
-    solid.frame = {extend<Dim>(velocity_), Vec3::Zero(), body().mass().center + extend<Dim>(displacement_)};
+  RigidField viscous_motion(const StepGeometry<Dim>&) const override {
+    return {extend<Dim>(velocity_), Vec3::Zero(), body().mass().center + extend<Dim>(displacement_)};
+  }
+  void describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const override {
+    solid.frame = viscous_motion(g);
     solid.surface = [](int axis, Site, std::vector<std::pair<int, double>>& weights) { weights = {{axis, 1.0}}; };
   }
 

@@ -111,9 +111,9 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   do {
     input.geometry = still;
     state.solids = solids;
-    CoupledSolution<Dim> trial = solve_once(
-        CoupledInput<Dim>{input.setup, in, input.geometry, state, from, input.slope, input.flow, input.u_star,
-                          input.convected, input.flux_of_end, input.horizon, input.viscosity, input.fault});
+    CoupledSolution<Dim> trial = solve_once(CoupledInput<Dim>{
+        input.setup, in, input.geometry, state, from, input.slope, input.flow, input.u_star, input.convected,
+        input.flux_of_end, input.horizon, input.viscosity, input.fault, input.at_walls});
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);
     r = std::move(trial);

@@ -1,6 +1,7 @@
 #pragma once
 // Coupled solve of a step: pressure and viscosity of the liquid, rigid and elastic bodies, contact.
 #include "coupling/solids/convected_pressure.h"
+#include "coupling/solve/flow_at_walls.h"
 #include "coupling/solve/viscous_coupling.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
@@ -22,6 +23,7 @@ struct CoupledInput {
   double horizon;
   const ViscosityField<Dim>* viscosity;  // null: inviscid
   PhaseFault fault;
+  const FlowAtWalls<Dim>* at_walls = nullptr;  // null: flow and motions at the start of the step
 };
 
 template <int Dim>

@@ -132,14 +132,14 @@ ViscousStep<Dim>::ViscousStep(const Domain<Dim>& domain, const Solids<Dim>& all,
       J_(scaled(coupling.J, domain.layout.geometry().face_area())),
       J_held_(scaled(coupling.J_held, domain.layout.geometry().face_area())) {
   separate_held();
-  for (std::size_t k = 0; k < state.solids.size(); ++k) motion_.push_back(state.solids[k].viscous_motion(solids_[k]));
 }
 
 template <int Dim>
-void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, PagedFaceField<Dim>& closed_flux) {
+void ViscousStep<Dim>::add_wall_flux(const FaceField<Dim>& flow, const std::vector<RigidField>& motion,
+                                     PagedFaceField<Dim>& closed_flux) {
   const Layout<Dim>& layout = domain_.layout;
   FaceField<Dim> added(layout);
-  add_no_slip_flux(input_, *system_.samples, motion_, flow, added);
+  add_no_slip_flux(input_, *system_.samples, motion, flow, added);
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(layout, layout.grown(1), [&](Site f, const IVec<Dim>&) {
       if (added.at(a, f) != 0) closed_flux.add(a, f, added.at(a, f));

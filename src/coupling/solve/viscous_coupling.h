@@ -57,7 +57,8 @@ class ViscousStep {
   const BlockColumns& J_held() const { return J_held_; }
   // Adds the volume flux through cut faces at no-slip walls, to second order, to q and `closed_flux`. `flow`:
   // velocities at an earlier time.
-  void add_wall_flux(const FaceField<Dim>& flow, PagedFaceField<Dim>& closed_flux);
+  void add_wall_flux(const FaceField<Dim>& flow, const std::vector<RigidField>& motion,
+                     PagedFaceField<Dim>& closed_flux);
   // Copy between a face field and the rows of the system.
   Vector gather(const FaceField<Dim>& u) const;
   void scatter(const Vector& rows, FaceField<Dim>& u) const;
@@ -78,8 +79,7 @@ class ViscousStep {
   const SolidCoupling<Dim>& coupling_;
   const PressureRows<Dim>& rows_;
   std::vector<ViscousSolid<Dim>> solids_;
-  CellField<Dim> full_;             // phi of a domain full of fluid, for two fluids
-  std::vector<RigidField> motion_;  // of each solid, near the start of the step
+  CellField<Dim> full_;  // phi of a domain full of fluid, for two fluids
   ViscousInput<Dim> input_;
   ViscousSystem<Dim> system_;
   BlockColumns J_, G_held_, J_held_;

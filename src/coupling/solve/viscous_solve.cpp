@@ -76,6 +76,16 @@ FaceGeometry<Dim> without_side_pressures(FaceGeometry<Dim> faces) {
   return faces;
 }
 
+template <int Dim>
+void add_wall_flux(const CoupledInput<Dim>& in, ViscousStep<Dim>& viscous) {
+  PagedFaceField<Dim>& closed_flux = in.geometry.faces.closed_flux;
+  if (in.at_walls) return viscous.add_wall_flux(in.at_walls->flow->u, in.at_walls->motion, closed_flux);
+  std::vector<RigidField> motion;
+  for (std::size_t k = 0; k < in.state.solids.size(); ++k)
+    motion.push_back(in.state.solids[k].viscous_motion(in.geometry));
+  viscous.add_wall_flux(in.flow, motion, closed_flux);
+}
+
 // Drag of the velocities u on the unknowns of the solids, N, the same on all ranks.
 template <int Dim>
 Eigen::VectorXd drag_on_solids(const ViscousStep<Dim>& viscous, const Vector& u, const Communicator& ranks) {
@@ -106,7 +116,7 @@ SplitViscosity<Dim>::SplitViscosity(const CoupledInput<Dim>& in, const SolidCoup
       pressed_(shifted(in, in.u_star, -in.liquid.dt)),
       viscous_(in.setup.domain, in.setup.solids, unpressed_, r.rows, in.geometry, in.state, coupling, *in.viscosity,
                pressed_) {
-  viscous_.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
+  add_wall_flux(in, viscous_);
 }
 
 template <int Dim>
@@ -161,7 +171,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   const double dt = in.liquid.dt;
   ViscousStep<Dim> viscous(s.domain, s.solids, in.liquid, r.rows, in.geometry, in.state, coupling, *in.viscosity,
                            in.u_star);
-  viscous.add_wall_flux(in.flow, in.geometry.faces.closed_flux);
+  add_wall_flux(in, viscous);
   const BlockColumns none;
   SaddleSolver solver = make_solver(in, liquid, viscous.system(), viscous.system().G, viscous.J());
   std::unique_ptr<SaddleSolver> alone;

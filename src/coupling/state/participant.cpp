@@ -24,8 +24,13 @@ ContactMotion Participant<Dim>::contact_motion(double t, double horizon) const {
 
 template <int Dim>
 void Participant<Dim>::describe_viscous(const StepGeometry<Dim>& g, ViscousSolid<Dim>& solid) const {
+  solid.frame = viscous_motion(g);
+}
+
+template <int Dim>
+RigidField Participant<Dim>::viscous_motion(const StepGeometry<Dim>& g) const {
   const Twist& v = g.placed[std::size_t(index_)].twist;
-  solid.frame = {v.linear, v.angular, v.about};
+  return {v.linear, v.angular, v.about};
 }
 
 template <int Dim>

@@ -106,7 +106,7 @@ class Participant {
   virtual bool may_seal() const { return false; }
   // Data for the viscous operator: description, and rigid (or mean) motion of the solid.
   virtual void describe_viscous(const StepGeometry<Dim>&, ViscousSolid<Dim>&) const;
-  virtual RigidField viscous_motion(const ViscousSolid<Dim>& solid) const { return solid.frame; }
+  virtual RigidField viscous_motion(const StepGeometry<Dim>&) const;
 
   // Adds energies and momentum to the statistics. describe() and add_loads() fill its row of solids.csv: first position
   // and motion, later the loads other than pressure on its faces.

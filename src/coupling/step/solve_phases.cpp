@@ -38,6 +38,7 @@ template <int Dim>
 struct Solves {
   std::optional<CellField<Dim>> guess = {};  // Pa; empty: the pressure of the step before
   int iterations = 0;                        // of all solves
+  std::optional<FlowAtWalls<Dim>> at_walls = {};
 
   // The pressure of a solve that failed may be anything.
   void go_on_from(Attempt<Dim> attempt) {
@@ -116,7 +117,8 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   const CellField<Dim>& guess = earlier.guess ? *earlier.guess : out.state.pressure;
   CoupledSolution<Dim> solution = solve_coupled(
       CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
-                        task.predicted.convected, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault});
+                        task.predicted.convected, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault,
+                        earlier.at_walls ? &*earlier.at_walls : nullptr});
   out.state.convected_loads = task.predicted.convected.loads;
   out.powers.contact = solution.contact_power;
   out.solve = solution.report;
@@ -206,21 +208,25 @@ Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const Visc
   return out;
 }
 
-// Viscosity that depends on the flow is solved for until both agree (Picard).
+// Viscosity that depends on the flow is solved for until both agree (Picard), and so is the flow that fluxes at walls
+// are taken from.
 template <int Dim>
 Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, Solves<Dim>& solves) {
   const Layout<Dim>& layout = task.s.domain.layout;
   RheologyIteration<Dim> rheology(task.s, moved.state, *task.before.now);
+  FlowAtWallsIteration<Dim> walls(task.s, task.before, moved.state.solids, moved.geometry);
   for (;;) {
     const ViscosityField<Dim> implicit = implicit_part(layout, rheology.viscosity(), task.predicted.viscosity.implicit);
     Attempt<Dim> out = solve_once(task, moved, &implicit, solves);
     if (!out.failure.empty()) return out;
-    if (!rheology.differs_from(*out.state.now)) {
+    auto at_walls = walls.due_after(out.state);
+    if (!rheology.differs_from(*out.state.now) && !at_walls) {
       out.rheology_iterations = rheology.count();
       out.rheology_change = rheology.change_left();
       out.state.viscous_rate = rheology.viscosity().largest / (task.s.fluids.density() * layout.h() * layout.h());
       return out;
     }
+    if (at_walls) solves.at_walls = std::move(at_walls);
     solves.go_on_from(std::move(out));
   }
 }

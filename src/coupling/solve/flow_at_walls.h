@@ -1,0 +1,39 @@
+#pragma once
+// Flow that the fluxes of cut no-slip faces are taken from (fluid/viscosity/no_slip_flux). That of the start of the
+// step does, unless viscosity stops it within the step: then the step is solved again.
+#include <memory>
+
+#include "coupling/state/setup.h"
+#include "coupling/state/state.h"
+
+namespace seiche {
+
+// Velocities of the fluids, and rigid (or mean) motions of the solids.
+template <int Dim>
+struct FlowAtWalls {
+  std::shared_ptr<const TimeLevel<Dim>> flow;
+  std::vector<RigidField> motion;  // one a solid
+};
+
+template <int Dim>
+class FlowAtWallsIteration {
+ public:
+  // Starts with the flow of `before`, the start of the step, and `solids`, which the solves start with. Keeps
+  // references to setup and geometry.
+  FlowAtWallsIteration(const Setup<Dim>& setup, const State<Dim>& before, const Participants<Dim>& solids,
+                       const StepGeometry<Dim>& geometry);
+  // The last solve's flow if another one is due, else none. Due it is where velocities relative to the solids, beside
+  // cut faces, change by more than they are in the end, and then until a solve changes them by less than a tenth, eight
+  // times at most. Never in fluids without viscosity and without no-slip solids. Collective.
+  std::optional<FlowAtWalls<Dim>> due_after(const State<Dim>& solved);
+
+ private:
+  bool is_beside_cut_wall(int axis, Site f) const;
+
+  const Setup<Dim>& setup_;
+  const StepGeometry<Dim>& geometry_;
+  FlowAtWalls<Dim> last_;  // without a flow: never due
+  int solves_ = 0;         // that were due
+};
+
+}  // namespace seiche
