@@ -124,8 +124,7 @@ std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Di
     for (const std::int64_t row : touched)
       if (row >= rows.first && row < rows.first + Row(rows.cells.size())) cavity.rows.push_back(int(row - rows.first));
     cavity.row_count = double(touched.size());
-    const bool open =
-        std::any_of(cavity.walls.begin(), cavity.walls.end(), [](const auto& w) { return !is_closed(w); });
+    const bool open = has_open_wall(cavity.walls);
     for (std::size_t n = 0; n < rows.cells.size() && open; ++n)
       if (found.components.contains(step.closed.component[n])) cavity.cells.push_back(int(n));
     cavities.push_back(std::move(cavity));

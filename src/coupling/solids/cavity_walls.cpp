@@ -295,8 +295,7 @@ std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Sol
   std::erase_if(joined, [&](const FoundCavity<Dim>& found) {
     if (std::any_of(half_open.begin(), half_open.end(), [&](const auto& p) { return is_moved_by(found, p); }))
       return true;
-    if (std::all_of(found.walls.begin(), found.walls.end(), [](const auto& wall) { return is_closed(wall); }))
-      return !has_vessel(found.walls, motions);
+    if (!has_open_wall(found.walls)) return !has_vessel(found.walls, motions);
     return has_pinned_closed_wall(found.walls) || !can_be_closed(found.walls) ||
            is_fed(domain, solids, g, rows, component, found);
   });

@@ -21,12 +21,17 @@ bool sticks(const Body<Dim>& body) {
 template <int Dim>
 FlowAtWalls<Dim> flow_at_walls(const Setup<Dim>& s, const State<Dim>& state, const Participants<Dim>& solids,
                                const StepGeometry<Dim>& geometry) {
-  FlowAtWalls<Dim> at{state.exterior->joined_level(s.domain, s.fluids, state), {}};
-  for (std::size_t k = 0; k < solids.size(); ++k) at.motion.push_back(solids[k].viscous_motion(geometry));
-  return at;
+  return {state.exterior->joined_level(s.domain, s.fluids, state), motions_at_walls(solids, geometry)};
 }
 
 }  // namespace
+
+template <int Dim>
+std::vector<RigidField> motions_at_walls(const Participants<Dim>& solids, const StepGeometry<Dim>& geometry) {
+  std::vector<RigidField> motions;
+  for (std::size_t k = 0; k < solids.size(); ++k) motions.push_back(solids[k].viscous_motion(geometry));
+  return motions;
+}
 
 template <int Dim>
 FlowAtWallsIteration<Dim>::FlowAtWallsIteration(const Setup<Dim>& setup, const State<Dim>& before,
@@ -37,7 +42,7 @@ FlowAtWallsIteration<Dim>::FlowAtWallsIteration(const Setup<Dim>& setup, const S
     last_ = flow_at_walls(setup, before, solids, geometry);
 }
 
-// True beside a face that a no-slip solid cuts.
+// True beside a face that a no-slip solid cuts: the one nearest to the face's first corner.
 template <int Dim>
 bool FlowAtWallsIteration<Dim>::is_beside_cut_wall(int axis, Site f) const {
   const int k = geometry_.body[f];
@@ -72,6 +77,8 @@ std::optional<FlowAtWalls<Dim>> FlowAtWallsIteration<Dim>::due_after(const State
   return now;
 }
 
+template std::vector<RigidField> motions_at_walls<2>(const Participants<2>&, const StepGeometry<2>&);
+template std::vector<RigidField> motions_at_walls<3>(const Participants<3>&, const StepGeometry<3>&);
 template class FlowAtWallsIteration<2>;
 template class FlowAtWallsIteration<3>;
 

@@ -16,6 +16,9 @@ struct FlowAtWalls {
 };
 
 template <int Dim>
+std::vector<RigidField> motions_at_walls(const Participants<Dim>& solids, const StepGeometry<Dim>& geometry);
+
+template <int Dim>
 class FlowAtWallsIteration {
  public:
   // Starts with the flow of `before`, the start of the step, and `solids`, which the solves start with. Keeps

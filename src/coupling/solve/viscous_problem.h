@@ -22,7 +22,7 @@ template <int Dim>
 class ViscousProblem : public CoupledProblem<Dim> {
  public:
   // Keeps references. `area`: of a face. `u` and `p` (rows of the system) are the first guess and hold the last
-  // solution.
+  // solution. Pressures of closed liquid that bodies feel are told as the constraint's part of the gradient.
   ViscousProblem(const SolidCoupling<Dim>& coupling, const ViscousStep<Dim>& viscous, const ViscousSolvers& solvers,
                  double area, const NullSpace& closed, Vector& u, Vector& p, const Communicator& ranks);
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;

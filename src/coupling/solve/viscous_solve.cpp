@@ -80,10 +80,7 @@ template <int Dim>
 void add_wall_flux(const CoupledInput<Dim>& in, ViscousStep<Dim>& viscous) {
   PagedFaceField<Dim>& closed_flux = in.geometry.faces.closed_flux;
   if (in.at_walls) return viscous.add_wall_flux(in.at_walls->flow->u, in.at_walls->motion, closed_flux);
-  std::vector<RigidField> motion;
-  for (std::size_t k = 0; k < in.state.solids.size(); ++k)
-    motion.push_back(in.state.solids[k].viscous_motion(in.geometry));
-  viscous.add_wall_flux(in.flow, motion, closed_flux);
+  viscous.add_wall_flux(in.flow, motions_at_walls(in.state.solids, in.geometry), closed_flux);
 }
 
 // Drag of the velocities u on the unknowns of the solids, N, the same on all ranks.

@@ -36,9 +36,9 @@ struct SolveTask {
 // Several solves of a step from the same place: a later one begins with the pressure of an earlier one that succeeded.
 template <int Dim>
 struct Solves {
-  std::optional<CellField<Dim>> guess = {};  // Pa; empty: the pressure of the step before
-  int iterations = 0;                        // of all solves
-  std::optional<FlowAtWalls<Dim>> at_walls = {};
+  std::optional<CellField<Dim>> guess = {};       // Pa; empty: the pressure of the step before
+  int iterations = 0;                             // of all solves
+  std::optional<FlowAtWalls<Dim>> at_walls = {};  // empty: that at the start of the step
 
   // The pressure of a solve that failed may be anything.
   void go_on_from(Attempt<Dim> attempt) {

@@ -155,6 +155,11 @@ bool is_closed(const WallPatch<Dim>& wall) {
 }
 
 template <int Dim>
+bool has_open_wall(const CavityWalls<Dim>& walls) {
+  return std::any_of(walls.begin(), walls.end(), [](const WallPatch<Dim>& wall) { return !is_closed(wall); });
+}
+
+template <int Dim>
 bool is_vessel(const WallPatch<Dim>& wall, const Eigen::VectorXd& u) {
   return enclosed_volume<Dim>({wall}, {u}) < 0;
 }
@@ -251,6 +256,7 @@ void keep_cavities(const std::vector<Body<Dim>>& bodies, const ElasticMotions& m
 #define SEICHE_INSTANTIATE(D)                                                                                       \
   template bool can_be_closed<D>(const CavityWalls<D>&);                                                            \
   template bool is_closed<D>(const WallPatch<D>&);                                                                  \
+  template bool has_open_wall<D>(const CavityWalls<D>&);                                                            \
   template bool is_vessel<D>(const WallPatch<D>&, const Eigen::VectorXd&);                                          \
   template double enclosed_volume<D>(const CavityWalls<D>&, const std::vector<Eigen::VectorXd>&);                   \
   template Eigen::VectorXd enclosed_volume_gradient<D>(const CavityWalls<D>&, std::size_t, const Eigen::VectorXd&); \

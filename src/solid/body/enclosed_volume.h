@@ -22,6 +22,9 @@ bool is_vessel(const WallPatch<Dim>& wall, const Eigen::VectorXd& u);
 template <int Dim>
 using CavityWalls = std::vector<WallPatch<Dim>>;
 
+template <int Dim>
+bool has_open_wall(const CavityWalls<Dim>& walls);
+
 // True if the patches end at pins such that closed loops (2D: pairs of ends) move together.
 template <int Dim>
 bool can_be_closed(const CavityWalls<Dim>& walls);
