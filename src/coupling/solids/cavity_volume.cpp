@@ -24,26 +24,19 @@ std::vector<int> nodes_of_wall(const WallPatch<Dim>& wall) {
   return nodes;
 }
 
-// Difference between -(dV/du)/A_f and the sums of the columns of J. Collective.
-Eigen::VectorXd lacking(const Eigen::VectorXd& gradient, double face_area, const std::vector<FluxEntry>& entries,
-                        const Communicator& ranks) {
-  std::vector<double> sums(std::size_t(gradient.size()));
-  for (const FluxEntry& e : entries) sums[std::size_t(e.column)] += e.value;
-  ranks.global_sum(sums);
-  return -gradient / face_area - Eigen::Map<const Eigen::VectorXd>(sums.data(), gradient.size());
+template <int Dim>
+LinkGraph graph_of_wall(const WallPatch<Dim>& wall, const std::set<Link>& links, const Communicator& ranks) {
+  LinkGraph graph(gather_links(links, ranks));
+  graph.complete(nodes_of_wall(wall));
+  return graph;
 }
 
-// Corrects the entries of wall n. Returns the global rows that the wall touches. Collective.
+// Corrects the entries of wall n. Collective.
 template <int Dim>
-std::set<std::int64_t> correct_wall(const Domain<Dim>& domain, const PressureRows<Dim>& rows,
-                                    const std::set<Link>& links, const CavityConstraint<Dim>& cavity, std::size_t n,
-                                    std::vector<FluxEntry>& entries) {
-  const Eigen::VectorXd all = lacking(cavity.gradient[n], cavity.face_area, entries, domain.ranks);
-  LinkGraph graph(gather_links(links, domain.ranks));
-  graph.complete(nodes_of_wall(cavity.walls[n]));
+void correct_wall(const Domain<Dim>& domain, const PressureRows<Dim>& rows, const LinkGraph& graph,
+                  const CavityConstraint<Dim>& cavity, std::size_t n, std::vector<FluxEntry>& entries) {
+  const Eigen::VectorXd all = lacking_flux(cavity.gradient[n], cavity.face_area, entries, domain.ranks);
   const MinimumNormFlux least(graph);
-  std::set<std::int64_t> touched;
-  for (const auto& [row, number] : graph.row_numbers()) touched.insert(row);
   for (int axis = 0; axis < Dim; ++axis) {
     Eigen::VectorXd wanted(graph.nodes());
     for (const auto& [node, number] : graph.node_numbers()) wanted[number] = all[Dim * node + axis];
@@ -54,7 +47,38 @@ std::set<std::int64_t> correct_wall(const Domain<Dim>& domain, const PressureRow
         entries.push_back({int(row - rows.first), Dim * int(node) + axis, d[i]});
     }
   }
-  return touched;
+}
+
+// -A_f times the sums of the columns of J of the wall's nodes. Collective.
+template <int Dim>
+Eigen::VectorXd swept_gradient(const Domain<Dim>& domain, const WallPatch<Dim>& wall,
+                               const std::vector<FluxEntry>& entries) {
+  const double face_area = domain.layout.geometry().face_area();
+  const Eigen::VectorXd all =
+      lacking_flux(Eigen::VectorXd::Zero(wall.solid->body.size()), face_area, entries, domain.ranks);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(all.size());
+  for (const int n : nodes_of_wall(wall)) gradient.segment<Dim>(Dim * n) = face_area * all.segment<Dim>(Dim * n);
+  return gradient;
+}
+
+// This rank's part of the rows, with shares in proportion to the open parts of their cells' faces. Collective.
+template <int Dim>
+std::vector<TouchedRow> rows_by_openness(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces,
+                                         const PressureRows<Dim>& rows, const std::set<std::int64_t>& touched) {
+  std::vector<TouchedRow> mine;
+  std::array<double, 1> sum{};
+  for (const std::int64_t row : touched) {
+    if (!rows.owns(row)) continue;
+    const int n = int(row - rows.first);
+    double open = 0;
+    for_each_face_of(domain.layout, rows.cells[std::size_t(n)],
+                     [&](int a, Site f, int, Site) { open += faces.is_unknown(a, f) ? faces.open.at(a, f) : 0; });
+    mine.push_back({n, open});
+    sum[0] += open;
+  }
+  domain.ranks.global_sum(sum);
+  for (TouchedRow& r : mine) r.share /= sum[0];
+  return mine;
 }
 
 // Volume that the walls keep: that of the earlier cavity with the same walls, else the volume they enclose now.
@@ -82,16 +106,27 @@ CavityConstraint<Dim> make_cavity(const Domain<Dim>& domain, const FoundCavity<D
     const ElasticMotion& motion = *motions[std::size_t(found.walls[n].body)];
     cavity.u.push_back(motion.state.u);
     const Eigen::VectorXd middle = motion.state.u + 0.5 * horizon * motion.velocity;
-    cavity.gradient.push_back(enclosed_volume_gradient(found.walls, n, middle));
-    for (const BodyEntries& b : bodies)
-      if (b.body == found.walls[n].body) cavity.first.push_back(b.first);
+    for (const BodyEntries& b : bodies) {
+      if (b.body != found.walls[n].body) continue;
+      cavity.first.push_back(b.first);
+      cavity.gradient.push_back(found.surrounds ? swept_gradient(domain, found.walls[n], b.entries)
+                                                : enclosed_volume_gradient(found.walls, n, middle));
+    }
   }
   return cavity;
 }
 
 }  // namespace
 
-// -(dV/du) w + A_f (prescribed + row_count flux) = -(V(u + H w) - volume)/H, solved for the flux.
+Eigen::VectorXd lacking_flux(const Eigen::VectorXd& gradient, double face_area, const std::vector<FluxEntry>& entries,
+                             const Communicator& ranks) {
+  std::vector<double> sums(std::size_t(gradient.size()));
+  for (const FluxEntry& e : entries) sums[std::size_t(e.column)] += e.value;
+  ranks.global_sum(sums);
+  return -gradient / face_area - Eigen::Map<const Eigen::VectorXd>(sums.data(), gradient.size());
+}
+
+// -(dV/du) w + A_f (prescribed + flux) = -(V(u + H w) - volume)/H, solved for the flux.
 template <int Dim>
 double CavityConstraint<Dim>::missing_flux(const Eigen::VectorXd& w) const {
   double linear = 0;
@@ -102,7 +137,7 @@ double CavityConstraint<Dim>::missing_flux(const Eigen::VectorXd& w) const {
     end.push_back(u[n] + horizon * mine);
   }
   const double net = linear - (enclosed_volume(walls, end) - volume) / horizon;
-  return (net / face_area - prescribed) / row_count;
+  return net / face_area - prescribed;
 }
 
 template <int Dim>
@@ -118,12 +153,13 @@ std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Di
     cavity.volume = volume_to_keep(cavity.walls, motions, kept, cavity.u);
     std::set<std::int64_t> touched;
     for (std::size_t n = 0; n < cavity.walls.size(); ++n)
-      for (BodyEntries& b : bodies)
-        if (b.body == cavity.walls[n].body)
-          touched.merge(correct_wall(s.domain, rows, found.links[n], cavity, n, b.entries));
-    for (const std::int64_t row : touched)
-      if (row >= rows.first && row < rows.first + Row(rows.cells.size())) cavity.rows.push_back(int(row - rows.first));
-    cavity.row_count = double(touched.size());
+      for (BodyEntries& b : bodies) {
+        if (b.body != cavity.walls[n].body) continue;
+        const LinkGraph graph = graph_of_wall(cavity.walls[n], found.links[n], s.domain.ranks);
+        if (!found.surrounds) correct_wall(s.domain, rows, graph, cavity, n, b.entries);
+        for (const auto& [row, number] : graph.row_numbers()) touched.insert(row);
+      }
+    cavity.rows = rows_by_openness(s.domain, step.geometry.faces, rows, touched);
     const bool open = has_open_wall(cavity.walls);
     for (std::size_t n = 0; n < rows.cells.size() && open; ++n)
       if (found.components.contains(step.closed.component[n])) cavity.cells.push_back(int(n));

@@ -23,29 +23,42 @@ struct BodyEntries {
   CellFluxes separated = {};
 };
 
-// A cavity of liquid without a free surface. Its volume constraint, A_f the face area, V the volume within the walls:
-//   sum_c (J w)_c + row_count flux + prescribed = -(V(u + H w) - volume)/(H A_f).
-// The columns of J of the walls' nodes add up to -(dV/du)/A_f at u + H w_0/2, w_0 the velocities before the solve. The
-// remainder is `flux`, equal out of each cell that the walls touch (missing_flux).
+// A row that walls touch, and its share of what flows out of all of them beside J w.
+struct TouchedRow {
+  int row;
+  double share;
+};
+
+// A cavity of liquid without a free surface, around or within elastic bodies. Its volume constraint, A_f the face area,
+// V the volume within the walls:
+//   sum_c (J w)_c + flux + prescribed = -(V(u + H w) - volume)/(H A_f).
+// The columns of J of the walls' nodes add up to -(dV/du)/A_f at u + H w_0/2, w_0 the velocities before the solve. If
+// liquid lies around all walls, they stay as they are. The remainder is `flux`. It flows out of the cells that the
+// walls touch in proportion to the open parts of their faces: equal fluxes took thousands of Pa in cells that are
+// nearly shut.
 template <int Dim>
 struct CavityConstraint {
   CavityWalls<Dim> walls;
   std::vector<int> first;                    // first unknown of the body in the coupling, one a wall
-  std::vector<Eigen::VectorXd> u, gradient;  // one a wall: at the start of the interval; dV/du as above
+  std::vector<Eigen::VectorXd> u, gradient;  // one a wall: at the start of the interval; -A_f times the sums of columns
   double horizon;                            // H, s
   double volume;     // wanted V at the end of the interval, m^Dim: of an earlier step's cavity, else at the start
   double face_area;  // m^(Dim - 1)
-  std::vector<int> rows = {};   // this rank's rows that the walls touch
-  double row_count = 0;         // number of these rows over all ranks
-  std::vector<int> cells = {};  // this rank's rows of its liquid; only filled for open patches
-  double prescribed = 0;        // net flux out of `cells` by pinned nodes and prescribed solids, per face area, m/s
+  std::vector<TouchedRow> rows = {};  // this rank's
+  std::vector<int> cells = {};        // this rank's rows of its liquid; only filled for open patches
+  double prescribed = 0;  // net flux out of `cells` by pinned nodes and prescribed solids, per face area, m/s
 
-  // Flux out of each of `rows`, per face area (m/s), with which V(u + H w) = volume to first order about w.
+  // Flux out of all `rows`, per face area (m/s), with which V(u + H w) = volume to first order about w.
   double missing_flux(const Eigen::VectorXd& w) const;
 };
 
-// Finds the cavities, and adds corrections of minimum norm to the entries of the elastic bodies. Columns of J then add
-// up to -(dV/du)/A_f. On closed walls the force of a uniform pressure gradient is unchanged. Collective.
+// Difference between -(dV/du)/A_f and the sums of the columns of J in `entries`. Collective.
+Eigen::VectorXd lacking_flux(const Eigen::VectorXd& gradient, double face_area, const std::vector<FluxEntry>& entries,
+                             const Communicator& ranks);
+
+// Finds the cavities. Where walls lie around the liquid, adds corrections of minimum norm to the entries of the elastic
+// bodies. Columns of J then add up to -(dV/du)/A_f. On closed walls the force of a uniform pressure gradient is
+// unchanged. Collective.
 template <int Dim>
 std::vector<CavityConstraint<Dim>> constrain_cavity_volumes(const CoupledStep<Dim>& step, const ElasticMotions& motions,
                                                             std::vector<BodyEntries>& bodies);

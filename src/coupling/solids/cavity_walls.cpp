@@ -268,6 +268,45 @@ bool has_vessel(const CavityWalls<Dim>& walls, const ElasticMotions& motions) {
   });
 }
 
+// True if J w = -(dV/du) w/A_f but for this share, for all w that are linear in the place. Columns of single nodes
+// differ more: shape functions of second order weigh a facet's middle otherwise than V does. Collective.
+template <int Dim>
+bool is_wet_all_over(const Domain<Dim>& domain, const WallPatch<Dim>& wall, const Eigen::VectorXd& u,
+                     const std::vector<FluxEntry>& entries) {
+  constexpr double share = 0.005;
+  const std::vector<Vec<Dim>>& rest = wall.solid->body.mesh.nodes;
+  const Eigen::VectorXd gradient = enclosed_volume_gradient<Dim>({wall}, 0, u);
+  const Eigen::VectorXd lack = lacking_flux(gradient, domain.layout.geometry().face_area(), entries, domain.ranks);
+  const std::vector<int> patch = patches_of_nodes(*wall.solid);
+  const int first = wall.solid->surface.nodes[std::size_t(wall.solid->patches[std::size_t(wall.patch)].facets[0][0])];
+  Eigen::Matrix<double, Dim, Dim + 1> sums = Eigen::Matrix<double, Dim, Dim + 1>::Zero();
+  double area = 0, size = 0;
+  for (const int n : wall.solid->surface.nodes) {
+    if (patch[std::size_t(n)] != wall.patch) continue;
+    const Vec<Dim> arm = rest[std::size_t(n)] - rest[std::size_t(first)];
+    sums.col(0) += lack.segment<Dim>(Dim * n);
+    sums.template rightCols<Dim>() += lack.segment<Dim>(Dim * n) * arm.transpose();
+    area += gradient.segment<Dim>(Dim * n).norm();
+    size = std::max(size, arm.norm());
+  }
+  sums.template rightCols<Dim>() /= size;
+  return sums.cwiseAbs().maxCoeff() * domain.layout.geometry().face_area() <= share * area;
+}
+
+// True if liquid lies around all walls. Bodies that stand on a side, that touch others or that are thin do not show all
+// of their surface. Collective.
+template <int Dim>
+bool are_wet_all_over(const Domain<Dim>& domain, const Solids<Dim>& solids, const CavityWalls<Dim>& walls,
+                      const ElasticMotions& motions, const std::vector<BodyEntries>& bodies) {
+  bool wet = true;
+  for (const WallPatch<Dim>& wall : walls)
+    for (const BodyEntries& b : bodies)
+      if (b.body == wall.body && wet)
+        wet = !solids.bodies[std::size_t(b.body)].is_thin() &&
+              is_wet_all_over(domain, wall, motions[std::size_t(b.body)]->state.u, b.entries);
+  return wet;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -292,12 +331,16 @@ std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Sol
         join({{{&solid, b.body, int(p)}}, {std::move(patch.links)}, patch.components}, joined);
     }
   }
-  std::erase_if(joined, [&](const FoundCavity<Dim>& found) {
+  std::erase_if(joined, [&](FoundCavity<Dim>& found) {
     if (std::any_of(half_open.begin(), half_open.end(), [&](const auto& p) { return is_moved_by(found, p); }))
       return true;
-    if (!has_open_wall(found.walls)) return !has_vessel(found.walls, motions);
-    return has_pinned_closed_wall(found.walls) || !can_be_closed(found.walls) ||
-           is_fed(domain, solids, g, rows, component, found);
+    const bool open = has_open_wall(found.walls);
+    found.surrounds = !open && !has_vessel(found.walls, motions);
+    if (!open && !found.surrounds) return false;
+    if (open ? has_pinned_closed_wall(found.walls) || !can_be_closed(found.walls)
+             : !are_wet_all_over(domain, solids, found.walls, motions, bodies))
+      return true;
+    return is_fed(domain, solids, g, rows, component, found);
   });
   return joined;
 }

@@ -13,12 +13,14 @@ struct FoundCavity {
   CavityWalls<Dim> walls;
   std::vector<std::set<Link>> links;  // one set a wall, found on this rank
   std::set<int> components;           // of the liquid in it, as NullSpace numbers them
+  bool surrounds = false;             // liquid lies around all walls; none lies around the liquid
 };
 
-// Patches that touch the same liquid are walls of one cavity, if one of them is open or lies around the liquid. Walls
-// that do not close, or that touch liquid with a given pressure, are left out. Cavities with open patches are also left
-// out if they hold enclosed air, or if their volume is prescribed in part. An inflow does that, a pinned node of a
-// closed wall, or a prescribed solid that does not move like the pins. Collective.
+// Patches that touch the same liquid are walls of one cavity: some are open, or one lies around the liquid, or liquid
+// lies around them all. Walls that do not close, or that touch liquid with a given pressure, are left out. Cavities
+// that no wall lies around are also left out if they hold enclosed air, or if their volume is prescribed in part. An
+// inflow does that, and a prescribed solid that does not move like the pins. So does a pinned node of a closed wall
+// beside open ones. Bodies that liquid surrounds must be wet all over. Collective.
 template <int Dim>
 std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                             const StepGeometry<Dim>& geometry, const PressureRows<Dim>& rows,

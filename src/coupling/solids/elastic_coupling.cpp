@@ -6,6 +6,7 @@
 #include "base/scene.h"
 #include "coupling/solids/face_columns.h"
 #include "coupling/solids/facet_fluxes.h"
+#include "coupling/solids/pressure_around.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -132,6 +133,18 @@ double highest_pressure_beside(const Domain<Dim>& domain, const FaceShares& shar
   return domain.ranks.global_max(most);
 }
 
+// Pressure of the liquid that the body takes to the end of the step. Collective.
+template <int Dim>
+HeldPressure<Dim> held_pressure_of(const CoupledStep<Dim>& step, const ElasticSolid<Dim>& solid,
+                                   const ElasticMotion& motion, const FaceShares& shares) {
+  const Domain<Dim>& domain = step.setup.domain;
+  const Eigen::VectorXd& u = motion.state.u;
+  const CellField<Dim>& pressure = step.state.pressure;
+  if (is_shut_in(solid, motion))
+    return hold_pressure(solid.body, u, pressure_around(domain, shares, step.rows, pressure, solid.body, u));
+  return hold_pressure(solid.body, u, highest_pressure_beside(domain, shares, step.rows, pressure));
+}
+
 // All corrections, by cell.
 template <int Dim>
 std::shared_ptr<const CellFluxes> added_fluxes(const BodyEntries& body, const PressureRows<Dim>& rows) {
@@ -253,8 +266,8 @@ void couple_elastic_body(const CoupledStep<Dim>& step, int k, const ElasticMotio
   send_air_rows_to_owner(s.domain, rows, mine.shown, mine.entries);
   parts.entries.push_back(std::move(mine));
   c.J.blocks[std::size_t(block)].loads = smooth_loads<Dim>(solid.body, e.u);
-  const double most = highest_pressure_beside(s.domain, shares, rows, state.pressure);
-  const ElasticShare<Dim> share{&solid.body, &e.u, first, hold_pressure(solid.body, e.u, most), solid.pins.empty()};
+  const ElasticShare<Dim> share{&solid.body, &e.u, first, held_pressure_of(step, solid, motion, shares),
+                                solid.pins.empty()};
   parts.potentials.push_back(std::make_shared<ElasticPotential<Dim>>(std::vector{share}, c.size(),
                                                                      s.perturbation.elastic_forces * dt, horizon,
                                                                      std::make_shared<RankShare>(s.domain.ranks)));

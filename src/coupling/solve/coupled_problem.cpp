@@ -94,7 +94,7 @@ void CoupledProblem<Dim>::linearise_at(const Eigen::VectorXd& v) {
 template <int Dim>
 Vector CoupledProblem<Dim>::with_missing_fluxes(Vector b, double by) const {
   for (std::size_t n = 0; n < missing_.size(); ++n)
-    for (const int row : coupling_.cavities[n].rows) b[std::size_t(row)] += by * missing_[n];
+    for (const auto& [row, share] : coupling_.cavities[n].rows) b[std::size_t(row)] += by * share * missing_[n];
   return b;
 }
 

@@ -22,7 +22,7 @@ class CoupledProblem : public InertiaProblem {
   int size() const override { return coupling_.size(); }
   bool holds(const Eigen::VectorXd& v) const override;
   void linearise_at(const Eigen::VectorXd& v) override;
-  // Missing flux out of the rows of each of coupling.cavities in the last solve, per face area, m/s.
+  // Missing flux out of all rows of each of coupling.cavities in the last solve, per face area, m/s.
   const std::vector<double>& missing_fluxes() const { return missing_; }
   const SolveReport& report() const { return report_; }  // of all solves so far
 

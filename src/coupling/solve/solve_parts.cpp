@@ -116,8 +116,8 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.report = problem.report();
   r.report.iterations += earlier;
   for (std::size_t n = 0; n < coupling.cavities.size(); ++n)
-    for (const int row : coupling.cavities[n].rows)
-      in.geometry.faces.cell_flux.add(r.rows.cells[std::size_t(row)], problem.missing_fluxes()[n]);
+    for (const auto& [row, share] : coupling.cavities[n].rows)
+      in.geometry.faces.cell_flux.add(r.rows.cells[std::size_t(row)], share * problem.missing_fluxes()[n]);
   return std::move(m.velocity);
 }
 

@@ -40,9 +40,18 @@ HeldPressure<Dim> hold_pressure(const ElasticBody<Dim>& body, const Eigen::Vecto
   return held;
 }
 
-#define SEICHE_INSTANTIATE(D)      \
-  template struct HeldPressure<D>; \
-  template HeldPressure<D> hold_pressure<D>(const ElasticBody<D>&, const Eigen::VectorXd&, double);
+template <int Dim>
+HeldPressure<Dim> hold_pressure(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, std::vector<double> pressure) {
+  HeldPressure<Dim> held;
+  held.pressure = std::move(pressure);
+  for (std::size_t q = 0; q < held.pressure.size(); ++q) held.start.push_back(deformation_at(body, int(q), u));
+  return held;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                       \
+  template struct HeldPressure<D>;                                                                  \
+  template HeldPressure<D> hold_pressure<D>(const ElasticBody<D>&, const Eigen::VectorXd&, double); \
+  template HeldPressure<D> hold_pressure<D>(const ElasticBody<D>&, const Eigen::VectorXd&, std::vector<double>);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

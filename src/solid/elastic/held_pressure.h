@@ -13,13 +13,14 @@ struct ElasticBody;
 // is below p gains energy from its own motion. Hence the pressure follows the volume to the end of the step, too: each
 // quadrature point gets the energy density
 //   p (det F - det F_0 - cof F_0 : (F - F_0)),   p = min(most, -tr sigma(F_0)/Dim) >= 0.
-// It vanishes with its slope at F_0. p is the stress that the outside can cause, at most its highest pressure.
+// It vanishes with its slope at F_0. p is the stress that the outside can cause, at most its highest pressure. A body
+// that closed liquid surrounds is given the liquid's pressure instead (coupling/solids/pressure_around).
 template <int Dim>
 struct HeldPressure {
   std::vector<double> pressure;      // Pa, one a quadrature point; empty: none
   std::vector<Gradient<Dim>> start;  // F_0
 
-  bool acts(int point) const { return !pressure.empty() && pressure[std::size_t(point)] > 0; }
+  bool acts(int point) const { return !pressure.empty() && pressure[std::size_t(point)] != 0; }
   double energy(int point, const Gradient<Dim>& F) const;           // J/m^3
   Gradient<Dim> stress(int point, const Gradient<Dim>& F) const;    // Pa
   Hessian<Dim> stiffness(int point, const Gradient<Dim>& F) const;  // Pa
@@ -28,5 +29,9 @@ struct HeldPressure {
 // `most`: the highest pressure beside the body, Pa; if not positive, nothing is held.
 template <int Dim>
 HeldPressure<Dim> hold_pressure(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, double most);
+
+// The pressure is given, Pa, one a quadrature point; it may be negative.
+template <int Dim>
+HeldPressure<Dim> hold_pressure(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, std::vector<double> pressure);
 
 }  // namespace seiche
