@@ -43,8 +43,7 @@ void correct_wall(const Domain<Dim>& domain, const PressureRows<Dim>& rows, cons
     const std::vector<double> d = least.solve(wanted);
     for (std::size_t i = 0; i < d.size(); ++i) {
       const auto [row, node] = graph.links()[i];
-      if (row >= rows.first && row < rows.first + Row(rows.cells.size()))
-        entries.push_back({int(row - rows.first), Dim * int(node) + axis, d[i]});
+      if (rows.owns(row)) entries.push_back({int(row - rows.first), Dim * int(node) + axis, d[i]});
     }
   }
 }
@@ -126,7 +125,7 @@ Eigen::VectorXd lacking_flux(const Eigen::VectorXd& gradient, double face_area, 
   return -gradient / face_area - Eigen::Map<const Eigen::VectorXd>(sums.data(), gradient.size());
 }
 
-// -(dV/du) w + A_f (prescribed + flux) = -(V(u + H w) - volume)/H, solved for the flux.
+// -gradient w + A_f (prescribed + flux) = -(V(u + H w) - volume)/H, solved for the flux.
 template <int Dim>
 double CavityConstraint<Dim>::missing_flux(const Eigen::VectorXd& w) const {
   double linear = 0;

@@ -331,11 +331,12 @@ std::vector<FoundCavity<Dim>> find_cavities(const Domain<Dim>& domain, const Sol
         join({{{&solid, b.body, int(p)}}, {std::move(patch.links)}, patch.components}, joined);
     }
   }
-  std::erase_if(joined, [&](FoundCavity<Dim>& found) {
+  for (FoundCavity<Dim>& found : joined)
+    found.surrounds = !has_open_wall(found.walls) && !has_vessel(found.walls, motions);
+  std::erase_if(joined, [&](const FoundCavity<Dim>& found) {
     if (std::any_of(half_open.begin(), half_open.end(), [&](const auto& p) { return is_moved_by(found, p); }))
       return true;
     const bool open = has_open_wall(found.walls);
-    found.surrounds = !open && !has_vessel(found.walls, motions);
     if (!open && !found.surrounds) return false;
     if (open ? has_pinned_closed_wall(found.walls) || !can_be_closed(found.walls)
              : !are_wet_all_over(domain, solids, found.walls, motions, bodies))

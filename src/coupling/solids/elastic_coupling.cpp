@@ -133,6 +133,13 @@ double highest_pressure_beside(const Domain<Dim>& domain, const FaceShares& shar
   return domain.ranks.global_max(most);
 }
 
+// True if liquid without a given pressure surrounded the body in the last solve, and the body has no cavities: further
+// patches would lie around them.
+template <int Dim>
+bool is_surrounded(const ElasticSolid<Dim>& solid, const ElasticMotion& motion) {
+  return solid.patches.size() == 1 && solid.patches[0].is_closed() && motion.cavity[0] >= 0;
+}
+
 // Pressure of the liquid that the body takes to the end of the step. Collective.
 template <int Dim>
 HeldPressure<Dim> held_pressure_of(const CoupledStep<Dim>& step, const ElasticSolid<Dim>& solid,
@@ -140,7 +147,7 @@ HeldPressure<Dim> held_pressure_of(const CoupledStep<Dim>& step, const ElasticSo
   const Domain<Dim>& domain = step.setup.domain;
   const Eigen::VectorXd& u = motion.state.u;
   const CellField<Dim>& pressure = step.state.pressure;
-  if (is_shut_in(solid, motion))
+  if (is_surrounded(solid, motion))
     return hold_pressure(solid.body, u, pressure_around(domain, shares, step.rows, pressure, solid.body, u));
   return hold_pressure(solid.body, u, highest_pressure_beside(domain, shares, step.rows, pressure));
 }

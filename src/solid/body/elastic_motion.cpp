@@ -4,12 +4,6 @@
 
 namespace seiche {
 
-// Further patches would lie around cavities within.
-template <int Dim>
-bool is_shut_in(const ElasticSolid<Dim>& solid, const ElasticMotion& motion) {
-  return solid.patches.size() == 1 && solid.patches[0].is_closed() && motion.cavity[0] >= 0;
-}
-
 template <int Dim>
 ElasticMotion initial_elastic_motion(const Body<Dim>& body) {
   ElasticMotion m;
@@ -95,7 +89,6 @@ BodyAverage average(const ElasticBody<Dim>& body, const Eigen::VectorXd& u, cons
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                          \
-  template bool is_shut_in<D>(const ElasticSolid<D>&, const ElasticMotion&);                           \
   template ElasticMotion initial_elastic_motion<D>(const Body<D>&);                                    \
   template void advance<D>(const ElasticBody<D>&, ElasticScheme, double, const StepLoad&, const Pins&, \
                            ElasticMotion&);                                                            \

@@ -16,10 +16,6 @@ struct ElasticMotion {
   Eigen::VectorXd reaction;  // force and torque from the pins in the last solve, stacked likewise
 };
 
-// True if the body is solid throughout and liquid without a given pressure surrounded it in the last solve.
-template <int Dim>
-bool is_shut_in(const ElasticSolid<Dim>& solid, const ElasticMotion& motion);
-
 using ElasticMotions = std::vector<const ElasticMotion*>;  // one a solid; null: not elastic
 
 // The rest shape with the scene's initial velocities.
