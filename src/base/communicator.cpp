@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/emergency_channel.h"
 #include "base/error.h"
 #include "base/patient_yield.h"
 
@@ -60,6 +61,7 @@ MpiSession::MpiSession(int& argc, char**& argv) {
   }
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  choose_patience(Communicator());
 }
 
 MpiSession::~MpiSession() {

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/patient_yield.h"
+
 namespace seiche {
 
 EmergencyChannel::EmergencyChannel(const Communicator& ranks) : codes_(std::size_t(ranks.size()), 0) {
@@ -66,6 +68,10 @@ int processors_of_this_machine(const Communicator& ranks) {
   int count = 0;
   for (const unsigned long word : mask) count += std::popcount(word);
   return count > 0 ? count : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
+void choose_patience(const Communicator& ranks) {
+  spin_before_yields(ranks_on_this_machine(ranks) <= processors_of_this_machine(ranks));
 }
 
 }  // namespace seiche

@@ -39,4 +39,7 @@ int ranks_on_this_machine(const Communicator& ranks);
 // Number of this machine's processors that its ranks may run on, each counted once. Collective.
 int processors_of_this_machine(const Communicator& ranks);
 
+// Waits begin with spinning only if each rank of this machine has a processor (patient_yield). Collective.
+void choose_patience(const Communicator& ranks);
+
 }  // namespace seiche

@@ -21,8 +21,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::chrono::microseconds patience{200};       // of spinning
+constexpr std::chrono::microseconds longest_spin{200};
 constexpr std::chrono::microseconds pause{5};  // between calls: a longer one begins a new wait
+std::chrono::microseconds patience = longest_spin;
 
 constexpr std::chrono::microseconds nap{20};                                  // the system adds some 50
 constexpr std::chrono::milliseconds slow_yield{1};                            // a shorter one met no other busy process
@@ -30,15 +31,6 @@ constexpr std::chrono::milliseconds shortest_trust{10}, longest_trust{1000};  //
 
 thread_local Clock::time_point last_call, wait_begun, naps_end;
 thread_local std::chrono::milliseconds trust = shortest_trust;
-
-// True if more ranks run on this machine than processors are free to them: a rank that spins then keeps another one
-// from the work that it waits for.
-bool ranks_outnumber_processors() {
-  const char* ranks = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");  // set by mpirun
-  cpu_set_t free_to_us;
-  return ranks && sched_getaffinity(0, sizeof(free_to_us), &free_to_us) == 0 &&
-         std::atoi(ranks) > CPU_COUNT(&free_to_us);
-}
 
 }  // namespace
 
@@ -71,7 +63,10 @@ void give_way() {
 
 void wait_patiently() {
   setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-  if (ranks_outnumber_processors()) patience = patience.zero();
+}
+
+void spin_before_yields(bool spin) {
+  patience = spin ? longest_spin : longest_spin.zero();
 }
 
 }  // namespace seiche

@@ -6,7 +6,7 @@
 namespace seiche {
 
 // True while the present wait of this thread is shorter than 200 us. Calls less than 5 us apart belong to one wait.
-// Always false where ranks outnumber the processors.
+// Always false after spin_before_yields(false).
 bool is_patient();
 
 // Marks the return from a yield, which belongs to the wait however long it took.
@@ -21,8 +21,11 @@ bool is_crowded();
 // Yields, or sleeps for some 70 us where it is crowded.
 void give_way();
 
-// Makes Open MPI call sched_yield() while it waits, unless the environment has its own choice. Waits begin with
-// spinning only if each rank on this machine has a processor. Before MPI_Init.
+// Makes Open MPI call sched_yield() while it waits, unless the environment has its own choice. Before MPI_Init.
 void wait_patiently();
+
+// Waits begin with spinning, or not. Not where ranks outnumber the processors of their machine: one that spins there
+// keeps the rank that it waits for from its work.
+void spin_before_yields(bool spin);
 
 }  // namespace seiche

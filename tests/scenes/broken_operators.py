@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Validation notices wrong operators: broken_operators.py SEICHE CASES OUT.
 
-For each main operator a quick case runs with the operator multiplied by a factor and must not pass. The unperturbed
-case passes. Factors are close to one if the case is sensitive enough.
+For each main operator a quick case runs with the operator multiplied by a factor and must not pass. That each case
+passes unperturbed is shown by the tests "validate: ...". Factors are close to one if the case is sensitive enough.
 """
 import pathlib
 import shutil
@@ -53,11 +53,6 @@ def main():
         if name not in {operator for operator, _, _ in BROKEN}:
             failures += 1
             print(f"no case is asked to notice a wrong {name}")
-    for case in sorted({case for _, _, case in BROKEN}):
-        run = validate(seiche, cases, out / "whole", case, [])
-        if run.returncode != 0:
-            failures += 1
-            print(f"{case} does not pass as it is ({run.returncode}):\n{run.stdout}{run.stderr}")
     for operator, factor, case in BROKEN:
         run = validate(seiche, cases, out / "broken", case, ["--break", f"{operator}:{factor}"])
         noticed = run.returncode in (1, 3)  # a missed bar; a run that could not continue
