@@ -75,4 +75,23 @@ TEST_CASE("a loose tolerance of the liquid's solves does not keep Newton's metho
   CHECK(loose <= 1.2 * tight);
 }
 
+// Each solve began from rest: four or five iterations in the last of a step.
+TEST_CASE("bodies go on from the velocities that they had for another viscosity", "[elastic][viscous]") {
+  for (int dim : {2, 3}) {
+    Scene s = stirred_box(dim, ViscousSolve::coupled);
+    s.liquid.rheology.model = "power_law";
+    s.liquid.rheology.consistency = 50;
+    s.liquid.rheology.exponent = 0.5;
+    s.liquid.rheology.regularisation = 0.1;
+    const auto sim = make_simulation(s, Communicator());
+    for (int n = 0; n < 3; ++n) {
+      const StepStats stats = sim->step(1);
+      WARN(dim << "D: " << stats.rheology_iterations << " solves, " << stats.newton_iterations
+               << " iterations in the last");
+      CHECK(stats.rheology_iterations > 2);
+      CHECK(stats.newton_iterations <= 2);
+    }
+  }
+}
+
 }  // namespace elastic_viscous_tests

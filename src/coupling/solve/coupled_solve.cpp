@@ -108,17 +108,19 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   const Participants<Dim> solids = state.solids;
   CoupledSolution<Dim> r;
   CellField<Dim> from = input.guess;
+  Eigen::VectorXd moving = input.solids ? *input.solids : Eigen::VectorXd();
   do {
     input.geometry = still;
     state.solids = solids;
     CoupledSolution<Dim> trial = solve_once(CoupledInput<Dim>{
         input.setup, in, input.geometry, state, from, input.slope, input.flow, input.u_star, input.convected,
-        input.flux_of_end, input.horizon, input.viscosity, input.fault, input.at_walls});
+        input.flux_of_end, input.horizon, input.viscosity, input.fault, input.at_walls, &moving});
     add_up(r.report, trial.report);
     std::swap(trial.report, r.report);
     r = std::move(trial);
     if (!r.failure.empty()) return r;
     from = r.pressure;
+    moving = r.solids;
   } while (!search.has_converged_with(r.rows, r.closed_component, r.pressure, r.u_star));
   r.separation_error = search.error();
   return r;

@@ -24,6 +24,8 @@ struct CoupledInput {
   const ViscosityField<Dim>* viscosity;  // null: inviscid
   PhaseFault fault;
   const FlowAtWalls<Dim>* at_walls = nullptr;  // null: flow and motions at the start of the step
+  // Velocities of the bodies' unknowns in an earlier solve over this horizon; null or empty: none.
+  const Eigen::VectorXd* solids = nullptr;
 };
 
 template <int Dim>
@@ -34,6 +36,7 @@ struct CoupledSolution {
   std::vector<int> closed_component;  // one a row: its closed component; -1: pressure is given; empty: -1 everywhere
   SolveReport report;                 // iterations of all solves, the worst residual
   int newton_iterations = 0, contacts = 0;
+  bool friction_settled = true;          // ContactReport::friction
   Eigen::VectorXd solids;                // velocities of the bodies' unknowns
   Eigen::VectorXd reactions;             // N: constraint forces on the unknowns, 0 for free ones
   std::vector<SolidLoad> viscous_loads;  // one a solid; empty: inviscid liquid

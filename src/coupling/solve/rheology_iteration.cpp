@@ -1,6 +1,7 @@
 #include "coupling/solve/rheology_iteration.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/scene.h"
 #include "coupling/state/setup.h"
@@ -31,7 +32,7 @@ RheologyIteration<Dim>::RheologyIteration(const Setup<Dim>& s, const State<Dim>&
       viscosity_(measure_viscosity(s.domain, s.fluids, s.perturbation, state, flow)) {}
 
 template <int Dim>
-bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
+bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow, bool friction_settled) {
   if (setup_.fluids.liquid.rheology.model.empty()) return false;
   ++count_;
   const FaceField<Dim, char> near = faces_near_liquid(setup_.domain, state_.phi);
@@ -50,10 +51,11 @@ bool RheologyIteration<Dim>::differs_from(const TimeLevel<Dim>& flow) {
     });
   for (double& x : largest) x = setup_.domain.ranks.global_max(x);
   swings_ = swings_ || setup_.domain.ranks.global_sum(along) < 0;
-  change_ = largest[1] > 0 ? largest[0] / largest[1] : 0;
+  const double before = std::exchange(change_, largest[1] > 0 ? largest[0] / largest[1] : 0);
   last_ = u;
   if (change_ <= setup_.scene->solver.rheology_tolerance || count_ >= setup_.scene->solver.rheology_iterations)
     return false;
+  if (!friction_settled && count_ > 1 && change_ >= before) return false;
   ViscosityField<Dim> next = measure_viscosity(setup_.domain, setup_.fluids, setup_.perturbation, state_, flow);
   if (swings_) go_half_way(setup_.domain.layout, viscosity_, next);
   viscosity_ = std::move(next);

@@ -21,8 +21,9 @@ class RheologyIteration {
 
   // Takes the velocities of the last solve. True if another solve is due, with the new viscosity(): they changed by
   // more than solver.rheology_tolerance of the fastest, and there were fewer than solver.rheology_iterations solves.
-  // False for Newtonian liquid. Collective.
-  bool differs_from(const TimeLevel<Dim>& flow);
+  // False for Newtonian liquid, and where friction did not settle and the change does not fall: forces of friction that
+  // differ from solve to solve move the flow then. Collective.
+  bool differs_from(const TimeLevel<Dim>& flow, bool friction_settled);
 
  private:
   const Setup<Dim>& setup_;

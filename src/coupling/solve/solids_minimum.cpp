@@ -39,7 +39,7 @@ std::string settle(const Solids<Dim>& solids, const SolidCoupling<Dim>& coupling
   return r.failure;
 }
 
-// Contact with a liquid solve in each Newton iteration. Starts from the velocities `found` by the model, if any.
+// Contact with a liquid solve in each Newton iteration. Starts from the velocities `found` so far, if any.
 template <int Dim>
 ContactReport solve_in_turns(const Solids<Dim>& solids, const std::vector<ContactMotion>& motions, double dt,
                              double horizon, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
@@ -80,7 +80,7 @@ Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd re
 template <int Dim>
 SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, double dt, double horizon,
                               const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
-                              const InviscidLiquid<Dim>& liquid) {
+                              const InviscidLiquid<Dim>& liquid, const Eigen::VectorXd& start) {
   SolidsMinimum r;
   r.velocity = r.reaction = Eigen::VectorXd::Zero(problem.size());
   if (!s.solids.contact) {
@@ -94,11 +94,13 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
       contact_options(s.domain, s.scene->domain, s.scene->time, s.fluids.gravity, s.perturbation);
   ContactInLiquid modelled = solve_modelled(s.solids, s.scene->solver, motions, dt, horizon, coupling, liquid, options);
   ContactReport contact = std::move(modelled.contact);
+  if (contact.velocity.size() == 0 && problem.notices_indefinite()) contact.velocity = start;
   if (!modelled.agreed && contact.failure.empty())
     contact = solve_in_turns(s.solids, motions, dt, horizon, coupling, problem, options, contact);
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;
+  r.friction_settled = contact.friction != FrictionState::unsettled;
   r.impulses = std::move(contact.impulses);
   r.velocity = std::move(contact.velocity);
   if (coupling.potential && r.failure.empty()) r.reaction = held_part(coupling, std::move(contact.residual));
@@ -107,7 +109,7 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
 
 #define SEICHE_INSTANTIATE(D)                                                                                          \
   template SolidsMinimum minimise_solids<D>(const Setup<D>&, const State<D>&, double, double, const SolidCoupling<D>&, \
-                                            CoupledProblem<D>&, const InviscidLiquid<D>&);
+                                            CoupledProblem<D>&, const InviscidLiquid<D>&, const Eigen::VectorXd&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

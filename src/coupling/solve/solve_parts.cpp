@@ -106,10 +106,12 @@ template <int Dim>
 Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupling,
                              CoupledProblem<Dim>& problem, const InviscidLiquid<Dim>& inviscid,
                              CoupledSolution<Dim>& r) {
-  SolidsMinimum m = minimise_solids(in.setup, in.state, in.liquid.dt, in.horizon, coupling, problem, inviscid);
+  SolidsMinimum m = minimise_solids(in.setup, in.state, in.liquid.dt, in.horizon, coupling, problem, inviscid,
+                                    in.solids ? *in.solids : Eigen::VectorXd());
   r.failure = m.failure;
   r.newton_iterations = m.newton_iterations;
   r.contacts = m.contacts;
+  r.friction_settled = m.friction_settled;
   r.contact_power = contact_power(m.impulses, in);
   r.reactions = m.reaction / in.liquid.dt;
   const int earlier = r.report.iterations;

@@ -27,6 +27,7 @@ struct Attempt {
   SolveReport solve;
   double divergence = 0;  // largest |net flux|/volume of a cell, 1/s
   int newton_iterations = 0, contacts = 0;
+  bool friction_settled = true;  // ContactReport::friction, of the last solve
   SolvePowers powers;
   int rheology_iterations = 0;  // solves until viscosity and flow agree
   double rheology_change = 0;   // of velocity in the last of them, relative to the largest; 0: they agree

@@ -39,11 +39,18 @@ struct Solves {
   std::optional<CellField<Dim>> guess = {};       // Pa; empty: the pressure of the step before
   int iterations = 0;                             // of all solves
   std::optional<FlowAtWalls<Dim>> at_walls = {};  // empty: that at the start of the step
+  Eigen::VectorXd solids = {};                    // velocities of the bodies' unknowns over this horizon; empty: none
 
   // The pressure of a solve that failed may be anything.
   void go_on_from(Attempt<Dim> attempt) {
     iterations = attempt.solve.iterations;
     if (attempt.failure.empty()) guess = std::move(attempt.state.pressure);
+  }
+
+  // Bodies that do not meet within one horizon may within another.
+  void go_on_with_horizon(Attempt<Dim> attempt) {
+    go_on_from(std::move(attempt));
+    solids.resize(0);
   }
 };
 
@@ -118,13 +125,14 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   CoupledSolution<Dim> solution = solve_coupled(
       CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
                         task.predicted.convected, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault,
-                        earlier.at_walls ? &*earlier.at_walls : nullptr});
+                        earlier.at_walls ? &*earlier.at_walls : nullptr, &earlier.solids});
   out.state.convected_loads = task.predicted.convected.loads;
   out.powers.contact = solution.contact_power;
   out.solve = solution.report;
   out.solve.iterations += earlier.iterations;
   out.newton_iterations = solution.newton_iterations;
   out.contacts = solution.contacts;
+  out.friction_settled = solution.friction_settled;
   out.separation_error = solution.separation_error;
   out.failure = solution.failure;
   out.state.pressure = solution.pressure;
@@ -199,12 +207,15 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
 // One solve from where surface and solids stand, with a given viscosity (null: none).
 template <int Dim>
 Attempt<Dim> solve_once(const SolveTask<Dim>& task, Moved<Dim> moved, const ViscosityField<Dim>* viscosity,
-                        const Solves<Dim>& earlier) {
+                        Solves<Dim>& solves) {
   Attempt<Dim> out;
   out.state = std::move(moved.state);
   out.geometry = std::move(moved.geometry);
-  const CoupledSolution<Dim> solution = solve(task, viscosity, earlier, moved.end.get(), out);
-  if (out.failure.empty()) restore(task, solution, moved.end.get(), out);
+  CoupledSolution<Dim> solution = solve(task, viscosity, solves, moved.end.get(), out);
+  if (out.failure.empty()) {
+    restore(task, solution, moved.end.get(), out);
+    solves.solids = std::move(solution.solids);
+  }
   return out;
 }
 
@@ -220,7 +231,7 @@ Attempt<Dim> solve_viscous(const SolveTask<Dim>& task, const Moved<Dim>& moved, 
     Attempt<Dim> out = solve_once(task, moved, &implicit, solves);
     if (!out.failure.empty()) return out;
     auto at_walls = walls.due_after(out.state);
-    if (!rheology.differs_from(*out.state.now) && !at_walls) {
+    if (!rheology.differs_from(*out.state.now, out.friction_settled) && !at_walls) {
       out.rheology_iterations = rheology.count();
       out.rheology_change = rheology.change_left();
       out.state.viscous_rate = rheology.viscosity().largest / (task.s.fluids.density() * layout.h() * layout.h());
@@ -309,7 +320,7 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
       if (++plans > most_plans || can_go_as_planned(s, out.state)) return out;
       moved.state.horizon = choose_horizon(s, out.state, times.dt);
     }
-    solves.go_on_from(std::move(out));
+    solves.go_on_with_horizon(std::move(out));
   }
 }
 

@@ -1,6 +1,8 @@
 // Newton's method on e(v) + C(v) + P(v) with a collision-free line search (Li et al. 2020).
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "solid/contact/friction_updates.h"
 #include "solid/contact/path.h"
@@ -132,17 +134,26 @@ class Solver {
     return s * guess_;
   }
 
-  // Starts at rest or on the way of the guess, or with all of an earlier solve's motion.
-  bool begin(const Eigen::VectorXd& start) {
-    Eigen::VectorXd v = start.size() > 0 ? start : Eigen::VectorXd::Zero(inertia_.size());
-    if (start.size() > 0) share_ = 1;
+  // Places the bodies with velocities v. Returns what forbids Newton's method to start there; empty: nothing.
+  std::string obstacle_at(const Eigen::VectorXd& v) {
     at_ = place<Dim>(scene_, interval_, velocities(v, share_));
     pairs_ = find_candidates<Dim>(scene_, at_.points, at_.points, weights_.reach);
-    const double energy = contact_energy<Dim>(scene_, interval_, at_, pairs_, {}, weights_);
-    if (!std::isfinite(energy)) report_.failure = "bodies touch or overlap at the start of the step";
+    if (!std::isfinite(contact_energy<Dim>(scene_, interval_, at_, pairs_, {}, weights_)))
+      return "bodies touch or overlap at the start of the step";
     if (potential_ && !std::isfinite(potential_->energy(v)))
-      report_.failure = "elements of elastic bodies are inverted at the start of the step";
-    if (report_.failure.empty() && start.size() == 0) v = follow_guess();
+      return "elements of elastic bodies are inverted at the start of the step";
+    return {};
+  }
+
+  // Starts with all of an earlier solve's motion if nothing collides there, else at rest or on the way of the guess.
+  bool begin(const Eigen::VectorXd& start) {
+    Eigen::VectorXd v = start;
+    const double share = start.size() > 0 ? std::exchange(share_, 1.0) : share_;
+    if (start.size() == 0 || !obstacle_at(start).empty()) {
+      share_ = share;
+      report_.failure = obstacle_at(Eigen::VectorXd::Zero(inertia_.size()));
+      if (report_.failure.empty()) v = follow_guess();
+    }
     return report_.failure.empty() && take(inertia_.respond(v), e_) == Outcome::converged;
   }
 
@@ -246,11 +257,13 @@ class Solver {
   }
 
   // Line search: the longest step that is free of collisions and inversion and decreases the energy. Returns the share
-  // of the step, 0 on failure. Energies are not compared until prescribed degrees of freedom have reached their values.
+  // of the step, 0 on failure. Energies are not compared until prescribed degrees of freedom have reached their values,
+  // nor where the minimum of a convex model seems to lie uphill: the gradient of e, by which energies are compared, is
+  // then wrong by more than the way is worth, as after a start within the error of the liquid's solve from the minimum.
   double search(const InertiaResponse& goal) {
     const Eigen::VectorXd p = goal.velocity - e_.velocity;
     const double slope = p.dot(gradient_towards(goal) + terms_.gradient), left = 1 - share_;
-    const bool compares = !under_way();
+    const bool misled = slope >= 0 && inertia_.notices_indefinite(), compares = !under_way() && !misled;
     for (double s = potential_ ? potential_->step_bound(e_.velocity, p) : 1; s > least_step; s *= 0.5) {
       Walk<Dim> way =
           walk<Dim>(scene_, interval_, at_, velocities(e_.velocity + s * p, share_ + s * left), weights_.reach);
