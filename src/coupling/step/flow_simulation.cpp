@@ -276,10 +276,12 @@ class FlowSimulation : public Simulation {
   // Warns once.
   void warn_of_rheology(const Attempt<Dim>& a) {
     if (a.rheology_change == 0 || std::exchange(told_of_rheology_, true)) return;
+    const char* cause =
+        a.friction_settled ? "solver.rheology_tolerance, rheology_iterations" : "friction did not settle";
     phases_.warnings.push_back(fmt::format(
         "step {}: viscosity and flow do not agree after {} solves: the last one changed velocity by {:.1e} of the "
-        "largest (solver.rheology_tolerance, rheology_iterations); further steps like this one are not reported",
-        state_.step, a.rheology_iterations, a.rheology_change));
+        "largest ({}); further steps like this one are not reported",
+        state_.step, a.rheology_iterations, a.rheology_change, cause));
   }
 
   // Warns once.

@@ -4,7 +4,9 @@
 #include <sched.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cstdlib>
+#include <string>
 #include <thread>
 
 #include "base/emergency_channel.h"
