@@ -3,7 +3,6 @@
 #include "base/scene.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
-#include "coupling/transport/ripples.h"
 
 #include <catch2/catch.hpp>
 
@@ -109,7 +108,7 @@ std::pair<double, int> error_of_slow_transport(double way) {
   FaceField<Dim> flow(slab.layout);
   for (int a = 0; a < Dim; ++a) flow[a].fill(u[a]);
   CellField<Dim> phi(slab.layout, left);
-  carry_slow_near_closed(slab.setup.domain, slab.closed, flow, 1.0, before, phi);
+  carry_slow_near_closed(slab.setup.domain, slab.closed, GapFlow<Dim>(slab.layout), flow, 1.0, before, phi);
   double worst = 0;
   int count = 0;
   for_each_index_in_order(slab.layout, slab.layout.cells(), [&](Site c, const IVec<Dim>& i) {
@@ -119,51 +118,6 @@ std::pair<double, int> error_of_slow_transport(double way) {
     CHECK((!slab.closed[c] && std::abs(before[c]) < band));
   });
   return {worst, count};
-}
-
-// Brakes a velocity (m/s at faces) beside the slab, with the surface at y = 0.47.
-template <int Dim, class Velocity>
-std::pair<FaceField<Dim>, FaceField<Dim>> braked(double speed_now, const Velocity& velocity) {
-  const Slab<Dim> slab;
-  const CellField<Dim> phi = slab.level(0, [](const Vec<Dim>& x) { return x[1] - 0.47; });
-  TimeLevel<Dim> now = empty_level(slab.layout, false);
-  FaceField<Dim> u(slab.layout);
-  for (int a = 0; a < Dim; ++a) {
-    now.u[a].fill(speed_now);
-    for_each_index_in_order(slab.layout, slab.layout.faces(a),
-                            [&](Site f, const IVec<Dim>& i) { u.at(a, f) = velocity(i); });
-  }
-  fill_velocity_ghosts(slab.layout, slab.setup.domain.halo, slab.setup.domain.sides, u);
-  State<Dim> state;
-  state.now = std::make_shared<TimeLevel<Dim>>(std::move(now));
-  FaceField<Dim> v = u;
-  brake_ripples(slab.setup.domain, slab.setup.fluids.gravity, state, slab.geometry, slab.closed, phi, 0.01, v);
-  return {u, v};
-}
-
-template <int Dim>
-double sum_of_squares(const FaceField<Dim>& u, const Layout<Dim>& layout) {
-  double sum = 0;
-  for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(layout, layout.faces(a), [&](Site f, const IVec<Dim>&) { sum += u.at(a, f) * u.at(a, f); });
-  return sum;
-}
-
-// Ripples of two cells lose energy, uniform and fast flow is as it was.
-template <int Dim>
-void check_brake() {
-  const Slab<Dim> slab;
-  const Layout<Dim>& layout = slab.layout;
-  const auto ripple = [](const IVec<Dim>& i) { return i[0] % 2 == 0 ? 1.0 : -1.0; };
-  const auto [u, v] = braked<Dim>(0, ripple);
-  CHECK(sum_of_squares(v, layout) < sum_of_squares(u, layout) - 0.1);
-  const auto [even, even_after] = braked<Dim>(0, [](const IVec<Dim>&) { return 1.0; });
-  const auto [fast, fast_after] = braked<Dim>(1, ripple);
-  for (int a = 0; a < Dim; ++a)
-    for_each_index_in_order(layout, layout.faces(a), [&](Site f, const IVec<Dim>&) {
-      CHECK(even.at(a, f) == even_after.at(a, f));
-      CHECK(fast.at(a, f) == fast_after.at(a, f));
-    });
 }
 
 }  // namespace
@@ -204,11 +158,6 @@ TEST_CASE("phi that moves slowly near closed cells is carried without reading th
   }
   const auto [worst, cells] = error_of_slow_transport<2>(0.1);  // as transported
   CHECK(cells == 0);
-}
-
-TEST_CASE("slow ripples near a wall between two levels are braked, other flow is not") {
-  check_brake<2>();
-  check_brake<3>();
 }
 
 }  // namespace level_in_solids_tests

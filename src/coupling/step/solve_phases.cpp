@@ -14,7 +14,6 @@
 #include "coupling/transport/drifting.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
-#include "coupling/transport/ripples.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -281,8 +280,6 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
     let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),
               before.now->u, s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt,
               p.u_star);
-  if (moved.closed)
-    brake_ripples(s.domain, s.fluids.gravity, before, moved.geometry, *moved.closed, phi, times.dt, p.u_star);
   if (s.domain.sides.any_passes()) brake_entering(s.domain, moved.geometry.faces, times.dt, p.u_star);
   if (s.domain.sides.any_passes() || !s.solids.bodies.empty())  // else as transported, ghosts filled
     fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, p.u_star);

@@ -154,14 +154,14 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
                          ? prescribed_flow(s.domain, s.fluids, before, times.start + 0.5 * times.dt)
                          : before.exterior->surface_velocity(s.domain, s.fluids, before);
   CellField<Dim>& phi = moved.state.phi;
-  const CellField<Dim, char>& closed =
-      moved.closed.emplace(cells_to_continue(s.domain, s.solids, moved.geometry, phi, u, times.lead));
+  const CellField<Dim, char>& closed = moved.closed.emplace(closed_cells(s.domain, s.solids, moved.geometry));
+  const CellField<Dim, char> bent = cells_to_continue(s.domain, s.solids, moved.geometry, closed, phi, u, times.lead);
   // Redistancing after the transport covers ceil(cfl) + 1 cells: above cfl = 2 the half step before is too much.
   if (!times.leapfrog && may_leapfrog(s.features) && s.scene->time.cfl > 2)
-    make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
+    make_distance(s.domain, s.fluids, s.solids, s.scene->time, bent, phi);
   moved.failure = move_volumes(s, before, u, times, moved.geometry, moved.state);
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
-  make_distance(s.domain, s.fluids, s.solids, s.scene->time, closed, phi);
+  make_distance(s.domain, s.fluids, s.solids, s.scene->time, bent, phi);
   const bool is_trial = before.step == 0 && s.volume_sets_off() && !before.trial;
   if (is_trial && s.domain.sides.any_passes()) start_volume(s.domain, moved.geometry.psi, moved.state);
   inject(s.domain, fault, phi.data());

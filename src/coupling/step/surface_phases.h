@@ -28,7 +28,7 @@ struct Moved {
   std::optional<SurfaceTension<Dim>> tension;
   std::optional<CellField<Dim>> brought{};              // share of each cell that sources brought before the solve
   std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
-  std::optional<CellField<Dim, char>> closed{};         // cells_to_continue(); none in a look ahead
+  std::optional<CellField<Dim, char>> closed{};         // closed_cells(); none in a look ahead
   std::string failure{};                                // empty, or why the step cannot be taken
 };
 

@@ -1,5 +1,7 @@
 #include "coupling/thin/gap_flow.h"
 
+#include <algorithm>
+
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
@@ -35,6 +37,10 @@ bool is_slit(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces, int axis
 
 }  // namespace
 
+double share_of_slow(double way) {
+  return std::clamp((fast_way - way) / (fast_way - slow_way), 0.0, 1.0);
+}
+
 template <int Dim>
 GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved) {
   GapFlow<Dim> gap_flow(domain.layout);
@@ -47,22 +53,43 @@ GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>
 }
 
 // A plate of width L lifts off a floor with (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, if w u^2 is conserved.
-// This is the exact law for inviscid liquid that enters from rest.
+// This is the exact law for inviscid liquid that enters from rest. Faces that were not solved for have gap_flow.u = 0.
 template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
                       const Vec3& g, double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     for_each_narrow(domain.layout, faces, a, [&](Site f, const IVec<Dim>& i) {
       const double before = gap_flow.open.at(a, f), open = faces.open.at(a, f);
-      if (open <= before || !is_slit(domain.layout, faces, a, f, i)) return;
-      u.at(a, f) = gap_flow.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
+      const double last = gap_flow.u.at(a, f);
+      if (open > before && is_slit(domain.layout, faces, a, f, i)) {
+        u.at(a, f) = last * std::sqrt(before / open) + dt * g[a];
+      } else if (last != 0 && faces.kind_at(a, f) == FaceKind::open) {
+        const double own = last + dt * g[a], fastest = std::max(std::abs(last), std::abs(u.at(a, f) - dt * g[a]));
+        const double way = std::max(fastest * dt / domain.layout.h(), std::abs(open - before));
+        u.at(a, f) += share_of_slow(way) * (own - u.at(a, f));
+      }
     });
+}
+
+template <int Dim>
+void let_surface_through_gaps(const Domain<Dim>& domain, const GapFlow<Dim>& gap_flow, const CellField<Dim>& phi,
+                              double dt, FaceField<Dim>& u) {
+  for (int a = 0; a < Dim; ++a)
+    gap_flow.open[a].for_each_stored([&](Site f, double open) {
+      if (open >= least_open || (phi[f] < 0) == (phi[f - domain.layout.stride(a)] < 0)) return;
+      const double own = gap_flow.u.at(a, f) * open / least_open;
+      const double way = std::max(std::abs(own), std::abs(u.at(a, f))) * dt / domain.layout.h();
+      u.at(a, f) += share_of_slow(way) * (own - u.at(a, f));
+    });
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template GapFlow<D> measure_gap_flow<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&);             \
   template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const Vec3&, double, \
-                                    FaceField<D>&);
+                                    FaceField<D>&);                                                                   \
+  template void let_surface_through_gaps<D>(const Domain<D>&, const GapFlow<D>&, const CellField<D>&, double,         \
+                                            FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -10,16 +10,35 @@ namespace seiche {
 // extrapolated velocity there.
 constexpr double least_open = 0.2;
 
+// Ways of liquid or solids in a step, cells. Up to slow_way flow beside solids that stand still conserves its energy;
+// from fast_way on it does not get caught in slivers. Between them both are mixed.
+constexpr double slow_way = 0.02, fast_way = 0.1;
+
+// 1 for a way (cells) up to slow_way, 0 from fast_way on, linear between.
+double share_of_slow(double way);
+
 // Faces less open than least_open, with the velocities `solved` (m/s).
 template <int Dim>
 GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved);
 
-// On faces of slits that have widened,
+// The velocity before the pressure acts, on faces less open than least_open. On faces of slits that have widened,
 //   u = gap_flow.u sqrt(gap_flow.open/open) + dt g.
 // The velocity extrapolated from beside a slit misses the motion of the liquid within it, which has most of the inertia
 // of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
+// On other faces that slow flow passes,
+//   u = gap_flow.u + dt g.
+// With the velocity extrapolated from beside, the solve would gain energy there in each step, and waves would grow
+// along a solid's waterline (docs/decisions/0029-level-set-in-static-solids.md).
 template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
                       const Vec3& gravity, double dt, FaceField<Dim>& u);
+
+// The velocity that moves a slow surface, on faces less open than least_open between cells of phi (m) of either sign:
+//   u = gap_flow.u open / least_open.
+// The surface leaves a cell beside a solid through such a face. With the velocity extrapolated from beside, it would
+// not follow what the solve lets through, and liquid would vanish there. Fills ghosts. Collective.
+template <int Dim>
+void let_surface_through_gaps(const Domain<Dim>& domain, const GapFlow<Dim>& gap_flow, const CellField<Dim>& phi,
+                              double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -4,6 +4,7 @@
 
 #include "coupling/geometry/cell_distance.h"
 #include "coupling/state/solids.h"
+#include "coupling/thin/gap_flow.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 #include "levelset/extrapolate.h"
@@ -11,10 +12,9 @@
 namespace seiche {
 namespace {
 
-constexpr double filled_depth = 1.5;       // cells; psi of deforming bodies is exact to two
-constexpr int layers = 4;                  // a wall moves less in a step
-constexpr double near_zero = 2;            // cells
-constexpr double slow = 0.02, fast = 0.1;  // ways of liquid in a step, cells
+constexpr double filled_depth = 1.5;  // cells; psi of deforming bodies is exact to two
+constexpr int layers = 4;             // a wall moves less in a step
+constexpr double near_zero = 2;       // cells
 
 template <int Dim>
 bool is_in_deformed(const StepGeometry<Dim>& g, Site cell) {
@@ -124,6 +124,13 @@ double open_difference(const CellField<Dim, char>& closed, const CellField<Dim>&
   return (away > 0 ? 1 : -1) * (first - 0.5 * second);
 }
 
+// True if any cell of any rank is closed. Collective.
+template <int Dim>
+bool any_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed) {
+  const char* end = closed.data() + domain.layout.size();
+  return domain.ranks.any(std::any_of(closed.data(), end, [](char c) { return c != 0; }));
+}
+
 // Least difference of phi from its straight extrapolation that counts as a bend, cells. phi in closed cells creeps to
 // its distance step by step, and a bend that fell below the bound would set liquid at rest in motion.
 template <int Dim>
@@ -135,7 +142,7 @@ double least_bend(const Domain<Dim>& domain, const CellField<Dim>& phi, const Fa
     for (int a = 0; a < Dim; ++a)
       way = std::max({way, std::abs(u.at(a, c)), std::abs(u.at(a, c + domain.layout.stride(a)))});
   });
-  return std::clamp(domain.ranks.global_max(way) * dt / h, slow, fast);
+  return std::clamp(domain.ranks.global_max(way) * dt / h, slow_way, fast_way);
 }
 
 // True if a closed cell lies within two of a cell along an axis. Interpolation reads so far at the least way.
@@ -174,8 +181,8 @@ void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, co
 
 template <int Dim>
 CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
-                                       const CellField<Dim>& phi, const FaceField<Dim>& u, double dt) {
-  CellField<Dim, char> closed = closed_cells(domain, solids, g);
+                                       CellField<Dim, char> closed, const CellField<Dim>& phi, const FaceField<Dim>& u,
+                                       double dt) {
   if (solids.bodies.empty()) return closed;
   const double h = domain.layout.h(), least = least_bend(domain, phi, u, dt) * h;
   CellField<Dim> straight = phi;
@@ -197,8 +204,7 @@ template <int Dim>
 void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi) {
   const Site cells = domain.layout.size();
-  if (!domain.ranks.any(std::any_of(closed.data(), closed.data() + cells, [](char c) { return c != 0; })))
-    return redistance(domain.layout, domain.halo, options, phi);
+  if (!any_closed(domain, closed)) return redistance(domain.layout, domain.halo, options, phi);
   const CellField<Dim> within = phi;
   RedistanceOptions outside = options;
   outside.iterations /= passes;
@@ -216,11 +222,13 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
   redistance(domain.layout, domain.halo, options, phi, &open);
 }
 
-// phi(x - s) = phi - s . grad phi with the way s = u dt, for |s| <= slow; as transported for |s| >= fast.
+// phi(x - s) = phi - s . grad phi with the way s = u dt, for |s| <= slow_way; as transported for |s| >= fast_way.
 template <int Dim>
-void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const FaceField<Dim>& u,
-                            double dt, const CellField<Dim>& before, CellField<Dim>& phi) {
+void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const GapFlow<Dim>& gap_flow,
+                            FaceField<Dim> u, double dt, const CellField<Dim>& before, CellField<Dim>& phi) {
   const Layout<Dim>& layout = domain.layout;
+  if (!any_closed(domain, closed)) return;
+  let_surface_through_gaps(domain, gap_flow, before, dt, u);
   for_each_site(layout, layout.cells(), [&](Site c) {
     if (closed[c] || std::abs(before[c]) >= domain.band() || !is_near_closed(layout, closed, c)) return;
     double way = 0, carried = before[c];
@@ -230,8 +238,7 @@ void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char
       way = std::max(way, std::abs(s));
       carried -= s * open_difference(closed, before, c, d);
     }
-    const double share = std::clamp((fast - way) / (fast - slow), 0.0, 1.0);
-    phi[c] += share * (carried - phi[c]);
+    phi[c] += share_of_slow(way) * (carried - phi[c]);
   });
 }
 
@@ -252,13 +259,13 @@ void keep_sides_of_walls(const Domain<Dim>& domain, const StepGeometry<Dim>& g, 
 template CellField<2, char> closed_cells<2>(const Domain<2>&, const Solids<2>&, const StepGeometry<2>&);
 template CellField<3, char> closed_cells<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&);
 template CellField<2, char> cells_to_continue<2>(const Domain<2>&, const Solids<2>&, const StepGeometry<2>&,
-                                                 const CellField<2>&, const FaceField<2>&, double);
+                                                 CellField<2, char>, const CellField<2>&, const FaceField<2>&, double);
 template CellField<3, char> cells_to_continue<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&,
-                                                 const CellField<3>&, const FaceField<3>&, double);
-template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, char>&, const FaceField<2>&, double,
-                                        const CellField<2>&, CellField<2>&);
-template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const FaceField<3>&, double,
-                                        const CellField<3>&, CellField<3>&);
+                                                 CellField<3, char>, const CellField<3>&, const FaceField<3>&, double);
+template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, char>&, const GapFlow<2>&, FaceField<2>,
+                                        double, const CellField<2>&, CellField<2>&);
+template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const GapFlow<3>&, FaceField<3>,
+                                        double, const CellField<3>&, CellField<3>&);
 template void continue_level_set<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&, CellField<2>&);
 template void continue_level_set<3>(const Domain<3>&, const Solids<3>&, const CellField<3, char>&, CellField<3>&);
 template void redistance_beside_solids<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&,

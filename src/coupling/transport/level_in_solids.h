@@ -19,14 +19,14 @@ template <int Dim>
 void continue_level_set(const Domain<Dim>& domain, const Solids<Dim>& solids, const CellField<Dim, char>& closed,
                         CellField<Dim>& phi);
 
-// Closed cells of the solids in which phi is bent: in some cell near the zero it differs from its straight
+// The closed cells of the solids in which phi is bent: in some cell near the zero it differs from its straight
 // extrapolation by more than a fiftieth of a cell. The bound is the way of the fastest liquid near the surface in
 // dt (s), by u (m/s), where that is longer, up to a tenth of a cell. In other solids both are equally good and phi is
 // kept, since narrow gaps between small solids amplify extrapolation. Ghosts filled. Collective.
 template <int Dim>
 CellField<Dim, char> cells_to_continue(const Domain<Dim>& domain, const Solids<Dim>& solids,
-                                       const StepGeometry<Dim>& geometry, const CellField<Dim>& phi,
-                                       const FaceField<Dim>& u, double dt);
+                                       const StepGeometry<Dim>& geometry, CellField<Dim, char> closed,
+                                       const CellField<Dim>& phi, const FaceField<Dim>& u, double dt);
 
 // Makes phi a distance outside the closed cells, with its straight extrapolation inside them. Then makes it a distance
 // inside them, with the outside fixed. Closed cells that stand for a wall's other side are not read from this one.
@@ -39,11 +39,12 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
                               const RedistanceOptions& options, int passes, CellField<Dim>& phi);
 
 // Transports phi anew from `before` in open cells near closed ones where the velocity u (m/s) moves it by less than a
-// tenth of a cell in dt (s). There phi in closed cells is not read: it bends towards the level on the wall's other
-// side, and the slope along the wall that transport sees drives waves that grow. Faster fronts run on into the wall.
+// tenth of a cell in dt (s). There the surface follows what the solve lets through narrow faces
+// (let_surface_through_gaps()), and phi in closed cells is not read: it bends towards the level on the wall's other
+// side. Otherwise waves at a waterline would grow. Faster fronts run on into the wall. Collective.
 template <int Dim>
-void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const FaceField<Dim>& u,
-                            double dt, const CellField<Dim>& before, CellField<Dim>& phi);
+void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const GapFlow<Dim>& gap_flow,
+                            FaceField<Dim> u, double dt, const CellField<Dim>& before, CellField<Dim>& phi);
 
 // Keeps phi on the two sides of thick elastic walls apart. In elastic bodies phi moves with the body only near its
 // surface. Deeper inside it stays behind, and liquid from one side would emerge at the other. Four layers from a depth

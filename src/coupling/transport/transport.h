@@ -12,7 +12,7 @@ namespace seiche {
 struct TimeSpec;
 
 // Transports phi from time t to t + dt (s) with the velocity `path` (m/s). Joins it with inflow and sources. `state`
-// gives the positions of the solids, `closed` the cells of cells_to_continue(). Returns what sources brought. Throws as
+// gives the positions of the solids, `closed` the cells of closed_cells(). Returns what sources brought. Throws as
 // check_forces_of_step() does. Fills ghosts. Collective.
 template <int Dim>
 Brought<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t,
