@@ -274,7 +274,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
   p.by_sources = std::move(transported.by_sources);
-  set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow,
+  set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, phi, before.now->valid,
                    s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
   if (s.volume_lags())
     let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),

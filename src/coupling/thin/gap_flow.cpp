@@ -56,16 +56,21 @@ GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>
 // This is the exact law for inviscid liquid that enters from rest. Faces that were not solved for have gap_flow.u = 0.
 template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
-                      const Vec3& g, double dt, FaceField<Dim>& u) {
+                      const CellField<Dim>& phi, const FaceField<Dim, char>& valid, const Vec3& g, double dt,
+                      FaceField<Dim>& u) {
+  const double h = domain.layout.h();
   for (int a = 0; a < Dim; ++a)
     for_each_narrow(domain.layout, faces, a, [&](Site f, const IVec<Dim>& i) {
       const double before = gap_flow.open.at(a, f), open = faces.open.at(a, f);
       const double last = gap_flow.u.at(a, f);
       if (open > before && is_slit(domain.layout, faces, a, f, i)) {
         u.at(a, f) = last * std::sqrt(before / open) + dt * g[a];
-      } else if (last != 0 && faces.kind_at(a, f) == FaceKind::open) {
+        return;
+      }
+      const double depth = std::min(std::abs(phi[f]), std::abs(phi[f - domain.layout.stride(a)]));
+      if (last != 0 && depth < 2 * h && !valid.at(a, f) && faces.kind_at(a, f) == FaceKind::open) {
         const double own = last + dt * g[a], fastest = std::max(std::abs(last), std::abs(u.at(a, f) - dt * g[a]));
-        const double way = std::max(fastest * dt / domain.layout.h(), std::abs(open - before));
+        const double way = std::max(fastest * dt / h, std::abs(open - before));
         u.at(a, f) += share_of_slow(way) * (own - u.at(a, f));
       }
     });
@@ -73,10 +78,10 @@ void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces,
 
 template <int Dim>
 void let_surface_through_gaps(const Domain<Dim>& domain, const GapFlow<Dim>& gap_flow, const CellField<Dim>& phi,
-                              double dt, FaceField<Dim>& u) {
+                              const FaceField<Dim, char>& valid, double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     gap_flow.open[a].for_each_stored([&](Site f, double open) {
-      if (open >= least_open || (phi[f] < 0) == (phi[f - domain.layout.stride(a)] < 0)) return;
+      if (open >= least_open || valid.at(a, f) || (phi[f] < 0) == (phi[f - domain.layout.stride(a)] < 0)) return;
       const double own = gap_flow.u.at(a, f) * open / least_open;
       const double way = std::max(std::abs(own), std::abs(u.at(a, f))) * dt / domain.layout.h();
       u.at(a, f) += share_of_slow(way) * (own - u.at(a, f));
@@ -86,10 +91,10 @@ void let_surface_through_gaps(const Domain<Dim>& domain, const GapFlow<Dim>& gap
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template GapFlow<D> measure_gap_flow<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&);             \
-  template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const Vec3&, double, \
-                                    FaceField<D>&);                                                                   \
-  template void let_surface_through_gaps<D>(const Domain<D>&, const GapFlow<D>&, const CellField<D>&, double,         \
-                                            FaceField<D>&);
+  template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const CellField<D>&, \
+                                    const FaceField<D, char>&, const Vec3&, double, FaceField<D>&);                   \
+  template void let_surface_through_gaps<D>(const Domain<D>&, const GapFlow<D>&, const CellField<D>&,                 \
+                                            const FaceField<D, char>&, double, FaceField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

@@ -25,20 +25,22 @@ GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>
 //   u = gap_flow.u sqrt(gap_flow.open/open) + dt g.
 // The velocity extrapolated from beside a slit misses the motion of the liquid within it, which has most of the inertia
 // of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
-// On other faces that slow flow passes,
+// On other faces within two cells of the surface that slow flow passes, unless transport reads them (`valid`),
 //   u = gap_flow.u + dt g.
 // With the velocity extrapolated from beside, the solve would gain energy there in each step, and waves would grow
-// along a solid's waterline (docs/decisions/0029-level-set-in-static-solids.md).
+// along a solid's waterline (docs/decisions/0029-level-set-in-static-solids.md). phi in m.
 template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
-                      const Vec3& gravity, double dt, FaceField<Dim>& u);
+                      const CellField<Dim>& phi, const FaceField<Dim, char>& valid, const Vec3& gravity, double dt,
+                      FaceField<Dim>& u);
 
-// The velocity that moves a slow surface, on faces less open than least_open between cells of phi (m) of either sign:
+// The velocity that moves a slow surface, on faces less open than least_open between cells of phi (m) of either sign,
+// unless transport reads them (`valid`):
 //   u = gap_flow.u open / least_open.
 // The surface leaves a cell beside a solid through such a face. With the velocity extrapolated from beside, it would
 // not follow what the solve lets through, and liquid would vanish there. Fills ghosts. Collective.
 template <int Dim>
 void let_surface_through_gaps(const Domain<Dim>& domain, const GapFlow<Dim>& gap_flow, const CellField<Dim>& phi,
-                              double dt, FaceField<Dim>& u);
+                              const FaceField<Dim, char>& valid, double dt, FaceField<Dim>& u);
 
 }  // namespace seiche

@@ -224,11 +224,11 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
 
 // phi(x - s) = phi - s . grad phi with the way s = u dt, for |s| <= slow_way; as transported for |s| >= fast_way.
 template <int Dim>
-void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const GapFlow<Dim>& gap_flow,
+void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const State<Dim>& state,
                             FaceField<Dim> u, double dt, const CellField<Dim>& before, CellField<Dim>& phi) {
   const Layout<Dim>& layout = domain.layout;
   if (!any_closed(domain, closed)) return;
-  let_surface_through_gaps(domain, gap_flow, before, dt, u);
+  let_surface_through_gaps(domain, state.gap_flow, before, state.now->valid, dt, u);
   for_each_site(layout, layout.cells(), [&](Site c) {
     if (closed[c] || std::abs(before[c]) >= domain.band() || !is_near_closed(layout, closed, c)) return;
     double way = 0, carried = before[c];
@@ -262,9 +262,9 @@ template CellField<2, char> cells_to_continue<2>(const Domain<2>&, const Solids<
                                                  CellField<2, char>, const CellField<2>&, const FaceField<2>&, double);
 template CellField<3, char> cells_to_continue<3>(const Domain<3>&, const Solids<3>&, const StepGeometry<3>&,
                                                  CellField<3, char>, const CellField<3>&, const FaceField<3>&, double);
-template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, char>&, const GapFlow<2>&, FaceField<2>,
+template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, char>&, const State<2>&, FaceField<2>,
                                         double, const CellField<2>&, CellField<2>&);
-template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const GapFlow<3>&, FaceField<3>,
+template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const State<3>&, FaceField<3>,
                                         double, const CellField<3>&, CellField<3>&);
 template void continue_level_set<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&, CellField<2>&);
 template void continue_level_set<3>(const Domain<3>&, const Solids<3>&, const CellField<3, char>&, CellField<3>&);

@@ -43,7 +43,7 @@ void redistance_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& soli
 // (let_surface_through_gaps()), and phi in closed cells is not read: it bends towards the level on the wall's other
 // side. Otherwise waves at a waterline would grow. Faster fronts run on into the wall. Collective.
 template <int Dim>
-void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const GapFlow<Dim>& gap_flow,
+void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const State<Dim>& state,
                             FaceField<Dim> u, double dt, const CellField<Dim>& before, CellField<Dim>& phi);
 
 // Keeps phi on the two sides of thick elastic walls apart. In elastic bodies phi moves with the body only near its

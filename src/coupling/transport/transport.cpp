@@ -259,7 +259,7 @@ Brought<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, Fac
   const double span = s.perturbation.surface_advection * dt;
   advect_level_set(s.domain.layout, path, span, s.domain.band(), joined, phi, how);
   if (!s.fluids.has_prescribed_flow())
-    carry_slow_near_closed(s.domain, closed, state.gap_flow, std::move(path), span, joined, phi);
+    carry_slow_near_closed(s.domain, closed, state, std::move(path), span, joined, phi);
   fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
   return add_sources(s.domain, s.solids, s.sources, state, t, t + dt, phi);
 }

@@ -32,11 +32,15 @@ struct OneNarrowFace {
 
 // Velocity on the face before the pressure acts, m/s, where transport found `transported` there.
 template <int Dim>
-double velocity_before_pressure(double solved, double transported) {
+double velocity_before_pressure(double solved, double transported, bool is_read = false, double depth = 0) {
   const OneNarrowFace<Dim> box(solved);
   FaceField<Dim> u(box.layout);
+  FaceField<Dim, char> valid(box.layout);
+  valid.at(1, box.face) = is_read;
+  CellField<Dim> phi(box.layout);
+  for (Site s = 0; s < box.layout.size(); ++s) phi[s] = -depth;
   u.at(1, box.face) = transported + dt * fall;
-  set_gap_velocity(box.setup.domain, box.faces, box.gap_flow, Vec3(0, fall, 0), dt, u);
+  set_gap_velocity(box.setup.domain, box.faces, box.gap_flow, phi, valid, Vec3(0, fall, 0), dt, u);
   return u.at(1, box.face) - dt * fall;
 }
 
@@ -48,7 +52,7 @@ double velocity_of_surface(double solved, double extrapolated, bool at_surface) 
   u.at(1, box.face) = extrapolated;
   CellField<Dim> phi(box.layout);
   for (Site s = 0; s < box.layout.size(); ++s) phi[s] = at_surface && s >= box.face ? 0.1 : -0.1;
-  let_surface_through_gaps(box.setup.domain, box.gap_flow, phi, dt, u);
+  let_surface_through_gaps(box.setup.domain, box.gap_flow, phi, FaceField<Dim, char>(box.layout), dt, u);
   return u.at(1, box.face);
 }
 
@@ -58,6 +62,8 @@ void check_narrow_face() {
   CHECK(velocity_before_pressure<Dim>(slow, 3 * slow) == Approx(slow).epsilon(1e-12));
   CHECK(velocity_before_pressure<Dim>(slow, fast) == Approx(fast).epsilon(1e-12));
   CHECK(velocity_before_pressure<Dim>(0, slow) == Approx(slow).epsilon(1e-12));  // was not solved for
+  CHECK(velocity_before_pressure<Dim>(slow, 3 * slow, true) == Approx(3 * slow).epsilon(1e-12));
+  CHECK(velocity_before_pressure<Dim>(slow, 3 * slow, false, 0.5) == Approx(3 * slow).epsilon(1e-12));
   CHECK(velocity_of_surface<Dim>(slow, 3 * slow, true) == Approx(slow / 2).epsilon(1e-12));
   CHECK(velocity_of_surface<Dim>(slow, fast, true) == fast);
   CHECK(velocity_of_surface<Dim>(slow, 3 * slow, false) == 3 * slow);
