@@ -12,6 +12,7 @@
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
 #include "coupling/transport/drifting.h"
+#include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
 #include "coupling/transport/transport.h"
@@ -274,8 +275,10 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
   p.by_sources = std::move(transported.by_sources);
-  set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, phi, before.now->valid,
-                   s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt, p.u_star);
+  const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
+  set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, gravity, times.dt, p.u_star);
+  if (moved.closed)
+    keep_inertia_near_closed(s.domain, moved.geometry.faces, *moved.closed, before, phi, gravity, times.dt, p.u_star);
   if (s.volume_lags())
     let_drift(s.domain, moved.geometry.faces, moved.state.liquid, drifting_cells(s.domain, phi, moved.state.liquid),
               before.now->u, s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt), times.dt,

@@ -53,26 +53,29 @@ GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>
 }
 
 // A plate of width L lifts off a floor with (v/delta)' = F/k - (v/delta)^2/2, k = rho L^3/12, if w u^2 is conserved.
-// This is the exact law for inviscid liquid that enters from rest. Faces that were not solved for have gap_flow.u = 0.
+// This is the exact law for inviscid liquid that enters from rest.
 template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
-                      const CellField<Dim>& phi, const FaceField<Dim, char>& valid, const Vec3& g, double dt,
-                      FaceField<Dim>& u) {
-  const double h = domain.layout.h();
+                      const Vec3& g, double dt, FaceField<Dim>& u) {
   for (int a = 0; a < Dim; ++a)
     for_each_narrow(domain.layout, faces, a, [&](Site f, const IVec<Dim>& i) {
       const double before = gap_flow.open.at(a, f), open = faces.open.at(a, f);
-      const double last = gap_flow.u.at(a, f);
-      if (open > before && is_slit(domain.layout, faces, a, f, i)) {
-        u.at(a, f) = last * std::sqrt(before / open) + dt * g[a];
-        return;
-      }
-      const double depth = std::min(std::abs(phi[f]), std::abs(phi[f - domain.layout.stride(a)]));
-      if (last != 0 && depth < 2 * h && !valid.at(a, f) && faces.kind_at(a, f) == FaceKind::open) {
-        const double own = last + dt * g[a], fastest = std::max(std::abs(last), std::abs(u.at(a, f) - dt * g[a]));
-        const double way = std::max(fastest * dt / h, std::abs(open - before));
-        u.at(a, f) += share_of_slow(way) * (own - u.at(a, f));
-      }
+      if (open <= before || !is_slit(domain.layout, faces, a, f, i)) return;
+      u.at(a, f) = gap_flow.u.at(a, f) * std::sqrt(before / open) + dt * g[a];
+    });
+}
+
+template <int Dim>
+void keep_inertia_in_gaps(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
+                          const std::function<bool(int, Site)>& wanted, const Vec3& g, double dt, FaceField<Dim>& u) {
+  for (int a = 0; a < Dim; ++a)
+    for_each_narrow(domain.layout, faces, a, [&](Site f, const IVec<Dim>& i) {
+      const double widened = faces.open.at(a, f) - gap_flow.open.at(a, f), last = gap_flow.u.at(a, f);
+      if (last == 0 || faces.kind_at(a, f) != FaceKind::open || !wanted(a, f)) return;
+      if (widened > 0 && is_slit(domain.layout, faces, a, f, i)) return;
+      const double own = last + dt * g[a], fastest = std::max(std::abs(last), std::abs(u.at(a, f) - dt * g[a]));
+      const double way = std::max(fastest * dt / domain.layout.h(), std::abs(widened));
+      u.at(a, f) += share_of_slow(way) * (own - u.at(a, f));
     });
 }
 
@@ -91,8 +94,10 @@ void let_surface_through_gaps(const Domain<Dim>& domain, const GapFlow<Dim>& gap
 
 #define SEICHE_INSTANTIATE(D)                                                                                         \
   template GapFlow<D> measure_gap_flow<D>(const Domain<D>&, const FaceGeometry<D>&, const FaceField<D>&);             \
-  template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const CellField<D>&, \
-                                    const FaceField<D, char>&, const Vec3&, double, FaceField<D>&);                   \
+  template void set_gap_velocity<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&, const Vec3&, double, \
+                                    FaceField<D>&);                                                                   \
+  template void keep_inertia_in_gaps<D>(const Domain<D>&, const FaceGeometry<D>&, const GapFlow<D>&,                  \
+                                        const std::function<bool(int, Site)>&, const Vec3&, double, FaceField<D>&);   \
   template void let_surface_through_gaps<D>(const Domain<D>&, const GapFlow<D>&, const CellField<D>&,                 \
                                             const FaceField<D, char>&, double, FaceField<D>&);
 SEICHE_INSTANTIATE(2)

@@ -1,5 +1,7 @@
 #pragma once
 // Sub-grid gap flow: liquid in slits narrower than a cell, between a body and the floor or between separating bodies.
+#include <functional>
+
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
@@ -21,18 +23,21 @@ double share_of_slow(double way);
 template <int Dim>
 GapFlow<Dim> measure_gap_flow(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const FaceField<Dim>& solved);
 
-// The velocity before the pressure acts, on faces less open than least_open. On faces of slits that have widened,
+// On faces of slits that have widened,
 //   u = gap_flow.u sqrt(gap_flow.open/open) + dt g.
 // The velocity extrapolated from beside a slit misses the motion of the liquid within it, which has most of the inertia
 // of a body that lifts off. Narrowing slits are left alone: they expel a jet that the grid cannot resolve.
-// On other faces within two cells of the surface that slow flow passes, unless transport reads them (`valid`),
-//   u = gap_flow.u + dt g.
-// With the velocity extrapolated from beside, the solve would gain energy there in each step, and waves would grow
-// along a solid's waterline (docs/decisions/0029-level-set-in-static-solids.md). phi in m.
 template <int Dim>
 void set_gap_velocity(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
-                      const CellField<Dim>& phi, const FaceField<Dim, char>& valid, const Vec3& gravity, double dt,
-                      FaceField<Dim>& u);
+                      const Vec3& gravity, double dt, FaceField<Dim>& u);
+
+// The velocity before the pressure acts, on other faces less open than least_open where `wanted(axis, face)`:
+//   u = gap_flow.u + dt g
+// where flow and solid are slow. Faces that were not solved for have gap_flow.u = 0 and keep u.
+template <int Dim>
+void keep_inertia_in_gaps(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const GapFlow<Dim>& gap_flow,
+                          const std::function<bool(int, Site)>& wanted, const Vec3& gravity, double dt,
+                          FaceField<Dim>& u);
 
 // The velocity that moves a slow surface, on faces less open than least_open between cells of phi (m) of either sign,
 // unless transport reads them (`valid`):

@@ -228,7 +228,7 @@ void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char
                             FaceField<Dim> u, double dt, const CellField<Dim>& before, CellField<Dim>& phi) {
   const Layout<Dim>& layout = domain.layout;
   if (!any_closed(domain, closed)) return;
-  let_surface_through_gaps(domain, state.gap_flow, before, state.now->valid, dt, u);
+  if (!state.exterior->flows()) let_surface_through_gaps(domain, state.gap_flow, before, state.now->valid, dt, u);
   for_each_site(layout, layout.cells(), [&](Site c) {
     if (closed[c] || std::abs(before[c]) >= domain.band() || !is_near_closed(layout, closed, c)) return;
     double way = 0, carried = before[c];
@@ -240,6 +240,21 @@ void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char
     }
     phi[c] += share_of_slow(way) * (carried - phi[c]);
   });
+}
+
+template <int Dim>
+void keep_inertia_near_closed(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces,
+                              const CellField<Dim, char>& closed, const State<Dim>& state, const CellField<Dim>& phi,
+                              const Vec3& g, double dt, FaceField<Dim>& u) {
+  constexpr double reach = 2;  // cells
+  const Layout<Dim>& layout = domain.layout;
+  if (state.exterior->flows()) return;
+  const auto wanted = [&](int a, Site f) {
+    const Site low = f - layout.stride(a);
+    if (std::min(std::abs(phi[f]), std::abs(phi[low])) >= reach * layout.h()) return false;
+    return !state.now->valid.at(a, f) && (is_near_closed(layout, closed, f) || is_near_closed(layout, closed, low));
+  };
+  keep_inertia_in_gaps<Dim>(domain, faces, state.gap_flow, wanted, g, dt, u);
 }
 
 template <int Dim>
@@ -266,6 +281,10 @@ template void carry_slow_near_closed<2>(const Domain<2>&, const CellField<2, cha
                                         double, const CellField<2>&, CellField<2>&);
 template void carry_slow_near_closed<3>(const Domain<3>&, const CellField<3, char>&, const State<3>&, FaceField<3>,
                                         double, const CellField<3>&, CellField<3>&);
+template void keep_inertia_near_closed<2>(const Domain<2>&, const FaceGeometry<2>&, const CellField<2, char>&,
+                                          const State<2>&, const CellField<2>&, const Vec3&, double, FaceField<2>&);
+template void keep_inertia_near_closed<3>(const Domain<3>&, const FaceGeometry<3>&, const CellField<3, char>&,
+                                          const State<3>&, const CellField<3>&, const Vec3&, double, FaceField<3>&);
 template void continue_level_set<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&, CellField<2>&);
 template void continue_level_set<3>(const Domain<3>&, const Solids<3>&, const CellField<3, char>&, CellField<3>&);
 template void redistance_beside_solids<2>(const Domain<2>&, const Solids<2>&, const CellField<2, char>&,

@@ -46,6 +46,15 @@ template <int Dim>
 void carry_slow_near_closed(const Domain<Dim>& domain, const CellField<Dim, char>& closed, const State<Dim>& state,
                             FaceField<Dim> u, double dt, const CellField<Dim>& before, CellField<Dim>& phi);
 
+// Slow flow through narrow faces near closed cells starts from its own velocity (keep_inertia_in_gaps()), within two
+// cells of the surface and where transport does not read the face. From the velocity extrapolated from beside, the
+// solve would gain energy in each step, and waves would grow along a wall's waterline
+// (docs/decisions/0029-level-set-in-static-solids.md). u in m/s, after the body force g (m/s^2). Not beside gas.
+template <int Dim>
+void keep_inertia_near_closed(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces,
+                              const CellField<Dim, char>& closed, const State<Dim>& state, const CellField<Dim>& phi,
+                              const Vec3& gravity, double dt, FaceField<Dim>& u);
+
 // Keeps phi on the two sides of thick elastic walls apart. In elastic bodies phi moves with the body only near its
 // surface. Deeper inside it stays behind, and liquid from one side would emerge at the other. Four layers from a depth
 // of 1.5 cells on are checked against the nearest cells less deep: phi with another sign takes their value, the mean of

@@ -32,15 +32,12 @@ struct OneNarrowFace {
 
 // Velocity on the face before the pressure acts, m/s, where transport found `transported` there.
 template <int Dim>
-double velocity_before_pressure(double solved, double transported, bool is_read = false, double depth = 0) {
+double velocity_before_pressure(double solved, double transported, bool wanted = true) {
   const OneNarrowFace<Dim> box(solved);
   FaceField<Dim> u(box.layout);
-  FaceField<Dim, char> valid(box.layout);
-  valid.at(1, box.face) = is_read;
-  CellField<Dim> phi(box.layout);
-  for (Site s = 0; s < box.layout.size(); ++s) phi[s] = -depth;
   u.at(1, box.face) = transported + dt * fall;
-  set_gap_velocity(box.setup.domain, box.faces, box.gap_flow, phi, valid, Vec3(0, fall, 0), dt, u);
+  keep_inertia_in_gaps<Dim>(
+      box.setup.domain, box.faces, box.gap_flow, [&](int, Site) { return wanted; }, Vec3(0, fall, 0), dt, u);
   return u.at(1, box.face) - dt * fall;
 }
 
@@ -62,8 +59,7 @@ void check_narrow_face() {
   CHECK(velocity_before_pressure<Dim>(slow, 3 * slow) == Approx(slow).epsilon(1e-12));
   CHECK(velocity_before_pressure<Dim>(slow, fast) == Approx(fast).epsilon(1e-12));
   CHECK(velocity_before_pressure<Dim>(0, slow) == Approx(slow).epsilon(1e-12));  // was not solved for
-  CHECK(velocity_before_pressure<Dim>(slow, 3 * slow, true) == Approx(3 * slow).epsilon(1e-12));
-  CHECK(velocity_before_pressure<Dim>(slow, 3 * slow, false, 0.5) == Approx(3 * slow).epsilon(1e-12));
+  CHECK(velocity_before_pressure<Dim>(slow, 3 * slow, false) == Approx(3 * slow).epsilon(1e-12));
   CHECK(velocity_of_surface<Dim>(slow, 3 * slow, true) == Approx(slow / 2).epsilon(1e-12));
   CHECK(velocity_of_surface<Dim>(slow, fast, true) == fast);
   CHECK(velocity_of_surface<Dim>(slow, 3 * slow, false) == 3 * slow);

@@ -95,8 +95,7 @@ double velocity_in_slit(double w0, double w1) {
   flow.open.fill(w0);
   flow.u.fill(3.0);
   FaceField<Dim> u(setup.domain.layout, 7.0);
-  const Layout<Dim>& layout = setup.domain.layout;
-  set_gap_velocity(setup.domain, faces, flow, CellField<Dim>(layout), FaceField<Dim, char>(layout), {2, 0, 0}, 0.5, u);
+  set_gap_velocity(setup.domain, faces, flow, {2, 0, 0}, 0.5, u);
   return u.at(0, setup.domain.layout.site(IVec<Dim>::Unit(0) * 4));
 }
 
