@@ -45,13 +45,14 @@ Section<LiquidSourceSpec> source_section() {
   using S = LiquidSourceSpec;
   Section<S> s;
   s.keys = lift<S>(shape_section(), &S::shape);
-  s.keys.push_back(value_key<S>({.key = "velocity",
-                                 .type = T::formula_vector,
-                                 .unit = "m/s",
-                                 .variables = "xyzt",
-                                 .unset = "zero",
-                                 .doc = "velocity of the liquid that is added"},
-                                &S::velocity));
+  s.keys.push_back(value_key<S>(
+      {.key = "velocity",
+       .type = T::formula_vector,
+       .unit = "m/s",
+       .variables = "xyzt",
+       .unset = "zero",
+       .doc = "velocity of the liquid that is added. A source brings liquid where it reaches a cell's centre"},
+      &S::velocity));
   s.keys.push_back(value_key<S>({.key = "from",
                                  .unit = "s",
                                  .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},

@@ -47,15 +47,26 @@ CellField<Dim> level_set_of(const Domain<Dim>& domain, const ShapeSpec& spec) {
   return phi;
 }
 
-// Warns if none of a shape lies in the room for liquid. `name`: liquid.region.2, say; `lack`: what follows from it.
+// True if phi is negative at the centre of a cell. Collective.
+template <int Dim>
+bool holds_centre(const Domain<Dim>& domain, const CellField<Dim>& phi) {
+  const auto depth = [&](Site c) { return -phi[c]; };
+  return domain.ranks.global_max(local_max(domain.layout, domain.layout.cells(), 0.0, depth)) > 0;
+}
+
+// Warns if none of a shape lies in the room for liquid, or if it holds no cell's centre but needs one. `name`:
+// liquid.region.2, say; `lack`: what follows from it.
 template <int Dim>
 void account_shape(const Domain<Dim>& domain, const ShapeSpec& spec, const std::string& name, const char* lack,
-                   const NodeField<Dim>& psi, SceneAccount& account) {
+                   bool needs_centre, const NodeField<Dim>& psi, SceneAccount& account) {
   const CellField<Dim> phi = level_set_of(domain, spec);
   const double whole = liquid_volume(domain, phi, no_solids(domain)), wet = liquid_volume(domain, phi, psi);
   if (whole <= nothing * domain.layout.geometry().cell_volume())
     account.warnings.push_back(
         fmt::format("{}: {} {}: it lies outside of the domain or is far smaller than a cell", spec.where, name, lack));
+  else if (needs_centre && !holds_centre(domain, phi))
+    account.warnings.push_back(fmt::format("{}: {} {}: it holds no cell's centre; make it wider, or the cells smaller",
+                                           spec.where, name, lack));
   else if (wet < all * whole)
     account.warnings.push_back(
         fmt::format("{}: {} {}: all of its {} lies inside solids (a container is a solid with invert = true)",
@@ -73,11 +84,13 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   account.lines.push_back(line);
   constexpr std::size_t most = 20;  // each costs a loop over the whole grid
   const LiquidSpec& liquid = fluids.liquid;
+  const bool phi_shows_liquid = liquid.volume != VolumeKeeping::in_cells && !fluids.has_prescribed_flow();
   for (std::size_t k = 0; k < std::min(most, liquid.regions.size()); ++k)
-    account_shape(domain, liquid.regions[k].shape, fmt::format("liquid.region.{}", k), "holds no liquid", psi, account);
-  for (std::size_t k = 0; k < std::min(most, liquid.sources.size()); ++k)
-    account_shape(domain, liquid.sources[k].shape, fmt::format("liquid.source.{}", k), "has no room at the start", psi,
+    account_shape(domain, liquid.regions[k].shape, fmt::format("liquid.region.{}", k), "holds no liquid", false, psi,
                   account);
+  for (std::size_t k = 0; k < std::min(most, liquid.sources.size()); ++k)
+    account_shape(domain, liquid.sources[k].shape, fmt::format("liquid.source.{}", k), "has no room at the start",
+                  phi_shows_liquid, psi, account);
 }
 
 // The surface of a solid at the start.

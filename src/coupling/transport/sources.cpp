@@ -35,16 +35,24 @@ double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source,
 }
 
 // Joins phi with the liquid of one source. Sets |v|^2/2 of its velocity where it may bring liquid, unless it is null.
+// Liquid that reaches no cell's centre is left out: phi would not show it, and its distance beside a film would bend
+// phi so that cells lose liquid. Collective.
 template <int Dim>
 void join(const Domain<Dim>& domain, const Source<Dim>& source, const OpenTime& open, CellField<Dim>& phi,
           CellField<Dim>* half_square) {
   const double near = std::sqrt(double(Dim)) * domain.layout.h();
+  CellField<Dim> distance(domain.layout);
+  bool reaches = false;
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
-    const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
-    const double distance = distance_to_brought(domain.layout, source, open, x);
-    phi[c] = std::min(phi[c], distance);
-    if (!half_square || distance > near) return;
-    const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), open.begin));
+    distance[c] = distance_to_brought(domain.layout, source, open, domain.layout.position(i, cell_offset<Dim>()));
+    reaches = reaches || distance[c] < 0;
+  });
+  if (!domain.ranks.any(reaches)) return;
+  for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>& i) {
+    phi[c] = std::min(phi[c], distance[c]);
+    if (!half_square || distance[c] > near) return;
+    const Vec<Dim> v =
+        truncate<Dim>(source.velocity(extend<Dim>(domain.layout.position(i, cell_offset<Dim>())), open.begin));
     if (v.allFinite()) (*half_square)[c] = 0.5 * v.squaredNorm();
   });
 }

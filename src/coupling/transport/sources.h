@@ -39,7 +39,7 @@ template <int Dim>
 double add_source_shares(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const NodeField<Dim>& psi,
                          double t0, double t1, CellField<Dim>& share);
 
-// Joins phi at t1 with the liquid that sources keep from t0 to t1. Ghosts are not filled.
+// Joins phi at t1 with the liquid that sources keep from t0 to t1. Ghosts are not filled. Collective.
 template <int Dim>
 void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
                   CellField<Dim>& phi);

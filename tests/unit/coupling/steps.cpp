@@ -1,4 +1,6 @@
 // Fixed steps, sources that open and close within steps, and values reported at the start and in the air.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "base/scene.h"
@@ -102,6 +104,25 @@ TEST_CASE("a source brings its shape and what flows through it while it is open,
              << ", of 0.002 s " << many);
     for (const double volume : {within, split, many})
       CHECK(volume == Approx(expected).margin(1e-6));  // flat fronts: exact up to round-off and the solves
+  }
+}
+
+// The liquid's surface lies 0.3 cells below a row of centres. A disc a fifth of a cell wide, nearer to one of them,
+// bends phi there.
+TEST_CASE("a source that reaches no cell's centre brings nothing and takes nothing") {
+  for (int dim : {2, 3}) {
+    const double h = 1.0 / 8;
+    Scene s = test::box_scene(dim, 8);
+    test::add_liquid(s, Formula(fmt::format("y-{}", 3.2 * h)));
+    LiquidSourceSpec drop;
+    drop.shape.kind = "sphere";
+    drop.shape.center = {3.65 * h, 3.65 * h, dim == 3 ? 3.65 * h : 0};
+    drop.shape.radius = 0.1 * h;
+    s.liquid.sources.push_back(drop);
+    const auto sim = make_simulation(s, Communicator());
+    const double before = sim->stats().liquid_volume;
+    while (sim->time() < 0.1) (void)sim->step(0.1);
+    CHECK(sim->stats().liquid_volume == Approx(before).epsilon(1e-12));  // rounding
   }
 }
 
