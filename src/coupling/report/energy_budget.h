@@ -37,10 +37,11 @@ template <int Dim>
 std::string fault_of_energy(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
                             const NodeField<Dim>& psi, const Attempt<Dim>& attempt);
 
-// Message if the attempt gains more kinetic and elastic energy beyond the work done on it than
-//   E_kin + E_el + sum |W| + m g h + 2 sigma A + m (1e-3 h/dt)^2/2,
-// with W its works and the rest what a surface known to a cell leaves open. Else empty. The first steps do not count: a
-// sudden start has no work of its own. Reads Attempt::state.work. Collective.
+// Message if Work::lost_numerical falls in the attempt by more than E_kin + E_el of `start` and by more than
+//   E_kin + E_el + sum |W| + m g h + 2 sigma A + m (1e-3 h/dt)^2/2.
+// W: changes of the other members of Work. The last three terms are the uncertainty of a surface known to a cell. Else
+// empty. Empty in the first four steps, too: a sudden start has no work of its own. Reads Attempt::state.work.
+// Collective.
 template <int Dim>
 std::string fault_of_works(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                            const State<Dim>& before, const StepStats& start, const Attempt<Dim>& attempt);

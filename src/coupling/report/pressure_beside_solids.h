@@ -9,9 +9,10 @@
 
 namespace seiche {
 
-// Fit p(x) = a + b.x to the cells around x whose centres lie in the point's fluid, at most half a cell deep in a solid,
-// and which open faces join to the cell that the nearest solid's normal leads to. Pa; empty if there is no such cell,
-// or none near that a solid parts from it. `liquid`: the point's fluid. Collective; equal on all ranks.
+// Pressure at x (Pa) by a linear fit to cells around x. They have a pressure, belong to the point's fluid (`liquid`)
+// and lie at most half a cell deep in a solid. The first one is nearest to x + h n/2, with n the outward normal of the
+// nearest solid. Open faces join the others to it. Empty if there is no first cell, or if open faces join all such
+// cells: no solid then separates cells near x. Collective; equal on all ranks.
 template <int Dim>
 std::optional<double> pressure_beside_solids(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                              const State<Dim>& state, const StepGeometry<Dim>& geometry,

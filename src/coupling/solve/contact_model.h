@@ -6,8 +6,9 @@
 
 namespace seiche {
 
-// e(v) = g0.(v - v0) + 1/2 (v - v0)'T (v - v0). T starts as M + c (J'Z)(Z'AZ)^-1(Z'J), the mass and the
-// preconditioner's estimate of the added mass c J'A^-1 J. Each liquid solve adds a BFGS update.
+// e(v) = g0.(v - v0) + 1/2 (v - v0)'T (v - v0). T starts as M + c (J'Z)(Z'AZ)^-1(Z'J), the mass and an estimate of the
+// added mass c J'A^-1 J, with c = c1 c2 and Z the deflation vectors (linalg/spd/deflation.h). Each liquid solve adds a
+// BFGS update.
 class AddedMassModel : public InertiaProblem {
  public:
   // g0: true gradient at v0. Fixed degrees of freedom keep v0.

@@ -1,6 +1,6 @@
 #pragma once
-// Flow that the fluxes of cut no-slip faces are taken from (fluid/viscosity/no_slip_flux). That of the start of the
-// step does, unless viscosity stops it within the step: then the step is solved again.
+// Flow that the fluxes of cut no-slip faces are taken from (fluid/viscosity/no_slip_flux). The flow at the start of the
+// step serves, unless viscosity stops it within the step. The step is then solved again.
 #include <memory>
 
 #include "coupling/state/setup.h"
@@ -25,9 +25,10 @@ class FlowAtWallsIteration {
   // references to setup and geometry.
   FlowAtWallsIteration(const Setup<Dim>& setup, const State<Dim>& before, const Participants<Dim>& solids,
                        const StepGeometry<Dim>& geometry);
-  // The last solve's flow if another one is due, else none. Due it is where velocities relative to the solids, beside
-  // cut faces, change by more than they are in the end, and then until a solve changes them by less than a tenth, eight
-  // times at most. Never in fluids without viscosity and without no-slip solids. Collective.
+  // The last solve's flow if another solve is due, else none. The criterion sums over faces beside cut ones: the change
+  // of the velocities relative to the solids, and their size after the solve. The first repetition is due if the change
+  // exceeds the size, a later one if it exceeds a tenth of it. At most eight; none without viscosity or without no-slip
+  // solids. Collective.
   std::optional<FlowAtWalls<Dim>> due_after(const State<Dim>& solved);
 
  private:

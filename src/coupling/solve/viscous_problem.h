@@ -16,7 +16,8 @@ struct ViscousSolvers {
 };
 
 // e(v) = 1/2 (v - v*)'M(v - v*) + the minimum, given v, of the liquid's kinetic energy and dissipation:
-//   F u + G v + D'p^ = f,   G'u + (M + H_vv + K) v + J'p^ = M v* + r + g,   D u + J v = q,   p^ = -dt p.
+//   F u + G v + D'p^ = f,   G'u + (M + H_vv + K) v + J^'p^ = M v* + r + g,   D u + J^ v = q,
+// with p^ = -dt p and J^ = A_f J = ViscousStep::J(). K and r: Hessian and linear term of contact and elastic forces.
 // Fixed unknowns have their prescribed velocities, which the right-hand sides include.
 template <int Dim>
 class ViscousProblem : public CoupledProblem<Dim> {

@@ -83,7 +83,7 @@ void add_wall_flux(const CoupledInput<Dim>& in, ViscousStep<Dim>& viscous) {
   viscous.add_wall_flux(in.flow, motions_at_walls(in.state.solids, in.geometry), closed_flux);
 }
 
-// Drag of the velocities u on the unknowns of the solids, N, the same on all ranks.
+// Impulse of the drag of the velocities u on the unknowns of the solids over the step, N s, the same on all ranks.
 template <int Dim>
 Eigen::VectorXd drag_on_solids(const ViscousStep<Dim>& viscous, const Vector& u, const Communicator& ranks) {
   Eigen::VectorXd drag = multiply_transposed(viscous.system().G, u, ranks);

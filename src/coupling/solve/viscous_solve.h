@@ -6,8 +6,9 @@
 namespace seiche {
 
 // Split: viscosity first, with the pressure of the last step:
-//   F u + G v = M (u* - dt grad p/rho) + f,   G'u + (M + H_vv) v = push + dt A_f J'p + g.
-// Keeps references.
+//   F u + G v = f,   G'u + (M + H_vv) v = push + dt A_f J'p + g,
+// with u* - dt grad p/rho for u* in f = M u* + ... (ViscousSystem). M of the second equation: the bodies' mass. Keeps
+// references.
 template <int Dim>
 class SplitViscosity {
  public:

@@ -16,8 +16,8 @@ namespace seiche {
 struct Scene;
 
 // Work done on the fluids and the solids that forces move, and the energy they lost, since the end of the first step,
-// J.
-//   kinetic + elastic energy - that of then = gravity + tension + sides + solids - lost_viscous - lost_numerical
+// J (2D: J/m). With E = kinetic + elastic energy and E_1 = E at the end of the first step:
+//   E - E_1 = gravity + tension + sides + solids - lost_viscous - lost_numerical
 struct Work {
   double gravity = 0;
   double tension = 0;       // of surface tension
@@ -73,7 +73,9 @@ struct ProbeSample {
   Vec3 vector{0, 0, 0};
 };
 
-// A field for a frame: this rank's owned cells, first axis fastest; vectors (staggered, low faces) as triples.
+// A field for a frame: this rank's owned cells, first axis fastest; vectors (staggered, low faces) as triples. Units:
+// surface m, vel m/s, pressure Pa, vorticity 1/s, viscosity Pa s. Units:
+// surface m, vel m/s, pressure Pa, vorticity 1/s, viscosity Pa s.
 struct FrameField {
   std::string name;  // surface, vel, pressure, vorticity, viscosity
   enum class Kind { level_set, scalar, staggered_vector } kind = Kind::scalar;

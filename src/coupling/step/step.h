@@ -6,7 +6,9 @@
 
 namespace seiche {
 
-// Tries a step of dt from `state`. Attempt::failure is empty, or not, on all ranks alike. Collective.
+// Tries a step of dt (s) from `state`. Attempt::failure is empty, or not, on all ranks alike. Throws
+// Error(cannot_continue) if a formula is not finite, or if solids prescribe a motion that closed liquid cannot follow.
+// Collective.
 template <int Dim>
 [[nodiscard]] Attempt<Dim> attempt_step(const Setup<Dim>& setup, const State<Dim>& state, double dt, Phases& phases);
 

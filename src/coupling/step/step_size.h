@@ -21,8 +21,9 @@ template <int Dim>
 std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                    const std::vector<Placement>& placed, double t, double dt);
 
-// Interval over which a step of dt that leads to `next` solves for the solids' velocities. With elastic solids the
-// coming step is meant to have this length, which makes their motion second order in time.
+// Interval H (s) over which a step of dt (s) that leads to `next` solves for the solids' velocities. If solids plan
+// steps, H is the planned length of the coming step, which makes their motion second order in time. Else it is the
+// longest step that may follow. Collective.
 template <int Dim>
 double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt);
 
@@ -39,8 +40,9 @@ std::string fault_of_start(double h, const Solids<Dim>& solids, const State<Dim>
 template <int Dim>
 double hold_back(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 
-// Longest step that the scene's limits allow now, ending at or before `until`. Throws Error(cannot_continue) if it is
-// hopelessly short, or a fixed step is too long.
+// Longest step (s) that the scene's limits allow now, ending at or before `until` (s). Throws Error(cannot_continue) if
+// more than most_steps_a_frame such steps would remain, or a fixed step is too long; Error(bug) if `until` is not later
+// than the state. Collective.
 template <int Dim>
 double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
 

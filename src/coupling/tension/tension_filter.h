@@ -8,9 +8,9 @@ namespace seiche {
 // The curvature at the end of a step is kappa_e = kappa - dt Lap_s u_n. The normal velocity u_n is the one that the
 // jump sigma kappa_e itself causes (Hysing 2006; Sussman, Ohta 2009). For a wave of wavenumber k on deep liquid this
 // gives
-//   (1 + beta (omega dt)^2) kappa_e = kappa,   omega^2 = sigma k^3/rho:
-// implicit curvature is curvature without the waves too short for the step. This filter solves
-//   (1 + l^4 Lap_s^2) kappa_e = kappa,   (1/l)^3 = s^2 rho/(sigma dt^2),
+//   (1 + beta (omega dt)^2) kappa_e = kappa,   omega^2 = sigma k^3/rho,
+// with a constant beta. The result has no waves too short for the step. This filter solves
+//   (1 + l^4 Lap_s^2) kappa_e = kappa,   l^3 = sigma dt^2/(1.4 rho),
 // with the factor 1 + (l k)^4 for a wave. It changes resolved waves by (l k)^4 = O(dt^(8/3)). It keeps omega dt below
 // 1.5 for all k, and the leapfrog of surface and velocity is stable below 2. Constant curvature passes unchanged, so
 // equilibria stay exact. Only the right-hand side of the pressure system changes.

@@ -12,8 +12,9 @@ namespace seiche {
 // extrapolated velocity there.
 constexpr double least_open = 0.2;
 
-// Ways of liquid or solids in a step, cells. Up to slow_way flow beside solids that stand still conserves its energy;
-// from fast_way on it does not get caught in slivers. Between them both are mixed.
+// Displacements of liquid or solids in a step, cells. Up to slow_way, flow beside solids at rest keeps its own inertia,
+// which conserves energy. From fast_way on it takes the extrapolated velocity and does not get caught in slivers. Both
+// are blended linearly in between.
 constexpr double slow_way = 0.02, fast_way = 0.1;
 
 // 1 for a way (cells) up to slow_way, 0 from fast_way on, linear between.

@@ -43,8 +43,8 @@ double volume_beyond(const Domain<Dim>& domain, const Solids<Dim>& solids, const
 template <int Dim>
 bool has_thin_elastic(const Solids<Dim>& solids);
 
-// Force (N) and torque (N m) about the origin, stacked, of nodal forces (N) at the displacements u. See
-// ElasticMotion::extra_load, reaction.
+// Force (N) and torque (N m) about the origin, six numbers in 2D as well, of nodal forces (N) at the displacements u
+// (m). See ElasticMotion::extra_load, reaction.
 template <int Dim>
 Eigen::VectorXd total_load(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u, const Eigen::VectorXd& forces);
 

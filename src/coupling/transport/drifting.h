@@ -18,14 +18,16 @@ template <int Dim>
 double falling_velocity(const Layout<Dim>& layout, const FaceField<Dim>& u, const Vec3& gravity, double dt, int axis,
                         Site face);
 
-// Sets u* (m/s) on the faces of drifting cells to that of free fall. A face through which nothing leaves a cell moves
-// with the opposite one, so that what lies on a wall does not gain speed. Fills ghosts. Collective.
+// Sets u* (m/s) on the faces of drifting cells: that of free fall, or 0 where a face is less open than least_open. A
+// face that lets nothing out of its cell and has no liquid beyond it takes the velocity of the opposite face. Liquid
+// that lies on a wall then gains no speed. Fills ghosts. Collective.
 template <int Dim>
 void let_drift(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const CellField<Dim>& share,
                const std::vector<Site>& drifting, const FaceField<Dim>& u, const Vec3& gravity, double dt,
                FaceField<Dim>& u_star);
 
-// Takes u on the faces of drifting cells from u*. Valid faces keep theirs. Fills ghosts. Collective.
+// Takes u from u* on the invalid faces of drifting cells that are open by least_open or more, and marks them valid
+// (face_at_surface). Fills ghosts. Collective.
 template <int Dim>
 void take_drifting(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces, const std::vector<Site>& drifting,
                    const FaceField<Dim>& u_star, TimeLevel<Dim>& level);

@@ -23,8 +23,10 @@ template <int Dim>
 void limit_at_surfaces(const Domain<Dim>& domain, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,
                        const FaceField<Dim, char>& interior, FaceField<Dim>& u);
 
-// Sets u before the projection on faces whose path entered through an inflow side during the step from t (s). It is the
-// inflow velocity plus the change since the entry. `memory`: viscous_memory() of transport.cpp, m/s.
+// Sets u* on faces whose path entered through an inflow side during the step from t (s), so that the solve leads to
+// u_in + tau A: the inflow velocity u_in plus the acceleration A over the time tau since the entry,
+//   u* = u_in + dt g - (dt - tau) A + memory.
+// `memory`: viscous_memory() of transport.cpp, m/s.
 template <int Dim>
 void let_liquid_in(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                    const OperatorPerturbation& perturbation, const TimeLevel<Dim>& level, const FacePaths<Dim>& paths,

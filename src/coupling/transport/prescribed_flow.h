@@ -29,7 +29,7 @@ template <int Dim>
 double limit_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                            const State<Dim>& state, double remaining);
 
-// Empty, or a text if a step of dt (s) crosses more cells than the halo holds. Collective.
+// Empty, or a text if the flow crosses more than ceil(cfl) cells in a step of dt (s). Collective.
 template <int Dim>
 std::string fault_of_prescribed(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
                                 const State<Dim>& state, double dt);

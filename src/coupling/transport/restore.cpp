@@ -112,7 +112,7 @@ void keep_faces(const Layout<Dim>& layout, const FaceField<Dim, char>& marked, T
     };
     for_each_possible(layout, layout.faces(a), may_matter, [&](Site f) {
       if (marked.at(a, f)) return;
-      set_if_other(level.valid.at(a, f), char(face_unknown_to_flow));
+      set_if_other(level.valid.at(a, f), char(face_invalid));
       set_if_other(level.u.at(a, f), 0.0);
       set_if_other(level.q.at(a, f), 0.0);
       if (viscous) set_if_other(level.n.at(a, f), 0.0);
@@ -189,7 +189,7 @@ std::shared_ptr<const TimeLevel<Dim>> initial_level(const Domain<Dim>& domain, c
   level.u = std::move(u);
   for (int a = 0; a < Dim; ++a)
     for_each_site(domain.layout, domain.layout.faces(a), [&](Site f) {
-      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_unknown_to_flow, level.u.at(a, f) = 0;
+      if (g.faces.kind_at(a, f) == FaceKind::closed) level.valid.at(a, f) = face_invalid, level.u.at(a, f) = 0;
       if (level.valid.at(a, f) && g.faces.kind_at(a, f) == FaceKind::prescribed) level.valid.at(a, f) = face_prescribed;
     });
   continue_level(domain, fluids, solids, g, near, level);

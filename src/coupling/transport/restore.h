@@ -10,7 +10,7 @@ namespace seiche {
 
 // Values of TimeLevel::valid. The link of face_at_surface ends at the surface, at a share theta of h: u is solved, but
 // q = p/(rho theta h) has the pressure's error times 1/theta.
-enum : char { face_unknown_to_flow = 0, face_solved = 1, face_prescribed = 2, face_at_surface = 3 };
+enum : char { face_invalid = 0, face_solved = 1, face_prescribed = 2, face_at_surface = 3 };
 
 inline bool is_solved(char valid) {
   return valid == face_solved || valid == face_at_surface;

@@ -51,8 +51,8 @@ struct FaceImpulse {
   double impulse;
 };
 
-// Sets the velocity u (m/s) of the liquid that sources bring from t0 to t1. Returns the impulses on the owned faces
-// that this takes for what was there before. mass(axis, face): of that, kg (2D: kg/m).
+// Sets the velocity u (m/s) on the faces within the liquid that sources bring from t0 to t1. Returns for each of these
+// owned faces the impulse on the liquid that was there before. mass(axis, face): mass of that liquid, kg (2D: kg/m).
 template <int Dim>
 std::vector<FaceImpulse> set_source_velocity(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources,
                                              double t0, double t1, const std::function<double(int, Site)>& mass,

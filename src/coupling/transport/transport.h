@@ -39,7 +39,8 @@ struct Transported {
 };
 
 // u before the projection on all faces next to liquid: the transported velocity plus
-//   dt f + dt/2 (A(x_d) - A(x)),   A = f - q.
+//   dt f + dt/2 (A(x_d) - A(x)) on interior faces,   A = f - G of carried_acceleration(),
+// and dt f on others.
 // The exterior adds its own flow (Exterior::transported_velocity). `phi` and `geometry` are those of the solve.
 // `brought`: share of each cell that sources have brought since `state`; null: none. Collective.
 template <int Dim>

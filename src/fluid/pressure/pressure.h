@@ -28,8 +28,9 @@ struct ProjectionInput {
   const FaceField<Dim>* surface_jump = nullptr;
   const AirRegions<Dim>* air = nullptr;  // enclosed air that keeps its volume; null: none
 
-  // Shares of liquid, null: none; and the time in which what is beyond a cell's room flows out, s. Deep cells are
-  // filled (fluid/volume/ledger.h). It must not be that of a single short step: the outflow would be a blow.
+  // share: liquid volume fractions V; null: not carried. room: capacities K. excess_time: time (s) in which the excess
+  // V - K flows out of a cell. It is far longer than a short step, whose outflow would be an impact. Deep cells with
+  // V < K are filled at the same rate (fluid/volume/ledger.h).
   const CellField<Dim>* share = nullptr;
   Room<Dim> room = {};
   double excess_time = 0;
@@ -93,7 +94,7 @@ template <int Dim>
 NullSpace find_closed_components(const ProjectionInput<Dim>& in, const PressureRows<Dim>& rows);
 
 // Distance from a liquid cell's centre to the free surface towards an air cell, in cells, at least 1e-8. A larger lower
-// bound would break hydrostatic rest (docs/decisions/0003).
+// bound would break hydrostatic rest (docs/decisions/0003-no-clamp-at-the-surface.md).
 double surface_distance(double phi_liquid, double phi_air);
 
 // The liquid's fraction theta of the link between two cell centres.

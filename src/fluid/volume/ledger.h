@@ -14,7 +14,7 @@ namespace seiche {
 // error of a solve; V keeps it as the excess of deep cells.
 enum class Divergence { swells, stays };
 
-// Measures of V: the room of cells, and the effect of divergence.
+// Rules that decide how much liquid V a cell may hold: its capacity K (`room`), and the effect of divergence on V.
 template <int Dim>
 struct LedgerRules {
   Divergence divergence;
@@ -34,7 +34,8 @@ bool is_deep(const Layout<Dim>& layout, const Ledger<Dim>& ledger, const CellFie
          share[cell] > ledger.room.of(cell) - lacking && ledger.room.of(cell) > 0;
 }
 
-// Shares that count for planes and regions: of a cell's room. Deep cells are full.
+// Volume fractions used for planes and swept regions: V/K, and 1 in deep cells. Where K <= 0.1, phi gives the fraction.
+// Without solids V itself, K = 1.
 template <int Dim>
 class CountedShares {
  public:

@@ -30,8 +30,8 @@ class Room {
   double of(Site cell) const { return parts_ ? parts_->cells[cell] : 1; }
   double through(int axis, Site face) const { return parts_ ? parts_->faces.at(axis, face) : 1; }
 
-  // True if open faces lead from a cell to the one `offset` away (-1..1), one along each axis that this names. Cells on
-  // both sides of a wall may touch.
+  // True if a path of open faces, one for each axis with offset[axis] != 0, leads from a cell to the cell at `offset`
+  // (-1, 0 or 1 along each axis). Neighbouring cells may lie on two sides of a wall.
   bool joins(const Layout<Dim>& layout, Site cell, const IVec<Dim>& offset) const;
 
   // Calls visit(cell, host) in order for the cells of a box that have little room. The host is the neighbour that such

@@ -1,5 +1,5 @@
 #pragma once
-// Liquid beyond the room of a cell or below 0, handed to and taken from neighbours.
+// Redistribution: liquid beyond a cell's capacity goes to its neighbours, and a negative amount is made up from them.
 #include "base/communicator.h"
 #include "fluid/volume/ledger.h"
 #include "grid/halo.h"

@@ -61,7 +61,7 @@ enum class FrictionState { none, settled, unsettled };
 
 struct ContactReport {
   std::string failure;                 // empty if the velocities minimise the energy without intersections
-  Eigen::VectorXd velocity, gradient;  // of e, stacked
+  Eigen::VectorXd velocity, gradient;  // stacked: m/s and rad/s; gradient of e there, N s and N m s
   // Gradient of e, contact, friction and potential. Zero at free degrees of freedom, else the constraint impulse.
   Eigen::VectorXd residual;
   int active = 0;  // pairs within reach
@@ -92,7 +92,8 @@ class ContactScene {
 // velocities of deformable ones (Dim numbers each), nothing for prescribed ones. They minimise
 //   e(v) + dt/H B(x(v)) + dt D(v) + P(v),
 // with the barrier energy B of all near pairs at the positions x(v) after H, the friction D and the potential P.
-// `start`: velocities of an earlier solve for the same bodies and motions, from which Newton's method then continues.
+// `start`: velocities of an earlier solve for the same bodies and motions, from which Newton's method continues; empty:
+// none. horizon, dt: s. ContactReport::failure tells why there is no solution.
 template <int Dim>
 ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
                             double dt, InertiaProblem& inertia, const ContactOptions& options,

@@ -10,7 +10,7 @@ namespace seiche::contact {
 // Updates after which the bounds of friction are damped: bodies may press in turns, for ever. Points are kept from then
 // on, since they may leap to and fro along edges that are nearly parallel.
 constexpr int damped_from = 8;
-// Updates in a row by the least share after which the bounds go round: no later update settles them.
+// Successive updates at the least share (1/32) after which the iteration counts as cyclic: more of them settle nothing.
 constexpr int stuck_after = 5;
 
 // Share of a change that a fixed-point iteration b + s (G(b) - b) takes, by Aitken's rule for vectors (Irons, Tuck
