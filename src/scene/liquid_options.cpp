@@ -25,12 +25,13 @@ Section<LiquidRegionSpec> region_section() {
 
 // A source without an end (until = infinity) is written without this key.
 Key<LiquidSourceSpec> until_key() {
-  const Option option{.key = "until",
-                      .unit = "s",
-                      .unset = "for ever",
-                      .doc =
-                          "the source flows while from <= t < until: its shape is filled at the start and kept full, "
-                          "parts of a step count"};
+  const Option option{
+      .key = "until",
+      .unit = "s",
+      .unset = "for ever",
+      .doc =
+          "the source flows while from <= t < until: its shape is filled at the start and kept full, "
+          "parts of a step count. A shape that holds no cell's centre brings nothing, except with volume = \"cells\""};
   Key<LiquidSourceSpec> key{option, {}, {}};
   key.read = [option](SceneContext& c, const Place& p, LiquidSourceSpec& s) { read_value(c, p, option, s.until); };
   key.write = [option](const LiquidSourceSpec& s, int dimension, const std::string& path, SceneLines& lines) {
@@ -45,14 +46,13 @@ Section<LiquidSourceSpec> source_section() {
   using S = LiquidSourceSpec;
   Section<S> s;
   s.keys = lift<S>(shape_section(), &S::shape);
-  s.keys.push_back(value_key<S>(
-      {.key = "velocity",
-       .type = T::formula_vector,
-       .unit = "m/s",
-       .variables = "xyzt",
-       .unset = "zero",
-       .doc = "velocity of the liquid that is added. A source brings liquid where it reaches a cell's centre"},
-      &S::velocity));
+  s.keys.push_back(value_key<S>({.key = "velocity",
+                                 .type = T::formula_vector,
+                                 .unit = "m/s",
+                                 .variables = "xyzt",
+                                 .unset = "zero",
+                                 .doc = "velocity of the liquid that is added"},
+                                &S::velocity));
   s.keys.push_back(value_key<S>({.key = "from",
                                  .unit = "s",
                                  .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},

@@ -84,13 +84,13 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   account.lines.push_back(line);
   constexpr std::size_t most = 20;  // each costs a loop over the whole grid
   const LiquidSpec& liquid = fluids.liquid;
-  const bool phi_shows_liquid = liquid.volume != VolumeKeeping::in_cells && !fluids.has_prescribed_flow();
+  const bool needs_centre = liquid.volume != VolumeKeeping::in_cells && !fluids.has_prescribed_flow();
   for (std::size_t k = 0; k < std::min(most, liquid.regions.size()); ++k)
     account_shape(domain, liquid.regions[k].shape, fmt::format("liquid.region.{}", k), "holds no liquid", false, psi,
                   account);
   for (std::size_t k = 0; k < std::min(most, liquid.sources.size()); ++k)
     account_shape(domain, liquid.sources[k].shape, fmt::format("liquid.source.{}", k), "has no room at the start",
-                  phi_shows_liquid, psi, account);
+                  needs_centre, psi, account);
 }
 
 // The surface of a solid at the start.
