@@ -13,7 +13,7 @@ Many keys of a scene take a formula in quotes instead of a number, such as `velo
 reference names the variables that each key offers. This page lists the whole language; a test keeps it true.
 
 - Numbers are decimal, with an exponent where wanted: `0.5`, `1e-3`. Angles are in radians.
-- Names distinguish capitals. Blanks do not matter. Products need their sign: `2*x`, not `2x`.
+- Names are case-sensitive. Spaces do not matter. A product needs its `*`: `2*x`, not `2x`.
 - Conditions are numbers: 0 is false, all else is true. Comparisons give 1 or 0.
 - A shape is placed most exactly by a distance such as `x - 0.5`, less so by a jump such as `x < 0.5 ? -1 : 1`.
 - An expression has at most 4096 characters. There is no assignment, no list and no remainder `%`.
