@@ -43,12 +43,13 @@ struct Rows {
 };
 
 constexpr std::int64_t sites_a_task = 4096;
+constexpr std::int64_t least_sites_to_share = 16384;  // a smaller loop ends about when another thread wakes
 
 template <int Dim, class RowBody>
 void for_each_row(const Rows<Dim>& rows, const RowBody& body) {
   if (rows.count == 0) return;
   const std::int64_t grain = std::max<std::int64_t>(1, sites_a_task / rows.length);
-  if (rows.count <= grain) {
+  if (rows.count * rows.length < least_sites_to_share) {
     for (std::int64_t r = 0; r < rows.count; ++r) body(r);
     return;
   }

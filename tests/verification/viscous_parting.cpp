@@ -52,11 +52,31 @@ TEST_CASE("a search for the cells that part which no guess satisfies ends, and s
   p.assemble();
   p.pressure.fill(-1);  // suction where cells have not separated,
   p.set(p.u_star, [](int a, const Vec<2>& x) { return -10 * (a == 0 ? x[0] : x[1]); });  // compression where they have
-  SeparationSearch<2> search(p.projection(), 1e-7, separation);
+  SeparationSearch<2> search(p.projection(), 1e-7, nullptr, separation);
   int rounds = 0;
   while (!search.has_converged_with(p.rows, {}, p.pressure, p.u_star) && rounds < 1000) ++rounds;
   CHECK(rounds == 50);
   CHECK(search.error() >= 1);
+}
+
+// Suction in one cell of the wall, which an earlier solve of the step found to be separated.
+TEST_CASE("a search for the cells that part goes on from those that an earlier solve found") {
+  ViscousCase<2> p({.cells = 8, .solids = {}, .phi = tilted_surface<2>});
+  Separation<2> separation(p.layout());
+  p.let_part(separation);
+  p.assemble();
+  const Site corner = p.layout().site(IVec<2>(0, 0));
+  p.pressure.fill(1);
+  p.pressure[corner] = -1;
+  SeparationSearch<2> cold(p.projection(), 1e-7, nullptr, separation);
+  CHECK(!cold.has_converged_with(p.rows, {}, p.pressure, p.u_star));
+  CHECK(separation.separated[corner]);
+  const CellField<2, char> found = separation.separated;
+  p.pressure.fill(0);
+  SeparationSearch<2> warm(p.projection(), 1e-7, &found, separation);
+  CHECK(separation.separated[corner]);
+  CHECK(warm.has_converged_with(p.rows, {}, p.pressure, p.u_star));
+  CHECK(warm.error() == 0);
 }
 
 }  // namespace viscous_parting_tests

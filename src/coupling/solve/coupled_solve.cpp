@@ -103,7 +103,7 @@ CoupledSolution<Dim> solve_coupled(const CoupledInput<Dim>& input) {
   const ProjectionInput<Dim>& in = input.liquid;
   if (!in.separation) return solve_once(input);
   State<Dim>& state = input.state;
-  SeparationSearch<Dim> search(in, pull * input.setup.scene->solver.tolerance, state.separation);
+  SeparationSearch<Dim> search(in, pull * input.setup.scene->solver.tolerance, input.separated, state.separation);
   const StepGeometry<Dim> still = input.geometry;
   const Participants<Dim> solids = state.solids;
   CoupledSolution<Dim> r;

@@ -26,6 +26,8 @@ struct CoupledInput {
   const FlowAtWalls<Dim>* at_walls = nullptr;  // null: flow and motions at the start of the step
   // Velocities of the bodies' unknowns in an earlier solve over this horizon; null or empty: none.
   const Eigen::VectorXd* solids = nullptr;
+  // Cells separated from walls in an earlier solve of this step; null or empty: none.
+  const CellField<Dim, char>* separated = nullptr;
 };
 
 template <int Dim>

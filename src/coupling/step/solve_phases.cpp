@@ -40,11 +40,14 @@ struct Solves {
   int iterations = 0;                             // of all solves
   std::optional<FlowAtWalls<Dim>> at_walls = {};  // empty: that at the start of the step
   Eigen::VectorXd solids = {};                    // velocities of the bodies' unknowns over this horizon; empty: none
+  CellField<Dim, char> separated = {};            // cells separated from walls; empty: none known
 
   // The pressure of a solve that failed may be anything.
   void go_on_from(Attempt<Dim> attempt) {
     iterations = attempt.solve.iterations;
-    if (attempt.failure.empty()) guess = std::move(attempt.state.pressure);
+    if (!attempt.failure.empty()) return;
+    guess = std::move(attempt.state.pressure);
+    separated = std::move(attempt.state.separation.separated);
   }
 
   // Bodies that do not meet within one horizon may within another.
@@ -125,7 +128,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   CoupledSolution<Dim> solution = solve_coupled(
       CoupledInput<Dim>{s, liquid, out.geometry, out.state, guess, flow->q, flow->u, task.predicted.u_star,
                         task.predicted.convected, end ? &end->flux : nullptr, out.state.horizon, viscosity, fault,
-                        earlier.at_walls ? &*earlier.at_walls : nullptr, &earlier.solids});
+                        earlier.at_walls ? &*earlier.at_walls : nullptr, &earlier.solids, &earlier.separated});
   out.state.convected_loads = task.predicted.convected.loads;
   out.powers.contact = solution.contact_power;
   out.solve = solution.report;

@@ -11,9 +11,13 @@ constexpr int most_fruitless = 5;  // rounds that flip all wrong guesses althoug
 }  // namespace
 
 template <int Dim>
-SeparationSearch<Dim>::SeparationSearch(const ProjectionInput<Dim>& in, double tolerance, Separation<Dim>& separation)
+SeparationSearch<Dim>::SeparationSearch(const ProjectionInput<Dim>& in, double tolerance,
+                                        const CellField<Dim, char>* earlier, Separation<Dim>& separation)
     : in_(in), tolerance_(tolerance), separation_(separation) {
-  start_separation(in, separation);
+  if (earlier && !earlier->empty())
+    separation.separated = *earlier;
+  else
+    start_separation(in, separation);
   best_ = separation.separated;
 }
 

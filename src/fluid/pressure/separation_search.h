@@ -11,8 +11,10 @@ namespace seiche {
 template <int Dim>
 class SeparationSearch {
  public:
-  // Starts from the cells with an open gap. Keeps references. Collective.
-  SeparationSearch(const ProjectionInput<Dim>& in, double tolerance, Separation<Dim>& separation);
+  // Starts from the guess `earlier`, or from the cells with an open gap if it is null or empty. Keeps references to
+  // `in` and `separation`. Collective.
+  SeparationSearch(const ProjectionInput<Dim>& in, double tolerance, const CellField<Dim, char>* earlier,
+                   Separation<Dim>& separation);
 
   // Compares the current guess with its solution. Returns true if the guess is right or was the last one. Otherwise
   // writes the next guess to `separation`; after the last round, this is the guess with the smallest error. Collective.
