@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/blas_kernels.h"
 #include "base/emergency_channel.h"
 #include "base/error.h"
 #include "base/patient_yield.h"
@@ -53,6 +54,7 @@ std::vector<std::string> split(const Pieces& p) {
 MpiSession::MpiSession(int& argc, char**& argv) {
   // Waiting ranks yield their core. Otherwise, on a busy machine, they would block the ranks that they wait for.
   wait_patiently();
+  choose_blas_kernels();
   // Without mpirun, Open MPI starts a daemon for the single process and makes a folder that all such processes share:
   // both can fail if one process starts while another ends. A single process needs neither.
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
