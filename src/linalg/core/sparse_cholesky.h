@@ -14,7 +14,8 @@ class SparseCholesky {
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  // False if A is not positive definite. The ordering is reused while the pattern of A stays the same.
+  // False if A is not positive definite. Analyses (ordering and structure of the factor) depend on the pattern of A
+  // alone. Those made last are kept for all objects of the process and used again for the same pattern.
   [[nodiscard]] bool factor(const SparseMatrix& A);
   // A^-1 b, after a call of factor() that returned true.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
@@ -23,6 +24,7 @@ class SparseCholesky {
 
  private:
   struct Factors;
+  struct Analyses;
   std::unique_ptr<Factors> factors_;
 };
 
