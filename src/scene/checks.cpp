@@ -221,15 +221,10 @@ void check_gas(const Checker& c, const Scene& scene) {
                                "would flow into the gap where liquid separates from a solid; remove separates");
 }
 
-bool has_solid_that_moves(const Scene& scene) {
-  return std::any_of(scene.solids.begin(), scene.solids.end(), [](const SolidSpec& s) { return s.kind.moves(); });
-}
-
 // Reports what excludes volumes carried in cells.
 void check_volume(const Checker& c, const Scene& scene) {
   if (scene.liquid.volume != VolumeKeeping::in_cells) return;
-  const std::vector<std::pair<const char*, bool>> all{{"[[solid]] that are not static", has_solid_that_moves(scene)},
-                                                      {"[gas]", scene.gas.present},
+  const std::vector<std::pair<const char*, bool>> all{{"[gas]", scene.gas.present},
                                                       {"liquid.separates = true", scene.liquid.separates}};
   std::vector<std::string> names;
   for (const auto& [name, given] : all)

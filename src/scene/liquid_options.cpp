@@ -77,9 +77,9 @@ Key<LiquidSpec> volume_key() {
   return choice_key<LiquidSpec, VolumeKeeping LiquidSpec::*, VolumeKeeping>(
       {.key = "volume",
        .doc = "how liquid is kept. \"cells\": the share of each cell is carried, so that liquid stays where it is, to "
-              "rounding; for scenes whose solids stand still and are thicker than a cell, without gas and separating "
-              "walls. \"shift\": one shift of the whole surface keeps the sum. \"auto\": \"cells\" in prescribed flows "
-              "without sources and inflow sides, else \"shift\""},
+              "rounding; for scenes whose solids are thicker than a cell, without gas and separating walls. \"shift\": "
+              "one shift of the whole surface keeps the sum. \"auto\": \"cells\" in prescribed flows without sources "
+              "and inflow sides, else \"shift\""},
       &LiquidSpec::volume,
       {{"auto", VolumeKeeping::automatic}, {"cells", VolumeKeeping::in_cells}, {"shift", VolumeKeeping::by_shift}});
 }

@@ -186,18 +186,18 @@ def make_scene(registry, rng: random.Random):
     return {key: value for key, value in scene.items() if value not in ([], {})}, c
 
 
-def is_thick_and_still(c, solid):
-    """Solids beside which volumes in cells work: static ones, surely thicker than a cell."""
+def is_thick(c, solid):
+    """Solids beside which volumes in cells work: surely thicker than a cell."""
     least = 2 * c.h
     thick = (solid.get("invert") or solid.get("radius", 0) > least
              or ("upper" in solid and min(u - l for u, l in zip(solid["upper"], solid["lower"])) > 2 * least))
-    return solid["kind"] == "static" and thick and "scale" not in solid
+    return thick and "scale" not in solid
 
 
 def choose_volume(c, scene):
     """How the liquid is kept: by cells only where nothing in the scene stands against it."""
     liquid, sides = scene["liquid"], str(scene["domain"].get("boundary", {}))
-    against = (not all(is_thick_and_still(c, s) for s in scene["solid"]) or c.has_gas or liquid.get("source") or liquid.get("separates") or "inflow" in sides
+    against = (not all(is_thick(c, s) for s in scene["solid"]) or c.has_gas or liquid.get("source") or liquid.get("separates") or "inflow" in sides
                or "outflow" in sides)
     words = [w for w in c.choices("liquid", "volume") if not (w == "cells" and against)]
     if against and c.rng.random() < 0.9:

@@ -192,6 +192,20 @@ void visit_cells(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   if (s.solids.may_seal()) domain.halo.fill_ghosts({state.sealed.data()});
 }
 
+template <int Dim>
+void visit_room(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visitor) {
+  if (!s.room_changes()) return;
+  const Layout<Dim>& layout = s.domain.layout;
+  auto parts =
+      visitor.loads() ? std::make_shared<OpenParts<Dim>>(layout) : std::const_pointer_cast<OpenParts<Dim>>(state.open);
+  visitor.field("room", layout.cells(), parts->cells);
+  for (int a = 0; a < Dim; ++a)
+    visitor.field(fmt::format("room.through[{}]", "xyz"[a]), layout.faces(a), parts->faces[a]);
+  if (!visitor.loads()) return;
+  fill_open_ghosts(layout, s.domain.halo, *parts);
+  state.open = std::move(parts);
+}
+
 // All that a state keeps, for saving, loading and the layout of checkpoints. Collective.
 template <int Dim>
 void visit_state(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visitor) {
@@ -200,6 +214,7 @@ void visit_state(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visit_numbers(s.fluids, s.solids.bodies.size(), state, visitor);
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].visit(visitor);
   visit_cells(s, state, visitor);
+  visit_room(s, state, visitor);
   for (int a = 0; a < Dim; ++a) {
     visitor.field(std::string("film.open[") + "xyz"[a] + "]", s.domain.layout.faces(a), state.gap_flow.open[a]);
     visitor.field(std::string("film.u[") + "xyz"[a] + "]", s.domain.layout.faces(a), state.gap_flow.u[a]);
@@ -219,6 +234,8 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   state.pressure = CellField<Dim>(layout);
   if (s.tracks_volume()) state.liquid = CellField<Dim>(layout);
   if (s.volume_lags()) state.liquid_phi = CellField<Dim>(layout);
+  state.open = s.open_parts;
+  if (s.room_changes()) state.open = std::make_shared<OpenParts<Dim>>(layout);
   state.gap_flow = GapFlow<Dim>(layout);
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(layout);

@@ -30,7 +30,7 @@ struct Setup {
   std::vector<Source<Dim>> sources;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
-  std::optional<OpenParts<Dim>> open_parts;  // beside solids, if tracks_volume()
+  std::shared_ptr<const OpenParts<Dim>> open_parts;  // if tracks_volume() beside solids, none of which moves; else null
 
   // `blocks`: owned cells of each rank; empty: of equal size.
   Setup(const Scene& scene, const Communicator& ranks, const OperatorPerturbation& perturbation = {},
@@ -44,10 +44,9 @@ struct Setup {
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
   // True if initial velocities need not fit the solids and the sides that volumes pass.
-  bool volume_sets_off() const { return volume_lags() && (!room().is_whole() || domain.sides.any_passes()); }
-  // Beside solids, which stand still, if tracks_volume().
-  Room<Dim> room() const { return open_parts ? Room<Dim>(*open_parts) : Room<Dim>(); }
-  LedgerRules<Dim> ledger() const { return {divergence(), room()}; }
+  bool volume_sets_off() const { return volume_lags() && (!solids.bodies.empty() || domain.sides.any_passes()); }
+  // True if the room for liquid in cells changes, State::open.
+  bool room_changes() const { return tracks_volume() && !solids.bodies.empty() && !open_parts; }
   Divergence divergence() const { return fluids.has_prescribed_flow() ? Divergence::swells : Divergence::stays; }
 };
 

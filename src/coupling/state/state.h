@@ -7,6 +7,7 @@
 #include "fluid/boundary/domain.h"
 #include "fluid/pressure/pressure.h"
 #include "fluid/viscosity/viscosity.h"
+#include "fluid/volume/room.h"
 
 namespace seiche {
 
@@ -31,6 +32,8 @@ struct State : Flow<Dim> {
   // Share of each cell, ghosts filled; empty unless Setup::tracks_volume(). It belongs to the time of the last solve,
   // time - since_solve, as does the level set liquid_phi (m); that is empty unless Setup::volume_lags().
   CellField<Dim> liquid, liquid_phi;
+  // Room beside solids: of cells at the time of `liquid`, of faces where `now` fits the solids. Null unless both exist.
+  std::shared_ptr<const OpenParts<Dim>> open;
   CellField<Dim> pressure;      // Pa, 0 where the cell has no row
   double expected_volume = 0;   // initial + sources + net inflow, m^Dim
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim
@@ -48,6 +51,8 @@ struct State : Flow<Dim> {
   // Loads on each solid by viscous stress (empty if the liquid is inviscid) and by ConvectedPressure (empty if none
   // carries it).
   std::vector<SolidLoad> viscous_loads, convected_loads;
+
+  Room<Dim> room() const { return open ? Room<Dim>(*open) : Room<Dim>(); }
 };
 
 // Placements of all solids at the state's time. Prescribed solids have their mean velocity over the last step, others

@@ -17,6 +17,7 @@
 #include "coupling/state/source.h"
 #include "coupling/state/state.h"
 #include "coupling/step/initial_state.h"
+#include "coupling/step/leapfrog.h"
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
 #include "coupling/thin/liquid_beside.h"
@@ -183,8 +184,10 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
   features = Features(*this);
   if (!tracks_volume() || solids.bodies.empty()) return;
   refuse_thin(solids);
+  if (any_moves(solids)) return;
   const StepGeometry<Dim> still = solids.geometry.measure(std::vector<Placement>(solids.bodies.size()), 0);
-  open_parts = measure_open_parts(domain.layout, domain.halo, still.psi, still.faces.open);
+  open_parts =
+      std::make_shared<OpenParts<Dim>>(measure_open_parts(domain.layout, domain.halo, still.psi, still.faces.open));
 }
 
 // Throws Error(bad_input) if a fixed step is too long for the initial velocity or the solids' motions. Checks a bounded
@@ -235,6 +238,10 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   check_formulas_at_start(s.domain, s.fluids, s.sources, s.scene->domain, g, fault);
   if (s.tracks_volume()) start_volume(s.domain, g.psi, state);
   if (s.volume_lags()) state.liquid_phi = state.phi;
+  state.open = s.open_parts;
+  if (s.room_changes())
+    state.open =
+        std::make_shared<OpenParts<Dim>>(measure_open_parts(s.domain.layout, s.domain.halo, g.psi, g.faces.open));
   state.now = s.fluids.has_prescribed_flow() ? prescribed_level(s.domain, s.fluids, state, 0)
                                              : initial_level(s.domain, s.fluids, s.solids, g, wet, std::move(u));
   state.gap_flow = measure_gap_flow(s.domain, g.faces, state.now->u);

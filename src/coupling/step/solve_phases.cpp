@@ -73,7 +73,7 @@ ProjectionInput<Dim> projection_input(const SolveTask<Dim>& task, const State<Di
   if (task.tension) in.surface_jump = &task.tension->jump;
   if (!state.liquid.empty()) {
     in.share = &state.liquid;
-    in.room = s.room();
+    in.room = state.room();
     in.excess_time = time_of_excess(task.before, task.times.dt);
   }
   if (!task.predicted.filling.empty()) in.filling = &task.predicted.filling.inflow;
@@ -330,7 +330,7 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
 template <int Dim>
 Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Moved<Dim> moved,
                                Predicted<Dim> predicted, const StepTimes& times, Phases& phases) {
-  constexpr int most_solves = 8;
+  constexpr int most_solves = 3;  // the fold that closes goes on by a cell a solve; what is left is little
   const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(moved.state.time, times.dt);
   for (int solves = 1, iterations = 0;; ++solves) {
     Attempt<Dim> out = solve_and_plan(s, before, moved, predicted, times, phases);
@@ -338,8 +338,8 @@ Attempt<Dim> solve_within_room(const Setup<Dim>& s, const State<Dim>& before, Mo
     if (!out.failure.empty()) return out;
     const auto timed = phases.timers.measure("surface");
     if (solves == most_solves ||
-        !add_filling_cells(s.domain, moved.geometry.faces,
-                           {moved.state.liquid, before.now->u, gravity, times.dt, s.room()}, out.state.now->u,
+        !add_filling_cells(s.domain, out.geometry.faces,
+                           {moved.state.liquid, before.now->u, gravity, times.dt, moved.state.room()}, out.state.now->u,
                            moved.state.phi, predicted.u_star, predicted.filling)) {
       if (!predicted.filling.empty()) out.state.phi = std::move(predicted.filling.phi);
       return out;

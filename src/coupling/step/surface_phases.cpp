@@ -96,6 +96,14 @@ std::shared_ptr<const EndOfStep<Dim>> find_end(const Domain<Dim>& domain, const 
   return end_of_step(domain, solids, known, moved.state, moved.geometry, times.dt);
 }
 
+// Room in cells where the solids are at the solve, and through faces where its velocities fit them.
+template <int Dim>
+std::shared_ptr<const OpenParts<Dim>> room_at_solve(const Domain<Dim>& domain, const Moved<Dim>& moved) {
+  const StepGeometry<Dim>& fitted = moved.end ? moved.end->geometry : moved.geometry;
+  return std::make_shared<OpenParts<Dim>>(
+      measure_open_parts(domain.layout, domain.halo, moved.geometry.psi, fitted.faces.open));
+}
+
 // Empty volume at walls that phi still counts as liquid, m^Dim.
 template <int Dim>
 double gap_volume(const Domain<Dim>& domain, const Fluids& fluids, const Separation<Dim>& separation) {
@@ -130,8 +138,9 @@ std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const F
   const bool sets_off = before.step == 0 && s.volume_sets_off();
   if (sets_off && !before.trial) return {};
   const State<Dim>& known = sets_off ? *before.trial : before;
+  const Room<Dim> room = before.open ? Room<Dim>(*before.open, *known.open) : Room<Dim>();
   return carry_liquid(s.domain, sets_off ? known.now->u : u, known.gap_flow, s.perturbation.surface_advection * span,
-                      s.ledger(), before, next);
+                      {s.divergence(), room, next.room()}, before, next);
 }
 
 // Volumes of cells from their last time to that of the solve. Empty, or what fails.
@@ -163,7 +172,8 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   moved.brought = transport_and_book(s, before, std::move(u), times.start, times.lead, closed, moved.state);
   make_distance(s.domain, s.fluids, s.solids, s.scene->time, bent, phi);
   const bool is_trial = before.step == 0 && s.volume_sets_off() && !before.trial;
-  if (is_trial && s.domain.sides.any_passes()) start_volume(s.domain, moved.geometry.psi, moved.state);
+  if (is_trial && (s.domain.sides.any_passes() || s.room_changes()))
+    start_volume(s.domain, moved.geometry.psi, moved.state);
   inject(s.domain, fault, phi.data());
 }
 
@@ -194,7 +204,7 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const auto timed = phases.timers.measure("surface");
   State<Dim>& next = moved.state;
   const StepGeometry<Dim>& geometry = moved.geometry;
-  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, s.ledger(), next);
+  if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, {s.divergence(), next.room()}, next);
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
   keep_sides_of_walls(s.domain, geometry, next.phi);
   if (s.features.has(Feature::sealed_cavities)) keep_sealed_full(s.domain, s.solids, before, next, geometry, next.phi);
@@ -218,6 +228,7 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   if (!times.looks_ahead()) move_solids(s, before, times, moved.state.solids);
   moved.geometry = measure_geometry(s.domain, s.solids, s.scene->domain, moved.state, times, phases);
   moved.end = find_end(s.domain, s.fluids, s.solids, before, times, moved, phases);
+  if (s.room_changes()) moved.state.open = room_at_solve(s.domain, moved);
   if (!times.looks_ahead()) carry_surface(s, before, times, phases, moved);
   keep_volumes(s, before, times, phases, moved);
   if (s.domain.sides.any_passes())

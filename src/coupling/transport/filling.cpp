@@ -15,7 +15,7 @@
 namespace seiche {
 namespace {
 
-constexpr double margin = 0.02;         // share of a cell that is left to be spilled
+constexpr double margin = 0.05;         // share of a cell beyond its room that does not count
 constexpr double farthest = 2;          // cells from the surface
 constexpr double counted_level = -0.5;  // cells
 
@@ -123,16 +123,17 @@ double share_where_from(const Layout<Dim>& layout, const FillingStep<Dim>& step,
 }
 
 // Air that what flows into a cell brings along, as a share of the cell, if there is too much liquid in it for the cell;
-// else none. It comes from a region of the volume K - dt div u.
+// else none. It comes from a region of the volume K - dt/h sum +- w u. Solids leave the cell K + dt/h sum +- s v.
 template <int Dim>
-std::optional<double> air_if_overfull(const Layout<Dim>& layout, const FillingStep<Dim>& step,
-                                      const CellField<Dim>& phi, const FaceField<Dim>& u, Site c) {
-  const double room = step.room.of(c);
-  double region = room;
+std::optional<double> air_if_overfull(const Layout<Dim>& layout, const FaceGeometry<Dim>& faces,
+                                      const FillingStep<Dim>& step, const CellField<Dim>& phi, const FaceField<Dim>& u,
+                                      Site c) {
+  double region = step.room.of(c), room = region;
   for (int a = 0; a < Dim; ++a) {
     const Site high = c + layout.stride(a);
-    region +=
-        (step.room.through(a, c) * u.at(a, c) - step.room.through(a, high) * u.at(a, high)) * step.dt / layout.h();
+    const double scale = step.dt / layout.h();
+    region += scale * (step.room.through(a, c) * u.at(a, c) - step.room.through(a, high) * u.at(a, high));
+    room += scale * (faces.closed_flux.at(a, high) - faces.closed_flux.at(a, c));
   }
   if (region <= room + margin && step.share[c] <= room + margin) return {};
   const double liquid = region * share_where_from(layout, step, phi, u, c);
@@ -195,7 +196,7 @@ bool add_filling_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces
   const std::vector<Site> surface = cells_at_surface(l, level, phi);
   std::vector<FillingCell> cells;
   for (const Site c : surface)
-    if (const auto air = air_if_overfull(l, step, level, u, c)) cells.push_back({c, *air});
+    if (const auto air = air_if_overfull(l, faces, step, level, u, c)) cells.push_back({c, *air});
   if (!domain.ranks.any(!cells.empty()) || !has_other_surface(domain, phi, surface, cells)) return false;
   predict_faces(domain, faces, step, cells, phi, u_star);
   if (filling.empty()) filling = {CellField<Dim>(l), phi};

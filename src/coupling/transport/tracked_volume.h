@@ -11,8 +11,9 @@ template <int Dim>
 void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Dim>& state);
 
 // Carries State::liquid from the time it belongs to over `span` (s) along the flow u (m/s) that carries the level set.
-// `solved`: of the same flow, on faces that are hardly open. `before`: the state as it was. Books what passes the
-// sides, and what the flow's divergence adds. Empty, or a text if paths leave the halo. Collective.
+// `solved`: of the same flow, on faces that are hardly open. `ledger`: room of cells at both times, and of faces that u
+// fits. `before`: the state as it was. Books what passes the sides, and what the flow's divergence adds. Empty, or a
+// text if paths leave the halo. Collective.
 template <int Dim>
 std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
                          const Ledger<Dim>& ledger, const State<Dim>& before, State<Dim>& state);

@@ -15,12 +15,16 @@ namespace seiche {
 enum class Divergence { swells, stays };
 
 // Rules that decide how much liquid V a cell may hold: its capacity K (`room`), and the effect of divergence on V.
+// `after`: the room once V has been carried; it is another where solids move.
 template <int Dim>
 struct LedgerRules {
   Divergence divergence;
-  Room<Dim> room;
+  Room<Dim> room, after;
 
-  LedgerRules(Divergence d, Room<Dim> r = {}) : divergence(d), room(r) {}  // NOLINT: a Divergence alone will do
+  LedgerRules(Divergence d, Room<Dim> r = {}) : LedgerRules(d, r, r) {}  // NOLINT: a Divergence alone will do
+  LedgerRules(Divergence d, Room<Dim> r, Room<Dim> later) : divergence(d), room(r), after(later) {}
+  LedgerRules at_end() const { return {divergence, after}; }
+  bool has_moved() const { return room != after; }  // solids did
 };
 template <int Dim>
 using Ledger = std::type_identity_t<LedgerRules<Dim>>;  // converts where Dim follows from other arguments
@@ -48,8 +52,8 @@ class CountedShares {
     const double v = share_[c];
     return v != 0 && v != 1 && is_deep(layout_, ledger_, phi_, share_, c) ? 1 : v;
   }
-  // True if the cells of a group (grid/groups.h) hold nothing.
-  bool all_empty(Site first) const { return all_zero(share_.data() + first); }
+  // True if no cell of a group (grid/groups.h) counts.
+  bool all_empty(Site first) const { return all_zero((beside_.empty() ? share_ : beside_).data() + first); }
 
  private:
   double beside_solids(Site cell) const;

@@ -1,33 +1,75 @@
 #include "fluid/volume/room.h"
 
+#include <algorithm>
+
 #include "fluid/volume/neighbours.h"
+#include "grid/groups.h"
+#include "grid/loops.h"
 #include "levelset/fractions.h"
 
 namespace seiche {
 
-// psi is not stored above the last cells.
+namespace {
+
+// 1 - K on the owned cells. Groups of cells whose nodes all have psi >= 0 are passed over.
+template <int Dim>
+CellField<Dim> closed_cells_of(const Layout<Dim>& layout, const NodeField<Dim>& psi) {
+  constexpr int corners = 1 << Dim;
+  std::array<Site, corners> corner{};
+  for (int k = 0; k < corners; ++k)
+    for (int a = 0; a < Dim; ++a) corner[std::size_t(k)] += (k >> a & 1) * layout.stride(a);
+  CellField<Dim> closed(layout);
+  const auto may_matter = [&](Site c) {
+    return std::any_of(corner.begin(), corner.end(), [&](Site o) { return any_negative(psi.data() + c + o); });
+  };
+  for_each_possible(layout, layout.cells(), may_matter, [&](Site c) {
+    if (const double k = open_share(layout, psi, c); k != 1) closed[c] = 1 - k;
+  });
+  return closed;
+}
+
+// to = 1 - closed, wherever sites are stored.
+template <int Dim>
+void set_open(const Layout<Dim>& layout, const double* closed, PagedValues<double>& to) {
+  for (const Site s : listed_possible(
+           layout, layout.padded(), [&](Site c) { return !all_zero(closed + c); },
+           [&](Site c) { return closed[c] != 0; }))
+    to.set(s, 1 - closed[s]);
+}
+
+}  // namespace
+
+template <int Dim>
+void fill_open_ghosts(const Layout<Dim>& layout, const Halo<Dim>& halo, OpenParts<Dim>& parts) {
+  CellField<Dim> cells(layout);
+  FaceField<Dim> faces(layout);
+  parts.cells.for_each_stored([&](Site c, double open) {
+    if (open != 1 && layout.cells().contains(layout.index(c))) cells[c] = 1 - open;
+  });
+  for (int a = 0; a < Dim; ++a)
+    parts.faces[a].for_each_stored([&](Site f, double open) {
+      if (open != 1 && layout.faces(a).contains(layout.index(f))) faces.at(a, f) = 1 - open;
+    });
+  halo.fill_ghosts(cells);
+  halo.fill_ghosts(faces);
+  parts = OpenParts<Dim>(layout);
+  set_open(layout, cells.data(), parts.cells);
+  for (int a = 0; a < Dim; ++a) set_open(layout, faces[a].data(), parts.faces[a]);
+}
+
 template <int Dim>
 OpenParts<Dim> measure_open_parts(const Layout<Dim>& layout, const Halo<Dim>& halo, const NodeField<Dim>& psi,
                                   const PagedFaceField<Dim>& open) {
-  Box<Dim> box = layout.padded();
-  box.upper.array() -= 1;
-  CellField<Dim> cells(layout, 1);
-  for_each_site(layout, box, [&](Site c) { cells[c] = open_share(layout, psi, c); });
-  halo.fill_ghosts(cells);
-  FaceField<Dim> faces(layout, 1);
-  for (int a = 0; a < Dim; ++a) for_each_site(layout, layout.padded(), [&](Site f) { faces.at(a, f) = open.at(a, f); });
-  halo.fill_ghosts(faces);
-  OpenParts<Dim> parts{PagedCellField<Dim>(layout, 1), PagedFaceField<Dim>(layout, 1)};
-  for_each_index_in_order(layout, layout.padded(), [&](Site s, const IVec<Dim>&) {
-    parts.cells.set(s, cells[s]);
-    for (int a = 0; a < Dim; ++a) parts.faces.set(a, s, faces.at(a, s));
-  });
+  OpenParts<Dim> parts(layout);
+  set_open(layout, closed_cells_of(layout, psi).data(), parts.cells);
+  parts.faces = open;
+  fill_open_ghosts(layout, halo, parts);
   return parts;
 }
 
 template <int Dim>
 bool Room<Dim>::joins(const Layout<Dim>& layout, Site cell, const IVec<Dim>& offset) const {
-  if (!parts_) return true;
+  if (is_whole()) return true;
   bool there = true;
   for (int a = 0; a < Dim; ++a) {
     if (offset[a] == 0) continue;
@@ -58,6 +100,8 @@ std::optional<Site> Room<Dim>::host_of(const Layout<Dim>& layout, Site cell) con
   return host;
 }
 
+template void fill_open_ghosts<2>(const Layout<2>&, const Halo<2>&, OpenParts<2>&);
+template void fill_open_ghosts<3>(const Layout<3>&, const Halo<3>&, OpenParts<3>&);
 template OpenParts<2> measure_open_parts<2>(const Layout<2>&, const Halo<2>&, const NodeField<2>&,
                                             const PagedFaceField<2>&);
 template OpenParts<3> measure_open_parts<3>(const Layout<3>&, const Halo<3>&, const NodeField<3>&,

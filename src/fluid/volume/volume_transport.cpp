@@ -142,13 +142,14 @@ FaceField<Dim> fluxes(const Layout<Dim>& layout, const Room<Dim>& room, const Fr
   return r;
 }
 
-// Cuts what leaves a cell to what is there and comes in. Beside solids, regions of several faces may overlap. A second
-// round covers cells that get less by the first. Collective.
+// Cuts what leaves a cell to what is there and comes in. Beside solids, regions of several faces may overlap. Later
+// rounds cover cells that get less by earlier ones. Collective.
 template <int Dim>
 void keep_to_what_is_there(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
                            const CellField<Dim>& share, FaceField<Dim>& flux) {
   constexpr double rounding = 1e-13;
-  for (int round = 0; round < 2; ++round) {
+  constexpr int most_rounds = 8;
+  for (int round = 0; round < most_rounds; ++round) {
     CellField<Dim> part(layout, 1);
     bool any = false;
     for_each_index_in_order(layout, layout.cells(), [&](Site c, const IVec<Dim>&) {
@@ -210,10 +211,10 @@ int cells_of_paths(const Layout<Dim>& layout, const Communicator& ranks, const F
   return int(std::ceil(ranks.global_max(fastest) * dt / layout.h() - rounding));
 }
 
-// One part of a step.
+// One part of a step. What is beyond the room of cells is handed on at its end, where solids are known to be.
 template <int Dim>
 VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Communicator& ranks,
-                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger,
+                      const FrozenFlow<Dim>& flow, const CellField<Dim>& phi, const Ledger<Dim>& ledger, bool is_last,
                       CellField<Dim>& share) {
   const CountedShares<Dim> counted(layout, ledger, phi, share, flow.velocity.fed);
   const LiquidInCells<Dim> liquid(layout, phi, counted, ledger.divergence == Divergence::stays);
@@ -234,7 +235,8 @@ VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Co
   fill_share_ghosts(layout, halo, share);
   std::array<double, 2> sums{entering(layout, flux), swollen};
   ranks.global_sum(sums);
-  return {sums[0], sums[1], hand_on_excess(layout, halo, ranks, phi, ledger, share), 0};
+  const bool hands_on = is_last || !ledger.has_moved();
+  return {sums[0], sums[1], hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, share) : Spill{}, 0};
 }
 
 }  // namespace
@@ -261,7 +263,7 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
       parts *= 2;
       continue;
     }
-    all += carry_part(layout, halo, ranks, {flow, part, near, origins, fed}, phi, ledger, share);
+    all += carry_part(layout, halo, ranks, {flow, part, near, origins, fed}, phi, ledger, done + 1 == parts, share);
     all.too_far += too_far;
     ++done;
   }
