@@ -1,6 +1,7 @@
 #pragma once
 // Scenes whose liquid is kept in cells (liquid.volume = "cells").
 #include <algorithm>
+#include <catch2/catch.hpp>
 
 #include "scenes.h"
 
@@ -13,6 +14,14 @@ inline Scene kept_in_cells(int dim, int cells, const Formula& phi) {
   s.liquid.volume = VolumeKeeping::in_cells;
   add_liquid(s, phi);
   return s;
+}
+
+// Steps to `end`; the volume must keep to rounding.
+inline std::unique_ptr<Simulation> run_keeping_volume(const Scene& s, double end) {
+  auto sim = make_simulation(s, Communicator());
+  const double volume = sim->stats().liquid_volume;
+  while (sim->time() < end * (1 - 1e-12)) REQUIRE(sim->step(end).liquid_volume == Approx(volume).epsilon(1e-11));
+  return sim;
 }
 
 // Mean height of the level set's liquid, m.

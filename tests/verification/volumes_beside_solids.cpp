@@ -8,7 +8,7 @@
 
 namespace volumes_beside_solids_tests {
 using namespace seiche;
-using test::kept_in_cells;
+using test::kept_in_cells, test::run_keeping_volume;
 
 namespace {
 
@@ -33,14 +33,6 @@ SolidSpec& add_sphere(Scene& s, const Vec3& center, double radius) {
   return solid;
 }
 
-// Steps to `end`; the volume must keep to rounding.
-std::unique_ptr<Simulation> run(const Scene& s, double end) {
-  auto sim = make_simulation(s, Communicator());
-  const double volume = sim->stats().liquid_volume;
-  while (sim->time() < end * (1 - 1e-12)) REQUIRE(sim->step(end).liquid_volume == Approx(volume).epsilon(1e-11));
-  return sim;
-}
-
 // Least level set right of x, m.
 double least_beyond(const Simulation& sim, double x, double h) {
   const FrameField f = sim.frame_field("surface");
@@ -62,7 +54,7 @@ TEST_CASE("volumes beside solids: liquid at rest in a turned box stays at rest",
     box.shape.transform.rotate = {dim == 2 ? Vec3(0, 0, 1) : Vec3(1, 2, 3), 30};
     box.shape.transform.translate = {0.5, 0.5, dim == 2 ? 0 : 0.5};
     box.shape.invert = true;
-    const StepStats end = run(s, 0.5)->stats();
+    const StepStats end = run_keeping_volume(s, 0.5)->stats();
     CHECK(end.max_speed < 1e-5);
     CHECK(end.volume_spilled < 1e-6 * end.liquid_volume);
   }
@@ -73,7 +65,7 @@ TEST_CASE("volumes beside solids: a dam break among posts keeps its volume", "[v
     Scene s = kept_in_cells(dim, dim == 2 ? 40 : 16, "max(x-0.3,y-0.5)");
     add_sphere(s, {0.6, 0.1, 0.3}, 0.14);
     add_box(s, {0.75, 0.3, 0.4}, {0.9, 0.42, 0.8}).shape.transform.rotate = {Vec3(0, 0, 1), 10};
-    const auto sim = run(s, 0.8);
+    const auto sim = run_keeping_volume(s, 0.8);
     const StepStats start = make_simulation(s, Communicator())->stats(), end = sim->stats();
     WARN(dim << "D: spilled " << end.volume_spilled / end.liquid_volume);
     CHECK(end.volume_spilled < 0.02 * end.liquid_volume);  // 0.006, 0.010
@@ -88,7 +80,7 @@ TEST_CASE("volumes beside solids: a wall of 1.4 cells lets nothing through", "[v
     const double h = 1.0 / cells, low = 0.5 + 0.4 * h;
     Scene s = kept_in_cells(dim, cells, "max(x-0.5,y-0.3-0.6*x)");
     add_box(s, {low, -1, -1}, {low + 1.4 * h, 2, 2});
-    const auto sim = run(s, 1);
+    const auto sim = run_keeping_volume(s, 1);
     CHECK(least_beyond(*sim, low + h, h) > 0.5 * h);
     // Spray on this side, 2e-5 and 4e-4. Cells beyond hold up to 5e-8 of theirs, of both signs.
     CHECK(sim->stats().volume_drifting < 1e-3 * sim->stats().liquid_volume);
@@ -102,7 +94,7 @@ TEST_CASE("volumes beside solids: full cells stay full in a flow past a sphere",
     s.liquid.velocity = {"1", "0", "0"};
     for (SideSpec& side : s.domain.sides[0]) side.type = SideType::periodic;
     add_sphere(s, {0.5, 0.47, 0.52}, 0.23);
-    const StepStats end = run(s, 1)->stats();
+    const StepStats end = run_keeping_volume(s, 1)->stats();
     CHECK(end.volume_spilled < 1e-6 * end.liquid_volume);
     CHECK(end.volume_drifting == 0);
   }
@@ -120,7 +112,7 @@ TEST_CASE("volumes beside solids: a drop flies on from the first step", "[volume
       s.time.scheme = scheme;
       s.time.fixed_step = 0.03;
       add_sphere(s, {0.5, 0.2, 0.5}, 0.11);
-      const auto sim = run(s, 0.3);
+      const auto sim = run_keeping_volume(s, 0.3);
       const double h = s.domain.cell_size;
       CHECK(least_beyond(*sim, 0.85 + h, h) > 0);  // it ends at x = 0.85
       CHECK(least_beyond(*sim, 0.85 - 1.5 * h, h) < 0);

@@ -6,7 +6,7 @@
 
 namespace volumes_moving_solids_tests {
 using namespace seiche;
-using test::add_pool, test::kept_in_cells, test::rigid_ball, test::rigid_box;
+using test::add_pool, test::kept_in_cells, test::rigid_ball, test::rigid_box, test::run_keeping_volume;
 
 namespace {
 
@@ -14,14 +14,6 @@ SolidSpec moved(SolidSpec s, const VectorFormula& by) {
   s.kind = SolidKind::kinematic;
   s.motion.translate = by;
   return s;
-}
-
-// Steps to `end`; the volume must keep to rounding.
-std::unique_ptr<Simulation> run(const Scene& s, double end) {
-  auto sim = make_simulation(s, Communicator());
-  const double volume = sim->stats().liquid_volume;
-  while (sim->time() < end * (1 - 1e-12)) REQUIRE(sim->step(end).liquid_volume == Approx(volume).epsilon(1e-11));
-  return sim;
 }
 
 double largest_level(const Simulation& sim) {
@@ -37,7 +29,7 @@ TEST_CASE("volumes beside moving solids: a full box stays full", "[volumes]") {
     Scene s = kept_in_cells(dim, dim == 2 ? 32 : 12, "-1");
     s.solids = {moved(rigid_ball("shuttle", dim == 2 ? 0.12 : 0.2, {0.5, 0.5, 0.5}, 1000),
                       {"0.2*sin(3*t)", "0.1*sin(5*t)", "0"})};
-    const auto sim = run(s, 1);
+    const auto sim = run_keeping_volume(s, 1);
     CHECK(largest_level(*sim) < 0);
     CHECK(sim->stats().volume_spilled < 1e-3 * sim->stats().liquid_volume);
     CHECK(sim->stats().volume_drifting == 0);
@@ -51,7 +43,7 @@ TEST_CASE("volumes beside moving solids: a floating body stays as still as with 
     s.liquid.regions.clear();
     add_pool(s, 0.505);
     s.solids = {rigid_box("raft", {0.4, 0.26, 0.4}, {0.5, 0.505, 0.5}, 500)};
-    const StepStats end = run(s, 0.5)->stats();
+    const StepStats end = run_keeping_volume(s, 0.5)->stats();
     s.liquid.volume = VolumeKeeping::by_shift;
     const auto shift = make_simulation(s, Communicator());
     while (shift->time() < 0.5 * (1 - 1e-12)) (void)shift->step(0.5);
@@ -68,7 +60,7 @@ TEST_CASE("volumes beside moving solids: a piston lifts a pool", "[volumes]") {
     s.liquid.regions.clear();
     add_pool(s, 0.4);
     s.solids = {moved(rigid_box("piston", {1, 2, 2}, {-0.3, 0.5, 0.5}, 1000), {"0.15*(1-cos(pi*t))", "0", "0"})};
-    const auto sim = run(s, 1);
+    const auto sim = run_keeping_volume(s, 1);
     CHECK(sim->stats().volume_spilled < 0.005 * sim->stats().liquid_volume);
     const double rest = 0.5 * 1000 * 9.81 * std::pow(0.4 * 0.8, 2) / 0.5;  // J, potential energy
     CHECK(sim->stats().potential_energy > 0.99 * rest);
@@ -80,7 +72,7 @@ TEST_CASE("volumes beside moving solids: a dam break carries a box along", "[vol
   for (const int dim : {2, 3}) {
     Scene s = kept_in_cells(dim, dim == 2 ? 40 : 16, "max(x-0.3,y-0.6)");
     s.solids = {rigid_box("box", {0.2, 0.18, 0.3}, {0.6, 0.12, 0.4}, 500, 10)};
-    const auto sim = run(s, 0.8);
+    const auto sim = run_keeping_volume(s, 0.8);
     const StepStats start = make_simulation(s, Communicator())->stats(), end = sim->stats();
     WARN(dim << "D: spilled " << end.volume_spilled / end.liquid_volume);
     CHECK(end.volume_spilled < 0.02 * end.liquid_volume);  // 0.012, 0.011
