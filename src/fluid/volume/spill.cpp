@@ -21,7 +21,7 @@ class Excess {
   double amount;  // beyond its room, or below 0
   double moved() const { return std::copysign(std::min(std::abs(amount), total_), amount); }
 
-  // What a neighbour can take, or give. Cells with liquid take it up before empty ones do.
+  // Room of a neighbour, or what it has to give. Cells with liquid take up more before empty ones do.
   double room_of(Site n) const {
     constexpr double wet = 1e-6;
     if (amount < 0) return std::max(0.0, share_[n]);
