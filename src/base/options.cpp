@@ -45,6 +45,10 @@ std::string type_name(OptionType type) {
       return "a name in quotes";
     case OptionType::choice_list:
       return "an array of names in quotes";
+    case OptionType::pair:
+      return "an array of two names in quotes";
+    case OptionType::interval:
+      return "an array of two numbers";
     case OptionType::vector:
       return "an array of numbers";
     case OptionType::axis:

@@ -14,6 +14,8 @@ enum class OptionType {
   text,
   choice,          // one of `choices`
   choice_list,     // any of `choices`, each at most once
+  pair,            // two names
+  interval,        // two numbers
   vector,          // as many numbers as the scene has dimensions
   axis,            // three numbers in 2D and 3D
   spin,            // angular velocity: three numbers; in 2D one, about z

@@ -5,6 +5,7 @@
 #include "base/domain_spec.h"
 #include "base/fluid_spec.h"
 #include "base/gravity_spec.h"
+#include "base/joint_spec.h"
 #include "base/output_spec.h"
 #include "base/probe_spec.h"
 #include "base/solid_spec.h"
@@ -22,6 +23,7 @@ struct Scene {
   LiquidSpec liquid;
   GasSpec gas;
   std::vector<SolidSpec> solids;
+  std::vector<JointSpec> joints;
   std::vector<ProbeSpec> probes;
   std::string tracking = "level_set";
   SolverSpec solver;

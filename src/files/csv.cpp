@@ -51,7 +51,23 @@ std::vector<Column> columns(const StepStats& s) {
           {"lost_viscous", s.work.lost_viscous},
           {"lost_numerical", s.work.lost_numerical},
           {"volume_spilled", s.volume_spilled},
-          {"volume_drifting", s.volume_drifting}};
+          {"volume_drifting", s.volume_drifting},
+          {"joint_gap", s.joint_gap},
+          {"joint_turns", std::int64_t(s.joint_turns)}};
+}
+
+std::vector<Column> columns(const JointReport& j) {
+  return {{"q", j.q},
+          {"qdot", j.rate},
+          {"fx", j.force[0]},
+          {"fy", j.force[1]},
+          {"fz", j.force[2]},
+          {"tx", j.torque[0]},
+          {"ty", j.torque[1]},
+          {"tz", j.torque[2]},
+          {"power", j.power},
+          {"gap", j.gap},
+          {"broken", std::int64_t(j.broken)}};
 }
 
 std::vector<Column> columns(const SolidState& s) {
@@ -131,6 +147,14 @@ std::string solids_row(double time, const SolidState& solid) {
   return fmt::format("{:.17g},{},{}\n", time, quoted(solid.name), joined_values(columns(solid)));
 }
 
+std::string joints_header() {
+  return "time,name," + joined_names(columns(JointReport{})) + "\n";
+}
+
+std::string joints_row(double time, const JointReport& joint) {
+  return fmt::format("{:.17g},{},{}\n", time, quoted(joint.name), joined_values(columns(joint)));
+}
+
 std::string probes_header() {
   return "time,name,value,x,y,z\n";
 }
@@ -147,6 +171,10 @@ std::string not_finite(const StepStats& stats) {
 }
 std::string not_finite(const SolidState& solid) {
   return first_not_finite(columns(solid));
+}
+
+std::string not_finite(const JointReport& joint) {
+  return first_not_finite(columns(joint));
 }
 
 std::string not_finite(const ProbeSample& sample) {

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of stats.csv, solids.csv and probes.csv. Numbers have 17 digits, so they read back bit for bit.
+// Rows of stats.csv, solids.csv, joints.csv and probes.csv. Numbers have 17 digits, so they read back bit for bit.
 #include <string>
 
 #include "coupling/state/simulation.h"
@@ -12,6 +12,9 @@ std::string stats_row(const StepStats& stats);
 std::string solids_header();
 std::string solids_row(double time, const SolidState& solid);
 
+std::string joints_header();
+std::string joints_row(double time, const JointReport& joint);
+
 std::string probes_header();
 // Scalars fill `value`, vectors x, y, z; other fields stay empty, and all of them for an undefined sample.
 std::string probes_row(double time, const ProbeSample& sample);
@@ -19,6 +22,7 @@ std::string probes_row(double time, const ProbeSample& sample);
 // Name of the row's first non-finite number, or "".
 std::string not_finite(const StepStats& stats);
 std::string not_finite(const SolidState& solid);
+std::string not_finite(const JointReport& joint);
 std::string not_finite(const ProbeSample& sample);
 
 }  // namespace seiche

@@ -13,6 +13,7 @@ struct RunPaths {
   std::filesystem::path checkpoints() const { return folder / "checkpoints"; }
   std::filesystem::path stats() const { return folder / "stats.csv"; }
   std::filesystem::path solids() const { return folder / "solids.csv"; }
+  std::filesystem::path joints() const { return folder / "joints.csv"; }
   std::filesystem::path probes() const { return folder / "probes.csv"; }
   std::filesystem::path pictures() const { return folder / "pictures"; }
   std::filesystem::path summary() const { return folder / "summary.json"; }

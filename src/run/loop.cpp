@@ -30,7 +30,7 @@ ProgressScale progress_scale(const Scene& scene, double start) {
 
 // A run that failed before its first frame starts its tables anew.
 RunState without_rows_before_first_frame(RunState state) {
-  if (state.frame < 0) state.stats_bytes = state.solids_bytes = state.probes_bytes = 0;
+  if (state.frame < 0) state.stats_bytes = state.solids_bytes = state.probes_bytes = state.joints_bytes = 0;
   return state;
 }
 

@@ -7,7 +7,8 @@
 namespace seiche {
 namespace {
 
-constexpr const char* unconverged_separations = "run.unsettled_partings";  // missing in older checkpoints: then zero
+// Missing in older checkpoints: then zero.
+constexpr const char *unconverged_separations = "run.unsettled_partings", *joints_bytes = "run.joints_bytes";
 const std::string probe_prefix = "run.probe_due.", phase_prefix = "run.phase.", checksum_prefix = "run.table_checksum.";
 
 // One list for both directions: f(name, number) for every plain number of the state.
@@ -19,6 +20,7 @@ void for_each_number(State& s, F&& f) {
   f("run.stats_bytes", s.stats_bytes);
   f("run.solids_bytes", s.solids_bytes);
   f("run.probes_bytes", s.probes_bytes);
+  f(joints_bytes, s.joints_bytes);
   f("run.wall_seconds", s.wall_seconds);
   f("run.initial_volume", s.initial_volume);
   f("run.liquid_volume", s.liquid_volume);
@@ -53,7 +55,9 @@ RunState restore_run_state(const CheckpointData& data) {
   RunState state;
   for_each_number(state, [&](const char* name, auto& value) {
     const auto entry = data.scalars.find(name);
-    if (entry == data.scalars.end() && name == std::string(unconverged_separations)) return;
+    if (entry == data.scalars.end() &&
+        (name == std::string(unconverged_separations) || name == std::string(joints_bytes)))
+      return;
     if (entry == data.scalars.end()) {
       throw Error(ExitCode::bad_checkpoint, fmt::format("the checkpoint lacks the entry {}", name));
     }

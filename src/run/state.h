@@ -11,11 +11,11 @@ namespace seiche {
 
 struct RunState {
   std::int64_t step = 0;
-  double time = 0;                                                    // s
-  int frame = -1;                                                     // the last one written
-  std::uint64_t stats_bytes = 0, solids_bytes = 0, probes_bytes = 0;  // sizes of the CSV files
-  std::map<std::string, double> table_checksums;                      // CRC-32C of those bytes, by file name
-  std::map<std::string, double> probe_due;                            // time of the next sample (s), by probe name
+  double time = 0;                                                                      // s
+  int frame = -1;                                                                       // the last one written
+  std::uint64_t stats_bytes = 0, solids_bytes = 0, probes_bytes = 0, joints_bytes = 0;  // sizes of the CSV files
+  std::map<std::string, double> table_checksums;  // CRC-32C of those bytes, by file name
+  std::map<std::string, double> probe_due;        // time of the next sample (s), by probe name
   std::map<std::string, double> phase_seconds;
   double wall_seconds = 0;
   double initial_volume = 0, liquid_volume = 0, expected_volume = 0, volume_corrected = 0;  // m^3

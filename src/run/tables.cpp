@@ -12,7 +12,8 @@
 namespace seiche {
 namespace {
 
-const std::string stats_name = "stats.csv", solids_name = "solids.csv", probes_name = "probes.csv";
+const std::string stats_name = "stats.csv", solids_name = "solids.csv", probes_name = "probes.csv",
+                  joints_name = "joints.csv";
 
 TableMark mark_of(const RunState& state, const std::string& name, std::uint64_t bytes) {
   const auto sum = state.table_checksums.find(name);
@@ -54,9 +55,11 @@ bool is_due(double due, double time, double every) {
 std::vector<std::string> verify_tables(const RunPaths& paths, EditPolicy policy, RunState& state) {
   std::vector<std::string> faults;
   if (state.frame < 0) return faults;  // they start anew
-  for (const std::string& fault : {verify_table(paths.stats(), stats_name, state, state.stats_bytes),
-                                   verify_table(paths.solids(), solids_name, state, state.solids_bytes),
-                                   verify_table(paths.probes(), probes_name, state, state.probes_bytes)})
+  for (const std::string& fault :
+       {verify_table(paths.stats(), stats_name, state, state.stats_bytes),
+        verify_table(paths.solids(), solids_name, state, state.solids_bytes),
+        verify_table(paths.probes(), probes_name, state, state.probes_bytes),
+        state.joints_bytes > 0 ? verify_table(paths.joints(), joints_name, state, state.joints_bytes) : std::string()})
     if (!fault.empty()) faults.push_back(fault);
   if (policy == EditPolicy::force || faults.empty()) return faults;
   throw Error(ExitCode::bad_checkpoint,
@@ -70,6 +73,8 @@ RunTables::RunTables(const Scene& scene, const RunPaths& paths, const Communicat
     stats_ = std::make_unique<TableFile>(paths.stats(), state.stats_bytes, stats_header());
     solids_ = std::make_unique<TableFile>(paths.solids(), state.solids_bytes, solids_header());
     probes_ = std::make_unique<TableFile>(paths.probes(), state.probes_bytes, probes_header());
+    if (!scene.joints.empty())
+      joints_ = std::make_unique<TableFile>(paths.joints(), state.joints_bytes, joints_header());
   });
 }
 
@@ -88,10 +93,12 @@ std::vector<ProbeSample> RunTables::due_samples(double time, const Simulation& s
 }
 
 void RunTables::write_rows(const StepStats& stats, const std::vector<SolidState>& solids,
-                           const std::vector<ProbeSample>& samples) {
+                           const std::vector<JointReport>& joints, const std::vector<ProbeSample>& samples) {
   stats_->append(stats_row(stats));
   for (const SolidState& solid : solids) solids_->append(solids_row(stats.time, solid));
   for (const ProbeSample& sample : samples) probes_->append(probes_row(stats.time, sample));
+  for (const JointReport& joint : joints) joints_->append(joints_row(stats.time, joint));
+  if (joints_) joints_->flush();
   stats_->flush();
   solids_->flush();
   probes_->flush();
@@ -99,16 +106,19 @@ void RunTables::write_rows(const StepStats& stats, const std::vector<SolidState>
 
 void RunTables::add(const StepStats& stats, const Simulation& simulation, RunState& state) {
   const std::vector<SolidState> solids = simulation.solids();
+  const std::vector<JointReport> joints = simulation.joints();
   const std::vector<ProbeSample> samples = due_samples(stats.time, simulation, state);
   agree(ranks_, "writing the tables", [&] {
     check_finite(not_finite(stats), "the flow", stats);
     for (const SolidState& solid : solids) check_finite(not_finite(solid), "solid '" + solid.name + "'", stats);
+    for (const JointReport& joint : joints) check_finite(not_finite(joint), "joint '" + joint.name + "'", stats);
     for (const ProbeSample& sample : samples) check_finite(not_finite(sample), "probe '" + sample.name + "'", stats);
     if (!ranks_.is_root()) return;
-    write_rows(stats, solids, samples);
+    write_rows(stats, solids, joints, samples);
     set_mark(stats_->mark(), stats_name, state.stats_bytes, state);
     set_mark(solids_->mark(), solids_name, state.solids_bytes, state);
     set_mark(probes_->mark(), probes_name, state.probes_bytes, state);
+    if (joints_) set_mark(joints_->mark(), joints_name, state.joints_bytes, state);
   });
 }
 
@@ -117,6 +127,7 @@ void RunTables::sync() {
     stats_->sync();
     solids_->sync();
     probes_->sync();
+    if (joints_) joints_->sync();
   });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a run: stats.csv, solids.csv and probes.csv.
+// The tables of a run: stats.csv, solids.csv and probes.csv, and joints.csv if the scene has joints.
 #include <memory>
 #include <vector>
 
@@ -29,12 +29,12 @@ class RunTables {
 
  private:
   std::vector<ProbeSample> due_samples(double time, const Simulation& simulation, RunState& state) const;
-  void write_rows(const StepStats& stats, const std::vector<SolidState>& solids,
+  void write_rows(const StepStats& stats, const std::vector<SolidState>& solids, const std::vector<JointReport>& joints,
                   const std::vector<ProbeSample>& samples);
 
   const Scene& scene_;
   const Communicator& ranks_;
-  std::unique_ptr<TableFile> stats_, solids_, probes_;  // rank 0
+  std::unique_ptr<TableFile> stats_, solids_, probes_, joints_;  // rank 0; null: the scene has none
 };
 
 }  // namespace seiche

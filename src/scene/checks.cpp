@@ -241,12 +241,14 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.dimension != 0) check_domain(c, scene.domain, context.dimension);
   if (context.clean("time")) check_time(c, scene.time);
   if (context.clean("solid")) check_names(c, scene.solids, "solid");
+  if (context.clean("joint")) check_names(c, scene.joints, "joint");
   if (context.clean("probe")) check_names(c, scene.probes, "probe");
   if (!context.clean("domain") || context.dimension == 0) return;
   check_probes(c, scene);
   if (context.clean("solid")) check_followed_solids(c, scene);
   if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("solid")) check_rigid_count(c, scene);
+  if (context.clean("solid") && context.clean("joint")) check_joints(context, root, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);

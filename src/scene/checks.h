@@ -14,6 +14,9 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene);
 // Part of check_scene(): prescribed motions must be finite and must not jump by more than the domain's length.
 void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene);
 
+// Part of check_scene(): joints name solids that are there, and have what their kind needs.
+void check_joints(SceneContext& context, const TomlNode& root, const Scene& scene);
+
 // Part of check_scene(): a prescribed flow excludes everything that acts on a flow.
 void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Scene& scene);
 

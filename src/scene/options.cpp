@@ -301,6 +301,11 @@ Section<Scene> build_scene_section() {
       gas_key(),
       list_key<S, SolidSpec>({.key = "solid", .unset = "none", .doc = "solids in the liquid", .most = most_entries},
                              &S::solids, solid_section()),
+      list_key<S, JointSpec>({.key = "joint",
+                              .unset = "none",
+                              .doc = "joints between solids, which then move as one mechanism; see joints.md",
+                              .most = most_entries},
+                             &S::joints, joint_section()),
       list_key<S, ProbeSpec>({.key = "probe",
                               .unset = "none",
                               .doc = "measurements for probes.csv; a row without values where there is nothing to "

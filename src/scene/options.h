@@ -9,6 +9,7 @@
 namespace seiche {
 
 struct ElasticSpec;
+struct JointSpec;
 struct LiquidSpec;
 struct MotionSpec;
 struct RigidSpec;
@@ -25,6 +26,7 @@ Section<SolidSpec> solid_section();
 Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
+Section<JointSpec> joint_section();
 
 // Keys of viscous liquid.
 Key<LiquidSpec> viscosity_key();

@@ -2,6 +2,7 @@
 // Tables of keys bound to the data they fill: one row per key serves reading, writing and documentation.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -175,6 +176,22 @@ Key<Spec> inline_key(Option option, Member member, const Section<Inner>& section
   key.write = [option, member, section](const Spec& s, int dimension, const std::string& path, SceneLines& lines) {
     const std::string here = join_path(path, option.key);
     lines.push_back({here, option.key, inline_table(write_section(section, std::invoke(member, s), dimension, here))});
+  };
+  return key;
+}
+
+// A key with a table, written inline, that may be left out.
+template <class Spec, class Inner>
+Key<Spec> optional_table_key(Option option, std::optional<Inner> Spec::*member, const Section<Inner>& section) {
+  const auto made = [member](Spec& s) -> Inner& {
+    if (!(s.*member)) (s.*member).emplace();
+    return *(s.*member);
+  };
+  Key<Spec> key = inline_key<Spec>(
+      option, [made](auto& s) -> auto& { return made(const_cast<Spec&>(s)); }, section);
+  const auto write = key.write;
+  key.write = [write, member](const Spec& s, int dimension, const std::string& path, SceneLines& lines) {
+    if (s.*member) write(s, dimension, path, lines);
   };
   return key;
 }

@@ -64,6 +64,10 @@ std::string to_toml(const std::vector<std::string>& value, const Option&, int) {
   return array_text(value, value.size(), quote_toml);
 }
 
+std::string to_toml(const std::array<double, 2>& value, const Option&, int) {
+  return array_text(value, 2, [](double v) { return number_text(v); });
+}
+
 std::string to_toml(const std::filesystem::path& value, const Option&, int) {
   return quote_toml(value.string());
 }

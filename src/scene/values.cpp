@@ -177,8 +177,21 @@ void read_value(SceneContext& c, const Place& p, const Option& option, std::stri
   if (c.problem_count() == before) out = p.node->text;
 }
 
+void read_value(SceneContext& c, const Place& p, const Option& option, std::array<double, 2>& out) {
+  if (p.node->kind != Kind::array || p.node->items.size() != 2) return report_type(c, p, option);
+  std::array<double, 2> value{};
+  bool good = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto number = checked_number(c, item(p, i), option);
+    good = good && number.has_value();
+    value[i] = number.value_or(0.0);
+  }
+  if (good) out = value;
+}
+
 void read_value(SceneContext& c, const Place& p, const Option& option, std::vector<std::string>& out) {
   if (p.node->kind != Kind::array) return report_type(c, p, option);
+  if (option.type == OptionType::pair && p.node->items.size() != 2) return report_type(c, p, option);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < p.node->items.size(); ++i) {
     const Place one = item(p, i);
@@ -186,7 +199,7 @@ void read_value(SceneContext& c, const Place& p, const Option& option, std::vect
       c.report(one, fmt::format("{} must be a name in quotes, not {}", one.path, describe(*one.node)));
     } else if (std::find(names.begin(), names.end(), one.node->text) != names.end()) {
       c.report(one, fmt::format("{} lists \"{}\" twice", p.path, one.node->text));
-    } else if (check_choice(c, one, option, one.node->text)) {
+    } else if (option.type == OptionType::pair || check_choice(c, one, option, one.node->text)) {
       names.push_back(one.node->text);
     }
   }

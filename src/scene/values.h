@@ -21,6 +21,7 @@ void read_value(SceneContext& context, const Place& place, const Option& option,
 // A text, a choice or a formula, by option.type.
 void read_value(SceneContext& context, const Place& place, const Option& option, std::string& out);
 void read_value(SceneContext& context, const Place& place, const Option& option, std::vector<std::string>& out);
+void read_value(SceneContext& context, const Place& place, const Option& option, std::array<double, 2>& out);
 // An existing file, resolved against the scene's folder, and inside it unless the scene permits others.
 void read_value(SceneContext& context, const Place& place, const Option& option, std::filesystem::path& out);
 
@@ -40,6 +41,7 @@ std::string to_toml(const Vec3& value, const Option& option, int dimension);
 std::string to_toml(const VectorFormula& value, const Option& option, int dimension);
 std::string to_toml(const std::string& value, const Option& option, int dimension);
 std::string to_toml(const std::vector<std::string>& value, const Option& option, int dimension);
+std::string to_toml(const std::array<double, 2>& value, const Option& option, int dimension);
 std::string to_toml(const std::filesystem::path& value, const Option& option, int dimension);
 
 template <class T>

@@ -162,8 +162,8 @@ struct Balance {
         add_elastic(p, k, p.coupling.first[b]);
         continue;
       }
-      const RigidState &now = *rigid_state(p.state.solids[std::size_t(k)]),
-                       &old = *rigid_state(p.before[std::size_t(k)]);
+      const RigidState &now = *p.state.solids[std::size_t(k)].rigid(),
+                       &old = *p.before[std::size_t(k)].rigid();
       change.add(now.center, m * (now.velocity - old.velocity));
       change.angular += now.angular_momentum - old.angular_momentum;
       gravity.add(now.center, dt * m * g);
@@ -236,7 +236,7 @@ double adjointness_error(Projection<Dim>& p) {
       continue;
     }
     set_twist(p.setup.domain.layout, k, Twist{}, p.geometry);
-    set_twist(p.setup.domain.layout, k, unstacked<Dim>(v, first, rigid_state(p.state.solids[std::size_t(k)])->center),
+    set_twist(p.setup.domain.layout, k, unstacked<Dim>(v, first, p.state.solids[std::size_t(k)].rigid()->center),
               p.geometry);
   }
   double fluxes = 0, size = 0;

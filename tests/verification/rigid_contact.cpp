@@ -169,8 +169,8 @@ TEST_CASE("a body that spins about its middle axis keeps energy and angular mome
     return 0.5 * r.angular_momentum.dot(angular_velocity(inertia, r.rotation, r.angular_momentum));
   };
   State<3> state = initial_state(setup);
-  const double energy0 = energy(*rigid_state(state.solids[0])),
-               momentum0 = rigid_state(state.solids[0])->angular_momentum.norm();
+  const double energy0 = energy(*state.solids[0].rigid()),
+               momentum0 = state.solids[0].rigid()->angular_momentum.norm();
   double energy_error = 0, momentum_error = 0, flips = 1;
   Phases phases;
   for (int n = 0; state.time < 100; ++n) {
@@ -179,7 +179,7 @@ TEST_CASE("a body that spins about its middle axis keeps energy and angular mome
     Attempt<3> attempt = attempt_step(setup, state, share * choose_step(setup, state, state.time + 10), phases);
     REQUIRE(attempt.failure.empty());
     state = std::move(attempt.state);
-    const RigidState& r = *rigid_state(state.solids[0]);
+    const RigidState& r = *state.solids[0].rigid();
     energy_error = std::max(energy_error, std::abs(energy(r) / energy0 - 1));
     momentum_error = std::max(momentum_error, std::abs(r.angular_momentum.norm() / momentum0 - 1));
     flips = std::min(flips, r.rotation(1, 1));

@@ -3,6 +3,7 @@ import re
 
 import numpy
 
+from fuzzing.joints import feeds
 from fuzzing.tables import Fault
 
 WORKS = ("work_gravity", "work_tension", "work_sides", "work_solids", "lost_viscous")
@@ -23,6 +24,8 @@ def is_fed(scene):
     if kinds & {"inflow", "outflow", "moving_wall"} or "source" in liquid or "prescribed_velocity" in liquid:
         return True
     if not is_constant(scene.get("gravity", [0.0])):
+        return True
+    if feeds(scene.get("joint", [])):
         return True
     for solid in scene.get("solid", []):
         pins = solid.get("pinned", [])

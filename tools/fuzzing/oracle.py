@@ -50,6 +50,12 @@ def check_volume(scene, folder):
                               f"m^{scene['dimension']}, {amiss / cell:.3g} cells amiss, without a warning")
 
 
+def are_jointed(scene, i, j):
+    """True if a joint holds two solids, which then may overlap."""
+    names = {scene["solid"][k].get("name", f"solid{k + 1}") for k in (i, j)}
+    return any(set(joint["between"]) == names and not joint.get("collide") for joint in scene.get("joint", []))
+
+
 def check_overlaps(scene, folder):
     """No freely moving body may lie within another solid."""
     solids = scene.get("solid", [])
@@ -59,7 +65,7 @@ def check_overlaps(scene, folder):
     for path in sorted((folder / "frames").glob("solids.*.vtu")):
         found = read_surfaces(path, scene["dimension"])
         for i, j in ((i, j) for i in found for j in found if i != j and (moves[i] or moves[j])):
-            if solids[i].get("invert") or solids[j].get("invert"):
+            if solids[i].get("invert") or solids[j].get("invert") or are_jointed(scene, i, j):
                 continue
             depth = overlap(found[i], found[j]) / scene["domain"]["cell_size"]
             if depth > DEEPEST:
@@ -82,7 +88,7 @@ def check_frames(scene, folder):
 
 def check_result(scene, folder, energy=True):
     """Checks all output of a run; the energies only on request, since they need the whole scene."""
-    for name in ("stats.csv", "solids.csv", "probes.csv"):
+    for name in ("stats.csv", "solids.csv", "probes.csv", "joints.csv"):
         if (folder / name).exists():
             check_finite(folder / name)
     if energy:

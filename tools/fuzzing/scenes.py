@@ -3,11 +3,12 @@ import math
 import random
 
 from fuzzing import shapes
+from fuzzing.joints import make_joints
 from fuzzing.shapes import AXES, fit_shape, number, point
 from fuzzing.values import VALUES, table_of
 
 # Keys that the plan of a scene sets: dimension, grid and duration.
-PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "probe"),
+PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "joint"), ("", "probe"),
            ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
@@ -24,7 +25,8 @@ def uncovered(registry):
             if table in SHAPES and key.name == "shape" and set(key.choices) - MAKEABLE:
                 yield f"{key.label}: {', '.join(set(key.choices) - MAKEABLE)}"
             turn = table.endswith(".rotate") and key.name in ("axis", "degrees")
-            if not (simple or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
+            of_joint = table.startswith("joint[]")   # fuzzing/joints.py
+            if not (simple or of_joint or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
                 yield key.label
 
 
@@ -175,10 +177,17 @@ def make_scene(registry, rng: random.Random):
     scene["liquid"] = table_of("liquid")(c, None)
     if c.has_gas:
         scene["gas"] = table_of("gas")(c, None)
-    scene["solid"] = [solid(c, center, radius) for center, radius in slots(c)]
+    places = list(slots(c))
+    scene["solid"] = [solid(c, center, radius) for center, radius in places]
     if not scene["solid"] and not c.prescribes and rng.random() < 0.1:
         scene["solid"] = [container(c)]
     scene["probe"] = probes(c)
+    mechanics = random.Random(str(scene["solid"]))   # joints leave all other choices as they were
+    c.rng, usual = mechanics, c.rng
+    if places and not c.periodic:
+        c.radius = max(radius for _, radius in places)
+        scene["joint"] = make_joints(c, scene["solid"], [center for center, _ in places])
+    c.rng = usual
     for table in ("tracking", "solver", "output"):
         if rng.random() < 0.5:
             scene[table] = table_of(table)(c, None)

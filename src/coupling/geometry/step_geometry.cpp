@@ -16,8 +16,8 @@ constexpr double far_away = 1e30;
 // Tolerance in cells. Nodes nearer to a solid count as on it, and narrower gaps between two solids as closed. This
 // avoids sliver faces.
 constexpr double snap = 1e-3;
-// Gap tolerance (cells) at joints. It is larger because contact requires 2.5e-3 cells between edges at the start.
-constexpr double joint_gap = 1e-2;
+// Gap tolerance (cells) at seams. It is larger because contact requires 2.5e-3 cells between edges at the start.
+constexpr double seam_gap = 1e-2;
 constexpr int cells_around_domain = 4;  // cells around the domain within which a body counts as near it
 
 // Bound of the distance (m) from the pivot to points of the body at rest within the domain: sampled on at most 128
@@ -104,12 +104,12 @@ void add_share(FaceShares& shares, const FaceShare& s) {
 
 template <int Dim>
 SolidGeometry<Dim>::SolidGeometry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides,
-                                  const std::vector<Body<Dim>>& bodies)
-    : layout_(layout), sides_(sides), bodies_(bodies) {
+                                  const std::vector<Body<Dim>>& bodies, SharedPairs shared)
+    : layout_(layout), sides_(sides), bodies_(bodies), shared_(std::move(shared)) {
   still_.psi = NodeField<Dim>(layout, far_away);
   still_.body = NodeField<Dim, std::int16_t>(layout, -1);
   still_.faces = FaceGeometry<Dim>(layout);
-  joints_ = find_joints(bodies, joint_gap * layout.h());
+  seams_ = find_seams(bodies, seam_gap * layout.h());
   for (const Body<Dim>& body : bodies)
     radius_.push_back(body.moves() && !body.deforms() ? surface_radius(layout, body) : 0);
   measure_static();
@@ -225,25 +225,28 @@ FaceShares SolidGeometry<Dim>::take_in(int k, const PlacedSolid<Dim>& solid, con
 }
 
 // Static bodies keep their share of a face. Moving ones share the rest in proportion to the share that each would close
-// alone. They are scaled if together they would close more, or leave a gap below the tolerance. At joints the gap from
+// alone. They are scaled if together they would close more, or leave a gap below the tolerance. At seams the gap from
 // psi of all solids together counts, if smaller. At edges psi is not linear, so the shares of two touching solids leave
-// slits.
+// slits. Where solids reach into each other, their shares close some parts twice: the gap from psi counts.
 template <int Dim>
 void SolidGeometry<Dim>::close_faces(std::vector<FaceShares>& shares, StepGeometry<Dim>& g) const {
   PagedFaceField<Dim> moving(layout_);
   for (const FaceShares& list : shares)
     for (const FaceShare& s : list) moving.add(s.axis, s.face, s.closed);
-  const NodeField<Dim, char> joints = mark_joints(layout_, bodies_, joints_, g.placed);
+  const NodeField<Dim, char> seams = mark_seams(layout_, bodies_, seams_, g.placed);
+  const NodeField<Dim, char> shared = mark_shared(layout_, bodies_, shared_, g.placed);
   for (FaceShares& list : shares)
     for (FaceShare& s : list) {
       const double room = still_.faces.open.at(s.axis, s.face), wanted = moving.at(s.axis, s.face);
       const bool alone = room == 1 && wanted == s.closed;
       double gap = room - wanted;
-      const bool joined = !joints_.empty() && joints[s.face];
+      const bool joined = !seams_.empty() && seams[s.face];
+      const bool twice = !alone && !shared.empty() && shared[s.face];
       if (joined) gap = std::min(gap, open_part_of_face(layout_, g.psi, s.axis, s.face));
-      const bool closes = gap <= 0 || (joined ? gap < joint_gap : !alone && gap < snap);
+      if (twice) gap = std::min(room, open_part_of_face(layout_, g.psi, s.axis, s.face));
+      const bool closes = gap <= 0 || (joined ? gap < seam_gap : !alone && gap < snap);
       if (closes) gap = 0;
-      if (closes || joined) s.closed *= (room - gap) / wanted;
+      if (closes || joined || twice) s.closed *= (room - gap) / wanted;
       g.faces.open.set(s.axis, s.face, gap);
       g.faces.kind.set(s.axis, s.face, char(closes ? FaceKind::closed : FaceKind::open));
     }

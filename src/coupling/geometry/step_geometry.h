@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "coupling/geometry/joints.h"
+#include "coupling/geometry/seams.h"
 #include "fluid/boundary/domain_boundary.h"
 #include "fluid/boundary/face_geometry.h"
 #include "levelset/surface_distance.h"
@@ -84,7 +84,9 @@ double velocity_at(const SurfaceWeights& weights, int axis, const Eigen::VectorX
 template <int Dim>
 class SolidGeometry {
  public:
-  SolidGeometry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, const std::vector<Body<Dim>>& bodies);
+  // `shared`: moving solids that may reach into each other.
+  SolidGeometry(const Layout<Dim>& layout, const DomainBoundary<Dim>& sides, const std::vector<Body<Dim>>& bodies,
+                SharedPairs shared = {});
 
   // Geometry for the given placements of all bodies; values of the domain's sides are those at time t (s).
   StepGeometry<Dim> measure(const std::vector<Placement>& placed, double t) const;
@@ -107,7 +109,8 @@ class SolidGeometry {
   const DomainBoundary<Dim>& sides_;
   const std::vector<Body<Dim>>& bodies_;
   StepGeometry<Dim> still_;  // of the static bodies
-  std::vector<JoinedFacet<Dim>> joints_;
+  std::vector<SeamFacet<Dim>> seams_;
+  SharedPairs shared_;
   std::vector<double> radius_;  // of the moving bodies about their pivots, m
 };
 

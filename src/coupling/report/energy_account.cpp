@@ -114,12 +114,13 @@ double power_of_prescribed(const State<Dim>& before, const State<Dim>& state, co
 // Work of pins and of forces that the scene applies, J. Loads of the first solve may be the blows of a sudden start,
 // which are over: the way after it counts those of the second alone.
 template <int Dim>
-double driven_work(const State<Dim>& before, const State<Dim>& state, double dt) {
+double driven_work(const Solids<Dim>& solids, const State<Dim>& before, const State<Dim>& state, double dt) {
   const double span = state.horizon > 0 ? state.horizon : dt;
   const Participants<Dim>& earlier = before.step > 1 ? before.solids : state.solids;
   double sum = 0;
   for (std::size_t k = 0; k < state.solids.size(); ++k)
     sum += state.solids[k].driven_work(earlier[k], state.time, span);
+  for (const auto& interaction : solids.interactions) sum += interaction->driven_work(state, dt);
   return sum;
 }
 
@@ -160,8 +161,10 @@ double pressure_power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, 
 // Pressure and tension of the solve times the mean of the velocities before and after it; the trapezoidal rule for the
 // rest. The first step is not counted, since a sudden start has no work of its own.
 template <int Dim>
-Work work_after(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& before, const StepStats& start,
+Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& start,
                 const std::vector<SolidState>& solids, const Attempt<Dim>& a) {
+  const Domain<Dim>& domain = s.domain;
+  const Fluids& fluids = s.fluids;
   if (before.step == 0) return {};
   const double dt = a.state.time - before.time;
   const SolvePowers& powers = a.powers;
@@ -170,7 +173,7 @@ Work work_after(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim
   w.tension += dt * powers.tension;
   w.sides += dt * power_of_sides(domain, fluids, before, a) + powers.work_of_sources;
   w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
-              driven_work(before, a.state, dt);
+              driven_work(s.solids, before, a.state, dt);
   w.lost_viscous += heat_of_step(before, a.state, powers, dt);
   const Work& old = before.work;
   const double done = w.gravity - old.gravity + w.tension - old.tension + w.sides - old.sides + w.solids - old.solids;
@@ -179,11 +182,11 @@ Work work_after(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim
   return w;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                      \
-  template double pressure_power_of_sides<D>(const Domain<D>&, const Fluids&, const FaceField<D>&, \
-                                             const FaceField<D>&, const Attempt<D>&);              \
-  template Work work_after<D>(const Domain<D>&, const Fluids&, const State<D>&, const StepStats&,  \
-                              const std::vector<SolidState>&, const Attempt<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                     \
+  template double pressure_power_of_sides<D>(const Domain<D>&, const Fluids&, const FaceField<D>&,                \
+                                             const FaceField<D>&, const Attempt<D>&);                             \
+  template Work work_after<D>(const Setup<D>&, const State<D>&, const StepStats&, const std::vector<SolidState>&, \
+                              const Attempt<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

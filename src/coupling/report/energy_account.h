@@ -2,6 +2,7 @@
 // The account of energy: work done in a step, and the energy lost.
 #include "coupling/state/attempt.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 #include "fluid/boundary/domain.h"
 
@@ -17,7 +18,7 @@ double pressure_power_of_sides(const Domain<Dim>& domain, const Fluids& fluids, 
 // Work at the end of the attempt that started from `before`. `start`: measured of `before`; `solids`: of the attempt.
 // Collective.
 template <int Dim>
-Work work_after(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& before, const StepStats& start,
+Work work_after(const Setup<Dim>& setup, const State<Dim>& before, const StepStats& start,
                 const std::vector<SolidState>& solids, const Attempt<Dim>& attempt);
 
 }  // namespace seiche

@@ -130,6 +130,8 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
             std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt);
   b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
   b.pushed = pushed(s.domain, s.fluids, s.solids, attempt, t, dt);
+  for (const auto& interaction : s.solids.interactions)
+    b.pushed += 2 * std::max(0.0, interaction->driven_work(attempt.state, dt));
   return b;
 }
 

@@ -1,4 +1,5 @@
 // Constraint between elastic walls: sealed liquid without a free surface keeps its volume.
+#include "coupling/solids/joints.h"
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/solid_coupling.h"
 #include "coupling/state/interaction.h"
@@ -52,13 +53,14 @@ class Cavities : public Interaction<Dim> {
 }  // namespace
 
 template <int Dim>
-Interactions<Dim> make_interactions(const std::vector<Body<Dim>>& bodies) {
+Interactions<Dim> make_interactions(const std::vector<Body<Dim>>& bodies, const JointSet<Dim>& joints) {
   Interactions<Dim> list;
   list.push_back(std::make_unique<Cavities<Dim>>(bodies));
+  if (!joints.list.empty()) list.push_back(make_joint_interaction(joints));
   return list;
 }
 
-template Interactions<2> make_interactions<2>(const std::vector<Body<2>>&);
-template Interactions<3> make_interactions<3>(const std::vector<Body<3>>&);
+template Interactions<2> make_interactions<2>(const std::vector<Body<2>>&, const JointSet<2>&);
+template Interactions<3> make_interactions<3>(const std::vector<Body<3>>&, const JointSet<3>&);
 
 }  // namespace seiche

@@ -59,22 +59,14 @@ void RigidParticipant<Dim>::set_target(double dt, int block, SolidCoupling<Dim>&
   c.push.segment(first, n) = M * c.target.segment(first, n);
 }
 
-// L += I (omega - omega*), omega* of free rotation: the impulse of liquid and contact. With a fixed axis L = I omega.
 template <int Dim>
 void RigidParticipant<Dim>::take(const SolidCoupling<Dim>& c, int block, const Eigen::VectorXd& v, double horizon) {
   const int first = c.first[std::size_t(block)];
-  RigidState& r = state_;
-  const Twist now = unstacked<Dim>(v, 0, r.center), free = unstacked<Dim>(c.free, first, r.center);
-  const Eigen::Matrix3d inertia = world_inertia(body(), r);
-  r.angular_momentum = turns_freely(body().spec().rigid)
-                           ? Vec3(r.angular_momentum + inertia * (now.angular - free.angular))
-                           : Vec3(inertia * now.angular);
-  r.velocity = now.linear;
-  r.angular_velocity = now.angular;
-  const Twist extra = unstacked<Dim>(c.buoyancy_correction, first, r.center);
-  r.extra_force = extra.linear;
-  r.extra_torque = extra.angular;
-  r.horizon = horizon;
+  state_ = led_by(body(), state_, unstacked<Dim>(v, 0, state_.center),
+                  unstacked<Dim>(c.free, first, state_.center).angular, horizon);
+  const Twist extra = unstacked<Dim>(c.buoyancy_correction, first, state_.center);
+  state_.extra_force = extra.linear;
+  state_.extra_torque = extra.angular;
 }
 
 template <int Dim>
@@ -85,20 +77,7 @@ void RigidParticipant<Dim>::advance(const Stride<Dim>& stride) {
 
 template <int Dim>
 void RigidParticipant<Dim>::go_on(const Participant<Dim>& leading, double dt) {
-  const RigidState& led = static_cast<const RigidParticipant&>(leading).state_;
-  RigidState moving = state_;
-  moving.velocity = led.velocity;
-  moving.angular_velocity = led.angular_velocity;
-  moving.angular_momentum = led.angular_momentum;
-  moving.horizon = led.horizon;
-  const RigidState there = seiche::advance(body(), moving, dt);
-  RigidState next = state_;
-  next.center = there.center;
-  next.rotation = there.rotation;
-  const auto spin = [&](const RigidState& x) { return free_twist(body(), x, Vec3::Zero(), 0, x.horizon).angular; };
-  next.angular_velocity += spin(next) - spin(state_);
-  if (!turns_freely(body().spec().rigid)) next.angular_momentum = world_inertia(body(), next) * next.angular_velocity;
-  state_ = next;
+  state_ = gone_on(body(), state_, static_cast<const RigidParticipant&>(leading).state_, dt);
 }
 
 template <int Dim>
@@ -154,6 +133,9 @@ void RigidParticipant<Dim>::visit(StateVisitor& visitor) {
   visit_all("extra_force", state_.extra_force);
   visit_all("extra_torque", state_.extra_torque);
   visitor.number(prefix + "horizon", state_.horizon);
+  if (!visitor.has(prefix + "shown_shift0")) return;  // checkpoints of earlier versions
+  visit_all("shown_shift", state_.shown_shift);
+  visit_all("shown_turn", state_.shown_turn);
 }
 
 template class RigidParticipant<2>;

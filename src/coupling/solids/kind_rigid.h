@@ -15,7 +15,9 @@ class RigidParticipant : public Participant<Dim> {
       : Participant<Dim>(body, index), state_(initial_rigid_state(body)) {}
   using Participant<Dim>::body;
   std::unique_ptr<Participant<Dim>> copy() const override { return std::make_unique<RigidParticipant>(*this); }
+  const RigidState* rigid() const override { return &state_; }
   const RigidState& state() const { return state_; }
+  void set_state(const RigidState& state) { state_ = state; }
 
   Placement place(double t0, double t1, double t) const override;
   void set_velocity(Placement& placed) const override;
@@ -46,9 +48,8 @@ class RigidParticipant : public Participant<Dim> {
 
 // Null: the participant is not rigid.
 template <int Dim>
-const RigidState* rigid_state(const Participant<Dim>& participant) {
-  const auto* rigid = dynamic_cast<const RigidParticipant<Dim>*>(&participant);
-  return rigid ? &rigid->state() : nullptr;
+RigidParticipant<Dim>* rigid_participant(Participant<Dim>& participant) {
+  return dynamic_cast<RigidParticipant<Dim>*>(&participant);
 }
 
 }  // namespace seiche

@@ -113,6 +113,16 @@ Sums<Dim> read_sums(const double* next) {
   return s;
 }
 
+// True if another solid may reach into body k, whose face shares then are those of a part of it.
+template <int Dim>
+bool shares_its_volume(const Solids<Dim>& solids, const std::vector<Placement>& placed, int k) {
+  const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], placed[std::size_t(n)].pose); };
+  const SharedPairs pairs = solids.joints.pairs_apart();
+  return std::any_of(pairs.begin(), pairs.end(), [&](const std::array<int, 2>& pair) {
+    return (pair[0] == k || pair[1] == k) && box(pair[0]).intersects(box(pair[1]));
+  });
+}
+
 template <int Dim>
 bool lies_within(const DomainSpec& d, const Body<Dim>& body, const Pose& pose) {
   const auto& points = body.contact_surface().points;
@@ -202,6 +212,7 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, in
                   SolidCoupling<Dim>& c) {
   const Setup<Dim>& s = step.setup;
   if (!lies_within<Dim>(s.scene->domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
+  if (shares_its_volume(s.solids, step.geometry.placed, k)) return;
   const Vec3 gravity = s.fluids.gravity.of_step(step.state.time, step.dt);
   c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
       buoyancy_difference(read_sums<Dim>(sums), body.mass().volume, s.fluids.density() * gravity)

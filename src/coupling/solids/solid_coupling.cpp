@@ -73,6 +73,8 @@ SolidCoupling<Dim> couple_solids(const Setup<Dim>& s, const StepGeometry<Dim>& g
   c.mass.setFromTriplets(parts.mass.begin(), parts.mass.end());
   make_identical(c.buoyancy_correction, s.domain.ranks);
   for_each_block(state.solids, c, [&](const Participant<Dim>& p, int b) { p.set_target(dt, b, c); });
+  for (const auto& interaction : s.solids.interactions)
+    interaction->add_forces({s, g, rows, closed, state, dt, horizon}, parts);
   c.potential = sum_of(std::move(parts.potentials));
   return c;
 }

@@ -13,6 +13,9 @@
 
 namespace seiche {
 
+template <int Dim>
+class JointMotion;
+
 // The unknowns v are the velocities of the participants over the horizon, stacked in the order of the scene. Without
 // liquid the energy of their inertia is e(v) = 1/2 v'Mv - v'push.
 template <int Dim>
@@ -39,9 +42,11 @@ struct SolidCoupling {
   Eigen::VectorXd held;                                // prescribed velocities of fixed unknowns; else 0
   std::shared_ptr<const VelocityPotential> potential;  // null: none
   std::vector<CavityConstraint<Dim>> cavities;
+  std::shared_ptr<JointMotion<Dim>> joints;  // with the right-hand side of J.constraints; null: none
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // one a block: fluxes beyond those of the face shares
 
   int size() const { return first.back(); }
+  bool is_constrained() const { return J.constraints.rows() > 0; }
   bool is_held(Eigen::Index i) const { return freedom[std::size_t(i)] == Freedom::fixed; }
   bool any_held() const { return std::find(freedom.begin(), freedom.end(), Freedom::fixed) != freedom.end(); }
 };

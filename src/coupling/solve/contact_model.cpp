@@ -5,8 +5,8 @@
 namespace seiche {
 
 AddedMassModel::AddedMassModel(Eigen::MatrixXd T, const Eigen::VectorXd& v0, const Eigen::VectorXd& g0,
-                               std::vector<Freedom> freedom)
-    : T_(std::move(T)), v0_(v0), freedom_(std::move(freedom)) {
+                               std::vector<Freedom> freedom, SparseMatrix C, Eigen::VectorXd slack)
+    : T_(std::move(T)), v0_(v0), freedom_(std::move(freedom)), C_(std::move(C)), slack_(std::move(slack)) {
   hold_fixed(T_);
   g0_ = masked(g0);
 }
@@ -33,7 +33,19 @@ InertiaResponse AddedMassModel::minimise(const SparseMatrix& K, const Eigen::Vec
   hold_fixed(H);
   const DenseLlt factor(H);
   if (!factor.succeeded()) return {{}, Shape::indefinite, {}, {}};
-  return respond(factor.solve(T_ * v0_ - g0_ + masked(r)));
+  const Eigen::VectorXd v = factor.solve(T_ * v0_ - g0_ + masked(r));
+  return respond(C_.rows() > 0 ? constraints_with(factor).moved_onto(v, C_ * v0_) : v);
+}
+
+ConstraintRows AddedMassModel::constraints_with(const DenseLlt& factor) const {
+  return {C_, factor.solve_columns(Eigen::MatrixXd(C_.transpose()))};
+}
+
+bool AddedMassModel::holds(const Eigen::VectorXd& v) const {
+  if (C_.rows() == 0) return true;
+  constexpr double rounding = 1e-9;
+  const Eigen::VectorXd size = C_.cwiseAbs() * (v.cwiseAbs() + v0_.cwiseAbs());
+  return ((C_ * (v - v0_)).cwiseAbs().array() <= rounding * size.array() + slack_.array()).all();
 }
 
 InertiaResponse AddedMassModel::respond(const Eigen::VectorXd& v) {
@@ -41,7 +53,9 @@ InertiaResponse AddedMassModel::respond(const Eigen::VectorXd& v) {
 }
 
 Eigen::VectorXd AddedMassModel::error(const Eigen::VectorXd& v, const Eigen::VectorXd& g) const {
-  return DenseLlt(T_).solve(masked(g) - g0_ - T_ * (v - v0_));
+  const DenseLlt factor(T_);
+  const Eigen::VectorXd off = factor.solve(masked(g) - g0_ - T_ * (v - v0_));
+  return C_.rows() > 0 ? constraints_with(factor).moved_onto(off, Eigen::VectorXd::Zero(C_.rows())) : off;
 }
 
 // BFGS: T <- T - T s s'T/(s'T s) + y y'/(y's) for the step s = v - v0 and the true change y of the gradient along it.
@@ -76,10 +90,12 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   r.contact.failure = alone.failure;
   if (!alone.failure.empty()) return r;
   AddedMassModel model(Eigen::MatrixXd(coupling.mass) + solver.added_mass_estimate(), alone.velocity, alone.gradient,
-                       coupling.freedom);
+                       coupling.freedom, coupling.J.constraints,
+                       coupling.joints ? coupling.joints->slack : Eigen::VectorXd());
   int newton_iterations = 0;
   while (r.corrections < most_corrections) {
-    r.contact = solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity);
+    r.contact =
+        solve_contact(scene, motions, horizon, dt, model, options, r.contact.velocity, coupling.potential.get());
     newton_iterations += r.contact.newton_iterations;
     r.agreed = r.corrections == 0 && r.contact.newton_iterations == 0;  // no contact
     if (!r.contact.failure.empty() || r.agreed) return r;

@@ -39,6 +39,16 @@ void drop_held(const SolidCoupling<Dim>& coupling, SparseMatrix& H) {
 
 }  // namespace
 
+// Up to round-off: rows of C v that add up to 0.
+template <int Dim>
+bool holds_joints(const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v) {
+  constexpr double rounding = 1e-9;
+  const SparseMatrix& C = coupling.J.constraints;
+  const JointMotion<Dim>& joints = *coupling.joints;
+  const Eigen::VectorXd missing = (C * v - joints.rate).cwiseAbs(), size = C.cwiseAbs() * v.cwiseAbs();
+  return (missing.array() <= rounding * (size + joints.rate.cwiseAbs()).array() + joints.slack.array()).all();
+}
+
 template <int Dim>
 SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatrix& H, Eigen::VectorXd& r) {
   if (!coupling.any_held()) return H;
@@ -75,10 +85,15 @@ void CoupledProblem<Dim>::hold(Eigen::VectorXd& v) const {
 }
 
 template <int Dim>
+Eigen::VectorXd CoupledProblem<Dim>::prescribed_by_joints(const BodyMatrix& H) const {
+  return coupling_.is_constrained() ? H.prescribed(coupling_.joints->rate) : Eigen::VectorXd::Zero(coupling_.size());
+}
+
+template <int Dim>
 bool CoupledProblem<Dim>::holds(const Eigen::VectorXd& v) const {
   for (Eigen::Index i = 0; i < v.size(); ++i)
     if (coupling_.is_held(i) && v[i] != coupling_.held[i]) return false;
-  return true;
+  return !coupling_.is_constrained() || holds_joints(coupling_, v);
 }
 
 // Fixed unknowns have reached their velocities by the next minimum, whatever v has there: a constraint that changed
@@ -102,6 +117,8 @@ template SparseMatrix uncouple_held<2>(const SolidCoupling<2>&, const SparseMatr
 template SparseMatrix uncouple_held<3>(const SolidCoupling<3>&, const SparseMatrix&, Eigen::VectorXd&);
 template void uncouple_held_shared<2>(const SolidCoupling<2>&, const Communicator&, SparseMatrix&, Eigen::VectorXd&);
 template void uncouple_held_shared<3>(const SolidCoupling<3>&, const Communicator&, SparseMatrix&, Eigen::VectorXd&);
+template bool holds_joints<2>(const SolidCoupling<2>&, const Eigen::VectorXd&);
+template bool holds_joints<3>(const SolidCoupling<3>&, const Eigen::VectorXd&);
 template class CoupledProblem<2>;
 template class CoupledProblem<3>;
 

@@ -1,6 +1,8 @@
 #pragma once
 // Inertia of bodies and liquid as one quadratic energy of the bodies' velocities, for the contact solve.
+#include "coupling/solids/joint_motion.h"
 #include "coupling/solids/solid_coupling.h"
+#include "linalg/core/body_matrix.h"
 
 namespace seiche {
 
@@ -13,6 +15,10 @@ SparseMatrix uncouple_held(const SolidCoupling<Dim>& coupling, const SparseMatri
 template <int Dim>
 void uncouple_held_shared(const SolidCoupling<Dim>& coupling, const Communicator& ranks, SparseMatrix& H,
                           Eigen::VectorXd& r);
+
+// True if C v is the rate that the joints prescribe.
+template <int Dim>
+bool holds_joints(const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& v);
 
 template <int Dim>
 class CoupledProblem : public InertiaProblem {
@@ -31,6 +37,8 @@ class CoupledProblem : public InertiaProblem {
   Eigen::VectorXd free_part(Eigen::VectorXd v) const;
   // Sets fixed unknowns to their prescribed velocities.
   void hold(Eigen::VectorXd& v) const;
+  // Velocities that the joints prescribe; 0 without joints. H: with its constraints.
+  Eigen::VectorXd prescribed_by_joints(const BodyMatrix& H) const;
   // b + by * (missing fluxes), in the rows of the cavities.
   Vector with_missing_fluxes(Vector b, double by) const;
 

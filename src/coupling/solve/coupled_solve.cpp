@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/error.h"
 #include "base/scene.h"
 #include "base/solver_spec.h"
 #include "coupling/solids/end_of_step.h"
@@ -43,6 +44,10 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.domain.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
                 s.domain.ranks);
+  if (coupling.joints && iterates_on_bodies(s.solids, s.scene->solver, coupling))
+    throw Error(ExitCode::bad_input,
+                "solids too large to factor (solver.elastic = \"iterate\") do not work with [[joint]] yet; use larger "
+                "elements, or solver.elastic = \"factor\"");
   if (iterates_on_bodies(s.solids, s.scene->solver, coupling)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);

@@ -37,7 +37,7 @@ struct CoupledSolution {
   FaceField<Dim> u_star;              // viscosity included: u = u_star - dt grad p/rho
   std::vector<int> closed_component;  // one a row: its closed component; -1: pressure is given; empty: -1 everywhere
   SolveReport report;                 // iterations of all solves, the worst residual
-  int newton_iterations = 0, contacts = 0;
+  int newton_iterations = 0, contacts = 0, joint_turns = 0;
   bool friction_settled = true;          // ContactReport::friction
   Eigen::VectorXd solids;                // velocities of the bodies' unknowns
   Eigen::VectorXd reactions;             // N: constraint forces on the unknowns, 0 for free ones

@@ -120,9 +120,10 @@ template <int Dim>
 InertiaResponse LiquidProblem<Dim>::minimise(const SparseMatrix& K, const Eigen::VectorXd& r) {
   Eigen::VectorXd push = coupling_.push + r;
   if (kkt_) return minimise_together(K, push);
-  if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push)))
+  if (!H_.set(uncouple_held(coupling_, K.nonZeros() > 0 ? SparseMatrix(coupling_.mass + K) : coupling_.mass, push),
+              coupling_.J.constraints))
     return indefinite_response();
-  const Eigen::VectorXd dry = H_.solve(push);
+  const Eigen::VectorXd dry = H_.solve(push) + this->prescribed_by_joints(H_);
   Vector b = this->with_missing_fluxes(b_, -c1_);
   add_multiplied(coupling_.J, -c1_ * free_part(dry), b);
   if (std::string failure = solve(H_, b); !failure.empty()) return failed_response(failure);

@@ -9,7 +9,8 @@ namespace seiche {
 //   grad e = M (v - v*) - c2 J'p,  c1 = rho h/dt, c2 = dt A_f.
 // With a Hessian K of contact and elastic forces, H = M + K:
 //   (A + c1 c2 J H^-1 J') p = b - c1 J H^-1 (M v* + r),  H v = M v* + r + c2 J'p.
-// Fixed unknowns have their prescribed velocities, which b includes.
+// Fixed unknowns have their prescribed velocities, which b includes. With joints, C v = rate, H^-1 stands for its part
+// on C v = 0 (BodyMatrix), and the second equation lacks the joints' impulses.
 template <int Dim>
 class LiquidProblem : public CoupledProblem<Dim> {
  public:

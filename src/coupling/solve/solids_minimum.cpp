@@ -4,6 +4,7 @@
 #include "base/solver_spec.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solve/contact_model.h"
+#include "coupling/solve/joint_turns.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/state.h"
@@ -59,7 +60,8 @@ ContactInLiquid solve_modelled(const Solids<Dim>& solids, const SolverSpec& solv
                                const std::vector<ContactMotion>& motions, double dt, double horizon,
                                const SolidCoupling<Dim>& coupling, const InviscidLiquid<Dim>& liquid,
                                const ContactOptions& options) {
-  const bool fits = !coupling.potential && coupling.bodies.size() <= most_modelled;
+  const bool of_joints = coupling.joints && coupling.potential == coupling.joints->potential;
+  const bool fits = (!coupling.potential || of_joints) && coupling.bodies.size() <= most_modelled;
   if (!liquid.solver || !fits || !liquid.solver->sensed_components().empty()) return {};
   return solve_contact_in_liquid(*solids.contact, motions, horizon, dt, coupling, *liquid.solver, *liquid.problem,
                                  unit_speeds(solids, coupling), solver.tolerance, options);
@@ -73,6 +75,42 @@ Eigen::VectorXd held_part(const SolidCoupling<Dim>& coupling, Eigen::VectorXd re
   for (Eigen::Index i = 0; i < residual.size(); ++i)
     if (!coupling.is_held(i)) residual[i] = 0;
   return residual;
+}
+
+// The minimum with the present rates of the joints.
+template <int Dim>
+ContactReport minimise_once(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt, double horizon,
+                            const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                            const InviscidLiquid<Dim>& liquid, const Eigen::VectorXd& start) {
+  const ContactOptions options =
+      contact_options(s.domain, s.scene->domain, s.scene->time, s.fluids.gravity, s.perturbation);
+  ContactInLiquid modelled = solve_modelled(s.solids, s.scene->solver, motions, dt, horizon, coupling, liquid, options);
+  ContactReport contact = std::move(modelled.contact);
+  if (contact.velocity.size() == 0 && problem.notices_indefinite()) contact.velocity = start;
+  if (!modelled.agreed && contact.failure.empty())
+    contact = solve_in_turns(s.solids, motions, dt, horizon, coupling, problem, options, contact);
+  return contact;
+}
+
+// Repeats the minimum with corrected rates until the joints are closed where the next solve stands.
+template <int Dim>
+ContactReport minimise_with_joints(const Setup<Dim>& s, const std::vector<ContactMotion>& motions, double dt,
+                                   double horizon, const SolidCoupling<Dim>& coupling, CoupledProblem<Dim>& problem,
+                                   const InviscidLiquid<Dim>& liquid, const Eigen::VectorXd& start) {
+  JointTurns<Dim> turns(coupling, s.domain.ranks, start.size() > 0 ? start : coupling.joints->velocity_in_state());
+  ContactReport contact = minimise_once(s, motions, dt, horizon, coupling, problem, liquid, start);
+  int newton_iterations = 0;
+  while (contact.failure.empty()) {
+    const bool exact = contact.active > 0 || coupling.potential;
+    contact.failure = turns.correct(contact.velocity, exact ? 0 : s.scene->solver.tolerance);
+    if (!contact.failure.empty() || turns.done()) break;
+    newton_iterations += contact.newton_iterations;
+    const Eigen::VectorXd from = exact ? contact.velocity : start;
+    contact = minimise_once(s, motions, dt, horizon, coupling, problem, liquid, from);
+  }
+  contact.newton_iterations += newton_iterations;
+  if (contact.failure.empty()) turns.finish(contact.residual);
+  return contact;
 }
 
 }  // namespace
@@ -90,13 +128,9 @@ SolidsMinimum minimise_solids(const Setup<Dim>& s, const State<Dim>& state, doub
     return r;
   }
   const auto motions = contact_motions(state, horizon);
-  const ContactOptions options =
-      contact_options(s.domain, s.scene->domain, s.scene->time, s.fluids.gravity, s.perturbation);
-  ContactInLiquid modelled = solve_modelled(s.solids, s.scene->solver, motions, dt, horizon, coupling, liquid, options);
-  ContactReport contact = std::move(modelled.contact);
-  if (contact.velocity.size() == 0 && problem.notices_indefinite()) contact.velocity = start;
-  if (!modelled.agreed && contact.failure.empty())
-    contact = solve_in_turns(s.solids, motions, dt, horizon, coupling, problem, options, contact);
+  ContactReport contact = coupling.is_constrained()
+                              ? minimise_with_joints(s, motions, dt, horizon, coupling, problem, liquid, start)
+                              : minimise_once(s, motions, dt, horizon, coupling, problem, liquid, start);
   r.failure = contact.failure;
   r.newton_iterations = contact.newton_iterations;
   r.contacts = contact.active;

@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "coupling/solids/joint_motion.h"
 #include "coupling/state/solids.h"
 #include "grid/loops.h"
+#include "linalg/core/dense_factors.h"
 
 namespace seiche {
 namespace {
@@ -54,6 +56,30 @@ void take_back_lag(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupli
     if (unchanged.component[n] >= 0 && flux[n] != 0) in.geometry.faces.cell_flux.add(rows.cells[n], flux[n]);
 }
 
+// Liquid without a free surface whose volume only jointed bodies change: where their joints leave them no freedom to,
+// J'chi = C'y, the joints alone change it by y'(C v). Throws if drives and prescribed solids do. Collective.
+template <int Dim>
+void refuse_driven(const SolidCoupling<Dim>& coupling, const NullSpace& closed, const std::vector<int>& sensed,
+                   const Communicator& ranks) {
+  const JointMotion<Dim>& joints = *coupling.joints;
+  for (int c = 0; c < closed.count; ++c) {
+    if (std::find(sensed.begin(), sensed.end(), c) != sensed.end()) continue;
+    Vector chi(closed.component.size());
+    for (std::size_t i = 0; i < chi.size(); ++i) chi[i] = closed.component[i] == c ? 1 : 0;
+    const Eigen::VectorXd felt = multiply_transposed(coupling.J, chi, ranks);
+    if (felt.isZero(0)) continue;
+    const Eigen::VectorXd y = shortest_least_squares(Eigen::MatrixXd(coupling.J.constraints.transpose()), felt);
+    const Eigen::VectorXd parts = y.cwiseProduct(joints.given);
+    if (std::abs(parts.sum()) <=
+        balanced * parts.cwiseAbs().sum() + balanced * joints.slack.cwiseAbs().dot(y.cwiseAbs()))
+      continue;
+    throw Error(ExitCode::cannot_continue,
+                fmt::format("joints {} drive solids into liquid that fills a closed container; give the liquid a free "
+                            "surface, or a motor with a largest force in place of a drive",
+                            joints.names_of_driven(parts)));
+  }
+}
+
 // Impulses of contact act about the pivots of prescribed solids.
 template <int Dim>
 double contact_power(const std::vector<BodyImpulse>& impulses, const CoupledInput<Dim>& in) {
@@ -76,6 +102,7 @@ void refuse_impossible_motion(const CoupledInput<Dim>& in, const PressureProblem
   if (liquid.closed.count == 0) return;
   const NullSpace unchanged = without(liquid.closed, sensed);
   if (coupling.any_held()) take_back_lag(in, coupling, unchanged, r.rows);
+  if (coupling.is_constrained()) refuse_driven(coupling, liquid.closed, sensed, in.setup.domain.ranks);
   refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, unchanged));
 }
 
@@ -111,6 +138,7 @@ Eigen::VectorXd find_minimum(const CoupledInput<Dim>& in, const SolidCoupling<Di
   r.failure = m.failure;
   r.newton_iterations = m.newton_iterations;
   r.contacts = m.contacts;
+  r.joint_turns = coupling.joints ? coupling.joints->turns : 0;
   r.friction_settled = m.friction_settled;
   r.contact_power = contact_power(m.impulses, in);
   r.reactions = m.reaction / in.liquid.dt;

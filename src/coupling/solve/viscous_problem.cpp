@@ -20,10 +20,25 @@ ViscousProblem<Dim>::ViscousProblem(const SolidCoupling<Dim>& coupling, const Vi
       none_(ranks),
       last_(coupling.free) {}
 
+// With v = w + the part that the joints prescribe, C w = 0.
+template <int Dim>
+SaddleReport ViscousProblem<Dim>::solve_with_joints(SaddleSolver& solver, const BodyMatrix& H, Vector f,
+                                                    Eigen::VectorXd g, Vector q, Eigen::VectorXd& v) {
+  const Eigen::VectorXd part = this->prescribed_by_joints(H);
+  add_multiplied(viscous_.system().G, -part, f);
+  add_multiplied(viscous_.J(), -part, q);
+  g = H.constraints().without_multipliers(g - H.multiply(part));
+  Eigen::VectorXd w = H.constraints().moved_onto(v - part, Eigen::VectorXd::Zero(H.constraints().rows().rows()));
+  const SaddleReport r = solver.solve(H, f, g, q, u_, w, p_);
+  v = w + part;
+  return r;
+}
+
 template <int Dim>
 std::string ViscousProblem<Dim>::solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f,
                                        const Eigen::VectorXd& g, const Vector& q, Eigen::VectorXd& v) {
-  const SaddleReport r = solver.solve(H, f, g, q, u_, v, p_);
+  const SaddleReport r = coupling_.is_constrained() && H.size() > 0 ? solve_with_joints(solver, H, f, g, q, v)
+                                                                    : solver.solve(H, f, g, q, u_, v, p_);
   report_.converged = r.converged;
   report_.iterations += r.iterations;
   report_.residual = std::max(report_.residual, r.residual);
@@ -63,7 +78,7 @@ InertiaResponse ViscousProblem<Dim>::minimise(const SparseMatrix& K, const Eigen
   Eigen::VectorXd push = coupling_.push + r + system.g;
   SparseMatrix H = coupling_.mass + system.Hvv;
   if (K.nonZeros() > 0) H = H + K;
-  if (!H_.set(uncouple_held(coupling_, H, push))) return indefinite_response();
+  if (!H_.set(uncouple_held(coupling_, H, push), coupling_.J.constraints)) return indefinite_response();
   Eigen::VectorXd v = last_;
   if (std::string failure = solve(solvers_.coupled, H_, system.f, push, this->with_missing_fluxes(system.q, -area_), v);
       !failure.empty())

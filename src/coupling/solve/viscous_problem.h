@@ -34,6 +34,8 @@ class ViscousProblem : public CoupledProblem<Dim> {
   using CoupledProblem<Dim>::report_;
   std::string solve(SaddleSolver& solver, const BodyMatrix& H, const Vector& f, const Eigen::VectorXd& g,
                     const Vector& q, Eigen::VectorXd& v);
+  SaddleReport solve_with_joints(SaddleSolver& solver, const BodyMatrix& H, Vector f, Eigen::VectorXd g, Vector q,
+                                 Eigen::VectorXd& v);
   InertiaResponse response_at(const Eigen::VectorXd& v) const;
   Eigen::VectorXd reaction_of_means() const;
 

@@ -102,6 +102,21 @@ Eigen::VectorXd velocities_before(const SolidCoupling<Dim>& coupling, const Stat
   return v;
 }
 
+// With v = w + the part that the joints prescribe, C w = 0. Collective.
+template <int Dim>
+SaddleReport solve_with_joints(SaddleSolver& solver, const BodyMatrix& H, const ViscousSystem<Dim>& system,
+                               const JointMotion<Dim>& joints, const Eigen::VectorXd& push, Vector& u,
+                               Eigen::VectorXd& v) {
+  const Eigen::VectorXd part = H.prescribed(joints.rate), none = Eigen::VectorXd::Zero(joints.rate.size());
+  Vector f = system.f;
+  add_multiplied(system.G, -part, f);
+  const Eigen::VectorXd g = H.constraints().without_multipliers(push - H.multiply(part));
+  Eigen::VectorXd w = H.constraints().moved_onto(v - part, none);
+  const SaddleReport report = solver.solve_viscous(H, f, g, u, w);
+  v = w + part;
+  return report;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -128,11 +143,13 @@ void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<
   make_identical(impulse, in.setup.domain.ranks);
   Eigen::VectorXd push = coupling.push + impulse + system.g, v = coupling.free;
   BodyMatrix H(in.setup.domain.ranks);
-  if (!H.set(uncouple_held(coupling, coupling.mass + system.Hvv, push))) {
+  if (!H.set(uncouple_held(coupling, coupling.mass + system.Hvv, push), coupling.J.constraints)) {
     r.failure = "the matrix of the solids' inertia and drag is not positive definite";
     return;
   }
-  const SaddleReport report = solver.solve_viscous(H, system.f, push, u, v);
+  const SaddleReport report = coupling.is_constrained()
+                                  ? solve_with_joints(solver, H, system, *coupling.joints, push, u, v)
+                                  : solver.solve_viscous(H, system.f, push, u, v);
   r.report.iterations = report.iterations;
   r.report.failed_attempts = report.failed_attempts;
   if (!report.converged) {

@@ -27,6 +27,7 @@ struct Attempt {
   SolveReport solve;
   double divergence = 0;  // largest |net flux|/volume of a cell, 1/s
   int newton_iterations = 0, contacts = 0;
+  int joint_turns = 0;
   bool friction_settled = true;  // ContactReport::friction, of the last solve
   SolvePowers powers;
   int rheology_iterations = 0;  // solves until viscosity and flow agree

@@ -138,6 +138,26 @@ void visit_loads(const std::string& cause, std::vector<SolidLoad>& loads, FieldV
     }
 }
 
+void visit_joint(std::size_t k, JointState& joint, StateVisitor& visitor) {
+  const std::string prefix = fmt::format("joint.{}.", k);
+  double broken = joint.broken, rows = double(joint.bend.size());
+  visitor.number(prefix + "q", joint.q);
+  visitor.number(prefix + "rate", joint.rate);
+  visitor.number(prefix + "shown_q", joint.shown_q);
+  visitor.number(prefix + "gap", joint.gap);
+  visitor.number(prefix + "power", joint.power);
+  visitor.number(prefix + "broken", broken);
+  visitor.number(prefix + "rows", rows);
+  for (int a = 0; a < 3; ++a) {
+    visitor.number(fmt::format("{}force{}", prefix, a), joint.force[a]);
+    visitor.number(fmt::format("{}torque{}", prefix, a), joint.torque[a]);
+    visitor.number(fmt::format("{}point{}", prefix, a), joint.point[a]);
+  }
+  joint.broken = broken != 0;
+  joint.bend.conservativeResize(Eigen::Index(rows));
+  visitor.vector(prefix + "bend", joint.bend);
+}
+
 void visit_work(Work& work, StateVisitor& visitor) {
   visitor.number("work.gravity", work.gravity);
   visitor.number("work.tension", work.tension);
@@ -162,6 +182,8 @@ void visit_numbers(const Fluids& fluids, std::size_t solids, State<Dim>& state, 
   visitor.number("dt_before", state.dt_before);
   if (visitor.has("since_solve")) visitor.number("since_solve", state.since_solve);
   visitor.number("horizon", state.horizon);
+  if (visitor.loads()) state.planned = state.horizon;
+  if (visitor.has("planned")) visitor.number("planned", state.planned);
   visitor.number("viscous_rate", state.viscous_rate);
   if (visitor.has("work.gravity")) visit_work(state.work, visitor);
   if (visitor.has("viscous.dissipation")) visit_power(state.viscous_power, visitor);
@@ -213,6 +235,7 @@ void visit_state(const Setup<Dim>& s, State<Dim>& state, FieldVisitor<Dim>& visi
   visitor.number("levels", levels);
   visit_numbers(s.fluids, s.solids.bodies.size(), state, visitor);
   for (std::size_t k = 0; k < state.solids.size(); ++k) state.solids[k].visit(visitor);
+  for (std::size_t k = 0; k < state.joints.size(); ++k) visit_joint(k, state.joints[k], visitor);
   visit_cells(s, state, visitor);
   visit_room(s, state, visitor);
   for (int a = 0; a < Dim; ++a) {
@@ -230,6 +253,7 @@ State<Dim> blank_state(const Setup<Dim>& s) {
   State<Dim> state;
   state.exterior = s.exterior;
   state.solids = s.solids.at_start;
+  state.joints.resize(s.solids.joints.list.size());
   state.phi = CellField<Dim>(layout);
   state.pressure = CellField<Dim>(layout);
   if (s.tracks_volume()) state.liquid = CellField<Dim>(layout);

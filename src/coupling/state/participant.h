@@ -63,6 +63,9 @@ class Participant {
   virtual Placement prescribed_part(Placement placed) const;
   virtual double fastest_prescribed_part(double /*t*/, double /*dt*/) const { return 0; }
 
+  // State of a body that forces move rigidly; null for others.
+  virtual const RigidState* rigid() const { return nullptr; }
+
   // Number of unknowns, their velocities from the last solve, and their velocities over a step of dt from t. `horizon`:
   // the interval that the last solve planned. All times in s.
   virtual int unknowns() const { return 0; }

@@ -53,6 +53,8 @@ struct StepStats {
   // Separating walls: largest violation by a cell on the wrong side of the unilateral condition, over the largest
   // pressure. Suction in attached cells or squeeze in separated ones; 0: none.
   double separation_error = 0;
+  double joint_gap = 0;  // largest that the last solve left at its end, m
+  int joint_turns = 0;   // of solves that closed joints
 };
 
 // One row of solids.csv.
@@ -63,6 +65,16 @@ struct SolidState {
   Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
   Vec3 force{0, 0, 0}, torque{0, 0, 0};          // from the fluid, N and N m about position
   Vec3 pin_force{0, 0, 0}, pin_torque{0, 0, 0};  // likewise, from the pins of an elastic solid
+};
+
+// One row of joints.csv. Loads act on the joint's first solid, the torque about the joint's point.
+struct JointReport {
+  std::string name;
+  double q = 0, rate = 0;  // coordinate and its rate: rad, rad/s or m, m/s; 0 without one
+  Vec3 force{0, 0, 0}, torque{0, 0, 0};
+  double power = 0;  // into the solids, of drive, motor and prescribed solids, W
+  double gap = 0;    // m
+  bool broken = false;
 };
 
 struct ProbeSample {
@@ -109,6 +121,7 @@ class Simulation {
   virtual StepStats step(double until) = 0;
   virtual StepStats stats() const = 0;                             // of the present state
   virtual std::vector<SolidState> solids() const = 0;              // equal on all ranks
+  virtual std::vector<JointReport> joints() const { return {}; }   // equal on all ranks
   virtual SurfaceMesh solid_surface(std::size_t index) const = 0;  // at the present time
   // Elements of an elastic solid with their fields at the present time; empty for other solids. Not collective: called
   // on rank 0 only. Its surface_nodes are the points of solid_surface(index).

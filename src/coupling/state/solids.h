@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "coupling/state/interaction.h"
+#include "coupling/state/joint_rows.h"
 #include "coupling/state/operator_perturbation.h"
 #include "fluid/boundary/domain.h"
 
@@ -15,6 +16,7 @@ struct OperatorPerturbation;
 template <int Dim>
 struct Solids {
   std::vector<Body<Dim>> bodies;
+  JointSet<Dim> joints;
   SolidGeometry<Dim> geometry;
   Participants<Dim> at_start;
   Interactions<Dim> interactions;
@@ -27,7 +29,9 @@ struct Solids {
 
   bool has_unknowns() const;
   bool plans_steps() const;  // Participant::plans_steps
-  bool may_seal() const;     // Participant::may_seal
+  // True if the coming step is planned: by participants, or by joints, which are closed where it will be solved for.
+  bool leads_ahead() const { return plans_steps() || !joints.list.empty(); }
+  bool may_seal() const;  // Participant::may_seal
 };
 
 }  // namespace seiche

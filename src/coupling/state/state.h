@@ -3,6 +3,7 @@
 #include "coupling/state/exterior.h"
 #include "coupling/state/flow.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/joint_state.h"
 #include "coupling/state/participant.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/pressure/pressure.h"
@@ -39,10 +40,12 @@ struct State : Flow<Dim> {
   double corrected_volume = 0;  // restored by the volume control so far, m^Dim
   double spilled_volume = 0;    // of `liquid`, handed to neighbouring cells so far, m^Dim
   Participants<Dim> solids;
+  std::vector<JointState> joints;
   double since_solve = 0;  // time from the geometry of the last solve to this state, s: half a leapfrog step, or 0
   std::shared_ptr<const State> trial = {};  // after a trial of the first step, for the step itself; else null
   bool looks_ahead = false;                 // for a trial that leaves solids where they begin (look_ahead.h)
   double horizon = 0;                       // interval ahead for which the solids' velocities were solved, s
+  double planned = 0;                       // length of the coming step that the horizon was made for, s
   Separation<Dim> separation;               // only with separating walls
   double viscous_rate = 0;                  // largest mu/(rho h^2) of the last solve, 1/s
   Work work;                                // since the end of the first step

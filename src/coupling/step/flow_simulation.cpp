@@ -71,6 +71,7 @@ class FlowSimulation : public Simulation {
   std::int64_t step_count() const override { return state_.step; }
   StepStats stats() const override { return stats_; }
   std::vector<SolidState> solids() const override { return solids_; }
+  std::vector<JointReport> joints() const override { return report_joints(setup_->solids.joints, state_.joints); }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
     return measure_probe(*setup_, state_, geometry_, setup_->scene->probes.at(k));
@@ -98,7 +99,7 @@ class FlowSimulation : public Simulation {
     std::string failures;
     for (int halvings = 0; halvings <= most_halvings && dt > 0;
          ++halvings, dt = hold_back(setup_->solids, state_, dt / 2)) {
-      Attempt<Dim> a = attempt(dt);
+      Attempt<Dim> a = attempt_and_break(dt);
       if (a.failure.empty() && halvings < most_for_energy)
         a.failure = fault_of_works(setup_->domain, setup_->fluids, setup_->solids, state_, stats_, a);
       if (a.failure.empty()) {
@@ -166,6 +167,19 @@ class FlowSimulation : public Simulation {
                                                 std::move(blocks));
   }
 
+  // Repeats the attempt for each joint that it breaks, the most overloaded one first.
+  Attempt<Dim> attempt_and_break(double dt) {
+    const JointSet<Dim>& joints = setup_->solids.joints;
+    for (;;) {
+      Attempt<Dim> a = attempt(dt);
+      const int j = a.failure.empty() ? most_overloaded(joints, a.state.joints) : -1;
+      if (j < 0) return a;
+      state_.joints[std::size_t(j)].broken = true;
+      phases_.warnings.push_back(
+          note_on_break(report_joints(joints, a.state.joints)[std::size_t(j)], a.state.step, a.state.time));
+    }
+  }
+
   Attempt<Dim> attempt(double dt) {
     if (state_.step > 0 || setup_->fluids.has_prescribed_flow()) return budgeted_step(state_, dt);
     Attempt<Dim> first = first_step(dt);
@@ -201,7 +215,7 @@ class FlowSimulation : public Simulation {
     if (solved) a.failure = fault_of_energy(*setup_, state_, stats_, geometry_.psi, a);
     if (!a.failure.empty()) return a;
     a.solids = measure_solids(setup_->domain, setup_->solids, setup_->scene->time, a.state, a.geometry);
-    if (solved) a.state.work = work_after(setup_->domain, setup_->fluids, state_, stats_, a.solids, a);
+    if (solved) a.state.work = work_after(*setup_, state_, stats_, a.solids, a);
     return a;
   }
 
@@ -242,6 +256,7 @@ class FlowSimulation : public Simulation {
     contacts_ = a.contacts;
     rheology_iterations_ = a.rheology_iterations;
     separation_error_ = a.separation_error;
+    joint_turns_ = a.joint_turns;
     warn_of_separation();
     warn_of_rheology(a);
     warn_of_crossing();
@@ -307,6 +322,7 @@ class FlowSimulation : public Simulation {
     stats.liquid_volume -= volume_beyond(setup_->domain, setup_->solids, geometry, state.phi);
     stats.kinetic_energy += kinetic_energy_beside(setup_->domain, setup_->fluids, setup_->solids, geometry, state);
     measure_bodies(setup_->fluids, setup_->scene->time, state, stats);
+    for (const auto& interaction : setup_->solids.interactions) interaction->measure(state, stats);
     return stats;
   }
 
@@ -320,6 +336,8 @@ class FlowSimulation : public Simulation {
     stats_.viscous_dissipation = state_.viscous_power.dissipation;
     stats_.rheology_iterations = rheology_iterations_;
     stats_.separation_error = separation_error_;
+    stats_.joint_turns = joint_turns_;
+    stats_.joint_gap = largest_gap(state_.joints);
     stats_.solver_iterations = solve_.iterations;
     stats_.solver_residual = solve_.residual;
     solids_ = std::move(solids);
@@ -345,7 +363,7 @@ class FlowSimulation : public Simulation {
   std::vector<SurfaceMesh> surfaces_;
   SolveReport solve_;
   double divergence_ = 0;
-  int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0;
+  int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0, joint_turns_ = 0;
   double separation_error_ = 0;
   bool told_of_separation_ = false, told_of_rheology_ = false, told_of_crossing_ = false;
   StepStats stats_;

@@ -132,10 +132,11 @@ template <int Dim>
 Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const OperatorPerturbation& perturbation,
                     std::vector<std::string>& notes)
     : bodies(make_bodies<Dim>(scene, notes)),
-      geometry(domain.layout, domain.sides, bodies),
+      joints(scene, bodies),
+      geometry(domain.layout, domain.sides, bodies, joints.pairs_apart()),
       at_start(make_participants(bodies)),
-      interactions(make_interactions(bodies)) {
-  if (has_unknowns()) contact.emplace(make_contact_scene(scene.domain, at_start, perturbation));
+      interactions(make_interactions(bodies, joints)) {
+  if (has_unknowns()) contact.emplace(make_contact_scene(scene.domain, at_start, joints.pairs_apart(), perturbation));
 }
 
 template <int Dim>
@@ -223,6 +224,10 @@ State<Dim> initial_state(const Setup<Dim>& s) {
   if (s.fluids.liquid.separates) state.separation = Separation<Dim>(s.domain.layout);
   if (s.solids.may_seal()) state.sealed = CellField<Dim, char>(s.domain.layout);
   state.solids = s.solids.at_start;
+  for (const Joint& joint : s.solids.joints.list) {
+    state.joints.emplace_back();
+    state.joints.back().q = state.joints.back().shown_q = joint.q_at_start;
+  }
   refuse_overlaps(s.domain, s.solids, s.scene->domain, state);
   const StepGeometry<Dim> g = s.solids.geometry.measure(place_moving_bodies(state), 0);
   state.phi = initial_surface(s.domain, s.fluids, s.solids, g, shapes);

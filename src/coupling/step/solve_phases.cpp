@@ -135,6 +135,7 @@ CoupledSolution<Dim> solve(const SolveTask<Dim>& task, const ViscosityField<Dim>
   out.solve.iterations += earlier.iterations;
   out.newton_iterations = solution.newton_iterations;
   out.contacts = solution.contacts;
+  out.joint_turns = solution.joint_turns;
   out.friction_settled = solution.friction_settled;
   out.separation_error = solution.separation_error;
   out.failure = solution.failure;
@@ -251,6 +252,14 @@ Attempt<Dim> solve_for_horizon(const SolveTask<Dim>& task, Moved<Dim> moved, Sol
   return solve_once<Dim>(task, std::move(moved), nullptr, solves);
 }
 
+// Joints are closed where the next solve stands: in the middle of the planned step if this one goes by halves.
+template <int Dim>
+void set_plan(const Solids<Dim>& solids, double plan, State<Dim>& state) {
+  state.planned = plan;
+  const bool halves = solids.leads_ahead() && state.since_solve > 0;
+  state.horizon = halves ? state.since_solve + plan / 2 : plan;
+}
+
 // Time from the place of the solids that the present flow fits to that of the solve, s; 0 for forces that are those of
 // the middle of the step.
 template <int Dim>
@@ -307,21 +316,21 @@ Attempt<Dim> solve_and_plan(const Setup<Dim>& s, const State<Dim>& before, Moved
   const SolveTask<Dim> task{s, before, tension, predicted, times, phases};
   Solves<Dim> solves;
   if (times.looks_ahead()) {
-    moved.state.horizon = times.dt;
+    set_plan(s.solids, times.dt, moved.state);
     Attempt<Dim> out = solve_for_horizon(task, std::move(moved), solves);
     if (out.failure.empty()) out.failure = fault_of_start(s.domain.layout.h(), s.solids, out.state);
     return out;
   }
-  moved.state.horizon = choose_horizon(s, moved.state, times.dt);
+  set_plan(s.solids, choose_horizon(s, moved.state, times.dt), moved.state);
   if (!s.solids.plans_steps() || s.scene->time.fixed_step) return solve_for_horizon(task, std::move(moved), solves);
   for (int plans = 1, failures = 0;;) {
     Attempt<Dim> out = solve_for_horizon(task, moved, solves);
     if (!out.failure.empty()) {
       if (++failures > most_failures) return out;
-      moved.state.horizon /= 2;
+      set_plan(s.solids, moved.state.planned / 2, moved.state);
     } else {
       if (++plans > most_plans || can_go_as_planned(s, out.state)) return out;
-      moved.state.horizon = choose_horizon(s, out.state, times.dt);
+      set_plan(s.solids, choose_horizon(s, out.state, times.dt), moved.state);
     }
     solves.go_on_with_horizon(std::move(out));
   }

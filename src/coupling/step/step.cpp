@@ -55,6 +55,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
                             : solve_and_plan(s, before, std::move(moved), predicted, times, phases);
   if (s.volume_lags()) solved.state.liquid_phi = solved.state.phi;
   if (times.leapfrog && solved.failure.empty()) move_second_half(s, before, times, *closed, phases, solved);
+  if (solved.failure.empty() && !times.leapfrog) show_solids(s, solved.state);
   if (s.tracks_volume() && solved.failure.empty()) solved.failure = fault_of_volume(s.domain, before, solved.state);
   return solved;
 }

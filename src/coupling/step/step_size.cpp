@@ -168,7 +168,7 @@ std::string too_short(double dt, double remaining, double h, const std::string& 
 // is checked again.
 template <int Dim>
 double hold_back(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
-  if (solids.plans_steps() && dt == state.horizon) return dt;  // the solve excluded collisions and inversions
+  if (solids.leads_ahead() && dt == state.planned) return dt;  // the solve excluded collisions and inversions
   constexpr int most_looks = 40;
   constexpr double margin = 0.9;  // the next check then finds the share of gaps that it wants left
   for (int n = 0; n < most_looks; ++n) {
@@ -213,7 +213,7 @@ std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>&
 template <int Dim>
 double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
   const TimeSpec& spec = s.scene->time;
-  if (!s.solids.plans_steps()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
+  if (!s.solids.leads_ahead()) return spec.fixed_step ? std::max(dt, *spec.fixed_step) : step_growth * dt;
   constexpr double margin = 0.9, least = 0.1;
   const double remaining = until_frame(spec, next.time);
   if (spec.fixed_step) {
@@ -230,8 +230,8 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene->time, state.time);
-  const double dt = std::min(state.horizon, limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until));
-  return limit_of_solids(s.domain, s.solids, state, dt) >= state.horizon * (1 - 1e-9);
+  const double dt = std::min(state.planned, limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until));
+  return limit_of_solids(s.domain, s.solids, state, dt) >= state.planned * (1 - 1e-9);
 }
 
 template <int Dim>
@@ -247,7 +247,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   const double remaining = until - state.time;
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
-  const bool planned = s.solids.plans_steps() && state.step > 0 && !spec.fixed_step;
+  const bool planned = s.solids.leads_ahead() && state.step > 0 && !spec.fixed_step;
   double dt =
       spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
@@ -257,11 +257,11 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
     if (s.solids.plans_steps()) dt = limit_of_first_fall(s.domain, s.fluids, state.time, dt);
     if (s.domain.sides.any_passes()) dt = limit_of_side_pressures(s.domain, s.fluids, state.time, dt);
   }
-  if (planned && state.horizon <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
-    dt = state.horizon;
+  if (planned && state.planned <= remaining * (1 + 1e-9) && can_go_as_planned(s, state))
+    dt = state.planned;
   else if (!spec.fixed_step)
     dt = limit_of_solids(s.domain, s.solids, state, std::min(dt, remaining));
-  if (s.solids.plans_steps() && state.step > 0 && dt >= state.horizon * (1 - 1e-9)) dt = state.horizon;
+  if (s.solids.leads_ahead() && state.step > 0 && dt >= state.planned * (1 - 1e-9)) dt = state.planned;
   if (dt >= remaining * (1 - 1e-9)) dt = remaining;
   if (spec.fixed_step) {
     std::string fault = fault_of_pinned_flow(s.domain, s.fluids, s.scene->time, state, dt);
@@ -269,7 +269,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
       fault = fault_of_pinned_solids(s.domain, s.solids, s.scene->time, motion_ahead(state, dt), state.time, dt);
     if (!fault.empty()) throw Error(ExitCode::cannot_continue, fault);
   }
-  const bool as_planned = s.solids.plans_steps() && dt == state.horizon;
+  const bool as_planned = s.solids.leads_ahead() && dt == state.planned;
   if (!as_planned && !spec.fixed_step) dt = land(dt, remaining);
   const double free = hold_back(s.solids, state, dt);
   if (!(free * double(most_steps_a_frame) > remaining))

@@ -21,13 +21,13 @@ template <int Dim>
 std::string fault_of_pinned_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
                                    const std::vector<Placement>& placed, double t, double dt);
 
-// Interval H (s) over which a step of dt (s) that leads to `next` solves for the solids' velocities. If solids plan
-// steps, H is the planned length of the coming step, which makes their motion second order in time. Else it is the
-// longest step that may follow. Collective.
+// Length (s) of the coming step over which a step of dt (s) that leads to `next` solves for the solids' velocities: as
+// planned if solids lead ahead, which makes their motion second order in time; else the longest that may follow.
+// Collective.
 template <int Dim>
 double choose_horizon(const Setup<Dim>& setup, const State<Dim>& next, double dt);
 
-// True if flow and solids after a solve allow a step of the planned length (State::horizon). Collective.
+// True if flow and solids after a solve allow a step of the planned length (State::planned). Collective.
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& setup, const State<Dim>& state);
 

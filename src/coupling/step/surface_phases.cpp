@@ -226,6 +226,9 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
                                    Phases& phases) {
   Moved<Dim> moved{shifted_levels(before, times), {}, {}};
   if (!times.looks_ahead()) move_solids(s, before, times, moved.state.solids);
+  for (const auto& interaction : s.solids.interactions)
+    if (moved.failure.empty()) moved.failure = interaction->settle(s.domain, moved.state, times.start + times.lead);
+  if (!moved.failure.empty()) return moved;
   moved.geometry = measure_geometry(s.domain, s.solids, s.scene->domain, moved.state, times, phases);
   moved.end = find_end(s.domain, s.fluids, s.solids, before, times, moved, phases);
   if (s.room_changes()) moved.state.open = room_at_solve(s.domain, moved);
@@ -241,6 +244,11 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
 }
 
 template <int Dim>
+void show_solids(const Setup<Dim>& s, State<Dim>& state) {
+  for (const auto& interaction : s.solids.interactions) interaction->show(s.domain, state);
+}
+
+template <int Dim>
 void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepTimes& times,
                       const CellField<Dim, char>& closed, Phases& phases, Attempt<Dim>& solved) {
   const auto timed = phases.timers.measure("surface");
@@ -252,6 +260,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
     next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
+  show_solids(s, next);
   if (any_moves(s.solids)) solved.geometry = placed_at_end(s.solids, next, std::move(solved.geometry));
   if (s.tracks_volume()) return;
   const double expected = next.expected_volume + gap_volume(s.domain, s.fluids, next.separation);
@@ -261,6 +270,7 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template Moved<D> move_surface_and_solids<D>(const Setup<D>&, const State<D>&, const StepTimes&, Phases&);       \
+  template void show_solids<D>(const Setup<D>&, State<D>&);                                                        \
   template void move_second_half<D>(const Setup<D>&, const State<D>&, const StepTimes&, const CellField<D, char>&, \
                                     Phases&, Attempt<D>&);
 SEICHE_INSTANTIATE(2)

@@ -38,6 +38,10 @@ template <int Dim>
 Moved<Dim> move_surface_and_solids(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times,
                                    Phases& phases);
 
+// Shows solids at the end of the step where their interactions hold.
+template <int Dim>
+void show_solids(const Setup<Dim>& s, State<Dim>& state);
+
 // The second half of a leapfrog step, by the velocities at its end; by those at its start where its end is too fast.
 // `closed` as in Moved. Collective.
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "base/communicator.h"
+#include "linalg/core/sparse_cholesky.h"
 #include "linalg/core/vector_ops.h"
 
 namespace seiche {
@@ -34,6 +35,8 @@ struct ColumnBlock {
 
 struct BlockColumns {
   std::vector<ColumnBlock> blocks;
+  // C of constraints C v = b on the bodies' unknowns, as of joints; no rows: none. Same on all ranks.
+  SparseMatrix constraints{};
   int columns() const;
   bool any_deforms() const;
   // First column of each block, and the number of columns.

@@ -83,7 +83,7 @@ bool BodyMatrix::factor_shared() {
   return shared_factor_.factor(parts_.empty() ? H_ : submatrix(shared_)) && shared_factor_.is_positive();
 }
 
-bool BodyMatrix::set(SparseMatrix H) {
+bool BodyMatrix::set(SparseMatrix H, const SparseMatrix& C) {
   H_.swap(H);  // Eigen 3.4 copies where it should move
   shared_out_ = false;
   find_parts();
@@ -91,11 +91,15 @@ bool BodyMatrix::set(SparseMatrix H) {
   bool good = factor_shared();
   for (Part& part : parts_)
     if (good && part.owner == ranks_.rank()) good = part.factor.factor(submatrix(part.rows));
-  return !ranks_.any(!good);
+  constraints_ = {};
+  if (ranks_.any(!good)) return false;
+  if (C.rows() > 0) constraints_ = {C, solve_columns_freely(Eigen::MatrixXd(C.transpose()))};
+  return true;
 }
 
 void BodyMatrix::keep(const SparseMatrix& H) {
   shared_out_ = ranks_.size() > 1;
+  constraints_ = {};
   SparseMatrix own = with_columns(H, share_of_rank(int(H.cols()), ranks_));
   H_.swap(own);  // as in set()
 }
@@ -108,7 +112,25 @@ Eigen::VectorXd BodyMatrix::multiply(const Eigen::VectorXd& v) const {
   return shared_out_ ? multiply_shared(H_, v, ranks_) : Eigen::VectorXd(H_ * v);
 }
 
+Eigen::VectorXd BodyMatrix::prescribed(const Eigen::VectorXd& b) const {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(size());
+  return constraints_.empty() ? none : constraints_.moved_onto(none, b);
+}
+
+Eigen::VectorXd BodyMatrix::multipliers_against(const Eigen::VectorXd& f) const {
+  return -constraints_.multipliers(constraints_.rows() * solve_freely(f));
+}
+
 Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
+  const Eigen::VectorXd y = solve_freely(b);
+  return constraints_.empty() ? y : constraints_.moved_onto(y, Eigen::VectorXd::Zero(constraints_.rows().rows()));
+}
+
+Eigen::MatrixXd BodyMatrix::solve_columns(const Eigen::MatrixXd& B) const {
+  return constraints_.empty() ? solve_columns_freely(B) : constraints_.moved_onto_zero(solve_columns_freely(B));
+}
+
+Eigen::VectorXd BodyMatrix::solve_freely(const Eigen::VectorXd& b) const {
   if (parts_.empty()) return shared_.empty() ? b : shared_factor_.solve(b);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
   for (const Part& part : parts_)
@@ -121,7 +143,7 @@ Eigen::VectorXd BodyMatrix::solve(const Eigen::VectorXd& b) const {
   return x;
 }
 
-Eigen::MatrixXd BodyMatrix::solve_columns(const Eigen::MatrixXd& B) const {
+Eigen::MatrixXd BodyMatrix::solve_columns_freely(const Eigen::MatrixXd& B) const {
   if (parts_.empty()) return shared_.empty() ? B : shared_factor_.solve_columns(B);
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
   for (const Part& part : parts_)

@@ -1,10 +1,12 @@
 #pragma once
 // The matrix H of the bodies (inertia, stiffness, contact) with its Cholesky factors; bodies that do not touch are
-// factored separately.
+// factored separately. Joints add constraints C v = b. Solutions are then those on C v = 0: H^-1 stands for
+//   H^-1 - H^-1 C'W^+ C H^-1,   W = C H^-1 C'.
 #include <memory>
 #include <vector>
 
 #include "base/communicator.h"
+#include "linalg/core/constraint_rows.h"
 #include "linalg/core/sparse_ldlt.h"
 
 namespace seiche {
@@ -18,8 +20,8 @@ class BodyMatrix {
   explicit BodyMatrix(const Communicator& ranks) : ranks_(ranks) {}
 
   // Factors H, which is the same on all ranks. False if it is not positive definite. Large parts whose rows and pattern
-  // are unchanged reuse their ordering. Collective.
-  [[nodiscard]] bool set(SparseMatrix H);
+  // are unchanged reuse their ordering. `C`: constraints; no rows: none. Collective.
+  [[nodiscard]] bool set(SparseMatrix H, const SparseMatrix& C = {});
   // Keeps H without factors; of several ranks each keeps its own columns (linalg/core/shared_columns.h).
   void keep(const SparseMatrix& H);
   bool is_shared_out() const { return shared_out_; }
@@ -28,6 +30,11 @@ class BodyMatrix {
   Eigen::VectorXd diagonal() const;
   Eigen::VectorXd multiply(const Eigen::VectorXd& v) const;
   int size() const { return int(H_.rows()); }
+  const ConstraintRows& constraints() const { return constraints_; }
+  // The part of v that C v = b prescribes: H^-1 C'W^+ b; 0 without constraints.
+  Eigen::VectorXd prescribed(const Eigen::VectorXd& b) const;
+  // Multipliers y of least |f + C'y| in the norm of H^-1: -W^+ C H^-1 f. Collective.
+  Eigen::VectorXd multipliers_against(const Eigen::VectorXd& f) const;
   // H^-1 b, the same bits on all ranks. Collective.
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   // H^-1 B, all columns at once.
@@ -43,6 +50,8 @@ class BodyMatrix {
   void share_out();
   SparseMatrix submatrix(const std::vector<int>& rows) const;
   bool factor_shared();
+  Eigen::VectorXd solve_freely(const Eigen::VectorXd& b) const;
+  Eigen::MatrixXd solve_columns_freely(const Eigen::MatrixXd& B) const;
 
   Communicator ranks_;
   SparseMatrix H_;
@@ -50,6 +59,7 @@ class BodyMatrix {
   std::vector<int> shared_;  // rows of the small parts
   SparseLdlt shared_factor_;
   std::vector<Part> parts_;
+  ConstraintRows constraints_;
 };
 
 }  // namespace seiche

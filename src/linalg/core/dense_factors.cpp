@@ -24,6 +24,10 @@ Eigen::VectorXd DenseLlt::solve(const Eigen::VectorXd& b) const {
   return factor_.solve(b);
 }
 
+Eigen::MatrixXd DenseLlt::solve_columns(const Eigen::MatrixXd& B) const {
+  return factor_.solve(B);
+}
+
 Eigen::VectorXd DenseLlt::solve_lower(const Eigen::VectorXd& b) const {
   return factor_.matrixL().solve(b);
 }

@@ -27,6 +27,7 @@ class DenseLlt {
   void compute(const Eigen::MatrixXd& A);
   bool succeeded() const { return factor_.info() == Eigen::Success; }
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& B) const;
   Eigen::VectorXd solve_lower(const Eigen::VectorXd& b) const;  // L^-1 b
   Eigen::VectorXd solve_upper(const Eigen::VectorXd& b) const;  // L'^-1 b
   void solve_lower_columns(Eigen::MatrixXd& B) const;           // B <- L^-1 B

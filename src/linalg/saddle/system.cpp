@@ -49,6 +49,10 @@ void SaddleOperator::divergence(const Vector& u, const Eigen::VectorXd& v, Vecto
   add_multiplied(system_.J, v, flux);
 }
 
+void SaddleOperator::drop_multipliers(Eigen::VectorXd& fv) const {
+  if (unknowns_ > 0 && !H_->constraints().empty()) fv = H_->constraints().without_multipliers(fv);
+}
+
 void SaddleOperator::multiply(const Vector& x, Vector& y) const {
   Vector u, p, fu, flux;
   Eigen::VectorXd v, fv;
@@ -56,6 +60,7 @@ void SaddleOperator::multiply(const Vector& x, Vector& y) const {
   multiply_velocity(u, v, fu, fv);
   add_gradient(p, fu, fv);
   divergence(u, v, flux);
+  drop_multipliers(fv);
   y = pack(fu, fv, flux);
 }
 

@@ -3,7 +3,8 @@
 //   F u + G v + D'p = f
 //   G'u + H v + J'p = g
 //   D u + J v       = q
-// u: velocities on faces; v: unknowns of bodies (the same on all ranks); p: multiplier, a pressure impulse.
+// u: velocities on faces; v: unknowns of bodies (the same on all ranks); p: multiplier, a pressure impulse. If H has
+// constraints C v = 0, v and the iterates fulfil them, and the second row counts without its part C'W^+ C H^-1.
 #include <array>
 #include <optional>
 
@@ -64,6 +65,8 @@ class SaddleOperator {
   // Blocks of K. Collective.
   void multiply_velocity(const Vector& u, const Eigen::VectorXd& v, Vector& fu, Eigen::VectorXd& fv) const;
   void add_gradient(const Vector& p, Vector& fu, Eigen::VectorXd& fv) const;       // += (D'p, J'p)
+  // Takes the part C'W^+ C H^-1 off, which multipliers of constraints balance.
+  void drop_multipliers(Eigen::VectorXd& fv) const;
   void divergence(const Vector& u, const Eigen::VectorXd& v, Vector& flux) const;  // = D u + J v
 
  private:

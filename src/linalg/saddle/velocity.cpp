@@ -177,7 +177,7 @@ bool VelocityPreconditioner::refresh() {
   energies_.topRightCorner(r, n - r).setZero();
   energies_.bottomLeftCorner(n - r, r).setZero();
   if (n > r) E_.compute(energies_.bottomRightCorner(n - r, n - r));
-  return T_.set(body_part()) && (n == r || E_.is_positive());
+  return T_.set(body_part(), K_.bodies().constraints().rows()) && (n == r || E_.is_positive());
 }
 
 void VelocityPreconditioner::apply(const Vector& ru, const Eigen::VectorXd& rv, Vector& zu, Eigen::VectorXd& zv) {

@@ -26,6 +26,7 @@ class ScaledViscous {
     make_identical(v, K_.ranks());
     Vector fu;
     K_.multiply_velocity(u, v, fu, fv);
+    K_.drop_multipliers(fv);
     y = K_.pack(fu, fv, {});
     weigh(w_, y);
   }

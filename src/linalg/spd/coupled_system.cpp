@@ -6,6 +6,20 @@
 namespace seiche {
 namespace {
 
+// The part of each column that motions on C v = 0 feel: less its projection on the range of C'. Results below round-off
+// are set to zero. Bodies do not feel what the constraints hold alone.
+Eigen::MatrixXd felt_beside(const SparseMatrix& C, const Eigen::MatrixXd& sums) {
+  const Eigen::MatrixXd held = Eigen::MatrixXd(C.transpose());
+  const auto norms = held.colwise().norm().array();
+  const Eigen::MatrixXd basis = orthonormal_basis(held * (norms > 0).select(norms.inverse(), 0).matrix().asDiagonal());
+  Eigen::MatrixXd felt = sums - basis * (basis.transpose() * sums);
+  for (Eigen::Index c = 0; c < sums.cols(); ++c) {
+    const double rounding = 1e-9 * sums.col(c).lpNorm<Eigen::Infinity>();
+    felt.col(c) = (felt.col(c).array().abs() > rounding).select(felt.col(c), 0.0);
+  }
+  return felt;
+}
+
 // J' chi for the indicator chi of each component of the null space of A; `sizes` has the sums of absolute values. Sums
 // below their round-off are set to zero.
 struct Felt {
@@ -27,6 +41,7 @@ Felt feel_components(const LinearSystem& A, const BlockColumns& J) {
   // Round-off of sums of up to 1e6 terms.
   const auto rounding = 1e-11 * felt.sizes.array();
   felt.sums = (felt.sums.array().abs() > rounding).select(felt.sums, 0.0);
+  if (J.constraints.rows() > 0) felt.sums = felt_beside(J.constraints, felt.sums);
   return felt;
 }
 

@@ -35,7 +35,8 @@ class CoupledSystem {
   Eigen::VectorXd weigh(const Eigen::VectorXd& w) const;
   // Returns c H^-1 W, all columns at once. Collective.
   Eigen::MatrixXd weigh_columns(const Eigen::MatrixXd& W) const;
-  // Closed components that bodies feel (J' chi != 0): their indicators chi are null vectors of A but not of S.
+  // Closed components that bodies feel (J' chi != 0, constraints aside): their indicators chi are null vectors of A but
+  // not of S.
   const std::vector<int>& sensed_components() const { return sensed_; }
 
  private:

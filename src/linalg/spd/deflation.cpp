@@ -235,10 +235,11 @@ Eigen::MatrixXd Deflation::estimate_schur() const {
 // E = Z'AZ + c (J'Z)' H^-1 (J'Z). Nothing is deflated without H.
 bool Deflation::refresh() {
   if (Z_.empty() || !S_.is_coupled()) return true;
-  return S_.columns().any_deforms() ? multiply_small() : own_ ? factor_added_mass() : factor_extended();
+  if (S_.columns().any_deforms() || S_.columns().constraints.rows() > 0) return multiply_small();
+  return own_ ? factor_added_mass() : factor_extended();
 }
 
-// For large H.
+// For large H, and for constraints, which the other ways do not know.
 bool Deflation::multiply_small() {
   const auto n = Eigen::Index(Z_.size());
   Eigen::MatrixXd JZ = Eigen::MatrixXd::Zero(S_.columns().columns(), n), E = Eigen::MatrixXd::Zero(n, n);

@@ -66,6 +66,23 @@ std::vector<RowData> local_rows(const CoupledSystem& coupled, const Vector& b) {
   return rows;
 }
 
+// Appends independent rows of the constraints C with their transpose, and zero right-hand sides.
+void append_constraints(const CoupledSystem& coupled, std::int32_t first_unknown, std::vector<Entry>& entries,
+                        std::vector<RowData>& rows) {
+  const ConstraintRows& constraints = coupled.bodies().constraints();
+  if (constraints.empty()) return;
+  const Eigen::MatrixXd C = constraints.rows();
+  for (const int row : constraints.independent()) {
+    const auto here = std::int32_t(rows.size());
+    for (int k = 0; k < int(C.cols()); ++k) {
+      if (C(row, k) == 0) continue;
+      entries.push_back({here, first_unknown + k, C(row, k)});
+      entries.push_back({first_unknown + k, here, C(row, k)});
+    }
+    rows.push_back({0, -1});
+  }
+}
+
 // Appends -H/c and zero right-hand sides.
 void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std::vector<RowData>& rows) {
   if (!coupled.is_coupled()) return;
@@ -76,6 +93,7 @@ void append_small(const CoupledSystem& coupled, std::vector<Entry>& entries, std
       entries.push_back(
           {first + std::int32_t(it.row()), first + std::int32_t(it.col()), -it.value() / coupled.scale()});
   rows.resize(rows.size() + std::size_t(H.rows()), RowData{0, -1});
+  append_constraints(coupled, first, entries, rows);
 }
 
 using Matrix = Eigen::SparseMatrix<double>;

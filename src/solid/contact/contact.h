@@ -1,6 +1,7 @@
 #pragma once
 // Contact and friction between rigid and deformable bodies over one time interval: incremental potential contact (Li et
 // al. 2020; rigid bodies: Ferguson et al. 2021). Impacts are inelastic. docs/contact.md has the equations.
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,8 +81,10 @@ template <int Dim>
 class ContactScene {
  public:
   struct Data;
-  // Throws Error(bad_input) on indices out of range.
-  ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls);
+  // `apart`: pairs of bodies that never touch each other, as jointed ones; ascending, the lower index first. Throws
+  // Error(bad_input) on indices out of range.
+  ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls,
+               std::vector<std::array<int, 2>> apart = {});
   const Data& data() const { return *data_; }
 
  private:

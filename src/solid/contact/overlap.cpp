@@ -165,6 +165,7 @@ class Overlaps {
     for (int a = 0; a < count; ++a)
       for (int b = a + 1; b < count; ++b) {
         if (boxes[a].isEmpty() || boxes[b].isEmpty() || (!scene_.moves(a) && !scene_.moves(b))) continue;
+        if (!scene_.may_touch(std::min(a, b), std::max(a, b))) continue;
         if (!boxes[a].intersects(boxes[b]) && !inverted(a) && !inverted(b)) continue;
         if (crossing_.count({a, b})) continue;
         const bool inside = any_in(b, parts[a]) || any_in(a, parts[b]);

@@ -90,7 +90,8 @@ class Search {
     for (const auto& [start, b] : starts) {
       std::erase_if(open, [&, at = start](int a) { return body_boxes_[a].max()[0] < at; });
       for (int a : open)
-        if ((scene_.moves(a) || scene_.moves(b)) && body_boxes_[a].intersects(body_boxes_[b]))
+        if ((scene_.moves(a) || scene_.moves(b)) && body_boxes_[a].intersects(body_boxes_[b]) &&
+            scene_.may_touch(std::min(a, b), std::max(a, b)))
           pairs.emplace_back(std::min(a, b), std::max(a, b));
       open.push_back(b);
     }

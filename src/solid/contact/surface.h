@@ -38,10 +38,15 @@ struct ContactScene<Dim>::Data {
   // First index in the stacked velocities: of each body (-1: prescribed), and of each point of deformable bodies in the
   // list of all points (-1: on a rigid body).
   std::vector<int> first_dof, point_dof;
-  std::vector<char> pinned;     // of each point
-  std::vector<int> node_count;  // of each deformable body's mesh; 0 for others
-  int size = 0;                 // of the stacked velocities
+  std::vector<char> pinned;               // of each point
+  std::vector<int> node_count;            // of each deformable body's mesh; 0 for others
+  int size = 0;                           // of the stacked velocities
+  std::vector<std::array<int, 2>> apart;  // pairs of bodies that never touch, ascending
 
+  // For pairs with the lower index first.
+  bool may_touch(int a, int b) const {
+    return !std::binary_search(apart.begin(), apart.end(), std::array<int, 2>{a, b});
+  }
   bool moves(int body) const { return first_dof[body] >= 0; }
   bool deforms(int body) const { return control[body] == BodyControl::deformable; }
   bool any_deforms() const {

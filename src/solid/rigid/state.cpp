@@ -47,8 +47,51 @@ Pose rigid_pose(const Body<Dim>& body, const RigidState& r) {
   return {r.rotation, body.mass().center, r.center - body.mass().center};
 }
 
+RigidState displaced(RigidState r, const Vec3& shift, const Vec3& turn) {
+  r.center += shift;
+  r.rotation = Eigen::Quaterniond(exp_rotation(turn) * r.rotation).normalized().toRotationMatrix();
+  return r;
+}
+
+RigidState not_shown(const RigidState& r) {
+  if (r.shown_shift.isZero(0) && r.shown_turn.isZero(0)) return r;
+  RigidState moving = displaced(r, -r.shown_shift, -r.shown_turn);
+  moving.shown_shift = moving.shown_turn = Vec3::Zero();
+  return moving;
+}
+
 template <int Dim>
-RigidState advance(const Body<Dim>& body, const RigidState& r, double dt) {
+RigidState led_by(const Body<Dim>& body, const RigidState& r, const Twist& now, const Vec3& free, double horizon) {
+  RigidState led = r;
+  const Eigen::Matrix3d inertia = world_inertia(body, r);
+  led.angular_momentum = turns_freely(body.spec().rigid) ? Vec3(r.angular_momentum + inertia * (now.angular - free))
+                                                         : Vec3(inertia * now.angular);
+  led.velocity = now.linear;
+  led.angular_velocity = now.angular;
+  led.horizon = horizon;
+  return led;
+}
+
+template <int Dim>
+RigidState gone_on(const Body<Dim>& body, const RigidState& r, const RigidState& led, double dt) {
+  RigidState moving = r;
+  moving.velocity = led.velocity;
+  moving.angular_velocity = led.angular_velocity;
+  moving.angular_momentum = led.angular_momentum;
+  moving.horizon = led.horizon;
+  const RigidState there = advance(body, moving, dt);
+  RigidState next = r;
+  next.center = there.center;
+  next.rotation = there.rotation;
+  const auto spin = [&](const RigidState& x) { return free_twist(body, x, Vec3::Zero(), 0, x.horizon).angular; };
+  next.angular_velocity += spin(next) - spin(r);
+  if (!turns_freely(body.spec().rigid)) next.angular_momentum = world_inertia(body, next) * next.angular_velocity;
+  return next;
+}
+
+template <int Dim>
+RigidState advance(const Body<Dim>& body, const RigidState& state, double dt) {
+  const RigidState r = not_shown(state);
   RigidState next = r;
   Vec3 w = r.angular_velocity;
   if (dt != r.horizon && r.horizon > 0)
@@ -66,11 +109,13 @@ Twist free_twist(const Body<Dim>& body, const RigidState& r, const Vec3& gravity
   return v;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                   \
-  template RigidState initial_rigid_state<D>(const Body<D>&);                   \
-  template Eigen::Matrix3d world_inertia<D>(const Body<D>&, const RigidState&); \
-  template Pose rigid_pose<D>(const Body<D>&, const RigidState&);               \
-  template RigidState advance<D>(const Body<D>&, const RigidState&, double);    \
+#define SEICHE_INSTANTIATE(D)                                                                          \
+  template RigidState initial_rigid_state<D>(const Body<D>&);                                          \
+  template Eigen::Matrix3d world_inertia<D>(const Body<D>&, const RigidState&);                        \
+  template Pose rigid_pose<D>(const Body<D>&, const RigidState&);                                      \
+  template RigidState advance<D>(const Body<D>&, const RigidState&, double);                           \
+  template RigidState led_by<D>(const Body<D>&, const RigidState&, const Twist&, const Vec3&, double); \
+  template RigidState gone_on<D>(const Body<D>&, const RigidState&, const RigidState&, double);        \
   template Twist free_twist<D>(const Body<D>&, const RigidState&, const Vec3&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -15,6 +15,9 @@ struct RigidState {
   Vec3 angular_momentum{0, 0, 0};                          // about the centre of mass, kg m^2/s
   double horizon = 0;                                      // s
   Vec3 extra_force{0, 0, 0}, extra_torque{0, 0, 0};        // from the liquid, without the pressure on the faces; N, N m
+  // Between two solves a jointed body is shown where its joints are closed, off its straight way by this much: a
+  // displacement of its centre (m) and a rotation vector (rad), taken back before it moves on.
+  Vec3 shown_shift{0, 0, 0}, shown_turn{0, 0, 0};
 };
 
 struct Placement {
@@ -42,6 +45,20 @@ bool turns_freely(const RigidSpec& spec);
 // instead of the horizon.
 template <int Dim>
 RigidState advance(const Body<Dim>& body, const RigidState& r, double dt);
+
+// After a solve over `horizon` that found `now`; `free`: angular velocity of free rotation over it.
+//   L += I (omega - omega*), the impulse of liquid, contact and joints. With a fixed axis L = I omega.
+template <int Dim>
+RigidState led_by(const Body<Dim>& body, const RigidState& r, const Twist& now, const Vec3& free, double horizon);
+
+// Second half of a leapfrog step, dt (s), with the velocities of `led`.
+template <int Dim>
+RigidState gone_on(const Body<Dim>& body, const RigidState& r, const RigidState& led, double dt);
+
+// Displaced by `shift` (m) and turned about its centre by the rotation vector `turn` (rad).
+RigidState displaced(RigidState r, const Vec3& shift, const Vec3& turn);
+// Where it is on its straight way.
+RigidState not_shown(const RigidState& r);
 
 // Velocity after `dt` without liquid and contact: v + dt g, and the mean angular velocity of free rotation over the
 // coming horizon. Fixed axes do not move.

@@ -53,8 +53,10 @@ TEST_CASE("the first number that is not finite is named") {
 TEST_CASE("docs/outputs.md lists every column of the tables") {
   std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "../../../docs/outputs.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  const std::pair<const char*, std::string> tables[] = {
-      {"## stats.csv", stats_header()}, {"## solids.csv", solids_header()}, {"## probes.csv", probes_header()}};
+  const std::pair<const char*, std::string> tables[] = {{"## stats.csv", stats_header()},
+                                                        {"## solids.csv", solids_header()},
+                                                        {"## joints.csv", joints_header()},
+                                                        {"## probes.csv", probes_header()}};
   for (const auto& [title, header] : tables) {
     const std::size_t from = page.find(title);
     REQUIRE(from != std::string::npos);

@@ -59,10 +59,28 @@ const std::string liquid_text =
     "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
     "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = ";
 
+const std::string solver_text =
+    "[solver]\ntolerance = 1e-9\npreconditioner = \"boomeramg\"\nviscosity = \"coupled\"\nrheology_tolerance = "
+    "1e-3\nrheology_iterations = 7\n";
+
 // A solid on a spring.
 static std::string bob(const std::string& center) {
   return "[[solid]]\nname = \"bob\"\nkind = \"sprung\"\nshape = \"sphere\"\ncenter = " + center +
          "\nradius = 0.05\ndensity = 700\nspring_stiffness = 50\nspring_damping = 0.5\n";
+}
+
+// Joints of the rigid solid: with forces, driven, of two axes, a rope, and a gear of the first two.
+static std::string joints(int dimension, const std::string& at, const std::string& to) {
+  const std::string between = "between = [\"solid3\", \"world\"]\nat = " + at + "\n";
+  const std::string along_z = dimension == 3 ? "axis = [0, 0, 1]\n" : "";
+  return "[[joint]]\nname = \"door\"\nkind = \"hinge\"\n" + between + along_z +
+         "limits = [-30, 40]\nspring = { stiffness = 2, damping = 0.1, rest = 5 }\nmotor = { target = \"10*t\", "
+         "stiffness = 3, damping = 0.2, torque = 4 }\nbreaks_at = { force = 500, torque = 50 }\nfriction = "
+         "0.1\nradius = 0.01\ncollide = true\n[[joint]]\nname = \"slide\"\nkind = \"slider\"\n" +
+         between + "axis = [1, 0, 0]\ndrive = { translate = \"0.1*t\" }\n[[joint]]\nkind = " +
+         (dimension == 3 ? "\"universal\"\naxis = [1, 0, 0]\nsecond_axis = [0, 1, 0]\n" : "\"weld\"\n") + between +
+         "[[joint]]\nkind = \"rope\"\n" + between + "to = " + to +
+         "\nlength = 3\n[[joint]]\nkind = \"gear\"\nbetween = [\"door\", \"slide\"]\nratio = -2\n";
 }
 
 std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe) {
@@ -98,11 +116,11 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n[solid.traction]\n" + placed +
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
   if (side != "periodic") text += bob(v("0.2", "0.2", "0.2"));
-  text += "[[probe]]\nname = \"p\"\nkind = \"" + probe + "\"\nevery = 0.01\n";
+  text += joints(dimension, v("0.5", "0.5", "0.5"), v("0.5", "1.5", "0.5")) + "[[probe]]\nname = \"p\"\nkind = \"" +
+          probe + "\"\nevery = 0.01\n";
   if (probe == "displacement") text += "solid = \"soft\"\n";
   if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
-  text += "[tracking]\nmethod = \"level_set\"\n[solver]\ntolerance = 1e-9\npreconditioner = \"boomeramg\"\n";
-  text += "viscosity = \"coupled\"\nrheology_tolerance = 1e-3\nrheology_iterations = 7\n";
+  text += "[tracking]\nmethod = \"level_set\"\n" + solver_text;
   return text + "[output]\nframes = [\"surface\", \"viscosity\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
 }
 

@@ -25,7 +25,7 @@ namespace {
 using T = OptionType;
 
 // The path with entry 0 of each list. In the rich scene the motion belongs to the second solid, inertia to the third,
-// elastic keys to the fourth, springs to the fifth.
+// elastic keys to the fourth, springs to the fifth. Joints have drive, second axis, rope and ratio in this order.
 std::string concrete_path(const Option& option) {
   std::string path = option.path;
   const auto& kinds = option.only_for.values;
@@ -35,6 +35,11 @@ std::string concrete_path(const Option& option) {
   if (is_inside || kinds == std::vector<std::string>{"elastic"}) path.replace(0, 7, "solid.3");
   if (kinds == std::vector<std::string>{"sprung"}) path.replace(0, 7, "solid.4");
   if (path.rfind("solid[].motion", 0) == 0) path.replace(0, 7, "solid.1");
+  const auto is_in = [&](const char* key) { return path.rfind(std::string("joint[].") + key, 0) == 0; };
+  if (is_in("drive")) path.replace(0, 7, "joint.1");
+  if (is_in("second_axis")) path.replace(0, 7, "joint.2");
+  if (is_in("to") || is_in("length")) path.replace(0, 7, "joint.3");
+  if (is_in("ratio")) path.replace(0, 7, "joint.4");
   for (std::size_t at = path.find("[]"); at != std::string::npos; at = path.find("[]")) path.replace(at, 2, ".0");
   return path;
 }

@@ -6,7 +6,7 @@
 #include "coupling/geometry/step_geometry.h"
 #include "unit/solid/wall_specs.h"
 
-namespace joints_tests {
+namespace seams_tests {
 using namespace seiche;
 using test::box;
 
@@ -32,14 +32,14 @@ std::vector<Body<2>> wall_and_plate(double gap, const Formula& motion) {
 
 TEST_CASE("facets pinned at a solid that moves alike are joined to it", "[elastic][sealed]") {
   const double clearance = 1e-3;
-  const auto joints = find_joints(wall_and_plate(5e-4, "-t"), clearance);
-  CHECK(joints.size() == 4);  // sides of two quadratic elements
-  for (const JoinedFacet<2>& joint : joints) CHECK(joint.body == 0);
-  CHECK(find_joints(wall_and_plate(2e-3, "-t"), clearance).empty());
-  CHECK(find_joints(wall_and_plate(5e-4, "-2*t"), clearance).empty());
+  const auto seams = find_seams(wall_and_plate(5e-4, "-t"), clearance);
+  CHECK(seams.size() == 4);  // sides of two quadratic elements
+  for (const SeamFacet<2>& facet : seams) CHECK(facet.body == 0);
+  CHECK(find_seams(wall_and_plate(2e-3, "-t"), clearance).empty());
+  CHECK(find_seams(wall_and_plate(5e-4, "-2*t"), clearance).empty());
 }
 
-TEST_CASE("joints leave no slit between an elastic solid and what it stands on", "[elastic][sealed]") {
+TEST_CASE("seams leave no slit between an elastic solid and what it stands on", "[elastic][sealed]") {
   Geometry<2> g;
   g.h = 0.1;
   g.cells = {10, 10};
@@ -65,4 +65,4 @@ TEST_CASE("joints leave no slit between an elastic solid and what it stands on",
   }
 }
 
-}  // namespace joints_tests
+}  // namespace seams_tests

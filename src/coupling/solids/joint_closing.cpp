@@ -1,0 +1,155 @@
+// Places of jointed bodies in which their joints are closed.
+#include <algorithm>
+
+#include "coupling/solids/joints.h"
+#include "coupling/solids/kind_rigid.h"
+#include "coupling/solids/rigid_coupling.h"
+#include "linalg/core/body_matrix.h"
+#include "solid/rigid/motion.h"
+
+namespace seiche {
+namespace {
+
+constexpr double all_closed = 1e-11;  // of the size of a joint's body: below the tolerance of the solve
+constexpr int most_turns = 30;
+
+// The rigid bodies, their masses, and which of their motions are free.
+template <int Dim>
+class JointedMasses {
+ public:
+  explicit JointedMasses(const Participants<Dim>& solids) {
+    for (std::size_t k = 0; k < solids.size(); ++k)
+      if (const RigidState* r = solids[k].rigid()) {
+        const RigidSpec& spec = solids[k].body().spec().rigid;
+        const auto held = stacked<Dim>(as_numbers(spec.fixed_position), as_numbers(spec.fixed_rotation));
+        for (int i = 0; i < twist_size<Dim>; ++i) held_.push_back(held[i] != 0);
+        add_mass(solids[k].body().mass().mass, world_inertia(solids[k].body(), *r), int(bodies_.size()));
+        bodies_.push_back(int(k));
+      }
+  }
+
+  const std::vector<int>& bodies() const { return bodies_; }
+  int size() const { return int(bodies_.size()) * twist_size<Dim>; }
+
+  // Least displacements by which the rows' values change by `change`.
+  Eigen::VectorXd displacements(const std::vector<PlacedRow>& rows, const Eigen::VectorXd& change,
+                                const Communicator& ranks) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const auto& [solid, part] : rows[i].parts) add_part(int(i), solid, part, entries);
+    SparseMatrix C(Eigen::Index(rows.size()), size()), M(size(), size());
+    C.setFromTriplets(entries.begin(), entries.end());
+    M.setFromTriplets(mass_.begin(), mass_.end());
+    BodyMatrix inertia(ranks);
+    if (!inertia.set(M, C)) return Eigen::VectorXd::Zero(size());
+    return inertia.prescribed(change);
+  }
+
+ private:
+  static Vec3 as_numbers(const std::array<bool, 3>& flags) {
+    return {double(flags[0]), double(flags[1]), double(flags[2])};
+  }
+
+  bool is_held(int body, int i) const { return held_[std::size_t(body * twist_size<Dim> + i)] != 0; }
+
+  void add_mass(double mass, const Eigen::Matrix3d& inertia, int body) {
+    const int first = body * twist_size<Dim>;
+    for (int i = 0; i < Dim; ++i) mass_.emplace_back(first + i, first + i, mass);
+    if constexpr (Dim == 2) mass_.emplace_back(first + 2, first + 2, inertia(2, 2));
+    for (int i = 0; i < 3 && Dim == 3; ++i)
+      for (int j = 0; j < 3; ++j) mass_.emplace_back(first + 3 + i, first + 3 + j, inertia(i, j));
+  }
+
+  void add_part(int row, int solid, const PlacedRow::Rate& part, std::vector<Eigen::Triplet<double>>& entries) const {
+    const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), solid);
+    if (found == bodies_.end() || *found != solid) return;
+    const int body = int(found - bodies_.begin());
+    const auto own = stacked<Dim>(part.template head<3>(), part.template tail<3>());
+    for (int i = 0; i < twist_size<Dim>; ++i)
+      if (own[i] != 0 && !is_held(body, i)) entries.emplace_back(row, body * twist_size<Dim> + i, own[i]);
+  }
+
+  std::vector<int> bodies_;
+  std::vector<char> held_;
+  std::vector<Eigen::Triplet<double>> mass_;
+};
+
+// Rigid bodies in trial places.
+template <int Dim>
+void displace(const JointedMasses<Dim>& masses, const Eigen::VectorXd& way, Participants<Dim>& solids) {
+  for (std::size_t b = 0; b < masses.bodies().size(); ++b) {
+    RigidParticipant<Dim>& rigid = *rigid_participant(solids[std::size_t(masses.bodies()[b])]);
+    const Twist part = unstacked<Dim>(way, int(b) * twist_size<Dim>, Vec3::Zero());
+    rigid.set_state(displaced(rigid.state(), part.linear, part.angular));
+  }
+}
+
+template <int Dim>
+std::vector<double> coordinates(const JointSet<Dim>& joints, const JointedBodies& bodies, std::vector<double> near) {
+  for (int j = 0; j < int(near.size()); ++j)
+    if (has_coordinate(joints, j))
+      near[std::size_t(j)] = coordinate_of_joint(joints, j, bodies, near[std::size_t(j)]).value;
+  return near;
+}
+
+Eigen::VectorXd values_of(const std::vector<PlacedRow>& rows) {
+  Eigen::VectorXd values(Eigen::Index(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) values[Eigen::Index(i)] = rows[i].value;
+  return values;
+}
+
+template <int Dim>
+std::vector<int> open_joints(const JointSet<Dim>& joints, const std::vector<PlacedRow>& rows, double tolerance) {
+  std::vector<int> open;
+  for (const PlacedRow& row : rows) {
+    const double size = joints.list[std::size_t(row.joint)].size;
+    if (std::abs(row.value) * row.size > tolerance * (size > 0 ? size : 1)) open.push_back(row.joint);
+  }
+  return open;
+}
+
+// Shown places as shifts from the straight way.
+template <int Dim>
+void set_shown(const Participants<Dim>& on_way, const std::vector<int>& bodies, Participants<Dim>& solids) {
+  for (const int k : bodies) {
+    RigidState shown = *solids[std::size_t(k)].rigid();
+    const RigidState& moving = *on_way[std::size_t(k)].rigid();
+    shown.shown_shift = shown.center - moving.center;
+    shown.shown_turn = log_rotation(shown.rotation * moving.rotation.transpose());
+    rigid_participant(solids[std::size_t(k)])->set_state(shown);
+  }
+}
+
+}  // namespace
+
+// Gauss-Newton on c(x) = 0: x <- x - M^-1 C'W^+ c.
+template <int Dim>
+std::string close_joints(const JointSet<Dim>& joints, const Communicator& ranks, double time, bool shown,
+                         State<Dim>& state) {
+  constexpr double good_enough = 1e-9;
+  Participants<Dim> solids = state.solids;
+  const JointedMasses<Dim> masses(solids);
+  std::vector<double> near;
+  for (const JointState& joint : state.joints) near.push_back(joint.shown_q);
+  std::vector<PlacedRow> rows;
+  bool moved = false;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const JointedBodies bodies = jointed_bodies(solids, time);
+    near = coordinates(joints, bodies, near);
+    rows = constraints_of(joints, state.joints, bodies, near, time);
+    if (open_joints(joints, rows, all_closed).empty()) break;
+    displace(masses, masses.displacements(rows, -values_of(rows), ranks), solids);
+    moved = true;
+  }
+  for (std::size_t j = 0; j < near.size(); ++j) (shown ? state.joints[j].shown_q : state.joints[j].q) = near[j];
+  const std::vector<int> open = open_joints(joints, rows, good_enough);
+  if (!moved) return {};
+  if (shown) set_shown(state.solids, masses.bodies(), solids);
+  state.solids = std::move(solids);
+  return open.empty() ? std::string() : joints.names_of(open);
+}
+
+template std::string close_joints<2>(const JointSet<2>&, const Communicator&, double, bool, State<2>&);
+template std::string close_joints<3>(const JointSet<3>&, const Communicator&, double, bool, State<3>&);
+
+}  // namespace seiche

@@ -1,0 +1,67 @@
+#pragma once
+// Joints in one solve: constraints C v = rate on the velocities, made where the solids are, that close all joints where
+// the next solve stands.
+#include "coupling/solids/joint_forces.h"
+#include "coupling/solids/solid_coupling.h"
+
+namespace seiche {
+
+// C stays during a solve (SolidCoupling::J.constraints); `rate` does not: c(x + H v) = 0 is found in turns, by
+//   rate <- rate - c(x + H v)/H.
+// Impulses act along C of the start of the interval, where both sides of a joint are one point. So momenta are kept,
+// and energy as by the leapfrog (SHAKE: Ryckaert, Ciccotti, Berendsen 1977).
+template <int Dim>
+class JointMotion {
+ public:
+  // `rows`: constraints where the solids are in the solve. Keeps copies of the rigid bodies, and references to the rest
+  // of `step` and to `coupling`.
+  JointMotion(const JointSet<Dim>& joints, std::vector<PlacedRow> rows, const CoupledStep<Dim>& step,
+              const SolidCoupling<Dim>& coupling);
+
+  Eigen::VectorXd rate;            // b: m/s, rad/s
+  Eigen::VectorXd impulse;         // multipliers of the last solve, N s and N m s
+  Eigen::VectorXd left;            // gaps that the solve left, m and rad
+  Eigen::VectorXd given;           // rates of C v that drives and prescribed solids give, m/s and rad/s
+  std::vector<JointForce> forces;  // all along coordinates
+  std::shared_ptr<const JointPotential> potential;  // of capped forces and limits; null: none
+  Eigen::VectorXd slack;                            // of C v = rate, below what closes joints: m/s, rad/s
+  int turns = 0;  // corrections of `rate` in this solve, after which the solids were solved for again
+
+  // Of the unknowns as the state has them: before the solve, then those found.
+  Eigen::VectorXd velocity_in_state() const;
+  const std::vector<PlacedRow>& rows() const { return rows_; }
+  double horizon() const { return horizon_; }
+  double dt() const { return dt_; }
+  // c(x + H v): m, rad.
+  Eigen::VectorXd gaps(const Eigen::VectorXd& v) const;
+  // The largest gap over its tolerance, and the joints that exceed theirs.
+  double excess(const Eigen::VectorXd& gaps) const;
+  std::string names_of_open(const Eigen::VectorXd& gaps) const;
+  std::string names_of_driven(const Eigen::VectorXd& parts) const;  // of rows whose part is not 0
+  double largest_gap(const Eigen::VectorXd& gaps) const;            // m
+
+ private:
+  JointedBodies bodies_after(const Eigen::VectorXd& v) const;
+
+  const JointSet<Dim>& joints_;
+  std::vector<PlacedRow> rows_;
+  const State<Dim>& state_;
+  const SolidCoupling<Dim>& coupling_;
+  double dt_, horizon_;
+};
+
+// Rates (v, w) of all solids and the world: of rigid ones from the stacked unknowns, zero for others.
+template <int Dim>
+std::vector<PlacedRow::Rate> rates_of(const SolidCoupling<Dim>& coupling, const Participants<Dim>& solids,
+                                      const Eigen::VectorXd& v);
+
+// Mean rates of prescribed solids from `time` over `span` (s), zero for others.
+template <int Dim>
+std::vector<PlacedRow::Rate> prescribed_rates(const Participants<Dim>& solids, double time, double span);
+
+// The row as a vector over the unknowns; fixed ones left out. Appends its entries.
+template <int Dim>
+void append_row(const PlacedRow& row, int number, const SolidCoupling<Dim>& coupling,
+                std::vector<Eigen::Triplet<double>>& entries);
+
+}  // namespace seiche

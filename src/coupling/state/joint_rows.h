@@ -1,0 +1,78 @@
+#pragma once
+// The joints of a scene: their constraints and coordinates in given places of the solids.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expression.h"
+#include "coupling/state/joint_state.h"
+#include "coupling/state/participant.h"
+#include "solid/joint/joint.h"
+
+namespace seiche {
+
+struct Scene;
+
+struct Joint {
+  JointSpec spec;
+  JointFrames frames;
+  int first = -1, second = -1;  // solids, `solids` for the world; of a gear: joints
+  std::shared_ptr<const Expression> drive = {}, speed = {}, target = {};  // of t; null: none
+  double unit = 1;        // of drive, target, limits and rest in the scene: rad, or m
+  double q_at_start = 0;  // rad or m
+  double size = 0;        // of its larger body, m: turns of it count as lengths
+};
+
+template <int Dim>
+struct JointSet {
+  std::vector<Joint> list;
+  int solids = 0;  // number of the scene's solids; the world follows them
+
+  JointSet() = default;
+  JointSet(const Scene& scene, const std::vector<Body<Dim>>& bodies);
+  // Solids of pairs that must not touch each other, since a joint holds them. Each ascending.
+  std::vector<std::array<int, 2>> pairs_apart() const;
+  // Names of the joints that have a gap above the tolerance, for messages.
+  std::string names_of(const std::vector<int>& joints) const;
+};
+
+// Places of all solids and of the world.
+using JointedBodies = std::vector<JointedBody>;
+template <int Dim>
+JointedBodies jointed_bodies(const Participants<Dim>& solids, double time);
+
+// A row of JointRow over the solids that it acts on.
+struct PlacedRow {
+  using Rate = Eigen::Matrix<double, 6, 1>;
+  int joint = 0;
+  double value = 0, size = 1;  // m or rad; a gap is |value| * size, m
+  bool drives = false;         // true: the coordinate of a drive
+  std::vector<std::pair<int, Rate>> parts;
+  // Rate by the velocities (v, w) of the solids.
+  double rate(const std::vector<Rate>& velocities) const;
+};
+
+// Constraints of all joints that are not broken. `near`: each joint's coordinate within half a turn.
+template <int Dim>
+std::vector<PlacedRow> constraints_of(const JointSet<Dim>& joints, const std::vector<JointState>& states,
+                                      const JointedBodies& bodies, const std::vector<double>& near, double time);
+
+// The coordinate of a joint, with whole turns so that it lies within half a turn of `near`.
+template <int Dim>
+PlacedRow coordinate_of_joint(const JointSet<Dim>& joints, int joint, const JointedBodies& bodies, double near);
+// Rows of joints.csv.
+template <int Dim>
+std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states);
+double largest_gap(const std::vector<JointState>& states);  // m
+// Line for the log on a joint that breaks.
+std::string note_on_break(const JointReport& joint, std::int64_t step, double time);
+
+// The joint whose load exceeds what it bears by the largest factor; -1: none.
+template <int Dim>
+int most_overloaded(const JointSet<Dim>& joints, const std::vector<JointState>& states);
+
+template <int Dim>
+bool has_coordinate(const JointSet<Dim>& joints, int joint);
+
+}  // namespace seiche
