@@ -153,6 +153,9 @@ void check_joints(SceneContext& context, const TomlNode& root, const Scene& scen
   if (scene.joints.size() > most_joints)
     context.report("joint", line_of(root, "joint"),
                    fmt::format("{} joints; at most {} are possible", scene.joints.size(), most_joints));
+  if (!scene.joints.empty() && scene.solver.elastic == "iterate")
+    context.report("solver.elastic", line_of(root, "solver.elastic"),
+                   "solver.elastic = \"iterate\" does not work with [[joint]] yet; use \"factor\" or \"auto\"");
   for (std::size_t k = 0; k < scene.solids.size() && !scene.joints.empty(); ++k)
     if (scene.solids[k].name == "world")
       context.report(fmt::format("solid.{}.name", k), line_of(root, fmt::format("solid.{}.name", k)),

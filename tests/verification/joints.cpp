@@ -153,6 +153,83 @@ TEST_CASE("joints: jointed bodies in flight keep their momenta", "[joints]") {
     }
 }
 
+// Energy that comes or goes, of what is at play, and the mean of its change in the second half.
+struct Kept {
+  double worst = 0, trend = 0;
+};
+
+Kept energy_kept(const Scene& s, double end) {
+  double start = 0, least = 0, most = 0, sum = 0;
+  int count = 0;
+  Kept kept;
+  run_joints(s, end, [&](const Simulation& sim) {
+    const StepStats& now = sim.stats();
+    if (now.step == 0) start = energy_of(now), least = most = now.potential_energy;
+    least = std::min(least, now.potential_energy), most = std::max(most, now.potential_energy);
+    kept.worst = std::max(kept.worst, std::abs(energy_of(now) - start));
+    CHECK(now.joint_gap <= 1e-6);  // singular places; bodies are put right at the next solve
+    if (sim.time() > end / 2) sum += energy_of(now) - start, ++count;
+  });
+  kept.worst /= most - least;
+  kept.trend = std::abs(sum / count) / (most - least);
+  return kept;
+}
+
+// Five rods along edges of a cube, six hinges with axes across both neighbours: one motion, and a row too many.
+Scene bricard() {
+  Scene s = test::swing_scene(3, 2, 0.1);
+  const std::array<Vec3, 6> corners{
+      {{-0.5, 0.5, -0.5}, {0.5, 0.5, -0.5}, {0.5, -0.5, -0.5}, {0.5, -0.5, 0.5}, {-0.5, -0.5, 0.5}, {-0.5, 0.5, 0.5}}};
+  const std::array<Vec3, 6> axes{{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}}};
+  const auto name = [](int k) { return k < 1 || k > 5 ? std::string("world") : fmt::format("rod{}", k); };
+  for (int k = 1; k <= 5; ++k) {
+    const Vec3 way = corners[k] - corners[k - 1], size = way.cwiseAbs() + 0.13 * (Vec3::Ones() - way.cwiseAbs());
+    s.solids.push_back(test::rigid_box(name(k), size, 0.5 * (corners[k] + corners[k - 1]), 1 / size.prod()));
+  }
+  for (int k = 0; k < 6; ++k)
+    s.joints.push_back(k == 5 ? hinge("j5", name(5), "world", corners[5], axes[5])
+                              : hinge(fmt::format("j{}", k), name(k + 1), name(k), corners[k], axes[k]));
+  return s;
+}
+
+// Three cranks and two bars side by side, each in a layer of its own: planar in 3D, with six rows too many. It goes
+// through places where all lie in a line, from where it could go on in two ways.
+Scene four_bars() {
+  Scene s = test::swing_scene(3, 2.4, 0.12);
+  const double slab = std::sqrt(1 - 0.04);
+  const auto add = [&](const std::string& name, const Vec3& size, Vec3 center) {
+    center[2] = 0.22 * double(s.solids.size()) - 0.5;
+    s.solids.push_back(test::rigid_box(name, size, center, 1 / size.prod()));
+  };
+  for (int i = 0; i < 3; ++i) {
+    add(fmt::format("crank{}", i), {0.2, slab, 0.16}, {i - 1.0, 0.5, 0});
+    s.solids.back().rigid.velocity = Vec3(0.5, 0, 0);
+    s.solids.back().rigid.angular_velocity = Vec3(0, 0, -1);
+    s.joints.push_back(hinge(fmt::format("foot{}", i), s.solids.back().name, "world", {i - 1.0, 0, 0}, Vec3::UnitZ()));
+  }
+  for (int i = 0; i < 2; ++i) {
+    add(fmt::format("bar{}", i), {slab, 0.2, 0.16}, {i - 0.5, 1, 0});
+    s.solids.back().rigid.velocity = Vec3(1, 0, 0);
+    for (const int end : {0, 1})
+      s.joints.push_back(hinge(fmt::format("pin{}{}", i, end), s.solids.back().name, fmt::format("crank{}", i + end),
+                               {i + end - 1.0, 1, 0}, Vec3::UnitZ()));
+  }
+  return s;
+}
+
+// Bar: 0.5 % in 10 s at 5 ms, no trend.
+TEST_CASE("joints: mechanisms of too many rows keep their energy, through singular places", "[joints][long]") {
+  for (const bool bars : {false, true}) {
+    Scene s = bars ? four_bars() : bricard();
+    s.time.fixed_step = 0.005;
+    const Kept kept = energy_kept(s, 5);
+    WARN((bars ? "N-four-bar" : "Bricard")
+         << ": energy within " << kept.worst << " of that at play, trend " << kept.trend);
+    CHECK(kept.worst <= 1e-3);
+    CHECK(kept.trend <= 2e-4);
+  }
+}
+
 // x = r cos(theta) + sqrt(l^2 - r^2 sin^2(theta)) of the slide, with the crank driven.
 TEST_CASE("joints: a driven slider-crank is where its triangle puts it", "[joints]") {
   Scene s = test::swing_scene(2, 1, 0.1, 0);
@@ -173,6 +250,42 @@ TEST_CASE("joints: a driven slider-crank is where its triangle puts it", "[joint
     CHECK(std::abs(x[1]) <= 1e-9);
     CHECK(sim.joints()[0].q == Approx(angle).margin(1e-9));  // beyond a turn, too
   });
+}
+
+// A chain of twenty links between two points as far apart as 0.8 of its length, braked by its hinges until it hangs
+// still: y = a (cosh(x/a) - 1), 2 a sinh(d/(2 a)) = L for the distance d and the length L.
+TEST_CASE("joints: a chain hangs as a catenary", "[joints][long]") {
+  constexpr int links = 20;
+  const double length = 2, d = 1.6;
+  Scene s = test::swing_scene(2, 1.2, 0.06);
+  // It starts as a triangle.
+  const double drop = std::sqrt(0.25 * (length * length - d * d)), link = length / links;
+  const auto place = [&](int n) {
+    const double way = n * link;
+    const bool down = 2 * n <= links;
+    const double along = down ? way : length - way;
+    return Vec3((down ? 1 : -1) * (along / (length / 2) - 1) * d / 2, 0.5 - along / (length / 2) * drop, 0);
+  };
+  for (int n = 0; n < links; ++n) {
+    s.solids.push_back(bar_like(fmt::format("link{}", n), place(n), place(n + 1), 0.1, 0.07));
+    s.joints.push_back(hinge(fmt::format("pin{}", n), fmt::format("link{}", n),
+                             n == 0 ? "world" : fmt::format("link{}", n - 1), place(n)));
+    s.joints.back().spring.emplace().damping = 0.02;
+  }
+  s.joints.push_back(hinge("end", fmt::format("link{}", links - 1), "world", place(links)));
+  s.time.fixed_step = 0.01;
+  double deepest = 0, moving = 1;
+  run_joints(s, 30, [&](const Simulation& sim) {
+    deepest = sim.solids()[links / 2].position[1];
+    moving = sim.stats().kinetic_energy;
+  });
+  double a = 0.5;  // by bisection
+  for (double low = 0.05, high = 20; high - low > 1e-12; a = 0.5 * (low + high))
+    (2 * a * std::sinh(d / (2 * a)) > length ? low : high) = a;
+  const double sag = a * (std::cosh(d / (2 * a)) - 1);
+  WARN("sag " << 0.5 - deepest << " of " << sag << " m, with " << moving << " J");
+  CHECK(moving <= 1e-6);
+  CHECK(0.5 - deepest == Approx(sag).epsilon(0.01));
 }
 
 // Torsional spring: the midpoint rule of angle omega dt = 2 atan(omega dt/2), as for sprung solids.

@@ -61,7 +61,7 @@ class JointInteraction : public Interaction<Dim> {
 
   std::string settle(const Domain<Dim>& domain, State<Dim>& state, double time) const override {
     const std::string open = close_joints(joints_, domain.ranks, time, false, state);
-    return open.empty() ? open : "joints that do not close: " + open;
+    return open.empty() ? open : "joints " + open + " cannot close: what holds or drives their solids contradicts them";
   }
 
   void show(const Domain<Dim>& domain, State<Dim>& state) const override {

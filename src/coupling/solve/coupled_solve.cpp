@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "base/error.h"
 #include "base/scene.h"
 #include "base/solver_spec.h"
 #include "coupling/solids/end_of_step.h"
@@ -17,14 +16,15 @@
 namespace seiche {
 namespace {
 
-// True if bodies are solved for by iteration, without factors: the scene says so, or factors would need over 4 GB.
+// True if bodies are solved for by iteration, without factors: the scene says so, or factors would need over 4 GB. Not
+// with joints, whose rows need factors.
 template <int Dim>
 bool iterates_on_bodies(const Solids<Dim>& solids, const SolverSpec& solver, const SolidCoupling<Dim>& coupling) {
   constexpr double most_bytes = 4e9;
   const std::string& choice = solver.elastic;
   const bool any_large =
       solids.at_start.any([](const Participant<Dim>& p) { return factor_bytes(Dim, p.unknowns()) > most_bytes; });
-  return coupling.potential && (choice == "iterate" || (choice == "auto" && any_large));
+  return coupling.potential && !coupling.is_constrained() && (choice == "iterate" || (choice == "auto" && any_large));
 }
 
 // Solves for pressure and bodies. r.u_star and coupling.push are those without pressure.
@@ -44,10 +44,6 @@ void solve_pressure(const CoupledInput<Dim>& input, const PressureProblem<Dim>& 
   LiquidProblem<Dim> problem(coupling, solver, liquid.closed, b, p, c1, c2, s.domain.ranks);
   KktSolver kkt({liquid.A, liquid.grid, liquid.closed, coupling.J, c1, c2, Dim}, {.tolerance = options.tolerance},
                 s.domain.ranks);
-  if (coupling.joints && iterates_on_bodies(s.solids, s.scene->solver, coupling))
-    throw Error(ExitCode::bad_input,
-                "solids too large to factor (solver.elastic = \"iterate\") do not work with [[joint]] yet; use larger "
-                "elements, or solver.elastic = \"factor\"");
   if (iterates_on_bodies(s.solids, s.scene->solver, coupling)) problem.solve_together(kkt);
   r.solids = find_minimum(input, coupling, problem, {&solver, &problem}, r);
   refuse_unbalanced_chambers(input, liquid, solver.sensed_components(), r);

@@ -56,6 +56,20 @@ void take_back_lag(const CoupledInput<Dim>& in, const SolidCoupling<Dim>& coupli
     if (unchanged.component[n] >= 0 && flux[n] != 0) in.geometry.faces.cell_flux.add(rows.cells[n], flux[n]);
 }
 
+// J'chi of a closed component; sums below their round-off are 0. Collective.
+Eigen::VectorXd felt_by_solids(const BlockColumns& J, const NullSpace& closed, int component,
+                               const Communicator& ranks) {
+  constexpr double rounding = 1e-10;
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(J.columns(), 2);
+  J.for_each([&](int i, int k, double value) {
+    if (closed.component[std::size_t(i)] != component) return;
+    sums(k, 0) += value;
+    sums(k, 1) += std::abs(value);
+  });
+  ranks.global_sum(std::span<double>(sums.data(), std::size_t(sums.size())));
+  return (sums.col(0).array().abs() > rounding * sums.col(1).array()).select(sums.col(0), 0.0);
+}
+
 // Liquid without a free surface whose volume only jointed bodies change: where their joints leave them no freedom to,
 // J'chi = C'y, the joints alone change it by y'(C v). Throws if drives and prescribed solids do. Collective.
 template <int Dim>
@@ -64,9 +78,7 @@ void refuse_driven(const SolidCoupling<Dim>& coupling, const NullSpace& closed, 
   const JointMotion<Dim>& joints = *coupling.joints;
   for (int c = 0; c < closed.count; ++c) {
     if (std::find(sensed.begin(), sensed.end(), c) != sensed.end()) continue;
-    Vector chi(closed.component.size());
-    for (std::size_t i = 0; i < chi.size(); ++i) chi[i] = closed.component[i] == c ? 1 : 0;
-    const Eigen::VectorXd felt = multiply_transposed(coupling.J, chi, ranks);
+    const Eigen::VectorXd felt = felt_by_solids(coupling.J, closed, c, ranks);
     if (felt.isZero(0)) continue;
     const Eigen::VectorXd y = shortest_least_squares(Eigen::MatrixXd(coupling.J.constraints.transpose()), felt);
     const Eigen::VectorXd parts = y.cwiseProduct(joints.given);

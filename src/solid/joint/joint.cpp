@@ -159,7 +159,9 @@ JointFrames joint_frames(const JointSpec& spec, int dimension) {
   frames.first.axes = axes_about(has_axis ? spec.axis : Vec3::UnitZ(), dimension);
   frames.second.axes = frames.first.axes;
   if (spec.kind == JointKind::universal) {
-    frames.second.axes.col(1) = spec.second.normalized();
+    // Perpendicular beyond the scene's decimals, so that it is closed at the start.
+    const Vec3 z = frames.second.axes.col(2);
+    frames.second.axes.col(1) = (spec.second - spec.second.dot(z) * z).normalized();
     frames.second.axes.col(0) = frames.second.axes.col(1).cross(frames.second.axes.col(2));
   }
   if (coordinate_of(spec.kind) == JointCoordinate::length) {

@@ -112,6 +112,10 @@ TEST_CASE("a joint's forces must fit each other and its start") {
   check_refused(with_boxes(2, hinge("breaks_at = { force = 0 }\n")), "must be > 0");
 }
 
+TEST_CASE("joints need factors of elastic solids") {
+  check_refused(with_boxes(2, hinge("") + "[solver]\nelastic = \"iterate\"\n"), "does not work with [[joint]] yet");
+}
+
 TEST_CASE("a gear joins two joints that turn or slide") {
   const std::string gear = "[[joint]]\nkind = \"gear\"\nratio = 2\nbetween = ";
   const std::string weld = "[[joint]]\nname = \"w\"\nkind = \"weld\"\nbetween = [\"arm\", \"world\"]\nat = [0, 0]\n";
