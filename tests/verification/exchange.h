@@ -162,8 +162,7 @@ struct Balance {
         add_elastic(p, k, p.coupling.first[b]);
         continue;
       }
-      const RigidState &now = *p.state.solids[std::size_t(k)].rigid(),
-                       &old = *p.before[std::size_t(k)].rigid();
+      const RigidState &now = *p.state.solids[std::size_t(k)].rigid(), &old = *p.before[std::size_t(k)].rigid();
       change.add(now.center, m * (now.velocity - old.velocity));
       change.angular += now.angular_momentum - old.angular_momentum;
       gravity.add(now.center, dt * m * g);

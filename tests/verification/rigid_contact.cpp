@@ -169,8 +169,7 @@ TEST_CASE("a body that spins about its middle axis keeps energy and angular mome
     return 0.5 * r.angular_momentum.dot(angular_velocity(inertia, r.rotation, r.angular_momentum));
   };
   State<3> state = initial_state(setup);
-  const double energy0 = energy(*state.solids[0].rigid()),
-               momentum0 = state.solids[0].rigid()->angular_momentum.norm();
+  const double energy0 = energy(*state.solids[0].rigid()), momentum0 = state.solids[0].rigid()->angular_momentum.norm();
   double energy_error = 0, momentum_error = 0, flips = 1;
   Phases phases;
   for (int n = 0; state.time < 100; ++n) {

@@ -42,7 +42,7 @@ struct SolidCoupling {
   Eigen::VectorXd held;                                // prescribed velocities of fixed unknowns; else 0
   std::shared_ptr<const VelocityPotential> potential;  // null: none
   std::vector<CavityConstraint<Dim>> cavities;
-  std::shared_ptr<JointMotion<Dim>> joints;  // with the right-hand side of J.constraints; null: none
+  std::shared_ptr<JointMotion<Dim>> joints;                    // with the right-hand side of J.constraints; null: none
   std::vector<std::shared_ptr<const CellFluxes>> cell_fluxes;  // one a block: fluxes beyond those of the face shares
 
   int size() const { return first.back(); }

@@ -64,7 +64,7 @@ class SaddleOperator {
 
   // Blocks of K. Collective.
   void multiply_velocity(const Vector& u, const Eigen::VectorXd& v, Vector& fu, Eigen::VectorXd& fv) const;
-  void add_gradient(const Vector& p, Vector& fu, Eigen::VectorXd& fv) const;       // += (D'p, J'p)
+  void add_gradient(const Vector& p, Vector& fu, Eigen::VectorXd& fv) const;  // += (D'p, J'p)
   // Takes the part C'W^+ C H^-1 off, which multipliers of constraints balance.
   void drop_multipliers(Eigen::VectorXd& fv) const;
   void divergence(const Vector& u, const Eigen::VectorXd& v, Vector& flux) const;  // = D u + J v
