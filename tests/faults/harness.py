@@ -207,7 +207,7 @@ def same_frames(one, other):
 
 def same_tables(one, other):
     expect(stats(one) == stats(other), "stats.csv differs")
-    for name in ("solids.csv", "probes.csv"):
+    for name in ("solids.csv", "probes.csv", *(["joints.csv"] if (pathlib.Path(one) / "joints.csv").exists() else [])):
         a, b = ((pathlib.Path(folder) / name).read_text() for folder in (one, other))
         expect(a == b, f"{name} differs")
 

@@ -71,6 +71,34 @@ BOXES = TWENTY_STEPS + rigid("lower", 'shape = "box"\nlower = [0.44, 0.002]\nupp
 BOXES += rigid("upper", 'shape = "box"\nlower = [0.45, 0.092]\nupper = [0.55, 0.17]', 300.0)
 BOXES += rigid("ball", 'shape = "sphere"\ncenter = [0.2, 0.3]\nradius = 0.07', 300.0)
 
+# Two arms on a driven and a sprung hinge, with a stop, and a box on a strut with a motor, in the way of the water.
+LINKS = TWENTY_STEPS + rigid("arm", 'shape = "box"\nlower = [0.2, 0.2]\nupper = [0.26, 0.36]', 700.0)
+LINKS += rigid("hand", 'shape = "box"\nlower = [0.2, 0.06]\nupper = [0.26, 0.21]', 400.0)
+LINKS += rigid("box", 'shape = "box"\nlower = [0.44, 0.05]\nupper = [0.56, 0.14]', 900.0)
+LINKS += """
+[[joint]]
+name = "shoulder"
+kind = "hinge"
+between = ["arm", "world"]
+at = [0.23, 0.36]
+drive = { degrees = "20*sin(9*t)" }
+[[joint]]
+name = "elbow"
+kind = "hinge"
+between = ["hand", "arm"]
+at = [0.23, 0.205]
+limits = [-10, 20]
+spring = { stiffness = 3, damping = 0.05 }
+[[joint]]
+name = "strut"
+kind = "distance"
+between = ["box", "hand"]
+at = [0.44, 0.1]
+to = [0.26, 0.1]
+motor = { speed = 0.1, force = 20 }
+breaks_at = { force = 1e4 }
+"""
+
 TUMBLE = SPLASH + rigid("box", 'shape = "box"\nlower = [0.15, 0.003, 0.2]\nupper = [0.4, 0.25, 0.45]', 1500.0)
 TUMBLE += rigid("rider", 'shape = "box"\nlower = [0.2, 0.253, 0.22]\nupper = [0.35, 0.45, 0.4]', 300.0)
 TUMBLE += rigid("ball", 'shape = "sphere"\ncenter = [0.8, 0.12, 0.35]\nradius = 0.1', 700.0)
@@ -286,6 +314,12 @@ def rigid_ranks_agree_2d(bench):
     expect(max(int(row["contacts"]) for row in stats(bench.path("one"))) > 0, "nothing is in contact")
 
 
+def joints_ranks_agree_2d(bench):
+    """Driven, sprung and stopped joints on 1, 3 and 4 ranks."""
+    ranks_agree(bench, LINKS, (3, 4))
+    expect((bench.path("one") / "joints.csv").exists(), "there is no table of joints")
+
+
 def rigid_ranks_agree_3d(bench):
     """The same in 3D, with a paddle."""
     ranks_agree(bench, TUMBLE, (3, 4))
@@ -499,6 +533,11 @@ def rigid_bodies_killed_at_random(bench):
     killed_at_random(bench, 2, 3, BOXES[len(TWENTY_STEPS):])
 
 
+def joints_killed_at_random(bench):
+    """kill -9 of one of two ranks while joints hold, drive and brake bodies in the flood."""
+    killed_at_random(bench, 2, 3, LINKS[len(TWENTY_STEPS):])
+
+
 def elastic_bodies_killed_at_random(bench):
     """kill -9 of one of two ranks while the flood bends a gate and carries a ball."""
     killed_at_random(bench, 2, 3, SOFT[len(TWENTY_STEPS):])
@@ -524,7 +563,8 @@ def air_killed_at_random(bench):
     killed_at_random(bench, 2, 2, kind=airy)
 
 
-TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, rigid_ranks_agree_3d,
+TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid_ranks_agree_2d, joints_ranks_agree_2d,
+                       rigid_ranks_agree_3d,
                        elastic_ranks_agree_2d, sheet_ranks_agree, sprung_ranks_agree_2d, viscous_ranks_agree_2d,
                        mud_ranks_agree_2d, gas_ranks_agree_2d, gas_ranks_agree_3d, air_ranks_agree_2d,
                        viscous_air_ranks_agree_2d, prescribed_ranks_agree, volumes_ranks_agree_2d,
@@ -533,6 +573,7 @@ TABLES = {"equality": [moved_blocks_agree, ranks_agree_2d, ranks_agree_3d, rigid
           "long_equality": [shared_elements_ranks_agree, shared_unknowns_ranks_agree, twins_ranks_agree,
                             elastic_ranks_agree_3d, viscous_ranks_agree_3d, tension_ranks_agree_3d],
           "killing": [one_rank_killed_at_random, two_ranks_killed_at_random, rigid_bodies_killed_at_random,
+                      joints_killed_at_random,
                       elastic_bodies_killed_at_random, sheet_killed_at_random, viscous_flow_killed_at_random,
                       gas_killed_at_random, air_killed_at_random]}
 

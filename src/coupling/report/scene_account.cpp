@@ -16,7 +16,7 @@
 namespace seiche {
 namespace {
 
-constexpr std::size_t most_lines = 20;        // of solids
+constexpr std::size_t most_lines = 20;        // of solids, and of joints
 constexpr double nothing = 1e-6, all = 1e-3;  // tolerances as shares of a volume: for none, and for losses
 
 template <int Dim>
@@ -168,6 +168,37 @@ void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount
                                            rounded_place<Dim>(box.max())));
 }
 
+// What acts along the joint's coordinate, for its line.
+std::string forces_text(const JointSpec& spec) {
+  const std::vector<std::pair<const char*, bool>> all{
+      {"limits", spec.limits.has_value()}, {"spring", spec.spring.has_value()}, {"motor", spec.motor.has_value()},
+      {"drive", spec.drive.has_value()},   {"friction", spec.friction > 0},     {"breaks", spec.breaks_at.has_value()}};
+  std::string text;
+  for (const auto& [name, given] : all)
+    if (given) text += std::string(", ") + name;
+  return text;
+}
+
+template <int Dim>
+void account_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccount& account) {
+  constexpr double far_off = 10;  // of the body's size
+  const JointSpec& spec = joint.spec;
+  const bool gear = spec.kind == JointKind::gear;
+  account.lines.push_back(fmt::format(
+      "joint   '{}', {}: '{}' and '{}'{}{}", spec.name, name_of(spec.kind), spec.between[0], spec.between[1],
+      gear ? "" : fmt::format(", at {} m", rounded_place<Dim>(spec.at)), forces_text(spec)));
+  if (gear) return;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int k : {joint.first, joint.second}) {
+    if (k >= solids.joints.solids) continue;  // the world
+    const Body<Dim>& body = solids.bodies[std::size_t(k)];
+    if (body.radius() > 0) nearest = std::min(nearest, (spec.at - body.mass().center).norm() / body.radius());
+  }
+  if (std::isfinite(nearest) && nearest > far_off)
+    account.warnings.push_back(fmt::format("{}: joint '{}' is {:.0f} times the size of its solids away from them",
+                                           spec.where, spec.name, nearest));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -178,6 +209,10 @@ SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, cons
   const std::size_t count = solids.bodies.size();
   for (std::size_t k = 0; k < std::min(count, most_lines); ++k) account_solid(extent, solids.bodies[k], account);
   if (count > most_lines) account.lines.push_back(fmt::format("        and {} more solids", count - most_lines));
+  const std::vector<Joint>& joints = solids.joints.list;
+  for (std::size_t j = 0; j < std::min(joints.size(), most_lines); ++j) account_joint(solids, joints[j], account);
+  if (joints.size() > most_lines)
+    account.lines.push_back(fmt::format("        and {} more joints", joints.size() - most_lines));
   return account;
 }
 

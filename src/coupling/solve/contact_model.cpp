@@ -75,6 +75,20 @@ constexpr int most_corrections = 30;
 // the accuracy that round-off in the model's factors permits.
 constexpr double tolerances = 100, least_tolerance = 1e-9;
 
+// True if nothing touches at the minimum `alone`, which is then the result. Not looked for among few bodies, where the
+// model costs less than the search for contacts: with 5 and 6 bodies that do touch, the look took 9 to 17 % of a step.
+template <int Dim>
+bool without_contact(const ContactScene<Dim>& scene, const std::vector<ContactMotion>& motions, double horizon,
+                     double dt, const SolidCoupling<Dim>& coupling, const InertiaResponse& alone,
+                     const ContactOptions& options, ContactInLiquid& r) {
+  constexpr std::size_t few = 30;
+  if (coupling.potential || coupling.bodies.size() <= few) return false;
+  std::optional<ContactReport> report = report_without_contact(scene, motions, horizon, dt, alone, options);
+  if (report) r.contact = std::move(*report);
+  r.agreed = report.has_value();
+  return r.agreed;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -89,6 +103,7 @@ ContactInLiquid solve_contact_in_liquid(const ContactScene<Dim>& scene, const st
   const InertiaResponse alone = problem.minimise(SparseMatrix(n, n), Eigen::VectorXd::Zero(n));
   r.contact.failure = alone.failure;
   if (!alone.failure.empty()) return r;
+  if (without_contact(scene, motions, horizon, dt, coupling, alone, options, r)) return r;
   AddedMassModel model(Eigen::MatrixXd(coupling.mass) + solver.added_mass_estimate(), alone.velocity, alone.gradient,
                        coupling.freedom, coupling.J.constraints,
                        coupling.joints ? coupling.joints->slack : Eigen::VectorXd());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "coupling/solve/coupled_problem.h"
+#include "linalg/core/dense_factors.h"
 
 namespace seiche {
 namespace {
@@ -98,6 +99,10 @@ void JointTurns<Dim>::finish(Eigen::VectorXd residual) const {
   for (Eigen::Index i = 0; i < residual.size(); ++i)
     if (coupling_.is_held(i)) residual[i] = 0;
   motion_.impulse = mass_.multipliers_against(residual);
+  const SparseMatrix& C = coupling_.J.constraints;
+  if (Eigen::Index(mass_.constraints().independent().size()) == C.rows()) return;
+  // Joints that hold a motion more than once share its load by the least squares.
+  motion_.impulse = shortest_least_squares(Eigen::MatrixXd(C.transpose()), C.transpose() * motion_.impulse);
 }
 
 template class JointTurns<2>;

@@ -102,6 +102,14 @@ ContactReport solve_contact(const ContactScene<Dim>& scene, const std::vector<Co
                             double dt, InertiaProblem& inertia, const ContactOptions& options,
                             const Eigen::VectorXd& start = {}, const VelocityPotential* potential = nullptr);
 
+// The report of solve_contact() if no contact acts at the minimum of e alone, which has this velocity and gradient;
+// else none. For problems without a potential.
+template <int Dim>
+std::optional<ContactReport> report_without_contact(const ContactScene<Dim>& scene,
+                                                    const std::vector<ContactMotion>& motions, double horizon,
+                                                    double dt, const InertiaResponse& minimum,
+                                                    const ContactOptions& options);
+
 // The pose of a free body after moving for `horizon` with the generalised velocity `twist`.
 template <int Dim>
 Pose moved_pose(const Pose& start, const Eigen::Matrix<double, twist_size<Dim>, 1>& twist, double horizon);
