@@ -72,12 +72,16 @@ Eigen::VectorXd felt_by_solids(const BlockColumns& J, const NullSpace& closed, i
 
 // Liquid without a free surface whose volume only jointed bodies change: where their joints leave them no freedom to,
 // J'chi = C'y, the joints alone change it by y'(C v). Throws if drives and prescribed solids do. Collective.
+// Pockets of a few cells, as where two links meet, are below the grid: they lose or gain what they cannot hold.
 template <int Dim>
 void refuse_driven(const SolidCoupling<Dim>& coupling, const NullSpace& closed, const std::vector<int>& sensed,
                    const Communicator& ranks) {
+  constexpr double pocket = 4;  // cells
   const JointMotion<Dim>& joints = *coupling.joints;
   for (int c = 0; c < closed.count; ++c) {
     if (std::find(sensed.begin(), sensed.end(), c) != sensed.end()) continue;
+    const auto own = std::int64_t(std::count(closed.component.begin(), closed.component.end(), c));
+    if (ranks.global_sum(own) <= std::int64_t(std::pow(pocket, Dim))) continue;
     const Eigen::VectorXd felt = felt_by_solids(coupling.J, closed, c, ranks);
     if (felt.isZero(0)) continue;
     const Eigen::VectorXd y = shortest_least_squares(Eigen::MatrixXd(coupling.J.constraints.transpose()), felt);
