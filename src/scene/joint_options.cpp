@@ -44,7 +44,7 @@ Section<JointSpringSpec> joint_spring_section() {
   return s;
 }
 
-// Keys of what a motor drives its joint to.
+// Keys of a motor's goal.
 std::vector<Key<JointMotorSpec>> joint_goal_keys() {
   using P = JointMotorSpec;
   return {

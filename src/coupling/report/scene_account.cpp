@@ -168,7 +168,7 @@ void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount
                                            rounded_place<Dim>(box.max())));
 }
 
-// What acts along the joint's coordinate, for its line.
+// Names what acts along the joint's coordinate, for its line.
 std::string forces_text(const JointSpec& spec) {
   const std::vector<std::pair<const char*, bool>> all{
       {"limits", spec.limits.has_value()}, {"spring", spec.spring.has_value()}, {"motor", spec.motor.has_value()},

@@ -13,7 +13,7 @@
 namespace seiche {
 namespace {
 
-// What the forces of one solve are made from.
+// Inputs of the forces of one solve.
 template <int Dim>
 struct ForceTask {
   const JointSet<Dim>& joints;

@@ -27,7 +27,7 @@ class JointMotion {
   Eigen::VectorXd slack;                            // of C v = rate, below what closes joints: m/s, rad/s
   int turns = 0;  // corrections of `rate` in this solve, after which the solids were solved for again
 
-  // Of the unknowns as the state has them: before the solve, then those found.
+  // Velocities of the unknowns as the state has them: before the solve, then those found.
   Eigen::VectorXd velocity_in_state() const;
   const std::vector<PlacedRow>& rows() const { return rows_; }
   double horizon() const { return horizon_; }

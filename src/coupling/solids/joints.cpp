@@ -107,7 +107,7 @@ class JointInteraction : public Interaction<Dim> {
     }
   }
 
-  // Of each row: the mean rate of its drive, less the part of prescribed solids.
+  // Sets the mean rate of each row's drive, less the part of prescribed solids.
   void set_given(const CoupledStep<Dim>& step, double time, JointMotion<Dim>& motion) const {
     std::vector<PlacedRow::Rate> rates = prescribed_rates(step.state.solids, time, step.horizon);
     for (std::size_t i = 0; i < motion.rows().size(); ++i) {

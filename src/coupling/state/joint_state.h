@@ -1,5 +1,5 @@
 #pragma once
-// What a joint keeps from step to step.
+// Data of a joint from step to step.
 #include <Eigen/Core>
 
 #include "base/vec.h"
@@ -11,7 +11,7 @@ struct JointState {
   double rate = 0;     // dq/dt of the last solve, rad/s or m/s
   double shown_q = 0;  // coordinate at the state's time
   double gap = 0;      // largest violation where it was last solved for: m, or rad times the body's size
-  // Of the joint on its first body in the last solve: N, and N m about the joint's point, which is `point`.
+  // Load of the joint on its first body in the last solve: N, and N m about the joint's point, which is `point`.
   Vec3 force{0, 0, 0}, torque{0, 0, 0}, point{0, 0, 0};
   double power = 0;  // that it brings into its bodies: drive, motor, prescribed bodies, W
   bool broken = false;

@@ -5,7 +5,7 @@
 namespace seiche {
 namespace {
 
-// What a constraint holds, along and about the axes x, y, z of the joint.
+// Motions that a constraint holds, along and about the axes x, y, z of the joint.
 enum class Held : char { along_x, along_y, along_z, turn_x, turn_y, turn_z, crossed, length };
 
 // Constraints of a kind. 2D: along two axes of the plane and about its normal: z, or y where the axis lies in the

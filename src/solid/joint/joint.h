@@ -9,7 +9,7 @@
 
 namespace seiche {
 
-// What the table of joint kinds has for one of them. Axes of a joint: z is its axis, fixed to the first body.
+// Row of the table of joint kinds. Axes of a joint: z is its axis, fixed to the first body.
 struct JointKindRow {
   JointKind kind;
   const char* name;
@@ -18,7 +18,7 @@ struct JointKindRow {
 const std::array<JointKindRow, 10>& joint_kinds();
 const char* name_of(JointKind kind);
 
-// What a joint's coordinate q measures: the turn of the first body against the second, rad, or a length, m.
+// Measure of a joint's coordinate q: the turn of the first body against the second, rad, or a length, m.
 enum class JointCoordinate : char { none, turn, slide, length };
 JointCoordinate coordinate_of(JointKind kind);
 

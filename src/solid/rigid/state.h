@@ -57,7 +57,7 @@ RigidState gone_on(const Body<Dim>& body, const RigidState& r, const RigidState&
 
 // Displaced by `shift` (m) and turned about its centre by the rotation vector `turn` (rad).
 RigidState displaced(RigidState r, const Vec3& shift, const Vec3& turn);
-// Where it is on its straight way.
+// Its place on its straight way.
 RigidState not_shown(const RigidState& r);
 
 // Velocity after `dt` without liquid and contact: v + dt g, and the mean angular velocity of free rotation over the

@@ -55,6 +55,13 @@ std::string fault(const std::string& text, const Overrides& overrides, const std
   return "";
 }
 
+void check_refused(const std::string& text, const std::string& expected) {
+  INFO(text);
+  const std::string message = fault(text);
+  CHECK_THAT(message, Catch::Matchers::StartsWith("scene.toml:"));
+  CHECK_THAT(message, Catch::Matchers::Contains(expected));
+}
+
 const std::string liquid_text =
     "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
     "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = ";

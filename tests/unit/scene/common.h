@@ -22,6 +22,9 @@ Scene parse(const std::string& text, const Overrides& overrides = {}, const std:
 // Message of the reader about an invalid text; fails the test if there is none or the exit code is not 2.
 std::string fault(const std::string& text, const Overrides& overrides = {}, const std::filesystem::path& folder = ".");
 
+// Checks that the reader refuses the text, with this in its message.
+void check_refused(const std::string& text, const std::string& expected);
+
 // A scene with every table and the given shape, side type and probe kind; 2D or 3D. Files: s.obj and s.vdb.
 std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe);
 

@@ -35,13 +35,6 @@ std::string made_of(const std::string& material) {
   return bare(3, "density = 1100\nelement_size = 0.05\nmaterial = { " + material + " }\n");
 }
 
-void check_refused(const std::string& text, const std::string& expected) {
-  INFO(text);
-  const std::string message = fault(text);
-  CHECK_THAT(message, StartsWith("scene.toml:"));
-  CHECK_THAT(message, Contains(expected));
-}
-
 }  // namespace
 
 TEST_CASE("an elastic solid has a material, elements, pins and forces") {

@@ -36,13 +36,6 @@ std::string hinge(const std::string& keys) {
   return one("kind = \"hinge\"\nbetween = [\"hand\", \"arm\"]\nat = [0.3, 0.5]\n" + keys);
 }
 
-void check_refused(const std::string& text, const std::string& expected) {
-  INFO(text);
-  const std::string message = fault(text);
-  CHECK_THAT(message, StartsWith("scene.toml:"));
-  CHECK_THAT(message, Contains(expected));
-}
-
 }  // namespace
 
 TEST_CASE("a joint has a kind, two solids, a place and forces") {
