@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/formula.h"
+#include "base/shape_spec.h"
 #include "base/vec.h"
 
 namespace seiche {
@@ -51,7 +52,8 @@ struct JointSpec {
   double friction = 0;           // coefficient
   std::optional<double> radius;  // arm of the friction in a hinge, m
   bool collide = false;
-  std::string where;  // "scene.toml:14"
+  std::optional<ShapeSpec> region, second_region;  // whose nodes of elastic solids it holds; second unset: as region
+  std::string where;                               // "scene.toml:14"
 };
 
 }  // namespace seiche

@@ -8,6 +8,7 @@
 #include "base/joint_spec.h"
 #include "base/output_spec.h"
 #include "base/probe_spec.h"
+#include "base/robot_spec.h"
 #include "base/solid_spec.h"
 #include "base/solver_spec.h"
 #include "base/time_spec.h"
@@ -23,6 +24,7 @@ struct Scene {
   LiquidSpec liquid;
   GasSpec gas;
   std::vector<SolidSpec> solids;
+  std::vector<RobotSpec> robots;  // as read; expand_robots() makes solids and joints of them
   std::vector<JointSpec> joints;
   std::vector<ProbeSpec> probes;
   std::string tracking = "level_set";

@@ -20,7 +20,11 @@ struct MotionSpec {
 
 // Inertia and initial motion of a rigid solid.
 struct RigidSpec {
-  double density = 0;  // kg/m^3
+  double density = 0;                       // kg/m^3; 0: a mass is given
+  std::optional<double> mass;               // kg; 2D: kg/m
+  std::optional<Vec3> center_of_mass;       // at t = 0, m; unset: that of the shape
+  std::optional<Vec3> inertia;              // moments about the centre of mass at t = 0, kg m^2; 2D: (2)
+  std::optional<Vec3> products_of_inertia;  // I_xy, I_xz, I_yz, kg m^2
   Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
   std::array<bool, 3> fixed_position{false, false, false}, fixed_rotation{false, false, false};  // world axes
 };

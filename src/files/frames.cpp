@@ -152,7 +152,13 @@ void FrameWriter::write(const FrameLabel& label, const Simulation& simulation, P
     if (wants(scene_.output.formats, "vtk")) write_fluid(frame);
     if (!scene_.solids.empty()) write_solids(label, simulation);
     if (!volumes.empty()) write_elastic(label, volumes);
+    if (!scene_.joints.empty()) write_joints(label, simulation);
   });
+}
+
+void FrameWriter::write_joints(const FrameLabel& label, const Simulation& simulation) const {
+  write_file(paths_.frames() / frame_file("joints", label.number, "vtu"), vtk::joints(simulation.joints(), label.time));
+  write_file(paths_.frames() / "joints.pvd", vtk::series("joints", "vtu", label.number, scene_.time.frame_rate));
 }
 
 void FrameWriter::write_fluid(const vdb::Frame& frame) const {

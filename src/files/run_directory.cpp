@@ -24,9 +24,9 @@ namespace {
 // True if a file of this name, relative to the run's folder, belongs to a run.
 bool is_ours(const std::string& name) {
   static const std::regex pattern(
-      "(scene\\.toml|stats\\.csv|solids\\.csv|probes\\.csv|summary\\.json|log\\.txt|validate\\.txt|stop|lock)(\\.tmp)?"
-      "|frames/(frame|solids|fluid|elastic)\\.[0-9]+\\.(vdb|vtu|vti)(\\.tmp)?"
-      "|frames/(solids|fluid|elastic)\\.pvd(\\.tmp)?|frames/[^/]+\\.pc2(\\.tmp)?"
+      "(scene\\.toml|(stats|solids|probes|joints)\\.csv|summary\\.json|log\\.txt|validate\\.txt|stop|lock)(\\.tmp)?"
+      "|frames/(frame|solids|fluid|elastic|joints)\\.[0-9]+\\.(vdb|vtu|vti)(\\.tmp)?"
+      "|frames/(solids|fluid|elastic|joints)\\.pvd(\\.tmp)?|frames/[^/]+\\.pc2(\\.tmp)?"
       "|checkpoints/[0-9]+(\\.tmp)?/(COMMIT|rank\\.[0-9]+)(\\.tmp)?|pictures/.*\\.(png|gif|mp4)");
   return std::regex_match(name, pattern);
 }

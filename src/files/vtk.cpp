@@ -12,7 +12,7 @@
 namespace seiche::vtk {
 namespace {
 
-constexpr int vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10, vtk_quadratic_triangle = 22,
+constexpr int vtk_vertex = 1, vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10, vtk_quadratic_triangle = 22,
               vtk_quadratic_tetrahedron = 24;
 
 template <class T>
@@ -167,16 +167,16 @@ Elements collect(const std::vector<VolumeFrame>& solids) {
   return all;
 }
 
-std::string grid(const Elements& all, const std::string& point_data, const std::vector<std::string>& names,
-                 double time) {
+// `what`: "solid" or "joint", to which the elements belong.
+std::string grid(const Elements& all, const std::string& point_data, const std::string& what,
+                 const std::vector<std::string>& names, double time) {
   std::string body = fmt::format(
       "<UnstructuredGrid>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
       "NumberOfTuples=\"1\" format=\"ascii\">{:.17g}</DataArray>\n{}</FieldData>\n",
-      time, text_array("solid_names", names));
+      time, text_array(what + "_names", names));
   body += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n{}<CellData>\n", all.points.size() / 3,
                       all.offsets.size(), point_data);
-  body +=
-      array("solid", all.solid) + "</CellData>\n<Points>\n" + array("Points", all.points, 3) + "</Points>\n<Cells>\n";
+  body += array(what, all.solid) + "</CellData>\n<Points>\n" + array("Points", all.points, 3) + "</Points>\n<Cells>\n";
   body += array("connectivity", all.connectivity) + array("offsets", all.offsets) + array("types", all.types);
   return file("UnstructuredGrid", body + "</Cells>\n</Piece>\n</UnstructuredGrid>\n");
 }
@@ -199,7 +199,7 @@ std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
 }
 
 std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<std::string>& names, double time) {
-  return grid(collect(solids), "", names, time);
+  return grid(collect(solids), "", "solid", names, time);
 }
 
 std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<std::string>& names, double time) {
@@ -211,7 +211,27 @@ std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<st
   }
   const std::string fields = "<PointData>\n" + array("displacement", displacement, 3) + array("velocity", velocity, 3) +
                              array("von_mises", von_mises) + "</PointData>\n";
-  return grid(collect(solids), fields, names, time);
+  return grid(collect(solids), fields, "solid", names, time);
+}
+
+std::string joints(const std::vector<JointReport>& joints, double time) {
+  Elements all;
+  std::vector<double> force, torque, coordinate;
+  std::vector<std::int32_t> broken;
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < joints.size(); ++n) {
+    const JointReport& joint = joints[n];
+    add_vectors({joint.point}, all.points);
+    add(all, std::vector<std::array<int, 1>>{{0}}, std::int64_t(n), vtk_vertex, int(n));
+    add_vectors({joint.force}, force);
+    add_vectors({joint.torque}, torque);
+    coordinate.push_back(joint.q);
+    broken.push_back(joint.broken);
+    names.push_back(joint.name);
+  }
+  const std::string fields = "<PointData>\n" + array("force", force, 3) + array("torque", torque, 3) +
+                             array("coordinate", coordinate) + array("broken", broken) + "</PointData>\n";
+  return grid(all, fields, "joint", names, time);
 }
 
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate) {

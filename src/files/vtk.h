@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/state/simulation.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/vdb/openvdb_adapter.h"
 #include "solid/mesh/volume_frame.h"
@@ -22,6 +23,11 @@ std::string surfaces(const std::vector<SurfaceMesh>& solids, const std::vector<s
 // (Pa). The cell array `solid` counts all solids of the scene from 0, the field array `solid_names` has their names.
 // Entries without elements are skipped.
 std::string volumes(const std::vector<VolumeFrame>& solids, const std::vector<std::string>& names, double time);
+
+// A .vtu with a vertex at each joint. Point arrays: `force` (N), `torque` (N m) on the first solid about that point,
+// `coordinate` (rad or m), `broken` (0 or 1). The cell array `joint` counts them from 0, the field array `joint_names`
+// has their names in that order.
+std::string joints(const std::vector<JointReport>& joints, double time);
 
 // A .pvd that lists <stem>.0000.<extension> to <stem>.<last>.<extension> with their times.
 std::string series(const std::string& stem, const std::string& extension, int last, double frame_rate);

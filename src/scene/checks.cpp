@@ -12,6 +12,7 @@
 #include "base/scene.h"
 #include "base/suggest.h"
 #include "fluid/rheology/rheology.h"
+#include "scene/robots.h"
 
 namespace seiche {
 namespace {
@@ -127,7 +128,7 @@ void check_probes(const Checker& c, const Scene& scene) {
   Gravity(scene.gravity).at(0).cwiseAbs().maxCoeff(&down);
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const ProbeSpec& probe = scene.probes[i];
-    if (probe.kind == ProbeKind::front || !c.context.clean(fmt::format("probe.{}", i))) continue;
+    if (!probe.has_position() || !c.context.clean(fmt::format("probe.{}", i))) continue;
     for (int axis = 0; axis < scene.dimension; ++axis) {
       const bool along_column = probe.kind == ProbeKind::surface_height && axis == down;
       const double x = probe.position[axis], low = scene.domain.lower[axis], high = scene.domain.upper[axis];
@@ -243,6 +244,8 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid")) check_names(c, scene.solids, "solid");
   if (context.clean("joint")) check_names(c, scene.joints, "joint");
   if (context.clean("probe")) check_names(c, scene.probes, "probe");
+  if (context.clean("robot")) check_names(c, scene.robots, "robot");
+  if (context.clean("robot") && context.clean("solid") && context.clean("joint")) expand_robots(context, root, scene);
   if (!context.clean("domain") || context.dimension == 0) return;
   check_probes(c, scene);
   if (context.clean("solid")) check_followed_solids(c, scene);

@@ -224,6 +224,7 @@ Section<S> elastic_section() {
 }
 
 void finish_elastic(SceneContext& c, const Place& p, const SolidSpec& solid) {
+  check_mass(c, p, solid);
   check_bounded(c, p, solid.shape, "an elastic solid");
   check_element_size(c, p, solid);
 }

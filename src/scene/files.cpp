@@ -34,25 +34,34 @@ std::string fault_of_file(const fs::path& file) {
 
 }  // namespace
 
+std::string fault_of_path(const SceneContext& c, const fs::path& given, fs::path& out) {
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(c.folder().empty() ? fs::path(".") : c.folder(), error);
+  const fs::path file = error ? given : fs::weakly_canonical(folder / given, error);
+  if (error) return fmt::format("cannot follow \"{}\": {}", given.string(), error.message());
+  if (c.access == FileAccess::scene_folder && !is_inside(file, folder))
+    return fmt::format(
+        "\"{}\" lies outside the scene's folder; move it there, or set allow_outside_files = true at the top of the "
+        "scene",
+        given.string());
+  const std::string fault = fault_of_file(file);
+  if (!fault.empty()) return fmt::format("cannot read \"{}\": {}", given.string(), fault);
+  out = file;
+  return {};
+}
+
 void read_value(SceneContext& c, const Place& p, const Option&, fs::path& out) {
   if (!is_text(*p.node) || p.node->text.empty()) {
     return c.report(p, fmt::format("{} must be a path in quotes, not {}", p.path, describe(*p.node)));
   }
   if (p.node->text.find('\0') != std::string::npos) return c.report(p, p.path + " must not contain a zero byte");
   const fs::path given(p.node->text);
-  std::error_code error;
-  const fs::path folder = fs::weakly_canonical(c.folder().empty() ? fs::path(".") : c.folder(), error);
-  const fs::path file = error ? given : fs::weakly_canonical(folder / given, error);
-  if (error) return c.report(p, fmt::format("{}: cannot follow \"{}\": {}", p.path, given.string(), error.message()));
-  if (c.access == FileAccess::scene_folder && (given.is_absolute() || !is_inside(file, folder))) {
-    return c.report(
-        p, fmt::format("{}: \"{}\" lies outside the scene's folder; move it there, or set allow_outside_files = "
-                       "true at the top of the scene",
-                       p.path, given.string()));
-  }
-  const std::string fault = fault_of_file(file);
-  if (!fault.empty()) return c.report(p, fmt::format("{}: cannot read \"{}\": {}", p.path, given.string(), fault));
-  out = file;
+  if (c.access == FileAccess::scene_folder && given.is_absolute())
+    return c.report(p, fmt::format("{}: \"{}\", an absolute path, counts as outside the scene's folder; set "
+                                   "allow_outside_files = true at the top of the scene",
+                                   p.path, given.string()));
+  const std::string fault = fault_of_path(c, given, out);
+  if (!fault.empty()) c.report(p, fmt::format("{}: {}", p.path, fault));
 }
 
 }  // namespace seiche

@@ -51,18 +51,35 @@ class JointChecker {
         const auto near = suggest(name, names);
         report("between", fmt::format("no solid is named \"{}\"; {}", name,
                                       near ? "did you mean \"" + *near + "\"?" : "there is " + quoted_list(names)));
-      } else if (solid && (solid->kind.has_elements || (solid->kind.is_free() && !solid->kind.may_turn))) {
+      } else if (solid && !solid->kind.has_elements && solid->kind.is_free() && !solid->kind.may_turn) {
         known = false;
-        report("between", fmt::format("solid \"{}\" is {}; joints hold rigid, kinematic and static solids in this "
-                                      "version",
+        report("between", fmt::format("solid \"{}\" is {}; joints hold rigid, elastic, kinematic and static solids",
                                       name, solid->kind.name));
       }
     }
+    check_regions();
     if (known && !moves)
       report("between",
              fmt::format("\"{}\" and \"{}\" do not move by forces, so a joint does nothing; make one of them "
                          "rigid",
                          joint_.between[0], joint_.between[1]));
+  }
+
+  bool is_elastic(const std::string& name) const {
+    const SolidSpec* solid = find(name);
+    return solid && solid->kind.has_elements;
+  }
+
+  void check_regions() const {
+    const bool first = is_elastic(joint_.between[0]), second = is_elastic(joint_.between[1]);
+    if ((first || second) && !joint_.region)
+      report("between", fmt::format("\"{}\" is elastic; give region, the shape whose nodes the joint holds, such as "
+                                    "{{ shape = \"sphere\", center = [0, 0, 0], radius = 0.1 }}",
+                                    joint_.between[first ? 0 : 1]));
+    if (joint_.region && !first && !second)
+      report("region", "neither of its solids is elastic, so it holds all of them; remove region");
+    if (joint_.second_region && !second)
+      report("second_region", fmt::format("\"{}\" is not elastic; remove second_region", joint_.between[1]));
   }
 
   void check_dimension() const {
@@ -146,6 +163,30 @@ class JointChecker {
   std::size_t index_;
 };
 
+// A joint probe must name a joint, and one with a coordinate to measure that.
+void check_probed_joints(SceneContext& context, const TomlNode& root, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const JointSpec& joint : scene.joints) names.push_back(joint.name);
+  const auto report = [&](const std::string& path, const std::string& text) {
+    context.report(path, line_of(root, path), text);
+  };
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const ProbeSpec& probe = scene.probes[i];
+    if (probe.kind != ProbeKind::joint || !context.clean(fmt::format("probe.{}", i))) continue;
+    const auto found = std::ranges::find(scene.joints, probe.joint, &JointSpec::name);
+    const auto near = suggest(probe.joint, names);
+    if (found == scene.joints.end())
+      report(fmt::format("probe.{}.joint", i),
+             fmt::format("probe \"{}\": no joint is named \"{}\"; {}", probe.name, probe.joint,
+                         near            ? "did you mean \"" + *near + "\"?"
+                         : names.empty() ? "the scene has none"
+                                         : "there is " + quoted_list(names)));
+    else if (probe.quantity == JointQuantity::coordinate && coordinate_of(found->kind) == JointCoordinate::none)
+      report(fmt::format("probe.{}.quantity", i),
+             fmt::format("probe \"{}\": a {} joint has no coordinate", probe.name, name_of(found->kind)));
+  }
+}
+
 }  // namespace
 
 void check_joints(SceneContext& context, const TomlNode& root, const Scene& scene) {
@@ -162,6 +203,7 @@ void check_joints(SceneContext& context, const TomlNode& root, const Scene& scen
                      "the name \"world\" stands for what does not move in joints; rename the solid");
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     if (context.clean(fmt::format("joint.{}", j))) JointChecker(context, root, scene, j).run();
+  check_probed_joints(context, root, scene);
 }
 
 }  // namespace seiche

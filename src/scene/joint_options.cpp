@@ -252,6 +252,29 @@ std::vector<Key<JointSpec>> joint_loss_keys() {
   };
 }
 
+Section<ShapeSpec> joint_region_section() {
+  Section<ShapeSpec> s = shape_section();
+  s.finish = [](SceneContext& c, const Place& p, ShapeSpec& shape) { finish_shape(c, p, shape); };
+  return s;
+}
+
+std::vector<Key<JointSpec>> joint_region_keys() {
+  const Condition placed{"kind",
+                         {"weld", "hinge", "ball", "slider", "cylindrical", "universal", "planar", "distance", "rope"}};
+  return {
+      optional_table_key<JointSpec, ShapeSpec>(
+          {.key = "region",
+           .only_for = placed,
+           .unset = "required where one of the solids is elastic",
+           .doc = "a shape: the joint holds the mean place and rotation of an elastic solid's nodes that lie in it at "
+                  "rest"},
+          &JointSpec::region, joint_region_section()),
+      optional_table_key<JointSpec, ShapeSpec>(
+          {.key = "second_region", .only_for = placed, .unset = "as region", .doc = "the same for the second solid"},
+          &JointSpec::second_region, joint_region_section()),
+  };
+}
+
 }  // namespace
 
 Section<JointSpec> joint_section() {
@@ -267,7 +290,8 @@ Section<JointSpec> joint_section() {
            .doc = "the two solids that it joins, one of which may be \"world\"; a gear: two joints. Loads, "
                   "angles and ways are those of the first against the second"},
           &JointSpec::between)};
-  for (const auto& keys : {joint_point_keys(), joint_axis_keys(), joint_force_keys(), joint_loss_keys()})
+  for (const auto& keys :
+       {joint_point_keys(), joint_axis_keys(), joint_force_keys(), joint_loss_keys(), joint_region_keys()})
     s.keys.insert(s.keys.end(), keys.begin(), keys.end());
   s.keys.push_back(value_key<JointSpec>(
       {.key = "collide", .type = T::boolean, .doc = "whether the two solids touch each other where they meet"},

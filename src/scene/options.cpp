@@ -138,6 +138,27 @@ Section<TimeSpec> time_section() {
   return s;
 }
 
+std::vector<Key<ProbeSpec>> joint_probe_keys() {
+  using S = ProbeSpec;
+  return {
+      value_key<S>({.key = "joint",
+                    .type = T::text,
+                    .only_for = {"kind", {"joint"}},
+                    .presence = Presence::required,
+                    .doc = "name of the joint"},
+                   &S::joint),
+      choice_key<S, JointQuantity S::*, JointQuantity>(
+          {.key = "quantity",
+           .only_for = {"kind", {"joint"}},
+           .doc = "force or torque on the joint's first solid, as in joints.csv; its coordinate; its power"},
+          &S::quantity,
+          {{"force", JointQuantity::force},
+           {"torque", JointQuantity::torque},
+           {"coordinate", JointQuantity::coordinate},
+           {"power", JointQuantity::power}}),
+  };
+}
+
 Section<ProbeSpec> probe_section() {
   using S = ProbeSpec;
   Section<S> s;
@@ -150,7 +171,8 @@ Section<ProbeSpec> probe_section() {
            {"velocity", ProbeKind::velocity},
            {"surface_height", ProbeKind::surface_height},
            {"front", ProbeKind::front},
-           {"displacement", ProbeKind::displacement}}),
+           {"displacement", ProbeKind::displacement},
+           {"joint", ProbeKind::joint}}),
       value_key<S>({.key = "position",
                     .type = T::vector,
                     .unit = "m",
@@ -171,6 +193,7 @@ Section<ProbeSpec> probe_section() {
                     .doc = "name of the elastic solid"},
                    &S::solid),
   };
+  for (Key<S>& key : joint_probe_keys()) s.keys.push_back(std::move(key));
   s.finish = [](SceneContext& c, const Place& p, ProbeSpec& probe) { probe.where = c.where(p.node->line); };
   return s;
 }
@@ -281,6 +304,16 @@ Key<Scene> gravity_key() {
       [](auto& s) -> auto& { return s.gravity.formula; });
 }
 
+Key<Scene> robot_key() {
+  return list_key<Scene, RobotSpec>(
+      {.key = "robot",
+       .unset = "none",
+       .doc = "links and joints of a robot's file (URDF), which become rigid solids and joints; see "
+              "joints.md",
+       .most = most_entries},
+      &Scene::robots, robot_section());
+}
+
 Section<Scene> build_scene_section() {
   using S = Scene;
   const auto itself = [](auto& s) -> auto& {
@@ -306,6 +339,7 @@ Section<Scene> build_scene_section() {
                               .doc = "joints between solids, which then move as one mechanism; see joints.md",
                               .most = most_entries},
                              &S::joints, joint_section()),
+      robot_key(),
       list_key<S, ProbeSpec>({.key = "probe",
                               .unset = "none",
                               .doc = "measurements for probes.csv; a row without values where there is nothing to "

@@ -13,20 +13,25 @@ struct JointSpec;
 struct LiquidSpec;
 struct MotionSpec;
 struct RigidSpec;
+struct RobotSpec;
 struct Scene;
 struct ShapeSpec;
 struct SolidSpec;
 struct SolverSpec;
+struct TransformSpec;
 
 // The top level; all other keys are below it.
 const Section<Scene>& scene_section();
 Section<ShapeSpec> shape_section();
+// rotate and translate.
+Section<TransformSpec> placement_section();
 Section<LiquidSpec> liquid_section();
 Section<SolidSpec> solid_section();
 Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
 Section<JointSpec> joint_section();
+Section<RobotSpec> robot_section();
 
 // Keys of viscous liquid.
 Key<LiquidSpec> viscosity_key();
@@ -56,6 +61,9 @@ void finish_shape(SceneContext& context, const Place& place, ShapeSpec& shape, M
 // Check keys of a rigid or elastic solid against each other.
 void finish_rigid(SceneContext& context, const Place& place, const SolidSpec& solid);
 void finish_elastic(SceneContext& context, const Place& place, const SolidSpec& solid);
+
+// Reports a mass that is missing, given twice, or that no body has.
+void check_mass(SceneContext& context, const Place& place, const SolidSpec& solid);
 
 // Reports unbounded shapes: planes and inverted ones. `what` is "a rigid solid".
 void check_bounded(SceneContext& context, const Place& place, const ShapeSpec& shape, const std::string& what);

@@ -1,6 +1,7 @@
 // Keys of [[solid]] for rigid solids.
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "base/shape_spec.h"
@@ -103,6 +104,58 @@ void check_held(SceneContext& c, const Place& p, const std::string& key, const V
   }
 }
 
+// Written where the solid has one, and no mass instead.
+Key<RigidSpec> density_key(const Condition& moved) {
+  Key<RigidSpec> key = value_key<RigidSpec>({.key = "density",
+                                             .unit = "kg/m^3",
+                                             .range = positive(),
+                                             .only_for = moved,
+                                             .unset = "mass is given",
+                                             .doc = "density, the same throughout the solid"},
+                                            &RigidSpec::density);
+  key.write = [write = key.write](const RigidSpec& rigid, int dimension, const std::string& path, SceneLines& lines) {
+    if (rigid.density > 0) write(rigid, dimension, path, lines);
+  };
+  return key;
+}
+
+// Mass properties in place of those of a shape of one density.
+std::vector<Key<RigidSpec>> mass_keys(const Condition& turned) {
+  using S = RigidSpec;
+  return {
+      value_key<S>({.key = "mass",
+                    .unit = "kg",
+                    .range = positive(),
+                    .only_for = turned,
+                    .unset = "density times volume",
+                    .doc = "mass in place of density; 2D: per metre of depth"},
+                   &S::mass),
+      value_key<S>({.key = "center_of_mass",
+                    .type = T::vector,
+                    .unit = "m",
+                    .only_for = turned,
+                    .unset = "that of the shape",
+                    .doc = "centre of mass at t = 0"},
+                   &S::center_of_mass),
+      value_key<S>(
+          {.key = "inertia",
+           .type = T::spin,
+           .unit = "kg m^2",
+           .only_for = turned,
+           .unset = "that of the shape at one density",
+           .doc = "moments of inertia I_xx, I_yy, I_zz about the centre of mass, by the axes of space at t = 0; "
+                  "in 2D a number"},
+          &S::inertia),
+      value_key<S>({.key = "products_of_inertia",
+                    .type = T::axis,
+                    .unit = "kg m^2",
+                    .only_for = turned,
+                    .unset = "zero",
+                    .doc = "I_xy, I_xz, I_yz of the tensor of inertia, with inertia (3D)"},
+                   &S::products_of_inertia),
+  };
+}
+
 }  // namespace
 
 Section<RigidSpec> rigid_section() {
@@ -111,13 +164,7 @@ Section<RigidSpec> rigid_section() {
   const Condition turned{"kind", names_of_kinds([](const SolidKind& k) { return k.is_free() && k.may_turn; })};
   Section<S> s;
   s.keys = {
-      value_key<S>({.key = "density",
-                    .unit = "kg/m^3",
-                    .range = positive(),
-                    .only_for = moved,
-                    .presence = Presence::required,
-                    .doc = "density, the same throughout the solid"},
-                   &S::density),
+      density_key(moved),
       value_key<S>({.key = "velocity",
                     .type = T::vector,
                     .unit = "m/s",
@@ -134,6 +181,7 @@ Section<RigidSpec> rigid_section() {
                    &S::angular_velocity),
       fixed_key(),
   };
+  for (Key<S>& key : mass_keys(turned)) s.keys.push_back(std::move(key));
   return s;
 }
 
@@ -148,7 +196,33 @@ void check_bounded(SceneContext& c, const Place& p, const ShapeSpec& shape, cons
   }
 }
 
+void check_mass(SceneContext& c, const Place& p, const SolidSpec& solid) {
+  const RigidSpec& r = solid.rigid;
+  if (r.mass && r.density > 0) c.report(p, p.path + " has both density and mass; give one of them");
+  if (!r.mass && r.density == 0)
+    c.report(p, fmt::format("{} needs 'density' with kind = \"{}\" (kg/m^3){}", section_title(p.path), solid.kind.name,
+                            solid.kind.has_elements ? "" : ", or 'mass' (kg)"));
+  if (r.products_of_inertia && (!r.inertia || c.dimension == 2))
+    c.report(p, join_path(p.path, "products_of_inertia") +
+                    (c.dimension == 2 ? " exist in 3D only" : " need inertia beside them"));
+  if (!r.inertia || !c.clean(p.path)) return;
+  const Vec3 m = *r.inertia, products = r.products_of_inertia.value_or(Vec3(0, 0, 0));
+  if (c.dimension == 2) {
+    if (!(m[2] > 0)) c.report(p, join_path(p.path, "inertia") + " must be above 0");
+    return;
+  }
+  Eigen::Matrix3d tensor = m.asDiagonal();
+  tensor(1, 0) = products[0], tensor(2, 0) = products[1], tensor(2, 1) = products[2];
+  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor).eigenvalues();
+  constexpr double rounding = 1e-3;  // tables of robots give few decimals
+  if (!(principal[0] > 0) || principal[0] + principal[1] < (1 - rounding) * principal[2])
+    c.report(p, fmt::format("{}: no body has principal moments of {:.4g}, {:.4g} and {:.4g} kg m^2: each must be above "
+                            "0 and at most the sum of the others",
+                            join_path(p.path, "inertia"), principal[0], principal[1], principal[2]));
+}
+
 void finish_rigid(SceneContext& c, const Place& p, const SolidSpec& solid) {
+  check_mass(c, p, solid);
   check_bounded(c, p, solid.shape, fmt::format("a {} solid", solid.kind.name));
   check_held(c, p, "velocity", solid.rigid.velocity, solid.rigid.fixed_position);
   check_held(c, p, "angular_velocity", solid.rigid.angular_velocity, solid.rigid.fixed_rotation);

@@ -135,6 +135,16 @@ void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape, MeshFiles f
   if (shape.kind == "mesh" || shape.kind == "level_set") check_extension(c, p, shape, files);
 }
 
+Section<TransformSpec> placement_section() {
+  Section<TransformSpec> s;
+  s.keys = {inline_key<TransformSpec>({.key = "rotate", .unset = "no rotation", .doc = "about the origin, after scale"},
+                                      &TransformSpec::rotate, rotation_section()),
+            value_key<TransformSpec>(
+                {.key = "translate", .type = T::vector, .unit = "m", .unset = "zero", .doc = "applied last"},
+                &TransformSpec::translate)};
+  return s;
+}
+
 Section<ShapeSpec> shape_section() {
   Section<ShapeSpec> s;
   const auto transform = [](auto& shape) -> auto& {
@@ -153,14 +163,9 @@ Section<ShapeSpec> shape_section() {
                                          .doc = "true: the outside of the shape (an inverted sphere is a container)"},
                                         &ShapeSpec::invert));
   Section<TransformSpec> t;
-  t.keys = {
-      value_key<TransformSpec>({.key = "scale", .range = positive(), .doc = "factor about the origin, applied first"},
-                               &TransformSpec::scale),
-      inline_key<TransformSpec>({.key = "rotate", .unset = "no rotation", .doc = "about the origin, after scale"},
-                                &TransformSpec::rotate, rotation_section()),
-      value_key<TransformSpec>(
-          {.key = "translate", .type = T::vector, .unit = "m", .unset = "zero", .doc = "applied last"},
-          &TransformSpec::translate)};
+  t.keys = {value_key<TransformSpec>(
+      {.key = "scale", .range = positive(), .doc = "factor about the origin, applied first"}, &TransformSpec::scale)};
+  for (Key<TransformSpec>& key : placement_section().keys) t.keys.push_back(std::move(key));
   for (Key<ShapeSpec>& key : lift<ShapeSpec>(t, transform)) s.keys.push_back(std::move(key));
   return s;
 }

@@ -33,6 +33,9 @@ void read_value(SceneContext& context, const Place& place, const Option& option,
   if (context.problem_count() == before) out = value;
 }
 
+// Resolves a path of the scene against its folder. Returns why it cannot be read, or "".
+std::string fault_of_path(const SceneContext& context, const std::filesystem::path& given, std::filesystem::path& out);
+
 // TOML text; empty for an unset optional. Vectors have `dimension` components.
 std::string to_toml(double value, const Option& option, int dimension);
 std::string to_toml(int value, const Option& option, int dimension);

@@ -90,6 +90,25 @@ TEST_CASE("joints: the tension of a tethered body is its buoyancy less its weigh
     }
 }
 
+// Buoyancy acts at the middle of the ball, the weight at a centre of mass that the scene gives.
+TEST_CASE("joints: buoyancy turns a body about a centre of mass beside its middle", "[joints]") {
+  for (const int dim : {2, 3}) {
+    Scene s = test::swing_scene(dim, 0.5, 1.0 / 16);
+    add_liquid(s, "y-0.4");
+    s.solids = {test::rigid_ball("ball", 0.2, Vec3::Zero(), 0)};
+    s.solids[0].rigid.mass = 50;
+    s.solids[0].rigid.center_of_mass = Vec3(0.05, 0.02, 0);
+    s.joints = {joint("hold", JointKind::weld, "ball", "world", {0.05, 0.02, 0})};
+    s.solver.tolerance = 1e-12;
+    const auto sim = make_simulation(s, Communicator());
+    for (int n = 0; n < 3; ++n) (void)sim->step(1);
+    const Vec3 load = sim->solids()[0].force, hold = sim->joints()[0].force, torque = sim->joints()[0].torque;
+    CAPTURE(dim, load, hold, torque);
+    CHECK(load[1] + hold[1] == Approx(50 * 9.81).epsilon(1e-8));
+    CHECK(torque[2] == Approx(0.05 * load[1]).epsilon(1e-8));
+  }
+}
+
 // Discs in a chain that lies in full liquid, whatever they weigh: joints leave the number of iterations as it is.
 TEST_CASE("joints: chains take as many liquid iterations as loose bodies", "[joints]") {
   for (const double ratio : {1e-6, 1e-3, 1.0, 10.0}) {

@@ -25,7 +25,7 @@ def is_fed(scene):
         return True
     if not is_constant(scene.get("gravity", [0.0])):
         return True
-    if feeds(scene.get("joint", [])):
+    if feeds(scene.get("joint", []) + [j for robot in scene.get("robot", []) for j in robot.get("joint", [])]):
         return True
     for solid in scene.get("solid", []):
         pins = solid.get("pinned", [])

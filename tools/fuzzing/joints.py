@@ -84,7 +84,11 @@ def add_forces(c, here):
             here["radius"] = number(0.1 * c.radius)
 
 
-def joint(c, number_of, between, at, to):
+def region(c, at):
+    return {"shape": "sphere", "center": point(at), "radius": number(c.radius * c.rng.choice([0.4, 0.8, 1.5]))}
+
+
+def joint(c, number_of, between, kinds_of, at, to):
     kinds = [k for k in c.choices("joint[]", "kind") if k != "gear" and (c.dim == 3 or k not in ONLY_3D)]
     here = {"name": f"joint {number_of}", "kind": c.rng.choice(kinds), "between": between, "at": point(at)}
     if axis := axis_of(c, here):
@@ -102,14 +106,19 @@ def joint(c, number_of, between, at, to):
     if here["kind"] != "rope" and c.rng.random() < 0.2 * c.often:
         turns = here["kind"] != "distance" and c.rng.random() < 0.5
         here["breaks_at"] = {"torque" if turns else "force": number(size(c, turns) * log_uniform(c, 0.3, 10))}
+    if "elastic" in kinds_of:
+        here["region"] = region(c, at if kinds_of[0] == "elastic" or "to" not in here else to)
+        if kinds_of == ["elastic", "elastic"]:
+            here["second_region"] = region(c, to if "to" in here else at)
     return here
 
 
 def make_joints(c, solids, centers):
-    """Joints of rigid solids with others that move rigidly or not at all; sometimes a gear of two."""
+    """Joints of rigid and elastic solids with others; sometimes a gear of two."""
     able = [(s.get("name", f"solid{n + 1}"), s["kind"], center) for n, (s, center) in enumerate(zip(solids, centers))
-            if s["kind"] in ("rigid", "kinematic", "static") and not s.get("invert") and "plane" not in s["shape"]]
-    rigid = [a for a in able if a[1] == "rigid"]
+            if s["kind"] in ("rigid", "elastic", "kinematic", "static") and not s.get("invert")
+            and "plane" not in s["shape"]]
+    rigid = [a for a in able if a[1] in ("rigid", "elastic")]
     if not rigid or c.rng.random() > 0.4:
         return []
     found = []
@@ -119,7 +128,7 @@ def make_joints(c, solids, centers):
         second = c.rng.choice(others)
         share = c.rng.choice([0.0, 0.5, 1.0])
         at = [a + share * (b - a) for a, b in zip(first[2], second[2])]
-        made = joint(c, len(found), [first[0], second[0]], at, second[2])
+        made = joint(c, len(found), [first[0], second[0]], [first[1], second[1]], at, second[2])
         if made:
             found.append(made)
     turning = [j["name"] for j in found if j["kind"] in ("hinge", "slider", "cylindrical", "distance")]

@@ -5,6 +5,7 @@ import shutil
 from fuzzing.assets import make_assets
 from fuzzing.oracle import CUT_OFF, judge
 from fuzzing.registry import read_registry
+from fuzzing.robots import files_in
 from fuzzing.scenes import make_scene
 from fuzzing.tables import Fault
 from fuzzing.toml import to_toml
@@ -28,6 +29,8 @@ def lay_out(bench, scene, folder):
     for name, data in bench.things["assets"].items():
         if f'"{name}"' in text:
             (folder / name).write_bytes(data)
+    for name, data in files_in(text):
+        (folder / name).write_bytes(data)
 
 
 def attempt(bench, index, folder):

@@ -4,12 +4,13 @@ import random
 
 from fuzzing import shapes
 from fuzzing.joints import make_joints
+from fuzzing.robots import make_robots
 from fuzzing.shapes import AXES, fit_shape, number, point
 from fuzzing.values import VALUES, table_of
 
 # Keys that the plan of a scene sets: dimension, grid and duration.
-PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "joint"), ("", "probe"),
-           ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
+PLANNED = {("", "dimension"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"), ("", "joint"), ("", "robot"),
+           ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
 SHAPES = ("liquid.region[]", "liquid.source[]", "solid[]", "solid[].pinned", "solid[].traction")
@@ -25,8 +26,8 @@ def uncovered(registry):
             if table in SHAPES and key.name == "shape" and set(key.choices) - MAKEABLE:
                 yield f"{key.label}: {', '.join(set(key.choices) - MAKEABLE)}"
             turn = table.endswith(".rotate") and key.name in ("axis", "degrees")
-            of_joint = table.startswith("joint[]")   # fuzzing/joints.py
-            if not (simple or of_joint or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
+            mechanic = table.startswith(("joint[]", "robot[]"))   # joints.py, robots.py
+            if not (simple or mechanic or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
                 yield key.label
 
 
@@ -92,7 +93,7 @@ class Case:
 # Keys whose values depend on keys further down.
 LAST = {("probe[]", "position")}
 # Keys with generators that decide themselves whether to omit the key.
-ALWAYS = {("solid[]", "fixed"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
+ALWAYS = {("solid[]", "fixed"), ("solid[]", "density"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
           ("liquid", "prescribed_velocity"), ("liquid", "density"), ("domain", "boundary"),
           *((f"solid[].{t}motion.rotate", key) for t in ("", "pinned.") for key in ("axis", "center"))}
 
@@ -162,6 +163,18 @@ def probes(c):
     return found
 
 
+def probe_joint(c, probe, joints):
+    """Gives a joint probe a joint. False if there is none."""
+    if probe["kind"] == "joint":
+        if not joints:
+            return False
+        one = c.rng.choice(joints)
+        probe["joint"] = one["name"]
+        if one["kind"] not in ("hinge", "slider", "cylindrical", "distance", "rope") and "quantity" in probe:
+            del probe["quantity"]
+    return True
+
+
 def make_scene(registry, rng: random.Random):
     """(scene, used keys and words of the registry, the Case)."""
     c = Case(registry, rng)
@@ -181,12 +194,17 @@ def make_scene(registry, rng: random.Random):
     scene["solid"] = [solid(c, center, radius) for center, radius in places]
     if not scene["solid"] and not c.prescribes and rng.random() < 0.1:
         scene["solid"] = [container(c)]
-    scene["probe"] = probes(c)
+    found = probes(c)
     mechanics = random.Random(str(scene["solid"]))   # joints leave all other choices as they were
     c.rng, usual = mechanics, c.rng
     if places and not c.periodic:
         c.radius = max(radius for _, radius in places)
         scene["joint"] = make_joints(c, scene["solid"], [center for center, _ in places])
+        if c.dim == 3 and not scene["joint"] and mechanics.random() < 0.3:
+            scene["solid"].pop()
+            scene["robot"] = make_robots(c, places[-1][0])
+    names = [None] + [s.get("name") for s in scene["solid"]]
+    scene["probe"] = [p for p in found if probe_joint(c, p, scene.get("joint")) and p.get("solid") in names]
     c.rng = usual
     for table in ("tracking", "solver", "output"):
         if rng.random() < 0.5:

@@ -98,6 +98,10 @@ def fixed_step(c, _):
 
 # --- liquid and gas --------------------------------------------------------------------------------------------------
 
+def density(c):
+    return log_uniform(c, c.density_scale * 0.01, c.density_scale * 10)
+
+
 def viscosity(c, here):
     if c.prescribes:
         return None
@@ -297,7 +301,11 @@ VALUES = {
     ("gas", "velocity"): lambda c, _: flow(c, 0.5 * c.speed),
     ("solid[]", "name"): lambda c, _: c.rng.choice(["body", "Körper", "a b", "../up", "x" * 60]) + str(len(c.bodies)),
     ("solid[]", "motion"): lambda c, _: motion(c, "solid[].motion", 0.3 * c.radius),
-    ("solid[]", "density"): lambda c, _: log_uniform(c, c.density_scale * 0.01, c.density_scale * 10),
+    ("solid[]", "density"): lambda c, here: None if "mass" in here else density(c),
+    ("solid[]", "mass"): lambda c, here: None if "density" in here else number(density(c) * c.radius ** c.dim),
+    ("solid[]", "center_of_mass"): lambda c, _: None,   # by tests/unit/scene/robots.cpp
+    ("solid[]", "inertia"): lambda c, _: None,
+    ("solid[]", "products_of_inertia"): lambda c, _: None,
     ("solid[]", "velocity"): lambda c, _: vector(c, 0.3 * c.speed),
     ("solid[]", "angular_velocity"): angular_velocity,
     ("solid[]", "fixed"): fixed,
@@ -317,6 +325,7 @@ VALUES = {
     ("solid[].material", "damping"): lambda c, _: number(c.end * c.rng.choice([0, 0.01, 0.1])),
     ("solid[].material", "mass_damping"): lambda c, _: number(c.rng.choice([0, 0.1, 1]) / c.end),
     ("solid[].pinned", "motion"): lambda c, _: motion(c, "solid[].pinned.motion", 0.1 * c.radius),
+    ("probe[]", "joint"): lambda c, _: "",   # named once the joints are made
     ("probe[]", "name"): lambda c, _: f"probe {c.rng.random()}",
     ("probe[]", "position"): probe_position,
     ("probe[]", "every"): lambda c, _: number(c.end / c.rng.uniform(1, 15)),

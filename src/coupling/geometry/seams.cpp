@@ -82,9 +82,12 @@ NodeField<Dim, char> mark_seams(const Layout<Dim>& layout, const std::vector<Bod
 }
 
 template <int Dim>
-Eigen::AlignedBox<double, Dim> placed_box(const Body<Dim>& body, const Pose& pose) {
+Eigen::AlignedBox<double, Dim> placed_box(const Body<Dim>& body, const Placement& placed) {
   Eigen::AlignedBox<double, Dim> box;
-  for (const Vec3& x : body.contact_surface().points) box.extend(truncate<Dim>(pose.apply(x)));
+  if (body.deforms())
+    for (const Vec<Dim>& x : surface_points(body.elastic(), placed.displacement)) box.extend(x);
+  else
+    for (const Vec3& x : body.contact_surface().points) box.extend(truncate<Dim>(placed.pose.apply(x)));
   return box;
 }
 
@@ -92,7 +95,7 @@ template <int Dim>
 NodeField<Dim, char> mark_shared(const Layout<Dim>& layout, const std::vector<Body<Dim>>& bodies,
                                  const SharedPairs& pairs, const std::vector<Placement>& placed) {
   NodeField<Dim, char> marked;
-  const auto box = [&](int k) { return placed_box(bodies[std::size_t(k)], placed[std::size_t(k)].pose); };
+  const auto box = [&](int k) { return placed_box(bodies[std::size_t(k)], placed[std::size_t(k)]); };
   for (const auto& [a, b] : pairs) {
     const Eigen::AlignedBox<double, Dim> both = box(a).intersection(box(b));
     if (both.isEmpty()) continue;
@@ -106,8 +109,8 @@ NodeField<Dim, char> mark_shared(const Layout<Dim>& layout, const std::vector<Bo
   template std::vector<SeamFacet<D>> find_seams<D>(const std::vector<Body<D>>&, double);   \
   template NodeField<D, char> mark_seams<D>(const Layout<D>&, const std::vector<Body<D>>&, \
                                             const std::vector<SeamFacet<D>>&, const std::vector<Placement>&);
-template Eigen::AlignedBox<double, 2> placed_box<2>(const Body<2>&, const Pose&);
-template Eigen::AlignedBox<double, 3> placed_box<3>(const Body<3>&, const Pose&);
+template Eigen::AlignedBox<double, 2> placed_box<2>(const Body<2>&, const Placement&);
+template Eigen::AlignedBox<double, 3> placed_box<3>(const Body<3>&, const Placement&);
 template NodeField<2, char> mark_shared<2>(const Layout<2>&, const std::vector<Body<2>>&, const SharedPairs&,
                                            const std::vector<Placement>&);
 template NodeField<3, char> mark_shared<3>(const Layout<3>&, const std::vector<Body<3>>&, const SharedPairs&,

@@ -26,9 +26,9 @@ NodeField<Dim, char> mark_seams(const Layout<Dim>& layout, const std::vector<Bod
 // Pairs of solids of which one may reach into the other, as jointed ones do. Each ascending.
 using SharedPairs = std::vector<std::array<int, 2>>;
 
-// Bounding box in space of a body that does not deform.
+// Bounding box in space.
 template <int Dim>
-Eigen::AlignedBox<double, Dim> placed_box(const Body<Dim>& body, const Pose& pose);
+Eigen::AlignedBox<double, Dim> placed_box(const Body<Dim>& body, const Placement& placed);
 
 // Nonzero at the low nodes of the cells where the bounding boxes of such a pair meet, and of one layer of cells around.
 // Empty field if none meet.

@@ -1,4 +1,5 @@
-// Probes: pressure and velocity at a point, surface height above it, front along x, displacement of an elastic solid.
+// Probes: pressure and velocity at a point, surface height above it, front along x, displacement of an elastic solid,
+// loads of a joint.
 #include "base/probe_spec.h"
 #include "coupling/report/measures.h"
 #include "coupling/report/pressure_beside_solids.h"
@@ -147,6 +148,15 @@ Vec3 displacement_of(const Solids<Dim>& solids, const MaterialPoint& point, cons
                                       state.solids[k].place(state.time, state.time, state.time).displacement));
 }
 
+// Shown coordinate; loads and power are means of the last step.
+template <int Dim>
+void measure_joint(const Solids<Dim>& solids, const State<Dim>& state, const ProbeSpec& probe, ProbeSample& out) {
+  const std::vector<JointReport> reports = report_joints(solids.joints, state.joints, state.solids, state.time);
+  const JointReport& joint = *std::ranges::find(reports, probe.joint, &JointReport::name);
+  out.vector = probe.quantity == JointQuantity::torque ? joint.torque : joint.force;
+  out.value = probe.quantity == JointQuantity::power ? joint.power : joint.q;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -175,6 +185,7 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const St
                           const ProbeSpec& probe) {
   ProbeSample out;
   out.name = probe.name;
+  out.is_vector = probe.is_vector();
   const Vec<Dim> x = truncate<Dim>(probe.position);
   const auto take = [&](std::optional<double> found) {
     out.defined = found.has_value();
@@ -186,7 +197,6 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const St
       if (out.defined) out.value = pressure_at(s.domain, s.solids, state, geometry, x);
       break;
     case ProbeKind::velocity:
-      out.is_vector = true;
       out.defined = is_wet(s.domain, state, geometry, x);
       out.vector = velocity_at(s.domain, s.fluids, state, x, out.defined);
       break;
@@ -197,8 +207,10 @@ ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const St
       take(front(s.domain, s.fluids, state));
       break;
     case ProbeKind::displacement:
-      out.is_vector = true;
       out.vector = displacement_of(s.solids, s.followed.at(probe.name), state, probe);
+      break;
+    case ProbeKind::joint:
+      measure_joint(s.solids, state, probe, out);
       break;
   }
   return out;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/scene.h"
+#include "coupling/solids/exposed_surface.h"
 #include "coupling/solids/face_columns.h"
 #include "coupling/solids/facet_fluxes.h"
 #include "coupling/solids/pressure_around.h"

@@ -1,9 +1,7 @@
 #include "coupling/solids/facet_fluxes.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "base/parallel_range.h"
+#include "coupling/solids/exposed_surface.h"
 #include "coupling/solids/link_graph.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
@@ -22,41 +20,13 @@ std::int64_t number_of(const Domain<Dim>& domain, const IVec<Dim>& cell) {
   return number;
 }
 
-// Offsets from a piece's cell to the cells that may act on it: none, one cell along each axis in the order of |n_a|,
-// then two cells along the first. Axes with |n_a| <= 0.2 are skipped: a facet that stands on a floor does not face the
-// cells beside it.
 template <int Dim>
-std::vector<IVec<Dim>> steps_outward(const Vec<Dim>& normal) {
-  std::array<int, Dim> axes;
-  std::iota(axes.begin(), axes.end(), 0);
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return std::abs(normal[a]) > std::abs(normal[b]); });
-  std::vector<IVec<Dim>> steps{IVec<Dim>::Zero()};
-  constexpr double least = 0.2;
-  for (const int a : axes)
-    if (std::abs(normal[a]) > least) steps.push_back((normal[a] > 0 ? 1 : -1) * IVec<Dim>::Unit(a));
-  steps.push_back(2 * steps[1]);
-  return steps;
-}
-
-// Pieces on which this rank's cells act. All ranks choose the same cell for a piece.
-template <int Dim>
-std::vector<LoadedPiece<Dim>> load_pieces(const Domain<Dim>& domain, const CellField<Dim, char>& open,
-                                          const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u) {
-  constexpr int reach = 2;  // cells from a piece to the cell that acts on it, at most
-  std::vector<LoadedPiece<Dim>> loaded;
-  const std::vector<FacetPiece<Dim>> pieces = cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach),
-                                                           solid.surface.facets, surface_points(solid, u));
-  std::vector<std::size_t> acted_on;
-  for (std::size_t n = 0; n < pieces.size(); ++n)
-    for (const IVec<Dim>& step : steps_outward<Dim>(pieces[n].normal)) {
-      const IVec<Dim> cell = pieces[n].cell + step;
-      const Site c = domain.layout.site(cell);
-      if (!open[c]) continue;
-      if (domain.layout.cells().contains(cell)) loaded.push_back({c, {}}), acted_on.push_back(n);
-      break;
-    }
+std::vector<LoadedPiece<Dim>> load_pieces(const ElasticSolid<Dim>& solid, const Eigen::VectorXd& u,
+                                          const std::vector<ExposedPiece<Dim>>& pieces) {
+  std::vector<LoadedPiece<Dim>> loaded(pieces.size());
   parallel_range(0, int(loaded.size()), [&](int i) {
-    loaded[std::size_t(i)].load = load_of_piece(solid, u, pieces[acted_on[std::size_t(i)]]);
+    const ExposedPiece<Dim>& exposed = pieces[std::size_t(i)];
+    loaded[std::size_t(i)] = {exposed.cell, load_of_piece(solid, u, exposed.piece)};
   });
   return loaded;
 }
@@ -156,21 +126,13 @@ CellFluxes balance_translations(const Domain<Dim>& domain, const ElasticSolid<Di
 }  // namespace
 
 template <int Dim>
-CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces) {
-  CellField<Dim, char> open(domain.layout);
-  for_each_site(domain.layout, domain.layout.cells(), [&](Site c) {
-    for_each_face_of(domain.layout, c, [&](int a, Site f, int, Site) { open[c] |= faces.is_unknown(a, f); });
-  });
-  domain.halo.fill_ghosts({open.data()});
-  return open;
-}
-
-template <int Dim>
 FacetFluxes<Dim> facet_fluxes(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g,
                               const CellField<Dim, char>& open, int k, const Eigen::VectorXd& u) {
   const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(k)].elastic();
   FacetFluxes<Dim> fluxes;
-  fluxes.pieces = load_pieces(domain, open, solid, u);
+  fluxes.pieces = load_pieces(solid, u,
+                              exposed_pieces(domain, open, solid.surface.facets, surface_points(solid, u),
+                                             JointedNeighbours<Dim>(domain, solids, g, k)));
   fluxes.balance = balance_translations(domain, solid, find_lacking(domain, g, open, k, fluxes.pieces));
   return fluxes;
 }
@@ -193,9 +155,7 @@ Eigen::VectorXd missing_buoyancy(const Domain<Dim>& domain, const Fluids& fluids
                                  const Eigen::VectorXd& u, const FacetFluxes<Dim>& fluxes, const Vec<Dim>& gravity) {
   const ElasticSolid<Dim>& solid = solids.bodies[std::size_t(k)].elastic();
   const auto center = [&](Site c) { return domain.layout.position(domain.layout.index(c), cell_offset<Dim>()); };
-  const auto density = [&](Site c) {
-    return !rows.has_pressure(c) ? 0 : phi[c] < 0 ? fluids.density() : fluids.gas_density();
-  };
+  const auto density = [&](Site c) { return density_beside(fluids, rows, phi, c); };
   std::vector<double> force(std::size_t(u.size()));
   for (const LoadedPiece<Dim>& p : fluxes.pieces)
     for (std::size_t i = 0; i < p.load.nodes.size(); ++i) {
@@ -214,7 +174,6 @@ Eigen::VectorXd missing_buoyancy(const Domain<Dim>& domain, const Fluids& fluids
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                         \
-  template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                \
   template FacetFluxes<D> facet_fluxes<D>(const Domain<D>&, const Solids<D>&, const StepGeometry<D>&, \
                                           const CellField<D, char>&, int, const Eigen::VectorXd&);    \
   template CellFluxes entries_of<D>(const Domain<D>&, const FacetFluxes<D>&);                         \

@@ -8,8 +8,7 @@
 
 namespace seiche {
 
-// A piece of a body's surface and the cell whose pressure acts on it: the cell that contains it. If that has no open
-// face, the next open cell along the normal acts on it.
+// A piece of a body's surface and the cell whose pressure acts on it (ExposedPiece).
 template <int Dim>
 struct LoadedPiece {
   Site cell;
@@ -28,10 +27,6 @@ struct FacetFluxes {
   std::vector<LoadedPiece<Dim>> pieces;
   CellFluxes balance;  // D
 };
-
-// Flags of cells with a face whose velocity is an unknown, ghosts filled. Collective.
-template <int Dim>
-CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces);
 
 // Facet fluxes of body k at nodal displacements u. `open`: open_cells(). Collective.
 template <int Dim>

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "coupling/solids/joints.h"
+#include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/kind_rigid.h"
 #include "coupling/solids/rigid_coupling.h"
 #include "linalg/core/body_matrix.h"
@@ -13,30 +14,33 @@ namespace {
 constexpr double all_closed = 1e-11;  // of the size of a joint's body: below the tolerance of the solve
 constexpr int most_turns = 30;
 
-// The rigid bodies, their masses, and which of their motions are free.
+// The bodies that move, their masses, and which of their motions are free. Of elastic solids the nodes move, each with
+// its lumped mass.
 template <int Dim>
 class JointedMasses {
  public:
-  explicit JointedMasses(const Participants<Dim>& solids) {
-    for (std::size_t k = 0; k < solids.size(); ++k)
-      if (const RigidState* r = solids[k].rigid()) {
-        const RigidSpec& spec = solids[k].body().spec().rigid;
-        const auto held = stacked<Dim>(as_numbers(spec.fixed_position), as_numbers(spec.fixed_rotation));
-        for (int i = 0; i < twist_size<Dim>; ++i) held_.push_back(held[i] != 0);
-        add_mass(solids[k].body().mass().mass, world_inertia(solids[k].body(), *r), int(bodies_.size()));
-        bodies_.push_back(int(k));
-      }
+  JointedMasses(const JointSet<Dim>& joints, const Participants<Dim>& solids) : first_(solids.size(), -1) {
+    for (std::size_t k = 0; k < solids.size(); ++k) {
+      if (!solids[k].rigid() && !holds_patch_of(joints, int(k))) continue;
+      first_[k] = size();
+      bodies_.push_back(int(k));
+      if (const RigidState* r = solids[k].rigid())
+        add_rigid(solids[k].body(), *r);
+      else
+        add_nodes(solids[k].body().elastic().body.lumped_mass);
+    }
   }
 
   const std::vector<int>& bodies() const { return bodies_; }
-  int size() const { return int(bodies_.size()) * twist_size<Dim>; }
+  int first(int solid) const { return first_[std::size_t(solid)]; }
+  int size() const { return int(held_.size()); }
 
   // Least displacements by which the rows' values change by `change`.
-  Eigen::VectorXd displacements(const std::vector<PlacedRow>& rows, const Eigen::VectorXd& change,
-                                const Communicator& ranks) const {
+  Eigen::VectorXd displacements(const std::vector<PlacedRow>& rows, const JointedBodies& bodies,
+                                const Eigen::VectorXd& change, const Communicator& ranks) const {
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const auto& [solid, part] : rows[i].parts) add_part(int(i), solid, part, entries);
+      for (const auto& [k, part] : rows[i].parts) add_part(int(i), bodies[std::size_t(k)], part, entries);
     SparseMatrix C(Eigen::Index(rows.size()), size()), M(size(), size());
     C.setFromTriplets(entries.begin(), entries.end());
     M.setFromTriplets(mass_.begin(), mass_.end());
@@ -50,36 +54,51 @@ class JointedMasses {
     return {double(flags[0]), double(flags[1]), double(flags[2])};
   }
 
-  bool is_held(int body, int i) const { return held_[std::size_t(body * twist_size<Dim> + i)] != 0; }
+  static bool holds_patch_of(const JointSet<Dim>& joints, int solid) {
+    return std::any_of(joints.patches.begin(), joints.patches.end(), [&](const auto& p) { return p.solid == solid; });
+  }
 
-  void add_mass(double mass, const Eigen::Matrix3d& inertia, int body) {
-    const int first = body * twist_size<Dim>;
+  void add_nodes(const Eigen::VectorXd& mass) {
+    for (Eigen::Index i = 0; i < mass.size(); ++i) mass_.emplace_back(size(), size(), mass[i]), held_.push_back(0);
+  }
+
+  void add_rigid(const Body<Dim>& body, const RigidState& r) {
+    const int first = size();
+    const RigidSpec& spec = body.spec().rigid;
+    const auto held = stacked<Dim>(as_numbers(spec.fixed_position), as_numbers(spec.fixed_rotation));
+    for (int i = 0; i < twist_size<Dim>; ++i) held_.push_back(held[i] != 0);
+    const double mass = body.mass().mass;
+    const Eigen::Matrix3d inertia = world_inertia(body, r);
     for (int i = 0; i < Dim; ++i) mass_.emplace_back(first + i, first + i, mass);
     if constexpr (Dim == 2) mass_.emplace_back(first + 2, first + 2, inertia(2, 2));
     for (int i = 0; i < 3 && Dim == 3; ++i)
       for (int j = 0; j < 3; ++j) mass_.emplace_back(first + 3 + i, first + 3 + j, inertia(i, j));
   }
 
-  void add_part(int row, int solid, const PlacedRow::Rate& part, std::vector<Eigen::Triplet<double>>& entries) const {
-    const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), solid);
-    if (found == bodies_.end() || *found != solid) return;
-    const int body = int(found - bodies_.begin());
-    const auto own = stacked<Dim>(part.template head<3>(), part.template tail<3>());
-    for (int i = 0; i < twist_size<Dim>; ++i)
-      if (own[i] != 0 && !is_held(body, i)) entries.emplace_back(row, body * twist_size<Dim> + i, own[i]);
+  void add_part(int row, const PlacedBody& body, const PlacedRow::Rate& part,
+                std::vector<Eigen::Triplet<double>>& entries) const {
+    for (const auto& [i, rate] : body.rates) {
+      const int unknown = first(body.solid) + i;
+      const double own = part.dot(rate);
+      if (own != 0 && !held_[std::size_t(unknown)]) entries.emplace_back(row, unknown, own);
+    }
   }
 
-  std::vector<int> bodies_;
+  std::vector<int> bodies_, first_;  // first displacement of each solid; -1: it has none
   std::vector<char> held_;
   std::vector<Eigen::Triplet<double>> mass_;
 };
 
-// Rigid bodies in trial places.
+// Bodies in trial places.
 template <int Dim>
 void displace(const JointedMasses<Dim>& masses, const Eigen::VectorXd& way, Participants<Dim>& solids) {
-  for (std::size_t b = 0; b < masses.bodies().size(); ++b) {
-    RigidParticipant<Dim>& rigid = *rigid_participant(solids[std::size_t(masses.bodies()[b])]);
-    const Twist part = unstacked<Dim>(way, int(b) * twist_size<Dim>, Vec3::Zero());
+  for (const int k : masses.bodies()) {
+    if (ElasticMotion* elastic = elastic_motion(solids[std::size_t(k)])) {
+      elastic->state.u += way.segment(masses.first(k), elastic->state.u.size());
+      continue;
+    }
+    RigidParticipant<Dim>& rigid = *rigid_participant(solids[std::size_t(k)]);
+    const Twist part = unstacked<Dim>(way, masses.first(k), Vec3::Zero());
     rigid.set_state(displaced(rigid.state(), part.linear, part.angular));
   }
 }
@@ -108,10 +127,12 @@ std::vector<int> open_joints(const JointSet<Dim>& joints, const std::vector<Plac
   return open;
 }
 
-// Shown places as shifts from the straight way.
+// Shown places of rigid bodies as shifts from the straight way. Elastic solids end their steps where they are solved
+// for.
 template <int Dim>
 void set_shown(const Participants<Dim>& on_way, const std::vector<int>& bodies, Participants<Dim>& solids) {
   for (const int k : bodies) {
+    if (!solids[std::size_t(k)].rigid()) continue;
     RigidState shown = *solids[std::size_t(k)].rigid();
     const RigidState& moving = *on_way[std::size_t(k)].rigid();
     shown.shown_shift = shown.center - moving.center;
@@ -128,17 +149,17 @@ std::string close_joints(const JointSet<Dim>& joints, const Communicator& ranks,
                          State<Dim>& state) {
   constexpr double good_enough = 1e-9;
   Participants<Dim> solids = state.solids;
-  const JointedMasses<Dim> masses(solids);
+  const JointedMasses<Dim> masses(joints, solids);
   std::vector<double> near;
   for (const JointState& joint : state.joints) near.push_back(joint.shown_q);
   std::vector<PlacedRow> rows;
   bool moved = false;
   for (int turn = 0; turn < most_turns; ++turn) {
-    const JointedBodies bodies = jointed_bodies(solids, time);
+    const JointedBodies bodies = jointed_bodies(joints, solids, time);
     near = coordinates(joints, bodies, near);
     rows = constraints_of(joints, state.joints, bodies, near, time);
     if (open_joints(joints, rows, all_closed).empty()) break;
-    displace(masses, masses.displacements(rows, -values_of(rows), ranks), solids);
+    displace(masses, masses.displacements(rows, bodies, -values_of(rows), ranks), solids);
     moved = true;
   }
   for (std::size_t j = 0; j < near.size(); ++j) (shown ? state.joints[j].shown_q : state.joints[j].q) = near[j];

@@ -19,7 +19,7 @@ struct ForceTask {
   const JointSet<Dim>& joints;
   const CoupledStep<Dim>& step;
   const SolidCoupling<Dim>& coupling;
-  JointedBodies bodies;                        // where the solve stands
+  const JointedBodies& bodies;                 // where the solve stands
   std::vector<PlacedRow::Rate> known, before;  // rates of prescribed solids; of all before the solve
   double time;                                 // of the solve, s
 };
@@ -28,17 +28,19 @@ template <int Dim>
 ForceTask<Dim> make_task(const JointSet<Dim>& joints, const CoupledStep<Dim>& step, const SolidCoupling<Dim>& c) {
   const State<Dim>& state = step.state;
   const double time = state.time - state.since_solve;
-  const std::vector<PlacedRow::Rate> known = prescribed_rates(state.solids, time, step.horizon);
-  ForceTask<Dim> task{joints, step, c, jointed_bodies(state.solids, time), known, known, time};
-  for (std::size_t k = 0; k < state.solids.size(); ++k)
-    if (const RigidState* r = state.solids[k].rigid()) task.before[k] << r->velocity, r->angular_velocity;
+  const std::vector<PlacedRow::Rate> known = prescribed_rates(joints, state.solids, time, step.horizon);
+  ForceTask<Dim> task{joints, step, c, c.joints->bodies(), known, known, time};
+  const auto found = rates_of(c, task.bodies, c.joints->velocity_in_state());
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (!task.bodies[k].rates.empty()) task.before[k] = found[k];
   return task;
 }
 
 template <int Dim>
-std::vector<std::pair<int, double>> columns_of(const PlacedRow& row, const SolidCoupling<Dim>& c) {
+std::vector<std::pair<int, double>> columns_of(const PlacedRow& row, const JointedBodies& bodies,
+                                               const SolidCoupling<Dim>& c) {
   std::vector<Eigen::Triplet<double>> entries;
-  append_row(row, 0, c, entries);
+  append_row(row, 0, bodies, c, entries);
   std::vector<std::pair<int, double>> columns;
   for (const auto& entry : entries) columns.emplace_back(entry.col(), entry.value());
   return columns;
@@ -61,7 +63,7 @@ JointForce force_on(const ForceTask<Dim>& task, int j, JointForce::Kind kind) {
   f.joint = j;
   f.on_first = part;
   f.point = task.bodies[std::size_t(first)].about;
-  f.row = columns_of(row, task.coupling);
+  f.row = columns_of(row, task.bodies, task.coupling);
   f.known = row.rate(task.known);
   f.before = row.rate(task.before);
   return f;
@@ -162,7 +164,8 @@ template <int Dim>
 LimitBarrier barrier_of(const ForceTask<Dim>& task, const ContactOptions& options) {
   double heaviest = 0;
   for (std::size_t k = 0; k < task.step.state.solids.size(); ++k)
-    if (task.step.state.solids[k].rigid()) heaviest = std::max(heaviest, task.step.state.solids[k].body().mass().mass);
+    if (task.step.state.solids[k].unknowns() > 0)
+      heaviest = std::max(heaviest, task.step.state.solids[k].body().mass().mass);
   return {options.reach, contact::stiffness_for(heaviest * options.acceleration, options.reach), task.step.dt,
           task.step.horizon};
 }

@@ -12,6 +12,12 @@ namespace {
 // Share of the size of a joint's body (1: a metre where it has none) within which a joint counts as closed.
 constexpr double closed_share = 1e-10;
 
+template <int Dim>
+int first_unknown(const SolidCoupling<Dim>& coupling, int solid) {
+  const auto found = std::lower_bound(coupling.bodies.begin(), coupling.bodies.end(), solid);
+  return coupling.first[std::size_t(found - coupling.bodies.begin())];
+}
+
 double gap_tolerance(const Joint& joint) {
   return closed_share * (joint.size > 0 ? joint.size : 1);
 }
@@ -19,14 +25,15 @@ double gap_tolerance(const Joint& joint) {
 }  // namespace
 
 template <int Dim>
-JointMotion<Dim>::JointMotion(const JointSet<Dim>& joints, std::vector<PlacedRow> rows, const CoupledStep<Dim>& step,
+JointMotion<Dim>::JointMotion(const JointSet<Dim>& joints, const CoupledStep<Dim>& step,
                               const SolidCoupling<Dim>& coupling)
-    : joints_(joints),
-      rows_(std::move(rows)),
-      state_(step.state),
-      coupling_(coupling),
-      dt_(step.dt),
-      horizon_(step.horizon) {
+    : joints_(joints), state_(step.state), coupling_(coupling), dt_(step.dt), horizon_(step.horizon) {
+  const double time = state_.time - state_.since_solve;
+  std::vector<double> near;
+  for (const JointState& joint : state_.joints) near.push_back(joint.q);
+  bodies_ = jointed_bodies(joints, state_.solids, time);
+  rows_ = constraints_of(joints, state_.joints, bodies_, near, time);
+  if (!joints.patches.empty()) lead_patches(near);
   rate.setZero(Eigen::Index(rows_.size()));
   impulse.setZero(rate.size());
   left.setZero(rate.size());
@@ -38,11 +45,23 @@ JointMotion<Dim>::JointMotion(const JointSet<Dim>& joints, std::vector<PlacedRow
                              ((rows_[i].size > 0 ? rows_[i].size : 1) * horizon_);
 }
 
-// A leapfrog step goes on by its second half, and the next one begins with a half.
+template <int Dim>
+void JointMotion<Dim>::lead_patches(const std::vector<double>& near) {
+  JointedBodies after = bodies_after(velocity_in_state());
+  const std::vector<PlacedRow> rows =
+      constraints_of(joints_, state_.joints, after, near, state_.time - state_.since_solve + horizon_);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t n = 0; n < rows[i].parts.size(); ++n)
+      if (rows[i].parts[n].first > joints_.solids) rows_[i].parts[n].second = rows[i].parts[n].second;
+  for (std::size_t k = std::size_t(joints_.solids) + 1; k < after.size(); ++k)
+    bodies_[k].rates = std::move(after[k].rates);
+}
+
+// A leapfrog step goes on by its second half, and the next one begins with a half. Elastic solids have none.
 template <int Dim>
 JointedBodies JointMotion<Dim>::bodies_after(const Eigen::VectorXd& v) const {
   const double half = state_.since_solve, after = state_.time - half + horizon_;
-  JointedBodies bodies = jointed_bodies(state_.solids, after);
+  JointedBodies bodies = jointed_bodies(joints_, state_.solids, after);
   for (std::size_t b = 0; b < coupling_.bodies.size(); ++b) {
     const auto k = std::size_t(coupling_.bodies[b]);
     const RigidState* r = state_.solids[k].rigid();
@@ -53,20 +72,26 @@ JointedBodies JointMotion<Dim>::bodies_after(const Eigen::VectorXd& v) const {
     RigidState moved = led_by(body, *r, now, free, horizon_);
     if (half > 0) moved = gone_on(body, moved, moved, half);
     moved = advance(body, moved, horizon_ - half);
-    bodies[k] = {rigid_pose(body, moved), moved.center};
+    bodies[k].pose = rigid_pose(body, moved);
+    bodies[k].about = moved.center;
+  }
+  for (std::size_t n = 0; n < joints_.patches.size(); ++n) {
+    const HeldPatch<Dim>& held = joints_.patches[n];
+    const Eigen::VectorXd u = state_.solids[std::size_t(held.solid)].place(after, after, after).displacement;
+    const int first = first_unknown(coupling_, held.solid);
+    bodies[state_.solids.size() + 1 + n] = placed_patch<Dim>(held, u + horizon_ * v.segment(first, u.size()));
   }
   return bodies;
 }
 
 template <int Dim>
 Eigen::VectorXd JointMotion<Dim>::gaps(const Eigen::VectorXd& v) const {
-  const std::vector<PlacedRow::Rate> rates = rates_of(coupling_, state_.solids, v);
+  const std::vector<PlacedRow::Rate> rates = rates_of(coupling_, bodies_, v);
   std::vector<double> near;
   for (std::size_t j = 0; j < joints_.list.size(); ++j) near.push_back(state_.joints[j].q);
-  const JointedBodies now = jointed_bodies(state_.solids, state_.time - state_.since_solve);
   for (int j = 0; j < int(near.size()); ++j)
     if (has_coordinate(joints_, j))
-      near[std::size_t(j)] += horizon_ * coordinate_of_joint(joints_, j, now, near[std::size_t(j)]).rate(rates);
+      near[std::size_t(j)] += horizon_ * coordinate_of_joint(joints_, j, bodies_, near[std::size_t(j)]).rate(rates);
   const auto after =
       constraints_of(joints_, state_.joints, bodies_after(v), near, state_.time - state_.since_solve + horizon_);
   Eigen::VectorXd c(Eigen::Index(after.size()));
@@ -117,8 +142,9 @@ std::string JointMotion<Dim>::names_of_open(const Eigen::VectorXd& gaps) const {
 }
 
 template <int Dim>
-std::vector<PlacedRow::Rate> prescribed_rates(const Participants<Dim>& solids, double time, double span) {
-  std::vector<PlacedRow::Rate> rates(solids.size() + 1, PlacedRow::Rate::Zero());
+std::vector<PlacedRow::Rate> prescribed_rates(const JointSet<Dim>& joints, const Participants<Dim>& solids, double time,
+                                              double span) {
+  std::vector<PlacedRow::Rate> rates(solids.size() + 1 + joints.patches.size(), PlacedRow::Rate::Zero());
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (!solids[k].body().is_prescribed()) continue;
     const Twist twist = solids[k].place(time, time + span, time).twist;
@@ -128,36 +154,38 @@ std::vector<PlacedRow::Rate> prescribed_rates(const Participants<Dim>& solids, d
 }
 
 template <int Dim>
-std::vector<PlacedRow::Rate> rates_of(const SolidCoupling<Dim>& coupling, const Participants<Dim>& solids,
+std::vector<PlacedRow::Rate> rates_of(const SolidCoupling<Dim>& coupling, const JointedBodies& bodies,
                                       const Eigen::VectorXd& v) {
-  std::vector<PlacedRow::Rate> rates(solids.size() + 1, PlacedRow::Rate::Zero());
-  for (std::size_t b = 0; b < coupling.bodies.size(); ++b) {
-    if (!solids[std::size_t(coupling.bodies[b])].rigid()) continue;
-    const Twist twist = unstacked<Dim>(v, coupling.first[b], Vec3::Zero());
-    rates[std::size_t(coupling.bodies[b])] << twist.linear, twist.angular;
+  std::vector<PlacedRow::Rate> rates(bodies.size(), PlacedRow::Rate::Zero());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (bodies[k].rates.empty()) continue;
+    const int first = first_unknown(coupling, bodies[k].solid);
+    for (const auto& [i, rate] : bodies[k].rates) rates[k] += v[first + i] * rate;
   }
   return rates;
 }
 
 template <int Dim>
-void append_row(const PlacedRow& row, int number, const SolidCoupling<Dim>& coupling,
+void append_row(const PlacedRow& row, int number, const JointedBodies& bodies, const SolidCoupling<Dim>& coupling,
                 std::vector<Eigen::Triplet<double>>& entries) {
-  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
-    for (const auto& [solid, part] : row.parts) {
-      if (solid != coupling.bodies[b]) continue;
-      const int first = coupling.first[b];
-      const auto own = stacked<Dim>(part.template head<3>(), part.template tail<3>());
-      for (int i = 0; i < twist_size<Dim>; ++i)
-        if (own[i] != 0 && !coupling.is_held(first + i)) entries.emplace_back(number, first + i, own[i]);
-    }
+  for (const auto& [k, part] : row.parts) {
+    const PlacedBody& body = bodies[std::size_t(k)];
+    if (body.rates.empty()) continue;
+    const int first = first_unknown(coupling, body.solid);
+    for (const auto& [i, rate] : body.rates)
+      if (const double own = part.dot(rate); own != 0 && !coupling.is_held(first + i))
+        entries.emplace_back(number, first + i, own);
+  }
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                        \
-  template std::vector<PlacedRow::Rate> prescribed_rates<D>(const Participants<D>&, double, double); \
-  template class JointMotion<D>;                                                                     \
-  template std::vector<PlacedRow::Rate> rates_of<D>(const SolidCoupling<D>&, const Participants<D>&, \
-                                                    const Eigen::VectorXd&);                         \
-  template void append_row<D>(const PlacedRow&, int, const SolidCoupling<D>&, std::vector<Eigen::Triplet<double>>&);
+#define SEICHE_INSTANTIATE(D)                                                                                   \
+  template std::vector<PlacedRow::Rate> prescribed_rates<D>(const JointSet<D>&, const Participants<D>&, double, \
+                                                            double);                                            \
+  template class JointMotion<D>;                                                                                \
+  template std::vector<PlacedRow::Rate> rates_of<D>(const SolidCoupling<D>&, const JointedBodies&,              \
+                                                    const Eigen::VectorXd&);                                    \
+  template void append_row<D>(const PlacedRow&, int, const JointedBodies&, const SolidCoupling<D>&,             \
+                              std::vector<Eigen::Triplet<double>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

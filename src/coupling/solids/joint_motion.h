@@ -9,14 +9,13 @@ namespace seiche {
 // C stays during a solve (SolidCoupling::J.constraints); `rate` does not: c(x + H v) = 0 is found in turns, by
 //   rate <- rate - c(x + H v)/H.
 // Impulses act along C of the start of the interval, where both sides of a joint are one point. So momenta are kept,
-// and energy as by the leapfrog (SHAKE: Ryckaert, Ciccotti, Berendsen 1977).
+// and energy as by the leapfrog (SHAKE: Ryckaert, Ciccotti, Berendsen 1977). Elastic solids feel all forces at the end
+// of the interval, so impulses on their patches act along C where these will be by the velocities of the last solve.
 template <int Dim>
 class JointMotion {
  public:
-  // `rows`: constraints where the solids are in the solve. Keeps copies of the rigid bodies, and references to the rest
-  // of `step` and to `coupling`.
-  JointMotion(const JointSet<Dim>& joints, std::vector<PlacedRow> rows, const CoupledStep<Dim>& step,
-              const SolidCoupling<Dim>& coupling);
+  // Keeps references to the state of `step` and to `coupling`.
+  JointMotion(const JointSet<Dim>& joints, const CoupledStep<Dim>& step, const SolidCoupling<Dim>& coupling);
 
   Eigen::VectorXd rate;            // b: m/s, rad/s
   Eigen::VectorXd impulse;         // multipliers of the last solve, N s and N m s
@@ -29,6 +28,7 @@ class JointMotion {
 
   // Velocities of the unknowns as the state has them: before the solve, then those found.
   Eigen::VectorXd velocity_in_state() const;
+  const JointedBodies& bodies() const { return bodies_; }
   const std::vector<PlacedRow>& rows() const { return rows_; }
   double horizon() const { return horizon_; }
   double dt() const { return dt_; }
@@ -42,26 +42,29 @@ class JointMotion {
 
  private:
   JointedBodies bodies_after(const Eigen::VectorXd& v) const;
+  void lead_patches(const std::vector<double>& near);
 
   const JointSet<Dim>& joints_;
+  JointedBodies bodies_;
   std::vector<PlacedRow> rows_;
   const State<Dim>& state_;
   const SolidCoupling<Dim>& coupling_;
   double dt_, horizon_;
 };
 
-// Rates (v, w) of all solids and the world: of rigid ones from the stacked unknowns, zero for others.
+// Rates (v, w) of the bodies by the stacked unknowns; zero for prescribed ones.
 template <int Dim>
-std::vector<PlacedRow::Rate> rates_of(const SolidCoupling<Dim>& coupling, const Participants<Dim>& solids,
+std::vector<PlacedRow::Rate> rates_of(const SolidCoupling<Dim>& coupling, const JointedBodies& bodies,
                                       const Eigen::VectorXd& v);
 
-// Mean rates of prescribed solids from `time` over `span` (s), zero for others.
+// Mean rates of the bodies that are prescribed solids from `time` over `span` (s), zero for others.
 template <int Dim>
-std::vector<PlacedRow::Rate> prescribed_rates(const Participants<Dim>& solids, double time, double span);
+std::vector<PlacedRow::Rate> prescribed_rates(const JointSet<Dim>& joints, const Participants<Dim>& solids, double time,
+                                              double span);
 
 // The row as a vector over the unknowns; fixed ones left out. Appends its entries.
 template <int Dim>
-void append_row(const PlacedRow& row, int number, const SolidCoupling<Dim>& coupling,
+void append_row(const PlacedRow& row, int number, const JointedBodies& bodies, const SolidCoupling<Dim>& coupling,
                 std::vector<Eigen::Triplet<double>>& entries);
 
 }  // namespace seiche

@@ -18,13 +18,12 @@ class JointInteraction : public Interaction<Dim> {
     SolidCoupling<Dim>& c = parts.coupling;
     const State<Dim>& state = step.state;
     const double time = state.time - state.since_solve;
-    std::vector<PlacedRow> rows =
-        constraints_of(joints_, state.joints, jointed_bodies(state.solids, time), coordinates(state), time);
+    c.joints = std::make_shared<JointMotion<Dim>>(joints_, step, c);
+    const std::vector<PlacedRow>& rows = c.joints->rows();
     std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t i = 0; i < rows.size(); ++i) append_row(rows[i], int(i), c, entries);
+    for (std::size_t i = 0; i < rows.size(); ++i) append_row(rows[i], int(i), c.joints->bodies(), c, entries);
     c.J.constraints.resize(Eigen::Index(rows.size()), c.size());
     c.J.constraints.setFromTriplets(entries.begin(), entries.end());
-    c.joints = std::make_shared<JointMotion<Dim>>(joints_, std::move(rows), step, c);
     set_given(step, time, *c.joints);
     guess_rates(state, *c.joints);
   }
@@ -37,15 +36,14 @@ class JointInteraction : public Interaction<Dim> {
   void take(const SolidCoupling<Dim>& c, State<Dim>& state) const override {
     const JointMotion<Dim>& motion = *c.joints;
     const Eigen::VectorXd v = motion.velocity_in_state();
-    const double time = state.time - state.since_solve;
-    const JointedBodies bodies = jointed_bodies(state.solids, time);
-    const auto rates = rates_of(c, state.solids, v);
+    const JointedBodies& bodies = motion.bodies();
+    const auto rates = rates_of(c, bodies, v);
     for (int j = 0; j < int(joints_.list.size()); ++j) {
       JointState& joint = state.joints[std::size_t(j)];
       joint.force = joint.torque = Vec3::Zero();
       joint.power = joint.gap = 0;
       joint.bend.resize(0);
-      joint.point = point_of(j, bodies);
+      joint.point = point_of_joint(joints_, j, bodies);
       if (has_coordinate(joints_, j)) joint.rate = coordinate_of_joint(joints_, j, bodies, joint.q).rate(rates);
     }
     for (std::size_t i = 0; i < motion.rows().size(); ++i) add_reaction(motion, i, bodies, state);
@@ -85,19 +83,6 @@ class JointInteraction : public Interaction<Dim> {
   }
 
  private:
-  static std::vector<double> coordinates(const State<Dim>& state) {
-    std::vector<double> q;
-    for (const JointState& joint : state.joints) q.push_back(joint.q);
-    return q;
-  }
-
-  // A gear has that of its first joint.
-  Vec3 point_of(int j, const JointedBodies& bodies) const {
-    const Joint& joint = joints_.list[std::size_t(j)];
-    if (joint.spec.kind == JointKind::gear) return point_of(joint.first, bodies);
-    return bodies[std::size_t(joint.second)].pose.apply(joint.frames.second.anchor);
-  }
-
   void guess_rates(const State<Dim>& state, JointMotion<Dim>& motion) const {
     std::vector<Eigen::Index> next(state.joints.size(), 0);
     for (std::size_t i = 0; i < motion.rows().size(); ++i) {
@@ -109,7 +94,7 @@ class JointInteraction : public Interaction<Dim> {
 
   // Sets the mean rate of each row's drive, less the part of prescribed solids.
   void set_given(const CoupledStep<Dim>& step, double time, JointMotion<Dim>& motion) const {
-    std::vector<PlacedRow::Rate> rates = prescribed_rates(step.state.solids, time, step.horizon);
+    std::vector<PlacedRow::Rate> rates = prescribed_rates(joints_, step.state.solids, time, step.horizon);
     for (std::size_t i = 0; i < motion.rows().size(); ++i) {
       const PlacedRow& row = motion.rows()[i];
       motion.given[Eigen::Index(i)] = -row.rate(rates);

@@ -9,9 +9,9 @@ namespace seiche {
 template <int Dim>
 std::unique_ptr<const Interaction<Dim>> make_joint_interaction(const JointSet<Dim>& joints);
 
-// Displaces the rigid bodies as little as possible, weighted by mass, until all joints are closed at `time`: momenta
-// and the centres of mass of free groups stay. Sets the bodies' shown shift if `shown`, else their places; sets the
-// coordinates of the joints. Returns the names of joints that do not close, or "".
+// Displaces the bodies as little as possible, weighted by mass, until all joints are closed at `time`: momenta
+// and the centres of mass of free groups stay. Sets the rigid bodies' shown shift if `shown`, else their places; sets
+// the coordinates of the joints. Returns the names of joints that do not close, or "".
 template <int Dim>
 std::string close_joints(const JointSet<Dim>& joints, const Communicator& ranks, double time, bool shown,
                          State<Dim>& state);

@@ -4,9 +4,12 @@
 
 #include "base/domain_spec.h"
 #include "base/scene.h"
+#include "coupling/solids/coupled_step.h"
+#include "coupling/solids/exposed_surface.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "fluid/boundary/domain.h"
+#include "geometry/mesh/facets.h"
 #include "linalg/core/matrix_entries.h"
 
 namespace seiche {
@@ -21,6 +24,7 @@ struct Sums {
   Vec<Dim> volume = Vec<Dim>::Zero();                    // sum_f s A h over the faces of each axis
   std::array<Vec3, Dim> moment;                          // sum_f s A h (x_f - X), X the centre of mass
   double wet = 0, surface = 0;                           // |net area| of wet cells, by density, and of all cells
+  Generalised<Dim> missing = Generalised<Dim>::Zero();   // missing_load(), of bodies that others reach into
   std::vector<std::pair<Site, Generalised<Dim>>> cells;  // net area and moment of each cell, by site
   Sums() { moment.fill(Vec3::Zero()); }
 };
@@ -103,6 +107,7 @@ template <int Dim>
 void append(const Sums<Dim>& s, std::vector<double>& all) {
   for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
   all.insert(all.end(), {s.wet, s.surface});
+  all.insert(all.end(), s.missing.begin(), s.missing.end());
 }
 
 template <int Dim>
@@ -110,17 +115,74 @@ Sums<Dim> read_sums(const double* next) {
   Sums<Dim> s;
   for (int a = 0; a < Dim; ++a, next += 4) s.volume[a] = next[0], s.moment[a] = Vec3(next[1], next[2], next[3]);
   s.wet = next[0], s.surface = next[1];
+  s.missing = Eigen::Map<const Generalised<Dim>>(next + 2);
   return s;
 }
 
 // True if another solid may reach into body k, whose face shares then are those of a part of it.
 template <int Dim>
 bool shares_its_volume(const Solids<Dim>& solids, const std::vector<Placement>& placed, int k) {
-  const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], placed[std::size_t(n)].pose); };
+  const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], placed[std::size_t(n)]); };
   const SharedPairs pairs = solids.joints.pairs_apart();
   return std::any_of(pairs.begin(), pairs.end(), [&](const std::array<int, 2>& pair) {
     return (pair[0] == k || pair[1] == k) && box(pair[0]).intersects(box(pair[1]));
   });
+}
+
+// Area with its normal, and middle, of a piece.
+template <int Dim>
+struct PieceArea {
+  Vec<Dim> area = Vec<Dim>::Zero(), middle = Vec<Dim>::Zero();
+};
+
+template <int Dim>
+PieceArea<Dim> area_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points) {
+  const auto& facet = facets_of<Dim>(surface)[std::size_t(piece.facet)];
+  std::vector<Vec<Dim>> corners;
+  for (const FacetWeights<Dim>& weights : piece.outline) {
+    corners.push_back(Vec<Dim>::Zero());
+    for (int n = 0; n < Dim; ++n) corners.back() += weights[n] * points[std::size_t(facet[std::size_t(n)])];
+  }
+  if constexpr (Dim == 2)
+    return {(corners[1] - corners[0]).norm() * piece.normal, 0.5 * (corners[0] + corners[1])};
+  else {
+    PieceArea<Dim> sum;
+    double total = 0;
+    for (std::size_t n = 2; n < corners.size(); ++n) {
+      const double area = 0.5 * (corners[n - 1] - corners[0]).cross(corners[n] - corners[0]).norm();
+      sum.middle += area / 3 * (corners[0] + corners[n - 1] + corners[n]);
+      total += area;
+    }
+    if (total > 0) sum.middle /= total;
+    sum.area = total * piece.normal;
+    return sum;
+  }
+}
+
+// The load -rho int g.(x - x_c) n dA over the pieces of the surface that no other solid covers, and its moment about X:
+// liquid at rest exerts it beyond J'p, which takes the pressure of the centre x_c of the cell that acts on a piece.
+// This rank's part.
+template <int Dim>
+Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
+                              const CellField<Dim, char>& open) {
+  const Domain<Dim>& domain = step.setup.domain;
+  const Fluids& fluids = step.setup.fluids;
+  const Vec3 gravity = fluids.gravity.of_step(step.state.time, step.dt);
+  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
+  std::vector<Vec<Dim>> points;
+  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  for (const ExposedPiece<Dim>& exposed :
+       exposed_pieces(domain, open, body.contact_surface(), points,
+                      JointedNeighbours<Dim>(domain, step.setup.solids, step.geometry, k))) {
+    const PieceArea<Dim> piece = area_of(exposed.piece, body.contact_surface(), points);
+    const Vec<Dim> from = domain.layout.position(domain.layout.index(exposed.cell), cell_offset<Dim>());
+    const double density = density_beside(fluids, step.rows, step.state.phi, exposed.cell);
+    const Vec3 load = -density * gravity.dot(extend<Dim>(Vec<Dim>(piece.middle - from))) * extend<Dim>(piece.area);
+    force += load;
+    torque += (extend<Dim>(piece.middle) - center).cross(load);
+  }
+  return stacked<Dim>(force, torque);
 }
 
 template <int Dim>
@@ -135,12 +197,13 @@ bool lies_within(const DomainSpec& d, const Body<Dim>& body, const Pose& pose) {
 }
 
 // Pressure rho g.x + const on the face shares gives the force -rho g_a V_a along each axis and the torque
-// -rho sum_a g_a m_a x e_a. On the body itself it gives -rho g V and no torque. The difference, times the wet part of
-// the surface.
+// -rho sum_a g_a m_a x e_a. On the body itself it gives -rho g V at the centre of the volume, `arm` from that of mass.
+// The difference, times the wet part of the surface.
 template <int Dim>
-Generalised<Dim> buoyancy_difference(const Sums<Dim>& sums, double volume, const Vec3& weight_of_liquid) {
+Generalised<Dim> buoyancy_difference(const Sums<Dim>& sums, double volume, const Vec3& arm,
+                                     const Vec3& weight_of_liquid) {
   const double wet = sums.surface > 0 ? sums.wet / sums.surface : 0;
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  Vec3 force = Vec3::Zero(), torque = -volume * arm.cross(weight_of_liquid);
   for (int a = 0; a < Dim; ++a) {
     const double weight = weight_of_liquid[a];  // rho g_a
     Vec3 e = Vec3::Zero();
@@ -200,6 +263,11 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   for (int i = 0; i < n; ++i) c.freedom[std::size_t(first + i)] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
   Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
   c.J.blocks[std::size_t(block)] = make_block(s.domain, s.fluids, step.state.phi, step.rows, mask, sums);
+  const int k = c.bodies[std::size_t(block)];
+  if (shares_its_volume(s.solids, step.geometry.placed, k)) {
+    if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
+    sums.missing = missing_load(step, body, k, r.center, *parts.open);
+  }
   append(sums, parts.sums);
   add_mass<Dim>(s.perturbation.rigid_mass * mass_block<Dim>(body.mass().mass, world_inertia(body, r)), mask, first,
                 parts.mass);
@@ -212,11 +280,15 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, in
                   SolidCoupling<Dim>& c) {
   const Setup<Dim>& s = step.setup;
   if (!lies_within<Dim>(s.scene->domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
-  if (shares_its_volume(s.solids, step.geometry.placed, k)) return;
   const Vec3 gravity = s.fluids.gravity.of_step(step.state.time, step.dt);
+  const Sums<Dim> all = read_sums<Dim>(sums);
+  const Vec3 arm = step.geometry.placed[std::size_t(k)].pose.rotation * Vec3(body.mass().centroid - body.mass().center);
+  const Generalised<Dim> missing =
+      shares_its_volume(s.solids, step.geometry.placed, k)
+          ? all.missing
+          : buoyancy_difference(all, body.mass().volume, arm, s.fluids.density() * gravity);
   c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
-      buoyancy_difference(read_sums<Dim>(sums), body.mass().volume, s.fluids.density() * gravity)
-          .cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
+      missing.cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                       \

@@ -11,8 +11,9 @@ template <int Dim>
 void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, const RigidState& r, int block,
                        CouplingParts<Dim>& parts);
 
-// Sets buoyancy_correction of body k from the difference between its volume and that of its face shares. `sums`: over
-// all ranks. Bodies that are not wholly within the domain, or that jointed ones reach into, get none.
+// Sets buoyancy_correction of body k from the difference between its volume and that of its face shares; where jointed
+// solids may reach into it, from the pieces of its surface that these leave open. `sums`: over all ranks. Bodies that
+// are not wholly within the domain get none.
 template <int Dim>
 void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, int first, const double* sums,
                   SolidCoupling<Dim>& coupling);

@@ -19,7 +19,8 @@ struct SolvePowers {
 // Outcome of an attempted step. `state` is valid only if `failure` is empty.
 template <int Dim>
 struct Attempt {
-  std::string failure;  // empty: accepted
+  std::string failure;       // empty: accepted
+  bool contradicts = false;  // the failure is one of the scene, which shorter steps do not mend
   State<Dim> state;
   StepGeometry<Dim> geometry;
   StepStats stats;                 // volumes, energies, momentum and speed at its end

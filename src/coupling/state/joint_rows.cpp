@@ -16,7 +16,7 @@ constexpr double circle = 2 * std::numbers::pi;
 int index_of_solid(const Scene& scene, const std::string& name) {
   for (std::size_t k = 0; k < scene.solids.size(); ++k)
     if (scene.solids[k].name == name) return int(k);
-  return int(scene.solids.size());  // "world"
+  return -1;  // "world"
 }
 
 int index_of_joint(const Scene& scene, const std::string& name) {
@@ -37,6 +37,18 @@ double size_of(const std::vector<Body<Dim>>& bodies, int k) {
 template <int Dim>
 PlacedRow placed_row(const Joint& joint, int number, const JointRow& row) {
   return {number, row.value, 1, false, {{joint.first, row.first}, {joint.second, row.second}}};
+}
+
+// The place of one side of a joint; adds the patch that it holds.
+template <int Dim>
+int place_of(const JointSpec& spec, int side, int solid, const std::vector<Body<Dim>>& bodies, double cell_size,
+             std::vector<HeldPatch<Dim>>& patches) {
+  if (solid < 0) return int(bodies.size());
+  const Body<Dim>& body = bodies[std::size_t(solid)];
+  if (!body.deforms()) return solid;
+  const ShapeSpec& region = side == 1 && spec.second_region ? *spec.second_region : *spec.region;
+  patches.push_back({solid, make_patch(body.elastic(), region, {cell_size}, spec.name, body.spec().name)});
+  return int(bodies.size() + patches.size());
 }
 
 // q' - q'_start - ratio (q'' - q''_start) of two joints.
@@ -69,13 +81,19 @@ JointSet<Dim>::JointSet(const Scene& scene, const std::vector<Body<Dim>>& bodies
     joint.spec = spec;
     joint.frames = joint_frames(spec, Dim);
     const bool gear = spec.kind == JointKind::gear;
-    joint.first = gear ? index_of_joint(scene, spec.between[0]) : index_of_solid(scene, spec.between[0]);
-    joint.second = gear ? index_of_joint(scene, spec.between[1]) : index_of_solid(scene, spec.between[1]);
+    if (gear)
+      joint.first = index_of_joint(scene, spec.between[0]), joint.second = index_of_joint(scene, spec.between[1]);
+    for (const int side : {0, 1}) {
+      if (gear) break;
+      joint.solids[std::size_t(side)] = index_of_solid(scene, spec.between[std::size_t(side)]);
+      (side == 0 ? joint.first : joint.second) =
+          place_of(spec, side, joint.solids[std::size_t(side)], bodies, scene.domain.cell_size, patches);
+    }
     if (spec.drive) joint.drive = made(spec.drive->degrees ? spec.drive->degrees : spec.drive->translate);
     if (spec.motor) joint.speed = made(spec.motor->speed), joint.target = made(spec.motor->target);
     if (coordinate_of(spec.kind) == JointCoordinate::turn) joint.unit = std::numbers::pi / 180;
     if (coordinate_of(spec.kind) == JointCoordinate::length) joint.q_at_start = joint.frames.length;
-    if (!gear) joint.size = std::max(size_of(bodies, joint.first), size_of(bodies, joint.second));
+    if (!gear) joint.size = std::max(size_of(bodies, joint.solids[0]), size_of(bodies, joint.solids[1]));
   }
   for (Joint& joint : list)
     if (joint.spec.kind == JointKind::gear)
@@ -86,8 +104,8 @@ template <int Dim>
 std::vector<std::array<int, 2>> JointSet<Dim>::pairs_apart() const {
   std::vector<std::array<int, 2>> pairs;
   for (const Joint& joint : list)
-    if (joint.spec.kind != JointKind::gear && !joint.spec.collide && std::max(joint.first, joint.second) < solids)
-      pairs.push_back({std::min(joint.first, joint.second), std::max(joint.first, joint.second)});
+    if (!joint.spec.collide && std::min(joint.solids[0], joint.solids[1]) >= 0)
+      pairs.push_back({std::min(joint.solids[0], joint.solids[1]), std::max(joint.solids[0], joint.solids[1])});
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -101,14 +119,30 @@ std::string JointSet<Dim>::names_of(const std::vector<int>& joints) const {
 }
 
 template <int Dim>
-JointedBodies jointed_bodies(const Participants<Dim>& solids, double time) {
-  JointedBodies bodies;
+PlacedBody placed_patch(const HeldPatch<Dim>& held, const Eigen::VectorXd& u) {
+  PlacedPatch<Dim> placed = place_patch(held.patch, u);
+  PlacedBody body{placed.body};
+  body.solid = held.solid;
+  body.rates = std::move(placed.rates);
+  return body;
+}
+
+template <int Dim>
+JointedBodies jointed_bodies(const JointSet<Dim>& joints, const Participants<Dim>& solids, double time) {
+  JointedBodies bodies(solids.size() + 1);
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    const Pose pose = solids[k].place(time, time, time).pose;
+    PlacedBody& body = bodies[k];
+    body.pose = solids[k].place(time, time, time).pose;
+    body.about = body.pose.pivot + body.pose.displacement;
+    body.solid = int(k);
     const RigidState* rigid = solids[k].rigid();
-    bodies.push_back({pose, rigid ? rigid->center : Vec3(pose.pivot + pose.displacement)});
+    if (!rigid) continue;
+    body.about = rigid->center;
+    for (int i = 0; i < solids[k].unknowns(); ++i)
+      body.rates.emplace_back(i, PlacedBody::Rate::Unit(Dim == 2 && i == 2 ? 5 : i));
   }
-  bodies.emplace_back();
+  for (const HeldPatch<Dim>& held : joints.patches)
+    bodies.push_back(placed_patch(held, solids[std::size_t(held.solid)].place(time, time, time).displacement));
   return bodies;
 }
 
@@ -162,11 +196,22 @@ std::vector<PlacedRow> constraints_of(const JointSet<Dim>& joints, const std::ve
 }
 
 template <int Dim>
-std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states) {
+Vec3 point_of_joint(const JointSet<Dim>& joints, int number, const JointedBodies& bodies) {
+  const Joint& joint = joints.list[std::size_t(number)];
+  if (joint.spec.kind == JointKind::gear) return point_of_joint(joints, joint.first, bodies);
+  return bodies[std::size_t(joint.second)].pose.apply(joint.frames.second.anchor);
+}
+
+template <int Dim>
+std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states,
+                                       const Participants<Dim>& solids, double time) {
   std::vector<JointReport> reports;
+  if (states.empty()) return reports;
+  const JointedBodies bodies = jointed_bodies(joints, solids, time);
   for (std::size_t j = 0; j < states.size(); ++j) {
     const JointState& s = states[j];
-    reports.push_back({joints.list[j].spec.name, s.shown_q, s.rate, s.force, s.torque, s.power, s.gap, s.broken});
+    reports.push_back({joints.list[j].spec.name, s.shown_q, s.rate, s.force, s.torque,
+                       point_of_joint(joints, int(j), bodies), s.power, s.gap, s.broken});
   }
   return reports;
 }
@@ -196,14 +241,17 @@ int most_overloaded(const JointSet<Dim>& joints, const std::vector<JointState>& 
   return found;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                             \
-  template struct JointSet<D>;                                                                            \
-  template JointedBodies jointed_bodies<D>(const Participants<D>&, double);                               \
-  template std::vector<JointReport> report_joints<D>(const JointSet<D>&, const std::vector<JointState>&); \
-  template int most_overloaded<D>(const JointSet<D>&, const std::vector<JointState>&);                    \
-  template bool has_coordinate<D>(const JointSet<D>&, int);                                               \
-  template PlacedRow coordinate_of_joint<D>(const JointSet<D>&, int, const JointedBodies&, double);       \
-  template std::vector<PlacedRow> constraints_of<D>(const JointSet<D>&, const std::vector<JointState>&,   \
+#define SEICHE_INSTANTIATE(D)                                                                            \
+  template struct JointSet<D>;                                                                           \
+  template JointedBodies jointed_bodies<D>(const JointSet<D>&, const Participants<D>&, double);          \
+  template PlacedBody placed_patch<D>(const HeldPatch<D>&, const Eigen::VectorXd&);                      \
+  template Vec3 point_of_joint<D>(const JointSet<D>&, int, const JointedBodies&);                        \
+  template std::vector<JointReport> report_joints<D>(const JointSet<D>&, const std::vector<JointState>&, \
+                                                     const Participants<D>&, double);                    \
+  template int most_overloaded<D>(const JointSet<D>&, const std::vector<JointState>&);                   \
+  template bool has_coordinate<D>(const JointSet<D>&, int);                                              \
+  template PlacedRow coordinate_of_joint<D>(const JointSet<D>&, int, const JointedBodies&, double);      \
+  template std::vector<PlacedRow> constraints_of<D>(const JointSet<D>&, const std::vector<JointState>&,  \
                                                     const JointedBodies&, const std::vector<double>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -8,7 +8,7 @@
 #include "base/expression.h"
 #include "coupling/state/joint_state.h"
 #include "coupling/state/participant.h"
-#include "solid/joint/joint.h"
+#include "solid/joint/patch.h"
 
 namespace seiche {
 
@@ -17,19 +17,29 @@ struct Scene;
 struct Joint {
   JointSpec spec;
   JointFrames frames;
-  int first = -1, second = -1;  // solids, `solids` for the world; of a gear: joints
+  int first = -1, second = -1;                                            // places in JointedBodies; of a gear: joints
+  std::array<int, 2> solids{-1, -1};                                      // -1: the world
   std::shared_ptr<const Expression> drive = {}, speed = {}, target = {};  // of t; null: none
   double unit = 1;        // of drive, target, limits and rest in the scene: rad, or m
   double q_at_start = 0;  // rad or m
   double size = 0;        // of its larger body, m: turns of it count as lengths
 };
 
+// The patch of an elastic solid that a joint holds.
+template <int Dim>
+struct HeldPatch {
+  int solid;
+  JointPatch<Dim> patch;
+};
+
 template <int Dim>
 struct JointSet {
   std::vector<Joint> list;
-  int solids = 0;  // number of the scene's solids; the world follows them
+  int solids = 0;                       // number of the scene's solids
+  std::vector<HeldPatch<Dim>> patches;  // in JointedBodies after the solids and the world
 
   JointSet() = default;
+  // Throws Error(bad_input): a region does not fit its solid.
   JointSet(const Scene& scene, const std::vector<Body<Dim>>& bodies);
   // Solids of pairs that must not touch each other, since a joint holds them. Each ascending.
   std::vector<std::array<int, 2>> pairs_apart() const;
@@ -37,19 +47,29 @@ struct JointSet {
   std::string names_of(const std::vector<int>& joints) const;
 };
 
-// Places of all solids and of the world.
-using JointedBodies = std::vector<JointedBody>;
-template <int Dim>
-JointedBodies jointed_bodies(const Participants<Dim>& solids, double time);
-
-// A row of JointRow over the solids that it acts on.
-struct PlacedRow {
+// A body of joints: a solid, the world or a patch, and its velocity (v, w) per unit of each unknown of the solid.
+struct PlacedBody : JointedBody {
   using Rate = Eigen::Matrix<double, 6, 1>;
+  int solid = -1;  // -1: the world
+  std::vector<std::pair<int, Rate>> rates = {};
+};
+
+// All solids, the world, the patches.
+using JointedBodies = std::vector<PlacedBody>;
+template <int Dim>
+JointedBodies jointed_bodies(const JointSet<Dim>& joints, const Participants<Dim>& solids, double time);
+// A patch at displacements u of its solid.
+template <int Dim>
+PlacedBody placed_patch(const HeldPatch<Dim>& held, const Eigen::VectorXd& u);
+
+// A row of JointRow over the places of JointedBodies that it acts on.
+struct PlacedRow {
+  using Rate = PlacedBody::Rate;
   int joint = 0;
   double value = 0, size = 1;  // m or rad; a gap is |value| * size, m
   bool drives = false;         // true: the coordinate of a drive
   std::vector<std::pair<int, Rate>> parts;
-  // Rate by the velocities (v, w) of the solids.
+  // Rate by the velocities (v, w) of the bodies.
   double rate(const std::vector<Rate>& velocities) const;
 };
 
@@ -61,9 +81,14 @@ std::vector<PlacedRow> constraints_of(const JointSet<Dim>& joints, const std::ve
 // The coordinate of a joint, with whole turns so that it lies within half a turn of `near`.
 template <int Dim>
 PlacedRow coordinate_of_joint(const JointSet<Dim>& joints, int joint, const JointedBodies& bodies, double near);
-// Rows of joints.csv.
+// Where a joint is; a gear has the place of its first joint.
 template <int Dim>
-std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states);
+Vec3 point_of_joint(const JointSet<Dim>& joints, int joint, const JointedBodies& bodies);
+
+// Rows of joints.csv, with the solids where they are shown at `time`.
+template <int Dim>
+std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states,
+                                       const Participants<Dim>& solids, double time);
 double largest_gap(const std::vector<JointState>& states);  // m
 // Line for the log on a joint that breaks.
 std::string note_on_break(const JointReport& joint, std::int64_t step, double time);

@@ -72,8 +72,9 @@ struct JointReport {
   std::string name;
   double q = 0, rate = 0;  // coordinate and its rate: rad, rad/s or m, m/s; 0 without one
   Vec3 force{0, 0, 0}, torque{0, 0, 0};
-  double power = 0;  // into the solids, of drive, motor and prescribed solids, W
-  double gap = 0;    // m
+  Vec3 point{0, 0, 0};  // where it is, m; the end at the second solid of a distance or a rope
+  double power = 0;     // into the solids, of drive, motor and prescribed solids, W
+  double gap = 0;       // m
   bool broken = false;
 };
 

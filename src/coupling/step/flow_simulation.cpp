@@ -71,7 +71,9 @@ class FlowSimulation : public Simulation {
   std::int64_t step_count() const override { return state_.step; }
   StepStats stats() const override { return stats_; }
   std::vector<SolidState> solids() const override { return solids_; }
-  std::vector<JointReport> joints() const override { return report_joints(setup_->solids.joints, state_.joints); }
+  std::vector<JointReport> joints() const override {
+    return report_joints(setup_->solids.joints, state_.joints, state_.solids, state_.time);
+  }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
     return measure_probe(*setup_, state_, geometry_, setup_->scene->probes.at(k));
@@ -96,7 +98,7 @@ class FlowSimulation : public Simulation {
     const auto start = std::chrono::steady_clock::now();
     if (state_.step % steps_between_looks == 0) balance();
     double dt = choose_step(*setup_, state_, until);
-    std::string failures;
+    std::string failures, advice;
     for (int halvings = 0; halvings <= most_halvings && dt > 0;
          ++halvings, dt = hold_back(setup_->solids, state_, dt / 2)) {
       Attempt<Dim> a = attempt_and_break(dt);
@@ -110,13 +112,13 @@ class FlowSimulation : public Simulation {
       }
       failures = fmt::format("step {} of {:.6g} s at time {:.6g} s: {}", state_.step + 1, dt, state_.time, a.failure);
       phases_.warnings.push_back(failures + "; trying half the step");
+      advice = a.contradicts ? "change these joints or drives" : remedy();
       for (const std::string& line : a.solve.failed_attempts)
         phases_.warnings.push_back(fmt::format("step {}: {}", state_.step + 1, line));
     }
     const std::string close = nearest_solids(setup_->domain, setup_->solids, setup_->scene->domain, state_);
-    throw Error(ExitCode::cannot_continue,
-                fmt::format("{} (after {} halvings; {})", failures, most_halvings,
-                            close.empty() ? remedy() : "solids almost in contact: " + close));
+    throw Error(ExitCode::cannot_continue, fmt::format("{} (after {} halvings; {})", failures, most_halvings,
+                                                       close.empty() ? advice : "solids almost in contact: " + close));
   }
 
   // Drops warnings on the start, which the first run gave. The note on long steps is repeated: `resume --set` may
@@ -176,7 +178,8 @@ class FlowSimulation : public Simulation {
       if (j < 0) return a;
       state_.joints[std::size_t(j)].broken = true;
       phases_.warnings.push_back(
-          note_on_break(report_joints(joints, a.state.joints)[std::size_t(j)], a.state.step, a.state.time));
+          note_on_break(report_joints(joints, a.state.joints, a.state.solids, a.state.time)[std::size_t(j)],
+                        a.state.step, a.state.time));
     }
   }
 

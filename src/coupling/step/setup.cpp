@@ -41,7 +41,7 @@ constexpr double least_density_ratio = 1e-7;
 
 SolidSpec heavy_enough(SolidSpec spec, const LiquidSpec& liquid, std::vector<std::string>& notes) {
   const double least = least_density_ratio * liquid.density;
-  if (!spec.kind.is_free() || spec.rigid.density >= least) return spec;
+  if (!spec.kind.is_free() || spec.rigid.mass || spec.rigid.density >= least) return spec;
   notes.push_back(fmt::format("solid '{}': density {:g} kg/m^3 is taken as {:g}, {:g} of the liquid's", spec.name,
                               spec.rigid.density, least, least_density_ratio));
   spec.rigid.density = least;

@@ -20,9 +20,10 @@ StepTimes times_of_step(const Solids<Dim>& solids, const std::vector<Source<Dim>
 }
 
 template <int Dim>
-Attempt<Dim> failed(std::string why) {
+Attempt<Dim> failed(std::string why, bool contradicts = false) {
   Attempt<Dim> attempt;
   attempt.failure = std::move(why);
+  attempt.contradicts = contradicts;
   return attempt;
 }
 
@@ -33,7 +34,7 @@ Attempt<Dim> attempt_prescribed_step(const Setup<Dim>& s, const State<Dim>& befo
   if (!fault.empty()) return failed<Dim>(std::move(fault));
   Moved<Dim> moved =
       move_surface_and_solids(s, before, times_of_step(s.solids, s.sources, s.features, before, dt), phases);
-  if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
+  if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure), true);
   Attempt<Dim> attempt = prescribe_velocity(s.domain, s.fluids, std::move(moved));
   if (s.tracks_volume() && attempt.failure.empty()) attempt.failure = fault_of_volume(s.domain, before, attempt.state);
   return attempt;
@@ -46,7 +47,7 @@ Attempt<Dim> attempt_step(const Setup<Dim>& s, const State<Dim>& before, double 
   if (s.fluids.has_prescribed_flow()) return attempt_prescribed_step(s, before, dt, phases);
   const StepTimes times = times_of_step(s.solids, s.sources, s.features, before, dt);
   Moved<Dim> moved = move_surface_and_solids(s, before, times, phases);
-  if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure));
+  if (!moved.failure.empty()) return failed<Dim>(std::move(moved.failure), true);
   Predicted<Dim> predicted = predict_velocity(s, before, moved, times, phases);
   if (!predicted.failure.empty()) return failed<Dim>(predicted.failure);
   const std::optional<CellField<Dim, char>> closed = std::exchange(moved.closed, std::nullopt);

@@ -36,6 +36,20 @@ Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
   return enclosed.allFinite() ? enclosed : center;
 }
 
+// With the mass, centre and inertia that the scene gives. The inertia of a shape of one density goes with the mass.
+MassProperties given_mass(MassProperties m, const RigidSpec& rigid) {
+  m.centroid = m.center;
+  if (rigid.mass) m.inertia *= *rigid.mass / m.mass, m.mass = *rigid.mass;
+  if (rigid.center_of_mass) m.center = *rigid.center_of_mass;
+  if (rigid.inertia) m.inertia = rigid.inertia->asDiagonal();
+  const Vec3 products = rigid.products_of_inertia.value_or(Vec3(0, 0, 0));
+  if (!rigid.inertia) return m;
+  m.inertia(0, 1) = m.inertia(1, 0) = products[0];
+  m.inertia(0, 2) = m.inertia(2, 0) = products[1];
+  m.inertia(1, 2) = m.inertia(2, 1) = products[2];
+  return m;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -48,7 +62,8 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
   shape_ = make_shape<Dim>(spec.shape, options);
   surface_ = seiche::contact_surface<Dim>(spec.shape, options, lower, upper);
   if (spec.kind.is_free()) {
-    mass_ = mass_properties<Dim>(spec.shape, spec.rigid.density, options, lower, upper);
+    const double density = spec.rigid.mass ? 1 : spec.rigid.density;
+    mass_ = given_mass(mass_properties<Dim>(spec.shape, density, options, lower, upper), spec.rigid);
     for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
   }
   reference_ = spec.kind.is_free() ? mass_.center : center_of<Dim>(spec.shape, surface_);

@@ -12,6 +12,7 @@ struct MassProperties {
   double volume = 0;                                  // m^3; in 2D m^2
   Vec3 center{0, 0, 0};                               // of mass, at rest, the shape's transform applied, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, world axes at rest, kg m^2; 2D: only (2,2)
+  Vec3 centroid = Vec3::Zero();                       // of the volume at rest, m: set where the scene gives the mass
 };
 
 // Exact for box, sphere, cylinder and capsule (scaled, rotated, translated) and for the polyhedron of a mesh. Shapes

@@ -18,18 +18,11 @@ namespace {
 
 constexpr double on_surface = 1e-6;  // of an element's edge: a pin that ends on a face includes the face's nodes
 
-// Nodes within the pin's shape (value not positive).
 template <int Dim>
 std::vector<int> nodes_in(const PinSpec& pin, const std::string& name, const ElasticMesh<Dim>& mesh,
-                          const ShapeOptions& options, double edge) {
-  const auto shape = make_shape<Dim>(pin.shape, options);
-  std::vector<int> nodes;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const double d = (*shape)(mesh.nodes[n]);
-    nearest = std::min(nearest, d);
-    if (d <= on_surface * edge) nodes.push_back(int(n));
-  }
+                          const ShapeOptions& options) {
+  double nearest = 0;
+  std::vector<int> nodes = nodes_within(mesh, pin.shape, options, nearest);
   if (!nodes.empty()) return nodes;
   throw Error(
       ExitCode::bad_input,
@@ -60,10 +53,9 @@ void drop_held(const PinSpec& pin, const std::string& name, const ElasticMesh<Di
 
 template <int Dim>
 std::vector<PinnedNodes> find_pins(const SolidSpec& spec, const ElasticMesh<Dim>& mesh, const ShapeOptions& options) {
-  const double edge = mesh_quality(mesh).shortest_edge;
   std::vector<PinnedNodes> pins;
   for (const PinSpec& pin : spec.elastic.pinned) {
-    std::vector<int> nodes = nodes_in<Dim>(pin, spec.name, mesh, options, edge);
+    std::vector<int> nodes = nodes_in<Dim>(pin, spec.name, mesh, options);
     drop_held<Dim>(pin, spec.name, mesh, pins, nodes);
     pins.push_back({std::move(nodes), pin.motion});
   }
@@ -118,6 +110,21 @@ void refuse_infinite_forces(const SolidSpec& spec, const ElasticSolid<Dim>& soli
 }
 
 }  // namespace
+
+template <int Dim>
+std::vector<int> nodes_within(const ElasticMesh<Dim>& mesh, const ShapeSpec& shape, const ShapeOptions& options,
+                              double& nearest) {
+  const auto field = make_shape<Dim>(shape, options);
+  const double edge = mesh_quality(mesh).shortest_edge;
+  std::vector<int> nodes;
+  nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    const double d = (*field)(mesh.nodes[n]);
+    nearest = std::min(nearest, d);
+    if (d <= on_surface * edge) nodes.push_back(int(n));
+  }
+  return nodes;
+}
 
 bool same_motion(const MotionSpec& a, const MotionSpec& b) {
   return a.translate == b.translate && a.degrees == b.degrees && a.axis == b.axis && a.center == b.center;
@@ -192,11 +199,13 @@ std::string describe_mesh(const std::string& name, const ElasticMesh<Dim>& mesh)
       q.shortest_edge, q.longest_edge, q.worst, q.mean);
 }
 
-#define SEICHE_INSTANTIATE(Dim)                                                                              \
-  template ElasticSolid<Dim> make_elastic_solid<Dim>(const SolidSpec&, const ShapeOptions&, const Vec<Dim>&, \
-                                                     const Vec<Dim>&);                                       \
-  template Pins pins_at<Dim>(const ElasticSolid<Dim>&, double);                                              \
-  template Eigen::VectorXd applied_force_at<Dim>(const ElasticSolid<Dim>&, double);                          \
+#define SEICHE_INSTANTIATE(Dim)                                                                               \
+  template ElasticSolid<Dim> make_elastic_solid<Dim>(const SolidSpec&, const ShapeOptions&, const Vec<Dim>&,  \
+                                                     const Vec<Dim>&);                                        \
+  template std::vector<int> nodes_within<Dim>(const ElasticMesh<Dim>&, const ShapeSpec&, const ShapeOptions&, \
+                                              double&);                                                       \
+  template Pins pins_at<Dim>(const ElasticSolid<Dim>&, double);                                               \
+  template Eigen::VectorXd applied_force_at<Dim>(const ElasticSolid<Dim>&, double);                           \
   template std::string describe_mesh<Dim>(const std::string&, const ElasticMesh<Dim>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -53,6 +53,11 @@ template <int Dim>
 ElasticSolid<Dim> make_elastic_solid(const SolidSpec& spec, const ShapeOptions& options, const Vec<Dim>& lower,
                                      const Vec<Dim>& upper);
 
+// Nodes within a shape at rest, ascending. Sets the least distance of a node from it (m, negative inside).
+template <int Dim>
+std::vector<int> nodes_within(const ElasticMesh<Dim>& mesh, const ShapeSpec& shape, const ShapeOptions& options,
+                              double& nearest);
+
 // Displacements (m) prescribed by the pins at time t; each degree of freedom once, ascending.
 template <int Dim>
 Pins pins_at(const ElasticSolid<Dim>& solid, double t);

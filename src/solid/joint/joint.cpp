@@ -5,8 +5,21 @@
 namespace seiche {
 namespace {
 
-// Motions that a constraint holds, along and about the axes x, y, z of the joint.
-enum class Held : char { along_x, along_y, along_z, turn_x, turn_y, turn_z, crossed, length };
+// Motions that a constraint holds: of a point along the axes of space, else along and about the axes x, y, z of the
+// joint.
+enum class Held : char {
+  point_x,
+  point_y,
+  point_z,
+  along_x,
+  along_y,
+  along_z,
+  turn_x,
+  turn_y,
+  turn_z,
+  crossed,
+  length
+};
 
 // Constraints of a kind. 2D: along two axes of the plane and about its normal: z, or y where the axis lies in the
 // plane.
@@ -19,12 +32,12 @@ const std::vector<Held>& held_by(JointKind kind, int dimension) {
   using enum Held;
   using K = JointKind;
   static const std::array<HeldRow, 10> table{{
-      {K::weld, {along_x, along_y, along_z, turn_x, turn_y, turn_z}, {along_x, along_y, turn_z}},
-      {K::hinge, {along_x, along_y, along_z, turn_x, turn_y}, {along_x, along_y}},
-      {K::ball, {along_x, along_y, along_z}, {}},
+      {K::weld, {point_x, point_y, point_z, turn_x, turn_y, turn_z}, {point_x, point_y, turn_z}},
+      {K::hinge, {point_x, point_y, point_z, turn_x, turn_y}, {point_x, point_y}},
+      {K::ball, {point_x, point_y, point_z}, {}},
       {K::slider, {along_x, along_y, turn_x, turn_y, turn_z}, {along_x, turn_y}},
       {K::cylindrical, {along_x, along_y, turn_x, turn_y}, {}},
-      {K::universal, {along_x, along_y, along_z, crossed}, {}},
+      {K::universal, {point_x, point_y, point_z, crossed}, {}},
       {K::planar, {along_z, turn_x, turn_y}, {}},
       {K::distance, {length}, {length}},
       {K::rope, {}, {}},
@@ -50,7 +63,7 @@ Places placed(const JointFrames& frames, const JointedBody& first, const Jointed
           second.pose.rotation * frames.second.axes};
 }
 
-// d.(a - b) for a direction d of the first body: both bodies feel the force at the point b.
+// d.(a - b) for a direction d of space or of the first body: both bodies feel the force at the point b.
 JointRow along(const Places& p, const Vec3& d) {
   JointRow row{d.dot(p.first - p.second), {}, {}};
   row.first << d, p.from_first.cross(d);
@@ -79,6 +92,12 @@ JointRow apart(const Places& p, double length) {
 JointRow held_row(Held held, const Places& p, double length) {
   const Vec3 x = p.axes.col(0), y = p.axes.col(1), z = p.axes.col(2);
   switch (held) {
+    case Held::point_x:
+      return along(p, Vec3::UnitX());
+    case Held::point_y:
+      return along(p, Vec3::UnitY());
+    case Held::point_z:
+      return along(p, Vec3::UnitZ());
     case Held::along_x:
       return along(p, x);
     case Held::along_y:

@@ -44,17 +44,13 @@ void demand(const std::string& where, const std::string& what, const std::string
   throw Error(ExitCode::bad_input, fmt::format("{}: there is no {} '{}'; {}", where, what, name, help));
 }
 
-bool is_vector(const ProbeSpec& probe) {
-  return probe.kind == ProbeKind::velocity || probe.kind == ProbeKind::displacement;
-}
-
 void check_probe(const MeasureSpec& m, const Scene& scene, const std::string& name, const std::string& where) {
   demand(where, "probe", name, names_of(scene.probes));
   const ProbeSpec& probe = *std::ranges::find(scene.probes, name, &ProbeSpec::name);
   if (m.kind.starts_with("impact_") && probe.kind != ProbeKind::pressure)
     throw Error(ExitCode::bad_input, fmt::format("{}: probe '{}' is to measure pressure for {}", where, name, m.kind));
   const std::string column = uses(kind_of(m), "column") ? m.column : "value";
-  const Names known = is_vector(probe) ? Names{"x", "y", "z"} : Names{"value"};
+  const Names known = probe.is_vector() ? Names{"x", "y", "z"} : Names{"value"};
   demand(where, fmt::format("column of probe '{}'", name), column, known);
 }
 

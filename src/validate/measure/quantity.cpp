@@ -109,9 +109,27 @@ constexpr UnitRow stats_units[] = {{"time", {"s", "s"}},
 constexpr UnitRow solids_units[] = {
     {"xyz", {"m", "m"}}, {"v", {"m/s", "m/s"}}, {"w", {"1/s", "1/s"}}, {"f", {"N/m", "N"}}, {"t", {"N", "N m"}}};
 
+// 2D: per metre of depth.
+std::string unit_of_joint(const ProbeSpec& probe, const Scene& scene) {
+  const bool flat = scene.dimension == 2;
+  switch (probe.quantity) {
+    case JointQuantity::force:
+      return flat ? "N/m" : "N";
+    case JointQuantity::torque:
+      return flat ? "N" : "N m";
+    case JointQuantity::power:
+      return flat ? "W/m" : "W";
+    case JointQuantity::coordinate:
+      break;
+  }
+  const auto joint = std::ranges::find(scene.joints, probe.joint, &JointSpec::name);
+  return joint != scene.joints.end() && joint->kind == JointKind::hinge ? "rad" : "m";
+}
+
 std::string unit_of_probe(const MeasureSpec& m, const Scene& scene) {
   const auto probe = std::ranges::find(scene.probes, m.probe, &ProbeSpec::name);
   if (probe == scene.probes.end()) return {};
+  if (probe->kind == ProbeKind::joint) return unit_of_joint(*probe, scene);
   return probe->kind == ProbeKind::pressure ? "Pa" : probe->kind == ProbeKind::velocity ? "m/s" : "m";
 }
 

@@ -58,8 +58,9 @@ TEST_CASE("overwriting removes the files of a run and nothing else") {
   }
   for (const char* file :
        {"scene.toml", "stats.csv", "frames/frame.0001.vdb", "frames/solids.pvd", "frames/fluid.0003.vti.tmp",
-        "frames/elastic.0002.vtu", "frames/elastic.pvd", "frames/ball.pc2", "frames/ball.obj", "frames/mine.obj",
-        "checkpoints/00000010/COMMIT", "checkpoints/00000012.tmp/rank.00000", "notes.txt", "mine/stats.csv"}) {
+        "frames/elastic.0002.vtu", "frames/elastic.pvd", "joints.csv", "frames/joints.0001.vtu", "frames/joints.pvd",
+        "frames/ball.pc2", "frames/ball.obj", "frames/mine.obj", "checkpoints/00000010/COMMIT",
+        "checkpoints/00000012.tmp/rank.00000", "notes.txt", "mine/stats.csv"}) {
     put(scratch / file, "x");
   }
   CHECK(code_of_opening(scratch.path(), ExistingOutput::overwrite) == ExitCode::done);

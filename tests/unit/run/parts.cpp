@@ -145,6 +145,14 @@ TEST_CASE("VTK files hold every field over the whole domain, velocities averaged
   CHECK(surfaces.find("Name=\"solid_names\" NumberOfTuples=\"2\" format=\"ascii\">100 117 99 107 0 98 38 119 0 <") !=
         std::string::npos);
   CHECK(surfaces.find("NumberOfPoints=\"3\" NumberOfCells=\"1\"") != std::string::npos);
+  JointReport pin{.name = "pin", .q = 0.5, .force = {1, 2, 3}, .point = {0.1, 0.2, 0}};
+  const std::string joints = vtk::joints({pin, pin}, 1.5);
+  CHECK(joints.find("NumberOfPoints=\"2\" NumberOfCells=\"2\"") != std::string::npos);
+  const double forces[6] = {1, 2, 3, 1, 2, 3};
+  const std::uint64_t length = sizeof forces;
+  std::string raw(reinterpret_cast<const char*>(&length), sizeof length);
+  raw.append(reinterpret_cast<const char*>(forces), sizeof forces);
+  CHECK(joints.find(encode_base64(raw)) != std::string::npos);
   CHECK(vtk::series("solids", "vtu", 2, 24).find("solids.0002.vtu") != std::string::npos);
 }
 

@@ -105,6 +105,25 @@ TEST_CASE("a joint's forces must fit each other and its start") {
   check_refused(with_boxes(2, hinge("breaks_at = { force = 0 }\n")), "must be > 0");
 }
 
+TEST_CASE("a joint holds a region of an elastic solid") {
+  const std::string soft =
+      "[[solid]]\nname = \"tail\"\nkind = \"elastic\"\nshape = \"box\"\nlower = [0.1, 0.7]\nupper = [0.3, 0.9]\n"
+      "density = 900\nmaterial = { youngs_modulus = 1e6, poisson_ratio = 0.3 }\nelement_size = 0.05\n";
+  const auto joined = [&](const std::string& second, const std::string& keys) {
+    return with_boxes(
+        2, soft + one(fmt::format("kind = \"weld\"\nbetween = [\"tail\", \"{}\"]\nat = [0.2, 0.7]\n{}", second, keys)));
+  };
+  const std::string region = "region = { shape = \"box\", lower = [0.1, 0.6], upper = [0.3, 0.8] }\n";
+  const Scene scene = parse(joined("arm", region));
+  CHECK(scene.joints[0].region->kind == "box");
+  CHECK(scene.joints[0].region->upper == Vec3(0.3, 0.8, 0));
+  CHECK(parse(write_scene(scene)).joints[0].region->lower == Vec3(0.1, 0.6, 0));
+  check_refused(joined("arm", ""), "\"tail\" is elastic; give region");
+  check_refused(joined("arm", region + "second_" + region), "\"arm\" is not elastic; remove second_region");
+  check_refused(with_boxes(2, hinge(region)), "neither of its solids is elastic");
+  check_refused(joined("arm", "region = { shape = \"box\", lower = [0.3, 0.6], upper = [0.1, 0.8] }\n"), "region");
+}
+
 TEST_CASE("joints need factors of elastic solids") {
   check_refused(with_boxes(2, hinge("") + "[solver]\nelastic = \"iterate\"\n"), "does not work with [[joint]] yet");
 }

@@ -59,6 +59,11 @@ std::string scene_for(const Option& option) {
   if (condition.key == "type") side = condition.values[0];
   if (condition.key == "kind" && option.path.rfind("probe[]", 0) == 0) probe = condition.values[0];
   std::string text = rich_scene(3, shape, side, probe);
+  if (option.path.rfind("robot[]", 0) == 0)
+    text +=
+        "[[robot]]\nfile = \"arm.urdf\"\nrotate = { axis = [0, 0, 1], degrees = 30 }\n[[robot.joint]]\nname = \"j\"\n"
+        "spring = { stiffness = 1 }\nmotor = { target = \"t\", stiffness = 1 }\ndrive = { degrees = \"t\" }\n"
+        "breaks_at = { force = 1 }\n";
   const std::string plain = "viscosity = \"1+x\"";
   if (option.path.rfind("liquid.rheology.", 0) == 0)
     text.replace(text.find(plain), plain.size(),

@@ -61,20 +61,32 @@ std::vector<JointRow> all_rows(const JointSpec& spec, int dimension, const Bodie
   return rows;
 }
 
+// Moves the second body so that the anchors of a joint of one point meet: rates are exact there.
+Bodies closed(const JointSpec& spec, int dimension, Bodies bodies) {
+  using K = JointKind;
+  if (spec.kind != K::weld && spec.kind != K::hinge && spec.kind != K::ball && spec.kind != K::universal) return bodies;
+  const JointFrames frames = joint_frames(spec, dimension);
+  const Vec3 gap = bodies[0].pose.apply(frames.first.anchor) - bodies[1].pose.apply(frames.second.anchor);
+  bodies[1].pose.displacement += gap;
+  bodies[1].about += gap;
+  return bodies;
+}
+
 bool turns_out_of_plane(JointKind kind) {
   return kind == JointKind::hinge;
 }
 
 }  // namespace
 
-// Central differences of the values, away from closed joints. A hinge's angle has its rate where the axes agree only.
+// Central differences of the values, with open joints but for points. A hinge's angle has its rate where the axes agree
+// only.
 TEST_CASE("joints: rates of constraints and coordinates are derivatives of their values", "[joint]") {
   for (const int dimension : {2, 3})
     for (const JointKindRow& kind : joint_kinds()) {
       if (kind.kind == JointKind::gear) continue;
       std::mt19937 random(3);
       const JointSpec spec = spec_of(kind.kind, dimension);
-      const Bodies bodies = random_bodies(random, dimension);
+      const Bodies bodies = closed(spec, dimension, random_bodies(random, dimension));
       Rate a, b;
       a << random_vector(random, dimension), random_vector(random, dimension, true);
       b << random_vector(random, dimension), random_vector(random, dimension, true);

@@ -1,0 +1,56 @@
+#pragma once
+// Pieces of a solid's surface and the cells whose pressure acts on them.
+#include "coupling/state/fluids.h"
+#include "coupling/state/solids.h"
+#include "fluid/boundary/domain.h"
+#include "geometry/mesh/facet_pieces.h"
+
+namespace seiche {
+
+template <int Dim>
+class PlacedSolid;
+
+// Solids that joints let reach into body k, where they do. No liquid acts on pieces that they cover. Keeps references.
+template <int Dim>
+class JointedNeighbours {
+ public:
+  JointedNeighbours(const Domain<Dim>& domain, const Solids<Dim>& solids, const StepGeometry<Dim>& g, int k);
+  ~JointedNeighbours();
+  bool any() const { return !near_.empty(); }
+  // True if the point x (m) of the body's surface lies in another solid or on it.
+  bool cover(const Vec<Dim>& x) const;
+
+ private:
+  double psi_at(const Vec<Dim>& x) const;
+
+  const Domain<Dim>& domain_;
+  const NodeField<Dim>& psi_;
+  std::vector<std::unique_ptr<PlacedSolid<Dim>>> near_;
+};
+
+// A piece and the cell whose pressure acts on it: the cell that contains it. If that has no open face, the next open
+// cell along the normal acts on it.
+template <int Dim>
+struct ExposedPiece {
+  Site cell;
+  FacetPiece<Dim> piece;
+};
+
+// Flags of cells with a face whose velocity is an unknown, ghosts filled. Collective.
+template <int Dim>
+CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces);
+
+// The pieces on which this rank's cells act. All ranks choose the same cell for a piece. Corners of the surface are at
+// `points` (m). `open`: open_cells().
+template <int Dim>
+std::vector<ExposedPiece<Dim>> exposed_pieces(const Domain<Dim>& domain, const CellField<Dim, char>& open,
+                                              const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points,
+                                              const JointedNeighbours<Dim>& neighbours);
+
+// Density of the fluid whose pressure acts in a cell, 0 where there is none, kg/m^Dim.
+template <int Dim>
+double density_beside(const Fluids& fluids, const PressureRows<Dim>& rows, const CellField<Dim>& phi, Site cell) {
+  return !rows.has_pressure(cell) ? 0 : phi[cell] < 0 ? fluids.density() : fluids.gas_density();
+}
+
+}  // namespace seiche
