@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/parameters.h"
 #include "scene/toml.h"
 
 namespace seiche {
@@ -22,6 +23,7 @@ class SceneContext {
 
   int dimension = 0;  // 0 until known; vectors may then have 2 or 3 components
   FileAccess access = FileAccess::scene_folder;
+  Parameters parameters;                    // of the table [parameters]
   std::vector<std::string> override_paths;  // line -n - 1 refers to override number n
 
   const std::string& name() const { return name_; }

@@ -14,7 +14,8 @@ const char* const introduction = R"doc(# Scene reference
 
 Every key of a scene file, made from the table the reader uses. Units are SI. Vectors have as many components as the
 scene has dimensions. Expressions are texts in quotes in x, y, z (m) and t (s), such as `"0.1*sin(2*pi*t)"`, where a
-column says which of them they may use; [expressions.md](expressions.md) lists the language. Whole numbers and
+column says which of them they may use; [expressions.md](expressions.md) lists the language. Any number may be
+a text with named [parameters](parameters.md) or a unit, such as `"2 cm"`. Whole numbers and
 decimals are alike unless a key asks for a whole number; NaN, infinity and magnitudes above 1e15 are refused everywhere.
 `seiche run SCENE --set key.path=value` sets any of them; entries of arrays are counted from 0 (`solid.0.radius`). Keys
 that are not listed are errors.

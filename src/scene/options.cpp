@@ -294,6 +294,16 @@ Key<Scene> access_key() {
   return key;
 }
 
+// read_parameters() reads it first; the written scene has the numbers in their places.
+Key<Scene> parameters_key() {
+  const Option option{.key = "parameters",
+                      .type = T::table,
+                      .unset = "none",
+                      .doc = "named numbers for any number or formula of the scene; see parameters.md"};
+  return {option, [](SceneContext&, const Place&, Scene&) {},
+          [](const Scene&, int, const std::string&, SceneLines&) {}};
+}
+
 Key<Scene> gravity_key() {
   return value_key<Scene>(
       {.key = "gravity",
@@ -324,6 +334,7 @@ Section<Scene> build_scene_section() {
       value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
       dimension_key(),
       access_key(),
+      parameters_key(),
       gravity_key(),
       block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},
                    &S::domain, domain_section()),

@@ -64,6 +64,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   }
   SceneContext context(name, folder);
   for (const Override& override : overrides) context.override_paths.push_back(override.path);
+  context.parameters = read_parameters(context, root);
   const Scene defaults;
   context.dimension = root.find("dimension") ? 0 : defaults.dimension;
   Scene scene;

@@ -7,6 +7,7 @@
 
 #include "base/suggest.h"
 #include "scene/formula.h"
+#include "scene/units.h"
 
 namespace seiche {
 namespace {
@@ -21,11 +22,11 @@ std::string unit_text(const Option& option) {
   return option.unit.empty() ? "" : " " + option.unit;
 }
 
-void report_type(SceneContext& c, const Place& p, const Option& option) {
+void report_type(SceneContext& c, const Place& p, const Option& option, const std::string& more = "") {
   const std::string unit = option.unit.empty() ? "" : " (" + option.unit + ")";
   const bool coded = p.node->kind == Kind::coded_integer;
-  c.report(p, fmt::format("{} must be {}{}, not {}{}", p.path, type_name(option.type), unit, describe(*p.node),
-                          coded ? "; write it in decimals" : ""));
+  c.report(p, fmt::format("{} must be {}{}, not {}{}{}", p.path, type_name(option.type), unit, describe(*p.node),
+                          coded ? "; write it in decimals" : "", more));
 }
 
 std::string range_text(const Option& option) {
@@ -34,20 +35,34 @@ std::string range_text(const Option& option) {
   return fmt::format("a finite number below {} in magnitude", number_limit);
 }
 
-// A finite number within the option's range; -0 becomes 0.
+std::optional<double> in_range(SceneContext& c, const Place& p, const Option& option, double value) {
+  if (!std::isfinite(value) || !contains(option.range, value)) {
+    c.report(p, fmt::format("{} must be {}; it is {}", p.path, range_text(option), value));
+    return std::nullopt;
+  }
+  return value == 0 ? 0.0 : value;
+}
+
+// A finite number within the option's range; -0 becomes 0. A text is an expression of parameters, or has a unit.
 std::optional<double> checked_number(SceneContext& c, const Place& p, const Option& option) {
+  if (p.node->kind == Kind::text && !p.node->text.empty()) {
+    std::string fault;
+    const auto value = number_of(p.node->text, option, c.parameters, fault);
+    if (!value) {
+      Option one = option;
+      one.type = OptionType::number;
+      report_type(c, p, one, "; it " + fault);
+      return std::nullopt;
+    }
+    return in_range(c, p, option, *value);
+  }
   if (!is_number(*p.node)) {
     Option one = option;
     one.type = OptionType::number;
     report_type(c, p, one);
     return std::nullopt;
   }
-  const double value = p.node->number;
-  if (!std::isfinite(value) || !contains(option.range, value)) {
-    c.report(p, fmt::format("{} must be {}; it is {}", p.path, range_text(option), value));
-    return std::nullopt;
-  }
-  return value == 0 ? 0.0 : value;
+  return in_range(c, p, option, p.node->number);
 }
 
 std::optional<Formula> checked_formula(SceneContext& c, const Place& p, const Option& option) {
@@ -61,12 +76,18 @@ std::optional<Formula> checked_formula(SceneContext& c, const Place& p, const Op
     report_type(c, p, one);
     return std::nullopt;
   }
-  if (const auto fault = formula_fault(p.node->text, option)) {
-    c.report(p, p.path + ": " + *fault);
-    return std::nullopt;
+  const std::string text = with_parameters(p.node->text, c.parameters);
+  const auto fault = formula_fault(text, option);
+  if (!fault) {
+    const auto number = plain_number(text);
+    return number ? number_text(*number) : text;
   }
-  const auto number = plain_number(p.node->text);
-  return number ? number_text(*number) : p.node->text;
+  if (split_unit(p.node->text)) {
+    const auto number = checked_number(c, p, option);
+    return number ? std::optional(number_text(*number)) : std::nullopt;
+  }
+  c.report(p, p.path + ": " + *fault);
+  return std::nullopt;
 }
 
 // True if the node is an array with the right number of components; reports otherwise.
@@ -94,7 +115,7 @@ void read_flat_spin(SceneContext& c, const Place& p, const Option& option, Vec3&
   const bool array = p.node->kind == Kind::array;
   const std::size_t size = array ? p.node->items.size() : 1;
   std::vector<double> parts;
-  if (!array && !is_number(*p.node)) return report_type(c, p, option);
+  if (!array && !is_number(*p.node) && !is_text(*p.node)) return report_type(c, p, option);
   for (std::size_t i = 0; i < size && (size == 1 || size == 3); ++i) {
     const auto number = checked_number(c, array ? item(p, i) : p, option);
     if (!number) return;
@@ -127,8 +148,11 @@ void read_value(SceneContext& c, const Place& p, const Option& option, double& o
 }
 
 void read_value(SceneContext& c, const Place& p, const Option& option, int& out) {
-  if (p.node->kind != Kind::integer) return report_type(c, p, option);
-  if (const auto value = checked_number(c, p, option)) out = int(*value);
+  if (p.node->kind != Kind::integer && p.node->kind != Kind::text) return report_type(c, p, option);
+  const auto value = checked_number(c, p, option);
+  if (value && *value != std::floor(*value))
+    return c.report(p, fmt::format("{} must be a whole number; it is {}", p.path, *value));
+  if (value) out = int(*value);
 }
 
 void read_value(SceneContext& c, const Place& p, const Option& option, bool& out) {

@@ -151,7 +151,7 @@ Vec3 displacement_of(const Solids<Dim>& solids, const MaterialPoint& point, cons
 // Shown coordinate; loads and power are means of the last step.
 template <int Dim>
 void measure_joint(const Solids<Dim>& solids, const State<Dim>& state, const ProbeSpec& probe, ProbeSample& out) {
-  const std::vector<JointReport> reports = report_joints(solids.joints, state.joints, state.solids, state.time);
+  const std::vector<JointReport> reports = report_joints(solids.joints, state);
   const JointReport& joint = *std::ranges::find(reports, probe.joint, &JointReport::name);
   out.vector = probe.quantity == JointQuantity::torque ? joint.torque : joint.force;
   out.value = probe.quantity == JointQuantity::power ? joint.power : joint.q;

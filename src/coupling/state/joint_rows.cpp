@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/scene.h"
+#include "coupling/state/state.h"
 
 namespace seiche {
 namespace {
@@ -203,11 +204,11 @@ Vec3 point_of_joint(const JointSet<Dim>& joints, int number, const JointedBodies
 }
 
 template <int Dim>
-std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states,
-                                       const Participants<Dim>& solids, double time) {
+std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const State<Dim>& state) {
   std::vector<JointReport> reports;
+  const std::vector<JointState>& states = state.joints;
   if (states.empty()) return reports;
-  const JointedBodies bodies = jointed_bodies(joints, solids, time);
+  const JointedBodies bodies = jointed_bodies(joints, state.solids, state.time);
   for (std::size_t j = 0; j < states.size(); ++j) {
     const JointState& s = states[j];
     reports.push_back({joints.list[j].spec.name, s.shown_q, s.rate, s.force, s.torque,
@@ -241,17 +242,16 @@ int most_overloaded(const JointSet<Dim>& joints, const std::vector<JointState>& 
   return found;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                            \
-  template struct JointSet<D>;                                                                           \
-  template JointedBodies jointed_bodies<D>(const JointSet<D>&, const Participants<D>&, double);          \
-  template PlacedBody placed_patch<D>(const HeldPatch<D>&, const Eigen::VectorXd&);                      \
-  template Vec3 point_of_joint<D>(const JointSet<D>&, int, const JointedBodies&);                        \
-  template std::vector<JointReport> report_joints<D>(const JointSet<D>&, const std::vector<JointState>&, \
-                                                     const Participants<D>&, double);                    \
-  template int most_overloaded<D>(const JointSet<D>&, const std::vector<JointState>&);                   \
-  template bool has_coordinate<D>(const JointSet<D>&, int);                                              \
-  template PlacedRow coordinate_of_joint<D>(const JointSet<D>&, int, const JointedBodies&, double);      \
-  template std::vector<PlacedRow> constraints_of<D>(const JointSet<D>&, const std::vector<JointState>&,  \
+#define SEICHE_INSTANTIATE(D)                                                                           \
+  template struct JointSet<D>;                                                                          \
+  template JointedBodies jointed_bodies<D>(const JointSet<D>&, const Participants<D>&, double);         \
+  template PlacedBody placed_patch<D>(const HeldPatch<D>&, const Eigen::VectorXd&);                     \
+  template Vec3 point_of_joint<D>(const JointSet<D>&, int, const JointedBodies&);                       \
+  template std::vector<JointReport> report_joints<D>(const JointSet<D>&, const State<D>&);              \
+  template int most_overloaded<D>(const JointSet<D>&, const std::vector<JointState>&);                  \
+  template bool has_coordinate<D>(const JointSet<D>&, int);                                             \
+  template PlacedRow coordinate_of_joint<D>(const JointSet<D>&, int, const JointedBodies&, double);     \
+  template std::vector<PlacedRow> constraints_of<D>(const JointSet<D>&, const std::vector<JointState>&, \
                                                     const JointedBodies&, const std::vector<double>&, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -85,10 +85,9 @@ PlacedRow coordinate_of_joint(const JointSet<Dim>& joints, int joint, const Join
 template <int Dim>
 Vec3 point_of_joint(const JointSet<Dim>& joints, int joint, const JointedBodies& bodies);
 
-// Rows of joints.csv, with the solids where they are shown at `time`.
+// Rows of joints.csv, with the solids where they are shown.
 template <int Dim>
-std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const std::vector<JointState>& states,
-                                       const Participants<Dim>& solids, double time);
+std::vector<JointReport> report_joints(const JointSet<Dim>& joints, const State<Dim>& state);
 double largest_gap(const std::vector<JointState>& states);  // m
 // Line for the log on a joint that breaks.
 std::string note_on_break(const JointReport& joint, std::int64_t step, double time);

@@ -71,9 +71,7 @@ class FlowSimulation : public Simulation {
   std::int64_t step_count() const override { return state_.step; }
   StepStats stats() const override { return stats_; }
   std::vector<SolidState> solids() const override { return solids_; }
-  std::vector<JointReport> joints() const override {
-    return report_joints(setup_->solids.joints, state_.joints, state_.solids, state_.time);
-  }
+  std::vector<JointReport> joints() const override { return report_joints(setup_->solids.joints, state_); }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
     return measure_probe(*setup_, state_, geometry_, setup_->scene->probes.at(k));
@@ -178,8 +176,7 @@ class FlowSimulation : public Simulation {
       if (j < 0) return a;
       state_.joints[std::size_t(j)].broken = true;
       phases_.warnings.push_back(
-          note_on_break(report_joints(joints, a.state.joints, a.state.solids, a.state.time)[std::size_t(j)],
-                        a.state.step, a.state.time));
+          note_on_break(report_joints(joints, a.state)[std::size_t(j)], a.state.step, a.state.time));
     }
   }
 

@@ -116,9 +116,12 @@ TEST_CASE("all faults of a scene are told in one go, in the order of the file") 
       "[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = \"soon\"\n[liquid]\ndensty = 1\n";
   const std::string message = fault(text, {{"time.cfl", "-1"}});
   CHECK(count_lines(message) == 4);
-  CHECK_THAT(message, StartsWith("scene.toml:2: domain.upper must have 3 components (dimension = 3), not 2\n"
-                                 "scene.toml:5: time.end must be a number (s), not the text \"soon\"\n"
-                                 "scene.toml:7: unknown key 'densty' in [liquid]; did you mean 'density'?"));
+  CHECK_THAT(
+      message,
+      StartsWith(
+          "scene.toml:2: domain.upper must have 3 components (dimension = 3), not 2\n"
+          "scene.toml:5: time.end must be a number (s), not the text \"soon\"; it has \"soon\", which is no parameter\n"
+          "scene.toml:7: unknown key 'densty' in [liquid]; did you mean 'density'?"));
   CHECK_THAT(message, Contains("\n--set time.cfl: time.cfl must be > 0 and <= 8; it is -1"));
 }
 
