@@ -32,7 +32,8 @@ constexpr KnownUnit known_units[] = {
     {"W", {1, {2, 1, -3, 0}}}, {"kW", {1e3, {2, 1, -3, 0}}}, {"rad", {1, {0, 0, 0, 1}}},
     {"deg", {turn / 360, {0, 0, 0, 1}}}, {"degree", {turn / 360, {0, 0, 0, 1}}},
     {"degrees", {turn / 360, {0, 0, 0, 1}}}, {"rev", {turn, {0, 0, 0, 1}}}, {"rpm", {turn / 60, {0, 0, -1, 1}}},
-    {"1", {1, {0, 0, 0, 0}}}};
+    {"1", {1, {0, 0, 0, 0}}},
+};
 // clang-format on
 
 // Reads names with powers one by one.
