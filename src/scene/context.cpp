@@ -38,7 +38,9 @@ const TomlNode* child(const TomlNode& node, const std::string& part) {
 
 std::string SceneContext::where(int line) const {
   if (line < 0) return "--set " + override_paths.at(std::size_t(-line - 1));
-  return line == 0 ? name_ : fmt::format("{}:{}", name_, line);
+  const int file = line / lines_a_file, own = line % lines_a_file;
+  const std::string& name = file > 0 ? included.at(std::size_t(file) - 1) : name_;
+  return own == 0 ? name : fmt::format("{}:{}", name, own);
 }
 
 void SceneContext::report(const std::string& path, int line, const std::string& text) {

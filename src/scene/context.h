@@ -23,7 +23,9 @@ class SceneContext {
 
   int dimension = 0;  // 0 until known; vectors may then have 2 or 3 components
   FileAccess access = FileAccess::scene_folder;
-  Parameters parameters;                    // of the table [parameters]
+  Parameters parameters;              // of the table [parameters]
+  std::vector<std::string> included;  // files; lines of number n, from 1, are behind n times lines_a_file
+  static constexpr int lines_a_file = 20'000'000;
   std::vector<std::string> override_paths;  // line -n - 1 refers to override number n
 
   const std::string& name() const { return name_; }

@@ -294,6 +294,17 @@ Key<Scene> access_key() {
   return key;
 }
 
+// merge_includes() reads it first, and takes it out of the file.
+Key<Scene> include_key() {
+  const Option option{.key = "include",
+                      .type = T::text,
+                      .unset = "none",
+                      .doc = "a scene, or a list of scenes, below this one; see parameters.md"};
+  return {option,
+          [](SceneContext& c, const Place& p, Scene&) { c.report(p, "include belongs into the file of a scene"); },
+          [](const Scene&, int, const std::string&, SceneLines&) {}};
+}
+
 // read_parameters() reads it first; the written scene has the numbers in their places.
 Key<Scene> parameters_key() {
   const Option option{.key = "parameters",
@@ -334,6 +345,7 @@ Section<Scene> build_scene_section() {
       value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
       dimension_key(),
       access_key(),
+      include_key(),
       parameters_key(),
       gravity_key(),
       block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},

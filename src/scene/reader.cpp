@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/scene.h"
 #include "scene/checks.h"
+#include "scene/include.h"
 #include "scene/options.h"
 #include "scene/overrides.h"
 
@@ -34,8 +35,9 @@ class OpenFile {
   throw Error(ExitCode::bad_input, "cannot read the scene '" + file.string() + "': " + std::strerror(errno));
 }
 
-// Bytes of the file, at most one more than the limit for scenes.
-std::string read_bytes(const std::filesystem::path& file) {
+}  // namespace
+
+std::string read_scene_text(const std::filesystem::path& file) {
   const OpenFile open_file(file);
   if (open_file.handle() < 0) fail_to_read(file);
   std::string bytes;
@@ -50,11 +52,11 @@ std::string read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-}  // namespace
-
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                   const std::vector<Override>& overrides) {
   TomlNode root = parse_toml(text, name);
+  SceneContext context(name, folder);
+  merge_includes(context, root);
   apply_overrides(root, overrides);
   if (root.entries.empty()) {
     throw Error(ExitCode::bad_input,
@@ -62,7 +64,6 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
                     ": the scene is empty; it needs at least [domain] with upper and cell_size, and "
                     "[time] with end");
   }
-  SceneContext context(name, folder);
   for (const Override& override : overrides) context.override_paths.push_back(override.path);
   context.parameters = read_parameters(context, root);
   const Scene defaults;
@@ -75,7 +76,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return parse_scene(read_bytes(file), file.string(), file.parent_path(), overrides);
+  return parse_scene(read_scene_text(file), file.string(), file.parent_path(), overrides);
 }
 
 }  // namespace seiche

@@ -23,6 +23,9 @@ Override parse_override(const std::string& text);
 // errors and unreadable files are reported alone.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
+// Bytes of a scene's file, at most one more than most_scene_bytes. Throws Error(bad_input).
+std::string read_scene_text(const std::filesystem::path& file);
+
 // The same from text. `name` replaces the file in messages; paths in the scene are relative to `folder`.
 Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                   const std::vector<Override>& overrides = {});
