@@ -101,11 +101,7 @@ Eigen::VectorXd JointMotion<Dim>::gaps(const Eigen::VectorXd& v) const {
 
 template <int Dim>
 Eigen::VectorXd JointMotion<Dim>::velocity_in_state() const {
-  Eigen::VectorXd v(coupling_.size());
-  for (std::size_t b = 0; b < coupling_.bodies.size(); ++b)
-    v.segment(coupling_.first[b], coupling_.first[b + 1] - coupling_.first[b]) =
-        state_.solids[std::size_t(coupling_.bodies[b])].velocity();
-  return v;
+  return velocities_in(coupling_, state_);
 }
 
 template <int Dim>

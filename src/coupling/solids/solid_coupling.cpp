@@ -107,6 +107,15 @@ void set_held_velocities(const Domain<Dim>& domain, const SolidCoupling<Dim>& c,
 }
 
 template <int Dim>
+Eigen::VectorXd velocities_in(const SolidCoupling<Dim>& c, const State<Dim>& state) {
+  Eigen::VectorXd v(c.size());
+  for_each_block(state.solids, c, [&](const Participant<Dim>& p, int b) {
+    v.segment(c.first[std::size_t(b)], p.unknowns()) = p.velocity();
+  });
+  return v;
+}
+
+template <int Dim>
 std::vector<Eigen::VectorXd> each_velocity_over(const Solids<Dim>& solids, const State<Dim>& state, double dt) {
   std::vector<Eigen::VectorXd> each;
   for (std::size_t k = 0; k < state.solids.size(); ++k)
@@ -129,6 +138,7 @@ Eigen::VectorXd velocities_over(const Solids<Dim>& solids, const State<Dim>& sta
                                   double, StepGeometry<D>&, State<D>&);                                                \
   template void set_reactions<D>(const SolidCoupling<D>&, const Eigen::VectorXd&, State<D>&);                          \
   template void set_held_velocities<D>(const Domain<D>&, const SolidCoupling<D>&, StepGeometry<D>&);                   \
+  template Eigen::VectorXd velocities_in<D>(const SolidCoupling<D>&, const State<D>&);                                 \
   template std::vector<Eigen::VectorXd> each_velocity_over<D>(const Solids<D>&, const State<D>&, double);              \
   template Eigen::VectorXd velocities_over<D>(const Solids<D>&, const State<D>&, double);
 SEICHE_INSTANTIATE(2)

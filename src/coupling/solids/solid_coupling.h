@@ -82,6 +82,10 @@ void set_reactions(const SolidCoupling<Dim>& coupling, const Eigen::VectorXd& re
 template <int Dim>
 void set_held_velocities(const Domain<Dim>& domain, const SolidCoupling<Dim>& coupling, StepGeometry<Dim>& geometry);
 
+// Velocities of the unknowns as the state has them, stacked: before the solve, then those found.
+template <int Dim>
+Eigen::VectorXd velocities_in(const SolidCoupling<Dim>& coupling, const State<Dim>& state);
+
 // Velocities of the unknowns over a coming step of dt: those of the last solve, corrected for the constraints of
 // interactions. One vector a participant; then all stacked.
 template <int Dim>

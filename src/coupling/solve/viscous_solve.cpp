@@ -92,16 +92,6 @@ Eigen::VectorXd drag_on_solids(const ViscousStep<Dim>& viscous, const Vector& u,
   return drag;
 }
 
-// Velocities of the solids' unknowns before the step.
-template <int Dim>
-Eigen::VectorXd velocities_before(const SolidCoupling<Dim>& coupling, const State<Dim>& state) {
-  Eigen::VectorXd v(coupling.size());
-  for (std::size_t b = 0; b < coupling.bodies.size(); ++b)
-    v.segment(coupling.first[b], coupling.first[b + 1] - coupling.first[b]) =
-        state.solids[std::size_t(coupling.bodies[b])].velocity();
-  return v;
-}
-
 // With v = w + the part that the joints prescribe, C w = 0. Collective.
 template <int Dim>
 SaddleReport solve_with_joints(SaddleSolver& solver, const BodyMatrix& H, const ViscousSystem<Dim>& system,
@@ -166,7 +156,7 @@ void SplitViscosity<Dim>::act(const PressureProblem<Dim>& liquid, SolidCoupling<
   r.viscous_loads = viscous_.loads(moved, v);
   viscous_.keep_samples_only();
   solids_ = v;
-  solids_before_ = velocities_before(coupling, in.state);
+  solids_before_ = velocities_in(coupling, in.state);
 }
 
 // u = u* - dt grad p/rho. The stress is that of u* without the pressure of the last step.
@@ -207,7 +197,7 @@ void solve_with_viscosity(const CoupledInput<Dim>& in, const PressureProblem<Dim
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, solved);
   if (!r.failure.empty()) return;
   r.viscous_loads = viscous.loads(solved, r.solids);
-  r.viscous = viscous.power({solved, r.solids}, {solved, r.solids}, {in.flow, velocities_before(coupling, in.state)});
+  r.viscous = viscous.power({solved, r.solids}, {solved, r.solids}, {in.flow, velocities_in(coupling, in.state)});
   r.u_star = std::move(solved);
   add_pressure(in, r, dt, r.u_star);
 }
