@@ -5,8 +5,8 @@
 namespace seiche {
 
 AddedMassModel::AddedMassModel(Eigen::MatrixXd T, const Eigen::VectorXd& v0, const Eigen::VectorXd& g0,
-                               std::vector<Freedom> freedom, SparseMatrix C, Eigen::VectorXd slack)
-    : T_(std::move(T)), v0_(v0), freedom_(std::move(freedom)), C_(std::move(C)), slack_(std::move(slack)) {
+                               std::vector<Freedom> freedom, const SparseMatrix& C, Eigen::VectorXd slack)
+    : T_(std::move(T)), v0_(v0), freedom_(std::move(freedom)), C_(C), slack_(std::move(slack)) {
   hold_fixed(T_);
   g0_ = masked(g0);
 }

@@ -16,7 +16,7 @@ class AddedMassModel : public InertiaProblem {
   // g0: true gradient at v0. Fixed degrees of freedom keep v0, and velocities are confined to C v = C v0;
   // up to `slack`, they count as being there.
   AddedMassModel(Eigen::MatrixXd T, const Eigen::VectorXd& v0, const Eigen::VectorXd& g0, std::vector<Freedom> freedom,
-                 SparseMatrix C = {}, Eigen::VectorXd slack = {});
+                 const SparseMatrix& C = {}, Eigen::VectorXd slack = {});
   int size() const override { return int(v0_.size()); }
   InertiaResponse minimise(const SparseMatrix& K, const Eigen::VectorXd& r) override;
   InertiaResponse respond(const Eigen::VectorXd& v) override;
