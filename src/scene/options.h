@@ -62,6 +62,8 @@ void finish_shape(SceneContext& context, const Place& place, ShapeSpec& shape, M
 void finish_rigid(SceneContext& context, const Place& place, const SolidSpec& solid);
 void finish_elastic(SceneContext& context, const Place& place, const SolidSpec& solid);
 
+// Reason why no body has this tensor of inertia (kg m^2, its lower triangle), or "".
+std::string fault_of_inertia(const Eigen::Matrix3d& tensor);
 // Reports a mass that is missing, given twice, or that no body has.
 void check_mass(SceneContext& context, const Place& place, const SolidSpec& solid);
 

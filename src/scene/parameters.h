@@ -8,6 +8,7 @@
 
 namespace seiche {
 
+class SceneContext;
 struct TomlNode;
 
 using Parameters = std::map<std::string, double>;
@@ -18,8 +19,6 @@ std::string with_parameters(const std::string& text, const Parameters& parameter
 // The number that a text stands for at a key: an expression of parameters, with or without a unit. Else sets `fault`.
 std::optional<double> number_of(const std::string& text, const Option& option, const Parameters& parameters,
                                 std::string& fault);
-
-class SceneContext;
 
 // The numbers of the table [parameters], which may depend on each other in any order. Reports names that are taken,
 // values that are not numbers, and circles.

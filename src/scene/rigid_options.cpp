@@ -196,6 +196,16 @@ void check_bounded(SceneContext& c, const Place& p, const ShapeSpec& shape, cons
   }
 }
 
+std::string fault_of_inertia(const Eigen::Matrix3d& tensor) {
+  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor).eigenvalues();
+  constexpr double rounding = 1e-3;  // tables of robots give few decimals
+  if (principal[0] > 0 && principal[0] + principal[1] >= (1 - rounding) * principal[2]) return {};
+  return fmt::format(
+      "no body has principal moments of {:.4g}, {:.4g} and {:.4g} kg m^2: each must be above 0 and at most the sum of "
+      "the others",
+      principal[0], principal[1], principal[2]);
+}
+
 void check_mass(SceneContext& c, const Place& p, const SolidSpec& solid) {
   const RigidSpec& r = solid.rigid;
   if (r.mass && r.density > 0) c.report(p, p.path + " has both density and mass; give one of them");
@@ -213,12 +223,8 @@ void check_mass(SceneContext& c, const Place& p, const SolidSpec& solid) {
   }
   Eigen::Matrix3d tensor = m.asDiagonal();
   tensor(1, 0) = products[0], tensor(2, 0) = products[1], tensor(2, 1) = products[2];
-  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor).eigenvalues();
-  constexpr double rounding = 1e-3;  // tables of robots give few decimals
-  if (!(principal[0] > 0) || principal[0] + principal[1] < (1 - rounding) * principal[2])
-    c.report(p, fmt::format("{}: no body has principal moments of {:.4g}, {:.4g} and {:.4g} kg m^2: each must be above "
-                            "0 and at most the sum of the others",
-                            join_path(p.path, "inertia"), principal[0], principal[1], principal[2]));
+  const std::string fault = fault_of_inertia(tensor);
+  if (!fault.empty()) c.report(p, join_path(p.path, "inertia") + ": " + fault);
 }
 
 void finish_rigid(SceneContext& c, const Place& p, const SolidSpec& solid) {

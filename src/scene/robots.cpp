@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <numbers>
 
 #include "base/scene.h"
 #include "base/suggest.h"
+#include "scene/options.h"
 #include "scene/urdf.h"
 #include "scene/values.h"
 
@@ -93,7 +93,7 @@ class RobotBuilder {
     return joint.type == urdf::Joint::PRISMATIC ? own->start : own->start / degrees_a_radian;
   }
 
-  // Of the child link, by the parent link.
+  // Motion of the child link by the parent link, from the joint's zero to its start.
   LinkPlace motion_of(const urdf::Joint& joint) const {
     LinkPlace motion = LinkPlace::Identity();
     const Vec3 axis = vector_of(joint.axis);
@@ -241,11 +241,8 @@ class RobotBuilder {
     rigid.center_of_mass = Vec3(place.translation());
     const auto& i = *link.inertial;
     const Eigen::Matrix3d own{{i.ixx, i.ixy, i.ixz}, {i.ixy, i.iyy, i.iyz}, {i.ixz, i.iyz, i.izz}};
-    const Vec3 principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(own).eigenvalues();
-    constexpr double rounding = 1e-3;  // files give few decimals
-    if (!(principal[0] > 0) || principal[0] + principal[1] < (1 - rounding) * principal[2])
-      return report("file", fmt::format("link \"{}\": no body has principal moments of {:.4g}, {:.4g}, {:.4g} kg m^2",
-                                        link.name, principal[0], principal[1], principal[2]));
+    const std::string fault = fault_of_inertia(own);
+    if (!fault.empty()) return report("file", fmt::format("link \"{}\": {}", link.name, fault));
     const Eigen::Matrix3d turned = place.linear() * own * place.linear().transpose();
     rigid.inertia = Vec3(turned.diagonal());
     rigid.products_of_inertia = Vec3(turned(0, 1), turned(0, 2), turned(1, 2));
@@ -276,10 +273,13 @@ class RobotBuilder {
     scene_.joints.push_back(std::move(joint));
   }
 
-  // From the place at the start. A limit there gives way by a little, since a stop has a gap.
+  // Limits from the place at the start, and the file's effort. A limit there gives way by a little: a stop has a gap.
   void set_limits(const urdf::Joint& from, JointSpec& joint) const {
     const bool turns = from.type == urdf::Joint::REVOLUTE;
-    if (!from.limits || (!turns && from.type != urdf::Joint::PRISMATIC) || joint.limits) return;
+    if (!from.limits || (!turns && from.type != urdf::Joint::PRISMATIC)) return;
+    if (joint.motor && !joint.motor->most() && from.limits->effort > 0)
+      (turns ? joint.motor->torque : joint.motor->force) = from.limits->effort;
+    if (joint.limits) return;
     const double unit = turns ? degrees_a_radian : 1, give = turns ? 0.1 : 1e-4, start = start_of(from);
     const double low = unit * (from.limits->lower - start), high = unit * (from.limits->upper - start);
     if (low > give || high < -give)
@@ -288,8 +288,6 @@ class RobotBuilder {
                                 "[[robot.joint]] with start",
                                 from.name, unit * start, unit * from.limits->lower, unit * from.limits->upper));
     joint.limits = {{std::min(low, -give), std::max(high, give)}};
-    if (joint.motor && !joint.motor->most() && from.limits->effort > 0)
-      (turns ? joint.motor->torque : joint.motor->force) = from.limits->effort;
   }
 
   // Damping, and dry friction as a motor that resists all motion.

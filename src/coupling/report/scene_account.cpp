@@ -189,8 +189,8 @@ void account_joint(const Solids<Dim>& solids, const Joint& joint, SceneAccount& 
       gear ? "" : fmt::format(", at {} m", rounded_place<Dim>(spec.at)), forces_text(spec)));
   if (gear) return;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const int k : {joint.first, joint.second}) {
-    if (k >= solids.joints.solids) continue;  // the world
+  for (const int k : joint.solids) {
+    if (k < 0) continue;  // the world
     const Body<Dim>& body = solids.bodies[std::size_t(k)];
     if (body.radius() > 0) nearest = std::min(nearest, (spec.at - body.mass().center).norm() / body.radius());
   }

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "coupling/geometry/placed_solid.h"
-#include "geometry/mesh/facets.h"
 #include "grid/loops.h"
 
 namespace seiche {
@@ -28,25 +27,28 @@ std::vector<IVec<Dim>> steps_outward(const Vec<Dim>& normal) {
 
 template <int Dim>
 Vec<Dim> middle_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points) {
-  const auto& facet = facets_of<Dim>(surface)[std::size_t(piece.facet)];
   Vec<Dim> middle = Vec<Dim>::Zero();
-  for (const FacetWeights<Dim>& corner : piece.outline)
-    for (int n = 0; n < Dim; ++n) middle += corner[n] * points[std::size_t(facet[std::size_t(n)])];
+  for (const Vec<Dim>& corner : corners_of(piece, surface, points)) middle += corner;
   return middle / double(piece.outline.size());
 }
 
 }  // namespace
 
 template <int Dim>
+std::vector<int> jointed_neighbours(const Solids<Dim>& solids, const std::vector<Placement>& placed, int k) {
+  const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], placed[std::size_t(n)]); };
+  std::vector<int> near;
+  for (const auto& [a, b] : solids.joints.pairs_apart())
+    if ((a == k || b == k) && box(a).intersects(box(b))) near.push_back(a == k ? b : a);
+  return near;
+}
+
+template <int Dim>
 JointedNeighbours<Dim>::JointedNeighbours(const Domain<Dim>& domain, const Solids<Dim>& solids,
                                           const StepGeometry<Dim>& g, int k)
     : domain_(domain), psi_(g.psi) {
-  const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], g.placed[std::size_t(n)]); };
-  for (const auto& [a, b] : solids.joints.pairs_apart()) {
-    if ((a != k && b != k) || !box(a).intersects(box(b))) continue;
-    const auto other = std::size_t(a == k ? b : a);
-    near_.push_back(place_solid(domain.layout, solids.bodies[other], g.placed[other]));
-  }
+  for (const int n : jointed_neighbours(solids, g.placed, k))
+    near_.push_back(place_solid(domain.layout, solids.bodies[std::size_t(n)], g.placed[std::size_t(n)]));
 }
 
 template <int Dim>
@@ -100,6 +102,7 @@ std::vector<ExposedPiece<Dim>> exposed_pieces(const Domain<Dim>& domain, const C
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                             \
+  template std::vector<int> jointed_neighbours<D>(const Solids<D>&, const std::vector<Placement>&, int);  \
   template class JointedNeighbours<D>;                                                                    \
   template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                    \
   template std::vector<ExposedPiece<D>> exposed_pieces<D>(const Domain<D>&, const CellField<D, char>&,    \

@@ -10,7 +10,11 @@ namespace seiche {
 template <int Dim>
 class PlacedSolid;
 
-// Solids that joints let reach into body k, where they do. No liquid acts on pieces that they cover. Keeps references.
+// Solids that joints let reach into body k, and whose boxes meet its own.
+template <int Dim>
+std::vector<int> jointed_neighbours(const Solids<Dim>& solids, const std::vector<Placement>& placed, int k);
+
+// The same where they are placed. No liquid acts on pieces that they cover. Keeps references.
 template <int Dim>
 class JointedNeighbours {
  public:

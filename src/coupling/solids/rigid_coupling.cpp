@@ -9,7 +9,6 @@
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "fluid/boundary/domain.h"
-#include "geometry/mesh/facets.h"
 #include "linalg/core/matrix_entries.h"
 
 namespace seiche {
@@ -119,16 +118,6 @@ Sums<Dim> read_sums(const double* next) {
   return s;
 }
 
-// True if another solid may reach into body k, whose face shares then are those of a part of it.
-template <int Dim>
-bool shares_its_volume(const Solids<Dim>& solids, const std::vector<Placement>& placed, int k) {
-  const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], placed[std::size_t(n)]); };
-  const SharedPairs pairs = solids.joints.pairs_apart();
-  return std::any_of(pairs.begin(), pairs.end(), [&](const std::array<int, 2>& pair) {
-    return (pair[0] == k || pair[1] == k) && box(pair[0]).intersects(box(pair[1]));
-  });
-}
-
 // Area with its normal, and middle, of a piece.
 template <int Dim>
 struct PieceArea {
@@ -137,12 +126,7 @@ struct PieceArea {
 
 template <int Dim>
 PieceArea<Dim> area_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points) {
-  const auto& facet = facets_of<Dim>(surface)[std::size_t(piece.facet)];
-  std::vector<Vec<Dim>> corners;
-  for (const FacetWeights<Dim>& weights : piece.outline) {
-    corners.push_back(Vec<Dim>::Zero());
-    for (int n = 0; n < Dim; ++n) corners.back() += weights[n] * points[std::size_t(facet[std::size_t(n)])];
-  }
+  const std::vector<Vec<Dim>> corners = corners_of(piece, surface, points);
   if constexpr (Dim == 2)
     return {(corners[1] - corners[0]).norm() * piece.normal, 0.5 * (corners[0] + corners[1])};
   else {
@@ -264,7 +248,7 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
   c.J.blocks[std::size_t(block)] = make_block(s.domain, s.fluids, step.state.phi, step.rows, mask, sums);
   const int k = c.bodies[std::size_t(block)];
-  if (shares_its_volume(s.solids, step.geometry.placed, k)) {
+  if (!jointed_neighbours(s.solids, step.geometry.placed, k).empty()) {
     if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
     sums.missing = missing_load(step, body, k, r.center, *parts.open);
   }
@@ -283,10 +267,9 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, in
   const Vec3 gravity = s.fluids.gravity.of_step(step.state.time, step.dt);
   const Sums<Dim> all = read_sums<Dim>(sums);
   const Vec3 arm = step.geometry.placed[std::size_t(k)].pose.rotation * Vec3(body.mass().centroid - body.mass().center);
-  const Generalised<Dim> missing =
-      shares_its_volume(s.solids, step.geometry.placed, k)
-          ? all.missing
-          : buoyancy_difference(all, body.mass().volume, arm, s.fluids.density() * gravity);
+  const Generalised<Dim> missing = jointed_neighbours(s.solids, step.geometry.placed, k).empty()
+                                       ? buoyancy_difference(all, body.mass().volume, arm, s.fluids.density() * gravity)
+                                       : all.missing;
   c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
       missing.cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
 }

@@ -30,9 +30,17 @@ std::shared_ptr<const Expression> made(const std::optional<Formula>& text) {
   return text ? std::make_shared<const Expression>(*text) : nullptr;
 }
 
+// Distance of the farthest point of a solid from its centre of mass, m; 0 for the world and solids that do not move
+// freely.
 template <int Dim>
 double size_of(const std::vector<Body<Dim>>& bodies, int k) {
-  return k >= 0 && k < int(bodies.size()) ? bodies[std::size_t(k)].radius() : 0;
+  if (k < 0) return 0;
+  const Body<Dim>& body = bodies[std::size_t(k)];
+  if (!body.deforms()) return body.radius();
+  double size = 0;
+  for (const Vec<Dim>& x : body.elastic().body.mesh.nodes)
+    size = std::max(size, (extend<Dim>(x) - body.mass().center).norm());
+  return size;
 }
 
 template <int Dim>

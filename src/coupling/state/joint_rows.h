@@ -81,7 +81,7 @@ std::vector<PlacedRow> constraints_of(const JointSet<Dim>& joints, const std::ve
 // The coordinate of a joint, with whole turns so that it lies within half a turn of `near`.
 template <int Dim>
 PlacedRow coordinate_of_joint(const JointSet<Dim>& joints, int joint, const JointedBodies& bodies, double near);
-// Where a joint is; a gear has the place of its first joint.
+// Place of a joint, m; a gear has that of its first joint.
 template <int Dim>
 Vec3 point_of_joint(const JointSet<Dim>& joints, int joint, const JointedBodies& bodies);
 

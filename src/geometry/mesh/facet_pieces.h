@@ -2,7 +2,7 @@
 // Cuts a surface at the cells of a grid.
 #include <vector>
 
-#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/facets.h"
 #include "grid/layout.h"
 
 namespace seiche {
@@ -25,5 +25,18 @@ struct FacetPiece {
 template <int Dim>
 std::vector<FacetPiece<Dim>> cut_at_cells(const Geometry<Dim>& grid, const Box<Dim>& box, const SurfaceMesh& surface,
                                           const std::vector<Vec<Dim>>& points);
+
+// Corners in space of a piece of a surface whose points are at `points` (m), in the order of its outline.
+template <int Dim>
+std::vector<Vec<Dim>> corners_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface,
+                                 const std::vector<Vec<Dim>>& points) {
+  const auto& facet = facets_of<Dim>(surface)[std::size_t(piece.facet)];
+  std::vector<Vec<Dim>> corners;
+  for (const FacetWeights<Dim>& weights : piece.outline) {
+    corners.push_back(Vec<Dim>::Zero());
+    for (int n = 0; n < Dim; ++n) corners.back() += weights[n] * points[std::size_t(facet[std::size_t(n)])];
+  }
+  return corners;
+}
 
 }  // namespace seiche

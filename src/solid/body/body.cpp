@@ -41,9 +41,9 @@ MassProperties given_mass(MassProperties m, const RigidSpec& rigid) {
   m.centroid = m.center;
   if (rigid.mass) m.inertia *= *rigid.mass / m.mass, m.mass = *rigid.mass;
   if (rigid.center_of_mass) m.center = *rigid.center_of_mass;
-  if (rigid.inertia) m.inertia = rigid.inertia->asDiagonal();
-  const Vec3 products = rigid.products_of_inertia.value_or(Vec3(0, 0, 0));
   if (!rigid.inertia) return m;
+  m.inertia = rigid.inertia->asDiagonal();
+  const Vec3 products = rigid.products_of_inertia.value_or(Vec3(0, 0, 0));
   m.inertia(0, 1) = m.inertia(1, 0) = products[0];
   m.inertia(0, 2) = m.inertia(2, 0) = products[1];
   m.inertia(1, 2) = m.inertia(2, 1) = products[2];
