@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(seiche_config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Seiche)
 
 install(TARGETS seiche RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(layer base grid geometry linalg levelset fluid solid coupling files scene run render info validate all)
+foreach(layer base grid geometry linalg levelset fluid solid coupling files scene run render info exporting validate all)
   if(TARGET seiche_${layer})
     install(TARGETS seiche_${layer} EXPORT SeicheTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   endif()

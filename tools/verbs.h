@@ -36,5 +36,6 @@ void add_check(CLI::App& program, VerbContext& context);
 void add_validate(CLI::App& program, VerbContext& context);
 void add_info(CLI::App& program, VerbContext& context);
 void add_render(CLI::App& program, VerbContext& context);
+void add_export(CLI::App& program, VerbContext& context);
 
 }  // namespace seiche

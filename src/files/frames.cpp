@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "base/agree.h"
@@ -131,15 +132,25 @@ vdb::Frame FrameWriter::gather(const FrameLabel& label, const Simulation& simula
   for (const std::string& output : scene_.output.frames) {
     const std::string name = field_of_output(output);
     if (name.empty()) continue;
-    FrameField field = simulation.frame_field(name);
-    if (fault == PhaseFault::poison && !field.values.empty()) field.values[0] = std::numeric_limits<float>::quiet_NaN();
-    check_finite(field, label, ranks_);
-    vdb::Grid grid{field.name, grid_kind(field.kind), 0, {}};
-    if (field.kind == FrameField::Kind::level_set) grid.background = float(3 * scene_.domain.cell_size);
-    for (const std::string& bytes : gather_large(pack(field), ranks_)) grid.blocks.push_back(unpack(bytes));
-    frame.grids.push_back(std::move(grid));
+    const bool both = name == "surface" && scene_.output.surface == "closed";
+    if (both) frame.grids.push_back(gather(label, simulation.frame_field("closed_surface"), fault));
+    frame.grids.push_back(gather(label, simulation.frame_field(name), fault));
+    if (!both) continue;
+    vdb::Grid &closed = *std::prev(frame.grids.end(), 2), &open = frame.grids.back();
+    closed.name = "surface";
+    closed.closed = true;
+    open.name = "free_surface";
   }
   return frame;
+}
+
+vdb::Grid FrameWriter::gather(const FrameLabel& label, FrameField field, PhaseFault fault) const {
+  if (fault == PhaseFault::poison && !field.values.empty()) field.values[0] = std::numeric_limits<float>::quiet_NaN();
+  check_finite(field, label, ranks_);
+  vdb::Grid grid{field.name, grid_kind(field.kind), 0, {}};
+  if (field.kind == FrameField::Kind::level_set) grid.background = float(3 * scene_.domain.cell_size);
+  for (const std::string& bytes : gather_large(pack(field), ranks_)) grid.blocks.push_back(unpack(bytes));
+  return grid;
 }
 
 void FrameWriter::write(const FrameLabel& label, const Simulation& simulation, PhaseFault fault) {

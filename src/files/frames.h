@@ -38,6 +38,7 @@ class FrameWriter {
 
  private:
   vdb::Frame gather(const FrameLabel& label, const Simulation& simulation, PhaseFault fault) const;
+  vdb::Grid gather(const FrameLabel& label, FrameField field, PhaseFault fault) const;
   void write_solids(const FrameLabel& label, const Simulation& simulation);
   std::vector<VolumeFrame> elastic_volumes(const FrameLabel& label, const Simulation& simulation) const;
   void write_elastic(const FrameLabel& label, const std::vector<VolumeFrame>& volumes) const;

@@ -69,12 +69,15 @@ std::optional<double> volume_in_stats(const fs::path& file, double t) {
   return found;
 }
 
-// A frame's surface continues within solids, where there is no liquid, so the volume is taken from the run's table.
+// The volume in the run's table is exact. A frame's free surface continues within solids, where there is no liquid.
 std::string describe_volume(const fs::path& file, const vdb::Grid& grid, const vdb::Frame& frame) {
   const char* unit = frame.dimension == 3 ? "m^3" : "m^3 per metre of depth";
-  const auto known = volume_in_stats(fs::absolute(file).parent_path().parent_path() / "stats.csv", frame.time);
+  const auto stats = fs::absolute(file).parent_path().parent_path() / "stats.csv";
+  const auto known = grid.name == "surface" ? volume_in_stats(stats, frame.time) : std::optional<double>();
   if (known) return fmt::format("liquid volume {:.6g} {} (stats.csv)", *known, unit);
-  return fmt::format("about {:.6g} {} below the surface, that within solids counted", volume_below(grid, frame), unit);
+  const bool closed = grid.name == "surface" && vdb::level_set_name(frame) == "free_surface";
+  return fmt::format("about {:.6g} {} below the surface{}", volume_below(grid, frame), unit,
+                     closed ? "" : ", that within solids counted");
 }
 
 std::string describe_values(const fs::path& file, const vdb::Grid& grid, const vdb::Frame& frame) {

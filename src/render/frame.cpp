@@ -68,7 +68,7 @@ std::string grid_names(const vdb::Frame& frame) {
 
 std::optional<ScalarVolume> level_set_of(const vdb::Frame& frame) {
   for (const vdb::Grid& grid : frame.grids) {
-    if (grid.kind != vdb::GridKind::level_set || grid.name != "surface") continue;
+    if (grid.kind != vdb::GridKind::level_set || grid.name != vdb::level_set_name(frame)) continue;
     ScalarVolume volume = empty_volume(frame, grid.blocks.at(0));
     volume.values = grid.blocks.at(0).values;
     return volume;

@@ -246,6 +246,12 @@ Section<OutputSpec> output_section() {
       value_key<S>(
           {.key = "formats", .type = T::choice_list, .choices = {"vdb", "vtk"}, .doc = "file formats of the frames"},
           &S::formats),
+      value_key<S>({.key = "surface",
+                    .type = T::choice,
+                    .choices = {"closed", "free"},
+                    .doc = "level set of the frames: closed at walls and solids, so that it encloses the liquid "
+                           "alone, with free_surface beside it as the solver has it; free: the latter alone"},
+                   &S::surface),
       value_key<S>({.key = "checkpoint_every",
                     .type = T::integer,
                     .unit = "frames",

@@ -1,5 +1,6 @@
 // Fields for frames, from the owned cells.
 #include "base/error.h"
+#include "coupling/geometry/cell_distance.h"
 #include "coupling/report/measures.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/state.h"
@@ -45,7 +46,7 @@ CellField<Dim> viscosity(const Domain<Dim>& domain, const Fluids& fluids, const 
 
 template <int Dim>
 FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                            const std::string& name) {
+                            const NodeField<Dim>& psi, const std::string& name) {
   FrameField out;
   out.name = name;
   for (int a = 0; a < Dim; ++a)
@@ -57,6 +58,10 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
   };
   if (name == "surface")
     fill(FrameField::Kind::level_set, [&](Site c) { out.values.push_back(float(state.phi[c])); });
+  else if (name == "closed_surface")
+    fill(FrameField::Kind::level_set, [&](Site c) {
+      out.values.push_back(float(std::max(state.phi[c], -distance_at_cell(domain.layout, psi, c).first)));
+    });
   else if (name == "vel")
     fill(FrameField::Kind::staggered_vector, [&, flow = state.exterior->joined_level(domain, fluids, state)](Site c) {
       for (int a = 0; a < 3; ++a) out.values.push_back(a < Dim ? float(flow->u.at(std::min(a, Dim - 1), c)) : 0.0f);
@@ -75,7 +80,10 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
   return out;
 }
 
-template FrameField make_frame_field<2>(const Domain<2>&, const Fluids&, const State<2>&, const std::string&);
-template FrameField make_frame_field<3>(const Domain<3>&, const Fluids&, const State<3>&, const std::string&);
+#define SEICHE_INSTANTIATE(Dim)                                                                   \
+  template FrameField make_frame_field<Dim>(const Domain<Dim>&, const Fluids&, const State<Dim>&, \
+                                            const NodeField<Dim>&, const std::string&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
 
 }  // namespace seiche

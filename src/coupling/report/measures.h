@@ -44,6 +44,6 @@ std::map<std::string, MaterialPoint> find_followed_points(const std::vector<Prob
 // A field of the owned cells: surface, vel, pressure, vorticity, viscosity.
 template <int Dim>
 FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
-                            const std::string& name);
+                            const NodeField<Dim>& psi, const std::string& name);
 
 }  // namespace seiche

@@ -130,6 +130,8 @@ class Simulation {
   // Lines for the log: liquid and solids at the start, features switched off, meshes of elastic solids.
   virtual std::vector<std::string> describe_start() const { return {}; }
   virtual ProbeSample probe(std::size_t index) const = 0;  // collective; equal on all ranks
+  // Owned cells of a field: surface (continued into solids), closed_surface (without what lies in them), vel, pressure,
+  // viscosity, vorticity.
   virtual FrameField frame_field(const std::string& name) const = 0;
   virtual double expected_volume() const = 0;  // initial + sources + net inflow, m^3
   virtual CheckpointData save() const = 0;

@@ -77,7 +77,7 @@ class FlowSimulation : public Simulation {
     return measure_probe(*setup_, state_, geometry_, setup_->scene->probes.at(k));
   }
   FrameField frame_field(const std::string& name) const override {
-    return make_frame_field(setup_->domain, setup_->fluids, state_, name);
+    return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_.psi, name);
   }
   CheckpointData save() const override {
     CheckpointData data = save_state(*setup_, state_);

@@ -22,6 +22,13 @@ std::array<int, 3> domain_cells(const Frame& frame) {
   return cells;
 }
 
+std::string level_set_name(const Frame& frame) {
+  const bool has_free = std::any_of(frame.grids.begin(), frame.grids.end(), [](const Grid& grid) {
+    return grid.kind == GridKind::level_set && grid.name == "free_surface";
+  });
+  return has_free ? "free_surface" : "surface";
+}
+
 std::size_t voxel_count(const std::array<int, 3>& lower, const std::array<int, 3>& upper) {
   std::size_t n = 1;
   for (int a = 0; a < 3; ++a) n *= std::size_t(std::max(0, upper[a] - lower[a]));

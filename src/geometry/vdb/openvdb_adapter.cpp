@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "geometry/mesh/formats.h"
+#include "geometry/vdb/closing.h"
 #include "geometry/vdb/frame_checks.h"
 #include "geometry/vdb/frame_header.h"
 #include "geometry/vdb/sampled_distance.h"
@@ -76,18 +77,19 @@ void for_each_voxel(const Block& block, int width, Visit&& visit) {
 
 // Voxels beyond the band become inactive with the value +-background. Every voxel of the domain gets its sign
 // explicitly. A flood fill from the active voxels could leak out of the domain or, in 2D, out of its layer.
-FloatGrid::Ptr level_set_grid(const Grid& grid) {
+FloatGrid::Ptr level_set_grid(const Frame& frame, const Grid& grid) {
   const float band = grid.background;
   FloatGrid::Ptr result = FloatGrid::create(band);
   FloatGrid::Accessor accessor = result->getAccessor();
   for (const Block& block : grid.blocks) {
-    for_each_voxel(block, 1, [&](const Coord& ijk, const float* value) {
-      if (std::abs(*value) < band) {
-        accessor.setValueOn(ijk, *value);
-      } else if (*value < 0) {
-        accessor.setValueOff(ijk, -band);
-      }
-    });
+    for_each_voxel(grid.closed ? closed_at_sides(block, domain_cells(frame), frame.dimension, frame.cell_size) : block,
+                   1, [&](const Coord& ijk, const float* value) {
+                     if (std::abs(*value) < band) {
+                       accessor.setValueOn(ijk, *value);
+                     } else if (*value < 0) {
+                       accessor.setValueOff(ijk, -band);
+                     }
+                   });
   }
   result->setGridClass(openvdb::GRID_LEVEL_SET);
   openvdb::tools::prune(result->tree());
@@ -120,10 +122,10 @@ Vec3SGrid::Ptr staggered_grid(const Grid& grid) {
   return result;
 }
 
-openvdb::GridBase::Ptr to_openvdb(const Grid& grid) {
+openvdb::GridBase::Ptr to_openvdb(const Frame& frame, const Grid& grid) {
   switch (grid.kind) {
     case GridKind::level_set:
-      return level_set_grid(grid);
+      return level_set_grid(frame, grid);
     case GridKind::staggered_vector:
       return staggered_grid(grid);
     default:
@@ -234,7 +236,8 @@ GridKind kind_of(const openvdb::GridBase& grid) {
 }
 
 void require_within(const std::filesystem::path& file, const OpenFrame& open, const openvdb::GridBase& grid) {
-  const openvdb::CoordBBox domain(Coord(0), Coord(open.cells[0] - 1, open.cells[1] - 1, open.cells[2] - 1));
+  openvdb::CoordBBox domain(Coord(0), Coord(open.cells[0] - 1, open.cells[1] - 1, open.cells[2] - 1));
+  if (kind_of(grid) == GridKind::level_set) domain.expand(closing_layers);
   const openvdb::CoordBBox active = grid.evalActiveVoxelBoundingBox();
   if (!active.empty() && !domain.isInside(active)) refuse(file, "grid '" + grid.getName() + "' leaves the domain");
 }
@@ -274,7 +277,8 @@ FloatGrid::ConstPtr find_level_set(const OpenFrame& open) {
   FloatGrid::ConstPtr found;
   for (const auto& grid : *open.grids) {
     if (!grid->isType<FloatGrid>() || grid->getGridClass() != openvdb::GRID_LEVEL_SET) continue;
-    if (!found || grid->getName() == "surface") found = openvdb::gridConstPtrCast<FloatGrid>(grid);
+    const auto rank = [](const std::string& name) { return name == "free_surface" ? 2 : name == "surface" ? 1 : 0; };
+    if (!found || rank(grid->getName()) > rank(found->getName())) found = openvdb::gridConstPtrCast<FloatGrid>(grid);
   }
   return found;
 }
@@ -342,7 +346,7 @@ std::string encode(const Frame& frame) {
       require_block(grid, block);
       require_finite(grid, block);
     }
-    const openvdb::GridBase::Ptr result = to_openvdb(grid);
+    const openvdb::GridBase::Ptr result = to_openvdb(frame, grid);
     result->insertMeta(meta);
     result->setName(grid.name);
     result->setTransform(scale_and_translation());

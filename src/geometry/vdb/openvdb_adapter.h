@@ -11,7 +11,7 @@
 
 namespace seiche::vdb {
 
-// The level set of a frame written by Seiche ("surface" if it holds several). Outside the frame's domain it is at least
+// The level set of a frame written by Seiche, as level_set_name() chooses. Outside the frame's domain it is at least
 // the distance from the domain. 2D frames ignore z. Throws Error(bad_input) if the file is not such a frame or has
 // another dimension.
 std::unique_ptr<SampledDistance> read_distance(const std::filesystem::path& file, int dimension = 3);
@@ -35,6 +35,7 @@ struct Grid {
   GridKind kind = GridKind::scalar;
   float background = 0;       // level sets: 3 h; voxels with |value| >= background are inactive
   std::vector<Block> blocks;  // pieces from ranks; disjoint
+  bool closed = false;        // level sets: encode() closes them at the sides of the domain
 };
 
 struct Frame {
@@ -46,6 +47,9 @@ struct Frame {
   std::string creator;
   std::vector<Grid> grids;
 };
+
+// "free_surface", the level set as the solver has it, if there is one, else "surface".
+std::string level_set_name(const Frame& frame);
 
 // Serialises a frame to the bytes of a .vdb file (Blosc, active mask, statistics metadata, cell-centre transform).
 // The domain is the box from voxel 0 to the highest upper of all blocks. Throws Error(cannot_continue) naming grid and

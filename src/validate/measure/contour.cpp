@@ -38,7 +38,7 @@ void add_segment(const std::array<Corner, 3>& corners, double& length, double& t
 const vdb::Block& surface_of(const vdb::Frame& frame) {
   if (frame.dimension != 2) throw Error(ExitCode::cannot_continue, "only frames of two dimensions have a circularity");
   for (const vdb::Grid& grid : frame.grids)
-    if (grid.name == "surface" && grid.blocks.size() == 1) return grid.blocks[0];
+    if (grid.name == vdb::level_set_name(frame) && grid.blocks.size() == 1) return grid.blocks[0];
   throw Error(ExitCode::cannot_continue, "a frame holds no surface");
 }
 

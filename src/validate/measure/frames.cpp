@@ -45,7 +45,7 @@ Vec3 cell_center(const vdb::Frame& frame, const Vec3& index) {
 class SurfaceSamples {
  public:
   explicit SurfaceSamples(const vdb::Frame& frame) : frame_(frame) {
-    const vdb::Grid& grid = grid_of(frame, "surface", "surface");
+    const vdb::Grid& grid = grid_of(frame, vdb::level_set_name(frame), "surface");
     if (grid.blocks.size() != 1) throw Error(ExitCode::cannot_continue, "the last frame holds no surface");
     block_ = &grid.blocks[0];
   }
@@ -147,7 +147,7 @@ double surface_difference(const vdb::Frame& frame, const Formula& formula) {
   const Expression exact(formula);
   double most = 0;
   bool any = false;
-  for (const vdb::Block& block : grid_of(frame, "surface", "surface").blocks)
+  for (const vdb::Block& block : grid_of(frame, vdb::level_set_name(frame), "surface").blocks)
     for_each_voxel(block, 1, [&](const Vec3& index, const float* phi) {
       if (!(std::abs(*phi) < frame.cell_size)) return;
       any = true;
