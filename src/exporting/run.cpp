@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "exporting/axes.h"
 #include "exporting/usd.h"
+#include "exporting/xdmf.h"
 #include "files/frames.h"
 #include "files/point_cache.h"
 #include "files/vtu_reader.h"
@@ -68,11 +69,12 @@ Job prepare(const ExportOptions& options) {
                                                  options.run.string()));
   job.frames = render::choose_frames(options.frames, available);
   job.scene = read_scene(job.paths.scene(), {});
-  if (job.scene.dimension == 2)
-    throw Error(ExitCode::bad_input, fmt::format("{}: is a run in 2D; {} files hold surfaces of 3D runs",
-                                                 options.run.string(), options.format));
+  if (job.scene.dimension == 2 && options.format != "xdmf")
+    throw Error(ExitCode::bad_input,
+                fmt::format("{}: is a run in 2D; {} files hold surfaces of 3D runs; --format xdmf holds both",
+                            options.run.string(), options.format));
   for (const SolidSpec& solid : job.scene.solids) job.names.push_back(solid.name);
-  job.poses = std::make_unique<PoseTable>(job.paths.solids(), job.names);
+  if (options.format == "usd") job.poses = std::make_unique<PoseTable>(job.paths.solids(), job.names);
   choose_axes(job);
   return job;
 }
@@ -137,12 +139,29 @@ void add_solids(const Job& job, int number, const Contents& contents, const std:
   }
 }
 
+// Name of the run directory.
+std::string stem_of(const Job& job) {
+  return fs::absolute(job.options.run / "").lexically_normal().parent_path().filename().string();
+}
+
+void write_xdmf(const Job& job, const Say& say) {
+  XdmfWriter writer(job.out / stem_of(job));
+  for (const int number : job.frames) {
+    const fs::path solids = job.paths.frames() / frame_file("solids", number, "vtu");
+    writer.add_frame(vdb::decode(job.paths.frames() / frame_file("frame", number, "vdb")),
+                     job.names.empty() ? render::SolidMesh{} : render::read_solids(solids));
+    say(fmt::format("frame {}", number));
+  }
+  writer.finish();
+  say(fmt::format("{} frames in {}.xdmf and .h5", job.frames.size(), (job.out / stem_of(job)).string()));
+}
+
 void write_usd(const Job& job, const Say& say) {
   std::vector<std::string> texts{"liquid"};
   texts.insert(texts.end(), job.names.begin(), job.names.end());
   std::vector<std::string> prims = prim_names(texts);
   prims.erase(prims.begin());
-  const std::string stem = fs::absolute(job.options.run / "").parent_path().filename().string();
+  const std::string stem = stem_of(job);
   const fs::path file = job.out / (stem + ".usda");
   const StageFacts facts{job.comment(),     prim_names({stem})[0],     job.frames.front(),
                          job.frames.back(), job.scene.time.frame_rate, job.up};
@@ -163,7 +182,8 @@ const std::vector<std::pair<std::string, std::string>>& formats() {
   static const std::vector<std::pair<std::string, std::string>> table{
       {"ply", "a mesh of the liquid and of each solid a frame, with velocities"},
       {"obj", "the same without velocities"},
-      {"usd", "one .usda file with the liquid, the solids and their motion"}};
+      {"usd", "one .usda file with the liquid, the solids and their motion"},
+      {"xdmf", "one .xdmf file with an .h5 for ParaView, 2D and 3D: fields at cells and nodes, solids"}};
   return table;
 }
 
@@ -172,6 +192,8 @@ void export_run(const ExportOptions& options, const Say& say) {
   make_folder(job.out);
   if (options.format == "usd")
     write_usd(job, say);
+  else if (options.format == "xdmf")
+    write_xdmf(job, say);
   else
     write_meshes(job, say);
 }

@@ -107,8 +107,7 @@ std::vector<float> centred(const std::vector<float>& faces, const Cells& cells, 
 }
 
 std::string cell_array(const vdb::Grid& grid, const Cells& cells, int dimension) {
-  if (grid.kind != vdb::GridKind::staggered_vector) return array(grid.name, assemble(grid, cells, 1));
-  return array(grid.name, centred(assemble(grid, cells, 3), cells, dimension), 3);
+  return array(grid.name, cell_values(grid, cells, dimension), grid.kind == vdb::GridKind::staggered_vector ? 3 : 1);
 }
 
 struct Elements {
@@ -182,6 +181,11 @@ std::string grid(const Elements& all, const std::string& point_data, const std::
 }
 
 }  // namespace
+
+std::vector<float> cell_values(const vdb::Grid& grid, const std::array<int, 3>& cells, int dimension) {
+  if (grid.kind != vdb::GridKind::staggered_vector) return assemble(grid, cells, 1);
+  return centred(assemble(grid, cells, 3), cells, dimension);
+}
 
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells) {
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", cells[0], cells[1], cells[2]);

@@ -11,8 +11,11 @@
 
 namespace seiche::vtk {
 
-// A .vti with all grids of the frame as cell data over the whole domain. Staggered vectors are averaged to cell
-// centres; the last cell of an axis uses its low face only, since its high face is not stored.
+// Values of a grid at the cells of the domain, first axis fastest. Staggered vectors are averaged to cell centres; the
+// last cell of an axis uses its low face only, since its high face is not stored.
+std::vector<float> cell_values(const vdb::Grid& grid, const std::array<int, 3>& cells, int dimension);
+
+// A .vti with all grids of the frame as cell data over the whole domain.
 std::string image(const vdb::Frame& frame, const std::array<int, 3>& cells);
 
 // A .vtu with the surfaces of all solids. The cell array `solid` counts them from 0, the field array `solid_names` has
