@@ -73,6 +73,50 @@ Section<LiquidSourceSpec> source_section() {
   return s;
 }
 
+void check_sponge(SceneContext& c, const Place& p, SpongeSpec& sponge) {
+  if (!c.clean(p.path)) return;
+  if (sponge.side.empty() != (sponge.length == 0))
+    c.report(p, p.path + (sponge.side.empty() ? ": length is for a sponge along a side; name the side"
+                                              : ": a sponge along a side needs its length"));
+  if (!sponge.side.empty() && c.dimension == 2 && sponge.side[0] == 'z')
+    c.report(p, p.path + ": a scene in 2D has no side " + sponge.side);
+}
+
+Section<SpongeSpec> sponge_section() {
+  using S = SpongeSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "rate",
+                    .type = T::formula,
+                    .unit = "1/s",
+                    .variables = "xyzt",
+                    .presence = Presence::required,
+                    .doc = "rate, at least 0, at which the flow approaches velocity; with a side, the rate there"},
+                   &S::rate),
+      value_key<S>({.key = "velocity",
+                    .type = T::formula_vector,
+                    .unit = "m/s",
+                    .variables = "xyzt",
+                    .unset = "zero",
+                    .doc = "velocity that the flow approaches"},
+                   &S::velocity),
+      value_key<S>({.key = "side",
+                    .type = T::choice,
+                    .choices = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"},
+                    .unset = "the rate holds everywhere",
+                    .doc = "side of the domain that the sponge lies along"},
+                   &S::side),
+      value_key<S>({.key = "length",
+                    .unit = "m",
+                    .range = positive(),
+                    .unset = "required with side",
+                    .doc = "how far it reaches from that side; the rate falls to 0 there, as the square of the way"},
+                   &S::length),
+  };
+  s.finish = check_sponge;
+  return s;
+}
+
 Key<LiquidSpec> volume_key() {
   return choice_key<LiquidSpec, VolumeKeeping LiquidSpec::*, VolumeKeeping>(
       {.key = "volume",
@@ -137,6 +181,11 @@ Section<LiquidSpec> liquid_section() {
       list_key<S, LiquidSourceSpec>(
           {.key = "source", .unset = "none", .doc = "liquid added in a shape for a time", .most = most_entries},
           &S::sources, source_section()),
+      list_key<S, SpongeSpec>({.key = "sponge",
+                               .unset = "none",
+                               .doc = "where the flow is drawn to a velocity, as a beach absorbs waves",
+                               .most = most_entries},
+                              &S::sponges, sponge_section()),
   };
   s.finish = [](SceneContext& c, const Place& p, S&) { check_one_viscosity(c, p); };
   return s;

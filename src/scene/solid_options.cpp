@@ -2,6 +2,7 @@
 #include "base/solid_spec.h"
 #include "coupling/solids/solid_kinds.h"
 #include "scene/options.h"
+#include "scene/waves.h"
 
 namespace seiche {
 namespace {
@@ -73,6 +74,13 @@ Section<MotionSpec> motion_section() {
                             &MotionSpec::translate),
       inline_key<MotionSpec>({.key = "rotate", .unset = "no rotation", .doc = "rotation, applied before translate"},
                              itself, motion_rotation_section()),
+      optional_table_key<MotionSpec>(
+          {.key = "waves", .unset = "none", .doc = "motion of a wave maker, in place of both"}, &MotionSpec::waves,
+          waves_section()),
+  };
+  s.finish = [](SceneContext& c, const Place& p, MotionSpec&) {
+    if (p.node->find("waves") && (p.node->find("translate") || p.node->find("rotate")))
+      c.report(p, p.path + ": waves make the motion; leave translate and rotate out");
   };
   return s;
 }
