@@ -146,6 +146,17 @@ Option density_option() {
   return {.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"};
 }
 
+Option material_option(MaterialState state) {
+  const bool solid = state == MaterialState::solid;
+  return {.key = solid ? "name" : "material",
+          .type = T::choice,
+          .choices = material_names(state),
+          .unset = "as the other keys say",
+          .doc = solid                            ? "youngs_modulus, poisson_ratio and density of a material"
+                 : state == MaterialState::liquid ? "density, viscosity and surface_tension of a material"
+                                                  : "density and viscosity of a material"};
+}
+
 Option initial_velocity_option() {
   return {.key = "velocity",
           .type = T::formula_vector,
@@ -159,6 +170,7 @@ Section<LiquidSpec> liquid_section() {
   using S = LiquidSpec;
   Section<S> s;
   s.keys = {
+      material_key<S>(MaterialState::liquid),
       value_key<S>(density_option(), &S::density),
       value_key<S>({.key = "separates",
                     .type = T::boolean,

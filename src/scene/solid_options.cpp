@@ -1,6 +1,7 @@
 // Keys of [[solid]].
 #include "base/solid_spec.h"
 #include "coupling/solids/solid_kinds.h"
+#include "scene/copies.h"
 #include "scene/options.h"
 #include "scene/waves.h"
 
@@ -110,6 +111,7 @@ Section<SolidSpec> solid_section() {
   angle.unset = "that of [liquid]";
   s.keys.push_back(value_key<SolidSpec>(angle, &SolidSpec::contact_angle));
   for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
+  for (Key<SolidSpec>& key : copy_keys()) s.keys.push_back(std::move(key));
   for (const SolidKindRow& row : solid_kinds())
     for (const Option& option : row.numbers) s.keys.push_back(own_key(row.kind, option));
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {
