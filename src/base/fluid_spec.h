@@ -25,8 +25,8 @@ struct LiquidSourceSpec {
 struct SpongeSpec {
   Formula rate = "0";                     // 1/s, in x, y, z, t
   VectorFormula velocity{"0", "0", "0"};  // m/s
-  std::string side;                       // of the domain, "x_upper"; empty: the rate holds everywhere
-  double length = 0;                      // m, from that side; the rate falls off there as the square of the way
+  std::optional<std::string> side;        // of the domain, "x_upper"; unset: the rate holds everywhere
+  std::optional<double> length;           // m, from that side; the rate falls off there as the square of the way
 };
 
 // Viscosity as a function of the shear rate. The table in fluid/rheology/rheology.h lists the parameters of each model.

@@ -75,11 +75,11 @@ Section<LiquidSourceSpec> source_section() {
 
 void check_sponge(SceneContext& c, const Place& p, SpongeSpec& sponge) {
   if (!c.clean(p.path)) return;
-  if (sponge.side.empty() != (sponge.length == 0))
-    c.report(p, p.path + (sponge.side.empty() ? ": length is for a sponge along a side; name the side"
-                                              : ": a sponge along a side needs its length"));
-  if (!sponge.side.empty() && c.dimension == 2 && sponge.side[0] == 'z')
-    c.report(p, p.path + ": a scene in 2D has no side " + sponge.side);
+  if (sponge.side.has_value() != sponge.length.has_value())
+    c.report(p, p.path + (sponge.length ? ": length is for a sponge along a side; name the side"
+                                        : ": a sponge along a side needs its length"));
+  if (sponge.side && c.dimension == 2 && (*sponge.side)[0] == 'z')
+    c.report(p, p.path + ": a scene in 2D has no side " + *sponge.side);
 }
 
 Section<SpongeSpec> sponge_section() {

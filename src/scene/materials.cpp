@@ -71,12 +71,8 @@ class Materials {
  public:
   explicit Materials(SceneContext& context) : context_(context) {}
 
-  // The material that a node names, of the right state; null and reported otherwise.
+  // The material of this state that a text names; null and reported if there is none.
   const NamedMaterial* find(const TomlNode& node, const std::string& path, State state) const {
-    if (node.kind != TomlNode::Kind::text) {
-      context_.report(path, node.line, path + " must be the name of a material, in quotes");
-      return nullptr;
-    }
     for (const NamedMaterial& material : table)
       if (material.state == state && node.text == material.name) return &material;
     const std::vector<std::string> names = material_names(state);
@@ -92,7 +88,7 @@ class Materials {
     if (!fluid || fluid->value.kind != TomlNode::Kind::table) return;
     TomlNode& node = fluid->value;
     const TomlEntry* named = node.find("material");
-    if (!named) return;
+    if (!named || named->value.kind != TomlNode::Kind::text) return;
     const TomlNode name = named->value;
     remove(node, "material");
     const NamedMaterial* material = find(name, key + ".material", state);
@@ -108,6 +104,7 @@ class Materials {
     const bool is_table = entry->value.kind == TomlNode::Kind::table;
     if (is_table && !entry->value.find("name")) return;
     const TomlNode name = is_table ? entry->value.find("name")->value : entry->value;
+    if (name.kind != TomlNode::Kind::text) return;  // as the reader of the key reports
     if (is_table)
       remove(entry->value, "name");
     else

@@ -52,7 +52,12 @@ Option density_option();
 Option material_option(MaterialState state);
 template <class Spec>
 Key<Spec> material_key(MaterialState state) {
-  return {material_option(state), [](SceneContext&, const Place&, Spec&) {},
+  const Option option = material_option(state);
+  return {option,
+          [option](SceneContext& c, const Place& p, Spec&) {
+            std::string name;
+            read_value(c, p, option, name);
+          },
           [](const Spec&, int, const std::string&, SceneLines&) {}};
 }
 Option initial_velocity_option();

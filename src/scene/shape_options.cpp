@@ -47,14 +47,17 @@ Key<RotationSpec> euler_key() {
 }
 
 Key<RotationSpec> quaternion_key() {
-  const Option option{
-      .key = "quaternion", .unset = "degrees is given", .doc = "four numbers w, x, y, z, of any length"};
+  const Option option{.key = "quaternion",
+                      .type = T::quaternion,
+                      .unset = "degrees is given",
+                      .doc = "four numbers w, x, y, z, of any length"};
   return form_key(option, [option](SceneContext& c, const Place& p, RotationSpec& rotation) {
     if (p.node->kind != TomlNode::Kind::array || p.node->items.size() != 4)
       return c.report(p, p.path + " must be an array of four numbers, w, x, y, z");
     std::array<double, 4> q{};
+    const Option number{.key = option.key};
     for (std::size_t n = 0; n < 4; ++n)
-      read_value(c, {&p.node->items[n], fmt::format("{}.{}", p.path, n)}, option, q[n]);
+      read_value(c, {&p.node->items[n], fmt::format("{}.{}", p.path, n)}, number, q[n]);
     const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]);
     if (!c.clean(p.path)) return;
     if (given.norm() == 0) return c.report(p, p.path + " must not be zero");

@@ -57,8 +57,7 @@ TEST_CASE("uniform flow approaches a sponge's velocity exactly") {
 }
 
 TEST_CASE("a sponge whose rate is negative or not finite stops the run with its place") {
-  for (const auto& [rate, text] :
-       {std::pair{"0.1 - x", "the rate is negative"}, std::pair{"1/(x-0.5)", "not finite"}}) {
+  for (const auto& [rate, text] : {std::pair{"0.1 - x", "the rate is negative"}, std::pair{"1/x", "not finite"}}) {
     Scene s = test::box_scene(2, 16);
     test::add_pool(s, 0.5);
     SpongeSpec sponge;

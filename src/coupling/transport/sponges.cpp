@@ -27,11 +27,11 @@ std::vector<Sponge> make_sponges(const LiquidSpec& liquid, const DomainSpec& dom
     Sponge sponge{spec, Expression(spec.rate), VectorExpression(spec.velocity)};
     if (sponge.rate.is_constant()) sponge.steady_rate = sponge.rate(Vec3::Zero(), 0);
     if (sponge.velocity.is_constant()) sponge.steady_velocity = sponge.velocity(Vec3::Zero(), 0);
-    if (!spec.side.empty()) {
-      sponge.axis = spec.side[0] - 'x';
-      const bool upper = spec.side.ends_with("upper");
+    if (spec.side) {
+      sponge.axis = (*spec.side)[0] - 'x';
+      const bool upper = spec.side->ends_with("upper");
       sponge.outer = (upper ? domain.upper : domain.lower)[sponge.axis];
-      sponge.inner = sponge.outer + (upper ? -spec.length : spec.length);
+      sponge.inner = sponge.outer + (upper ? -*spec.length : *spec.length);
     }
     sponges.push_back(std::move(sponge));
   }
@@ -53,6 +53,7 @@ void absorb(const Domain<Dim>& domain, const std::vector<Sponge>& sponges, const
         if (fault.empty()) fault = fault_of_sponge(k, rate, v, x, t);
         u.at(a, f) = fall + v + std::exp(-rate * dt) * (u.at(a, f) - fall - v);
       });
+  fill_velocity_ghosts(domain.layout, domain.halo, domain.sides, u);
   if (!domain.ranks.any(!fault.empty())) return;
   for (const std::string& text : domain.ranks.all_gather(fault))
     if (!text.empty()) throw Error(ExitCode::cannot_continue, text);

@@ -108,6 +108,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
   text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\nuntil = 1.5\n";
   text += "[[solid]]\nname = \"still\"\n" + placed + "slip = \"no_slip\"\ncontact_angle = 120\n";
+  text += "[[liquid.sponge]]\nrate = \"1+x\"\nside = \"x_upper\"\nlength = 0.2\n";
   text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
           ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
   text += "[[solid]]\nkind = \"rigid\"\nshape = \"sphere\"\ncenter = " + v("0.5", "0.5", "0.5") +
