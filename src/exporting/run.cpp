@@ -39,6 +39,10 @@ struct Job {
   std::string comment() const { return fmt::format("seiche {}: {}", version(), scene.title); }
 };
 
+std::string frames_text(const Job& job) {
+  return fmt::format("{} frame{}", job.frames.size(), job.frames.size() == 1 ? "" : "s");
+}
+
 // Liquid and solids of a frame, turned.
 struct Contents {
   double time = 0;
@@ -108,7 +112,7 @@ void write_meshes(const Job& job, const Say& say) {
     }
     say(fmt::format("frame {}: liquid of {} triangles", number, contents.liquid.mesh.triangles.size()));
   }
-  say(fmt::format("{} frames in {}", job.frames.size(), job.out.string()));
+  say(fmt::format("{} in {}", frames_text(job), job.out.string()));
 }
 
 bool has_pose(const SolidSpec& solid) {
@@ -153,7 +157,7 @@ void write_xdmf(const Job& job, const Say& say) {
     say(fmt::format("frame {}", number));
   }
   writer.finish();
-  say(fmt::format("{} frames in {}.xdmf and .h5", job.frames.size(), (job.out / stem_of(job)).string()));
+  say(fmt::format("{} in {}.xdmf and .h5", frames_text(job), (job.out / stem_of(job)).string()));
 }
 
 void write_usd(const Job& job, const Say& say) {
@@ -173,7 +177,7 @@ void write_usd(const Job& job, const Say& say) {
     say(fmt::format("frame {}: liquid of {} triangles", number, contents.liquid.mesh.triangles.size()));
   }
   writer.finish();
-  say(fmt::format("{} frames in {} ({:.1f} MB)", job.frames.size(), file.string(), double(fs::file_size(file)) / 1e6));
+  say(fmt::format("{} in {} ({:.1f} MB)", frames_text(job), file.string(), double(fs::file_size(file)) / 1e6));
 }
 
 }  // namespace

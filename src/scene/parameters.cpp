@@ -131,7 +131,7 @@ Parameters read_parameters(SceneContext& context, const TomlNode& root) {
       if (waits(one->value.text, entry->value, known)) return false;
       std::string fault;
       const auto value = parameter_value(one->value.text, known, fault);
-      if (value) known[one->key] = *value;
+      known[one->key] = value.value_or(1);  // those that need it have no fault of their own
       if (!value) refuse(context, *one, ": " + fault);
       return true;
     });

@@ -92,4 +92,13 @@ TEST_CASE("faults of parameters and units are told with the line and what is wan
   refused("", "center = [0.5, 0.5, 0.5]\nradius = \"x\"\n", "solid.0.radius");
 }
 
+TEST_CASE("a parameter at fault is reported alone, without those that are built on it") {
+  const std::string text =
+      "[parameters]\ninner = \"10 cmm\"\nhalf = \"9*inner/4\"\n" + small_scene +
+      "[[solid]]\nkind = \"static\"\nshape = \"sphere\"\ncenter = [\"half\", 0, 0]\nradius = \"inner\"\n";
+  const std::string message = fault(text);
+  CHECK_THAT(message, Contains("parameters.inner"));
+  CHECK(count_lines(message) == 1);
+}
+
 }  // namespace parameters_tests
