@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/expression_names.h"
 #include "base/expression_terms.h"
+#include "base/signals.h"
 
 namespace seiche {
 namespace {
@@ -42,6 +43,7 @@ Expression::Expression(const Formula& text) : impl_(std::make_unique<Impl>()) {
     p.DefineVar("z", &impl_->z);
     p.DefineVar("t", &impl_->t);
     define_constants(p);
+    for (const auto& [name, value] : declared_signals()) p.DefineVar(name, signal_slot(name));
     p.SetExpr(text);
     impl_->constant = p.GetUsedVar().empty();
     impl_->value = p.Eval();

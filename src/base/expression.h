@@ -16,7 +16,7 @@ class Expression {
   Expression& operator=(Expression&&) noexcept;
 
   double operator()(const Vec3& x, double t) const;
-  bool is_constant() const;  // true if none of x, y, z, t occurs
+  bool is_constant() const;  // true if none of x, y, z, t and no signal occurs
 
  private:
   struct Impl;

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/expression_terms.h"
+#include "base/signals.h"
 #include "base/suggest.h"
 
 namespace seiche {
@@ -72,7 +73,8 @@ std::vector<NameInText> names_in(const std::string& text) {
 
 std::optional<std::string> fault_of_names(const std::string& text) {
   const auto functions = names_of([](TermKind kind) { return kind == TermKind::function; });
-  const auto values = names_of([](TermKind kind) { return kind == TermKind::variable || kind == TermKind::constant; });
+  auto values = names_of([](TermKind kind) { return kind == TermKind::variable || kind == TermKind::constant; });
+  for (const auto& [name, value] : declared_signals()) values.push_back(name);
   for (const NameInText& found : names_in(text)) {
     const std::string& name = found.name;
     const bool is_function = holds(functions, name), is_value = holds(values, name);

@@ -2,6 +2,9 @@
 // A scene file as plain data in SI units, one header per table. Scene vectors always have three components; in 2D the
 // third is zero. src/scene/reader fills it and checks every value. The simulation includes the headers of the tables
 // that it reads, not this one, so that a new key causes little recompilation.
+#include <map>
+#include <string>
+
 #include "base/domain_spec.h"
 #include "base/fluid_spec.h"
 #include "base/gravity_spec.h"
@@ -17,6 +20,7 @@ namespace seiche {
 
 struct Scene {
   std::string title;
+  std::map<std::string, double> signals;  // values at the start (base/signals.h)
   int dimension = 3;
   GravitySpec gravity;
   DomainSpec domain;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/expression.h"
 #include "base/expression_names.h"
+#include "base/signals.h"
 
 namespace seiche {
 namespace {
@@ -63,6 +64,12 @@ std::optional<double> plain_number(const std::string& text) {
   return value;
 }
 
+std::optional<std::string> signal_in(const std::string& text) {
+  for (const NameInText& found : names_in(text))
+    if (is_signal(found.name)) return found.name;
+  return std::nullopt;
+}
+
 std::optional<std::string> formula_fault(const std::string& text, const Option& option) {
   constexpr std::size_t longest = 4096;
   if (text.size() > longest)
@@ -74,6 +81,9 @@ std::optional<std::string> formula_fault(const std::string& text, const Option& 
     for (const char c : option.variables) names += (names.empty() ? "" : ", ") + std::string(1, c);
     return fmt::format("the expression '{}' uses {}; it may depend on {} alone", text, *word, names);
   }
+  const auto signal = signal_in(text);
+  if (signal && option.variables.find('t') == std::string::npos)
+    return fmt::format("the expression '{}' uses the signal {}; only formulas in t may", text, *signal);
   try {
     return fault_of_value(text, option);
   } catch (const Error& e) {

@@ -8,6 +8,7 @@
 #include "base/scene.h"
 #include "base/suggest.h"
 #include "scene/checks.h"
+#include "scene/formula.h"
 #include "solid/joint/joint.h"
 
 namespace seiche {
@@ -129,7 +130,10 @@ class JointChecker {
   void check_drive(bool turns) const {
     if (turns != joint_.drive->degrees.has_value())
       return report("drive", turns ? "a hinge is driven by degrees" : "it is driven by translate, in m");
-    const Expression formula(turns ? *joint_.drive->degrees : *joint_.drive->translate);
+    const Formula& text = turns ? *joint_.drive->degrees : *joint_.drive->translate;
+    if (const auto signal = signal_in(text))
+      return report("drive", fmt::format("it uses the signal {}, which jumps; let a motor follow it", *signal));
+    const Expression formula(text);
     const double start = formula(Vec3::Zero(), 0);
     constexpr double zero = 1e-9;
     if (!(std::abs(start) <= zero))

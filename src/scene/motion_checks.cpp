@@ -8,6 +8,7 @@
 #include "base/expression.h"
 #include "base/scene.h"
 #include "scene/checks.h"
+#include "scene/formula.h"
 
 namespace seiche {
 namespace {
@@ -60,6 +61,10 @@ struct Moving {
 
 // An elastic solid starts undeformed, so its pins must start at rest positions. `size`: the domain's diagonal, m.
 std::string fault_of_start(const Moving& moving, double size) {
+  for (const Formula& formula :
+       {moving.motion->translate[0], moving.motion->translate[1], moving.motion->translate[2], moving.motion->degrees})
+    if (const auto signal = signal_in(formula))
+      return fmt::format("the motion uses the signal {}, which jumps; let a joint's motor follow it", *signal);
   if (moving.start == Start::anywhere) return "";
   const Vec3 moved = VectorExpression(moving.motion->translate)(Vec3::Zero(), 0);
   const double turned = Expression(moving.motion->degrees)(Vec3::Zero(), 0);

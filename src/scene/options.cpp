@@ -300,27 +300,6 @@ Key<Scene> access_key() {
   return key;
 }
 
-// merge_includes() reads it first, and takes it out of the file.
-Key<Scene> include_key() {
-  const Option option{.key = "include",
-                      .type = T::text,
-                      .unset = "none",
-                      .doc = "a scene, or a list of scenes, below this one; see parameters.md"};
-  return {option,
-          [](SceneContext& c, const Place& p, Scene&) { c.report(p, "include belongs into the file of a scene"); },
-          [](const Scene&, int, const std::string&, SceneLines&) {}};
-}
-
-// read_parameters() reads it first; the written scene has the numbers in their places.
-Key<Scene> parameters_key() {
-  const Option option{.key = "parameters",
-                      .type = T::table,
-                      .unset = "none",
-                      .doc = "named numbers for any number or formula of the scene; see parameters.md"};
-  return {option, [](SceneContext&, const Place&, Scene&) {},
-          [](const Scene&, int, const std::string&, SceneLines&) {}};
-}
-
 Key<Scene> gravity_key() {
   return value_key<Scene>(
       {.key = "gravity",
@@ -351,8 +330,6 @@ Section<Scene> build_scene_section() {
       value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
       dimension_key(),
       access_key(),
-      include_key(),
-      parameters_key(),
       gravity_key(),
       block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},
                    &S::domain, domain_section()),
@@ -379,6 +356,8 @@ Section<Scene> build_scene_section() {
       block_key<S>({.key = "solver", .doc = "the solves for pressure and viscosity"}, &S::solver, solver_section()),
       block_key<S>({.key = "output", .doc = "what is written"}, &S::output, output_section()),
   };
+  const std::vector<Key<S>> naming = naming_keys();
+  s.keys.insert(s.keys.begin() + 4, naming.begin(), naming.end());  // before the first table, as TOML wants values
   return s;
 }
 

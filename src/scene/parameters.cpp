@@ -7,6 +7,7 @@
 
 #include "base/expression.h"
 #include "base/expression_names.h"
+#include "base/signals.h"
 #include "scene/context.h"
 #include "scene/formula.h"
 #include "scene/toml.h"
@@ -140,6 +141,29 @@ Parameters read_parameters(SceneContext& context, const TomlNode& root) {
     refuse(context, *one,
            fmt::format(" = \"{}\" depends on a parameter that has no value, or on itself", one->value.text));
   return known;
+}
+
+Parameters read_signals(SceneContext& context, const TomlNode& root) {
+  declare_signals({});
+  Parameters signals;
+  const TomlEntry* entry = root.find("signals");
+  if (!entry) return signals;
+  if (entry->value.kind != TomlNode::Kind::table) {
+    context.report("signals", entry->line, "signals must be a table, written [signals]");
+    return signals;
+  }
+  for (const TomlEntry& one : entry->value.entries) {
+    const std::string path = "signals." + one.key;
+    const bool number = one.value.kind == TomlNode::Kind::number || one.value.kind == TomlNode::Kind::integer;
+    if (!is_free_name(one.key) || context.parameters.count(one.key) > 0)
+      context.report(path, one.line, path + ": a signal's name is a word that formulas and parameters do not know yet");
+    else if (number && std::isfinite(one.value.number))
+      signals[one.key] = one.value.number;
+    else
+      context.report(path, one.line, path + " must be a number, its value at the start, not " + describe(one.value));
+  }
+  declare_signals(signals);
+  return signals;
 }
 
 }  // namespace seiche

@@ -24,4 +24,8 @@ std::optional<double> number_of(const std::string& text, const Option& option, c
 // values that are not numbers, and circles.
 Parameters read_parameters(SceneContext& context, const TomlNode& root);
 
+// Declares the signals of the table [signals], numbers in formulas that a program around the simulation may change
+// (base/signals.h). Returns their values at the start. Reports names that are taken and values that are not numbers.
+Parameters read_signals(SceneContext& context, const TomlNode& root);
+
 }  // namespace seiche

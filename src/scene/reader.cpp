@@ -68,10 +68,12 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   for (const Override& override : overrides) context.override_paths.push_back(override.path);
   context.parameters = read_parameters(context, root);
   if (!context.clean("parameters")) context.throw_problems();  // what uses them would only repeat their faults
+  const Parameters signals = read_signals(context, root);
   fill_in_materials(context, root);
   const Scene defaults;
   context.dimension = root.find("dimension") ? 0 : defaults.dimension;
   Scene scene;
+  scene.signals = signals;
   read_section(context, {&root, ""}, scene_section(), own_options(scene_section()), scene);
   check_scene(context, root, scene);
   context.throw_problems();

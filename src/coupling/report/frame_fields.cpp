@@ -80,9 +80,36 @@ FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, con
   return out;
 }
 
-#define SEICHE_INSTANTIATE(Dim)                                                                   \
-  template FrameField make_frame_field<Dim>(const Domain<Dim>&, const Fluids&, const State<Dim>&, \
-                                            const NodeField<Dim>&, const std::string&);
+template <int Dim>
+FieldView make_field_view(const Domain<Dim>& domain, const State<Dim>& state, const std::string& name) {
+  const auto& cells = domain.layout.cells();
+  FieldView view;
+  view.name = name;
+  const double* values = nullptr;
+  for (int a = 0; a < Dim; ++a) {
+    const auto at = std::size_t(a);
+    view.lower[at] = cells.lower[a];
+    view.shape[at] = cells.upper[a] - cells.lower[a];
+    view.strides[at] = domain.layout.stride(a);
+    if (name != std::string("velocity_") + "xyz"[a]) continue;
+    ++view.shape[at];
+    values = state.now->u[a].begin();
+    view.owner = state.now;
+  }
+  if (name == "surface") values = state.phi.data();
+  if (name == "pressure") values = state.pressure.data();
+  if (!values)
+    throw Error(
+        ExitCode::bad_input,
+        "no field named '" + name + "'; there are surface, pressure, velocity_x, velocity_y and, in 3D, velocity_z");
+  view.first = values + domain.layout.site(cells.lower);
+  return view;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                                    \
+  template FrameField make_frame_field<D>(const Domain<D>&, const Fluids&, const State<D>&, const NodeField<D>&, \
+                                          const std::string&);                                                   \
+  template FieldView make_field_view<D>(const Domain<D>&, const State<D>&, const std::string&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

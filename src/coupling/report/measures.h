@@ -46,4 +46,8 @@ template <int Dim>
 FrameField make_frame_field(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state,
                             const NodeField<Dim>& psi, const std::string& name);
 
+// View of a field in a state (Simulation::view); owner is set for velocities alone, which steps do not change.
+template <int Dim>
+FieldView make_field_view(const Domain<Dim>& domain, const State<Dim>& state, const std::string& name);
+
 }  // namespace seiche

@@ -87,13 +87,21 @@ struct ProbeSample {
 };
 
 // A field for a frame: this rank's owned cells, first axis fastest; vectors (staggered, low faces) as triples. Units:
-// surface m, vel m/s, pressure Pa, vorticity 1/s, viscosity Pa s. Units:
 // surface m, vel m/s, pressure Pa, vorticity 1/s, viscosity Pa s.
 struct FrameField {
   std::string name;  // surface, vel, pressure, vorticity, viscosity
   enum class Kind { level_set, scalar, staggered_vector } kind = Kind::scalar;
   std::array<int, 3> lower{0, 0, 0}, upper{0, 0, 0};
   std::vector<float> values;
+};
+
+// Values where the simulation holds them: entry (i, j, k) of this rank's block is first[i s_0 + j s_1 + k s_2].
+struct FieldView {
+  std::string name;
+  const double* first = nullptr;
+  std::array<int, 3> lower{0, 0, 0}, shape{1, 1, 1};  // index of the block's first entry in the domain; entries
+  std::array<std::ptrdiff_t, 3> strides{0, 0, 0};     // in doubles
+  std::shared_ptr<const void> owner;                  // keeps the values, also when steps have gone on
 };
 
 // Size of the run, known before the first step.
@@ -133,6 +141,9 @@ class Simulation {
   // Owned cells of a field: surface (continued into solids), closed_surface (without what lies in them), vel, pressure,
   // viscosity, vorticity.
   virtual FrameField frame_field(const std::string& name) const = 0;
+  // The values of a field without copying them: surface (m), pressure (Pa) at cells; velocity_x, velocity_y, velocity_z
+  // (m/s) at low faces, with the high face of the last cell along their axis. They stay as they are when steps go on.
+  virtual FieldView view(const std::string& name) = 0;
   virtual double expected_volume() const = 0;  // initial + sources + net inflow, m^3
   virtual CheckpointData save() const = 0;
   // Restores the state. `data.fields` hold this rank's boxes, as `save()` returns them on as many ranks.

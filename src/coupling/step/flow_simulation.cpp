@@ -32,24 +32,10 @@ namespace seiche {
 namespace {
 
 constexpr int most_halvings = 7;
-constexpr int most_for_energy = 3;       // then a step with energy from nowhere counts: its account is not exact
-constexpr int steps_between_looks = 16;  // at how the work of ranks is balanced
-
-// Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells, nothing is
-// extrapolated in time. After 30 s, a cavity at Re = 5000 has 10 % less energy at Courant number 4 than at 1.
-// Collective.
-template <int Dim>
-std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
-                               const State<Dim>& state) {
-  constexpr double resolved = 2;
-  const double cfl = time.cfl;
-  if (cfl <= resolved || !fluids.is_viscous() || fluids.has_prescribed_flow() || has_surface(domain, state.phi))
-    return {};
-  return fmt::format(
-      "time.cfl = {:g}: steps over more than {:g} cells do not resolve eddies of viscous liquid that fills its domain; "
-      "where viscosity is low the flow loses energy, a tenth in a cavity at Re = 5000; lower cfl to {:g}",
-      cfl, resolved, resolved);
-}
+// After these a step with energy from nowhere counts: its account is not exact.
+constexpr int most_for_energy = 3;
+// Steps between looks at how the work of ranks is balanced.
+constexpr int steps_between_looks = 16;
 
 template <int Dim>
 class FlowSimulation : public Simulation {
@@ -78,6 +64,14 @@ class FlowSimulation : public Simulation {
   }
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_.psi, name);
+  }
+  FieldView view(const std::string& name) override {
+    FieldView view = make_field_view(setup_->domain, state_, name);
+    if (view.owner) return view;
+    std::shared_ptr<State<Dim>> kept = kept_.lock();
+    if (!kept) kept_ = kept = std::make_shared<State<Dim>>();
+    view.owner = kept;
+    return view;
   }
   CheckpointData save() const override {
     CheckpointData data = save_state(*setup_, state_);
@@ -122,7 +116,7 @@ class FlowSimulation : public Simulation {
   // Drops warnings on the start, which the first run gave. The note on long steps is repeated: `resume --set` may
   // change cfl.
   void load(const CheckpointData& data) override {
-    state_ = load_state(*setup_, data);
+    replace_state(load_state(*setup_, data));
     phases_.warnings.clear();
     warn_of_long_steps();
     geometry_ = measure_geometry();
@@ -155,13 +149,13 @@ class FlowSimulation : public Simulation {
     CheckpointData data = save_state(*setup_, state_);
     set_up_again(std::move(blocks));
     data.fields = redistribute(data.fields, state_boxes(*setup_), setup_->domain.ranks);
-    state_ = load_state(*setup_, data);
+    replace_state(load_state(*setup_, data));
     geometry_ = measure_geometry();
   }
 
   // Leaves no state.
   void set_up_again(std::vector<Box<Dim>> blocks) {
-    state_ = {};
+    replace_state({});
     geometry_ = {};
     setup_ = std::make_unique<const Setup<Dim>>(*setup_->scene, setup_->domain.ranks, setup_->perturbation,
                                                 std::move(blocks));
@@ -246,9 +240,16 @@ class FlowSimulation : public Simulation {
     start.before = std::move(before);
   }
 
+  // Views of the old state go on to show it.
+  void replace_state(State<Dim> next) {
+    if (const std::shared_ptr<State<Dim>> kept = kept_.lock()) *kept = std::move(state_);
+    kept_.reset();
+    state_ = std::move(next);
+  }
+
   void accept(Attempt<Dim> a) {
     a.state.viscous_power = a.powers.viscous;
-    state_ = std::move(a.state);
+    replace_state(std::move(a.state));
     geometry_ = std::move(a.geometry);
     solve_ = a.solve;
     divergence_ = a.divergence;
@@ -357,6 +358,7 @@ class FlowSimulation : public Simulation {
 
   std::unique_ptr<const Setup<Dim>> setup_;  // before state_, which refers to it
   State<Dim> state_;
+  std::weak_ptr<State<Dim>> kept_;  // takes the state once it is over, while a view shows it
   StepGeometry<Dim> geometry_;
   SceneAccount account_;
   Phases phases_;

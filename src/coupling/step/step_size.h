@@ -46,4 +46,11 @@ double hold_back(const Solids<Dim>& solids, const State<Dim>& state, double dt);
 template <int Dim>
 double choose_step(const Setup<Dim>& setup, const State<Dim>& state, double until);
 
+// Note on long steps of viscous liquid that fills its domain, else empty. Over more than two cells, nothing is
+// extrapolated in time. After 30 s, a cavity at Re = 5000 has 10 % less energy at Courant number 4 than at 1.
+// Collective.
+template <int Dim>
+std::string note_on_long_steps(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
+                               const State<Dim>& state);
+
 }  // namespace seiche

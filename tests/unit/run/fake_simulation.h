@@ -40,6 +40,7 @@ class FakeSimulation : public Simulation {
   std::vector<SolidState> solids() const override { return {{"wall", {x_, 0, 0}, {1, 0, 0, 0}, {}, {}, {}, {}}}; }
   SurfaceMesh solid_surface(std::size_t) const override { return {{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}}; }
   ProbeSample probe(std::size_t) const override { return {"p", false, true, x_, {}}; }
+  FieldView view(const std::string&) override { return {}; }
   FrameField frame_field(const std::string& name) const override {
     FrameField f{name, FrameField::Kind::level_set, {0, 0, 0}, {2, 2, 1}, {float(x_), -1, -1, -1}};
     if (name != "vel") return f;
