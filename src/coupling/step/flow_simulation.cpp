@@ -31,9 +31,8 @@
 namespace seiche {
 namespace {
 
-constexpr int most_halvings = 7;
-// After these a step with energy from nowhere counts: its account is not exact.
-constexpr int most_for_energy = 3;
+// After most_for_energy halvings a step with energy from nowhere counts: its account is not exact.
+constexpr int most_halvings = 7, most_for_energy = 3;
 // Steps between looks at how the work of ranks is balanced.
 constexpr int steps_between_looks = 16;
 
