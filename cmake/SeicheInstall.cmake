@@ -20,4 +20,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/SeicheConfigVersion
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/SeicheConfigVersion.cmake
   cmake/SeicheDependencies.cmake DESTINATION ${seiche_config_folder})
 install(DIRECTORY validation scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche)  # as `seiche validate` looks for them
+# Scripts for other programs; each finds share/seiche/common beside its own folder.
+install(DIRECTORY share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche FILES_MATCHING PATTERN "*.py"
+  PATTERN "__pycache__" EXCLUDE)
 install(FILES LICENSE NOTICE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -8,7 +8,7 @@ import seiche_run as runs
 
 HONEY = 1.0  # Pa s; liquids of a higher viscosity look like honey
 WATER_TINT, HONEY_TINT = (0.10, 0.62, 0.84), (0.95, 0.48, 0.06)  # colour of the light that depth leaves
-BACKDROP = (0.30, 0.31, 0.32)
+BACKDROP = (0.30, 0.30, 0.30)
 
 
 def new_material(name):
@@ -21,7 +21,7 @@ def new_material(name):
 
 
 def liquid_material(viscosity, depth):
-    """Water, or honey above 1 Pa s: clear, tinted by its depth (m). Its shadow lets light through in place of caustics."""
+    """Water, or honey above 1 Pa s: clear, tinted by its depth (m). Its shadow lets light through, without caustics."""
     is_honey = viscosity > HONEY
     material, nodes, links, output = new_material("honey" if is_honey else "water")
     body = nodes.new("ShaderNodeBsdfPrincipled")
@@ -114,7 +114,7 @@ def add_stage(corners):
     size = max(high - low)
     add_backdrop(low, high, center, size)
     sun = bpy.data.lights.new("sun", "SUN")
-    sun.energy, sun.angle = 4.0, math.radians(5)
+    sun.energy, sun.angle, sun.color = 4.2, math.radians(5), (1.0, 0.94, 0.86)
     add_object("sun", sun).rotation_euler = (math.radians(42), math.radians(-14), math.radians(38))
     window = bpy.data.lights.new("window", "AREA")
     window.size, window.energy = 2.0 * size, 12.0 * size * size
@@ -154,7 +154,7 @@ def set_render(scene, options):
         raise runs.RunFault(f"--size: '{options.size}' is no size; give for example 1280x720") from fault
     scene.render.engine = options.engine
     scene.render.resolution_x, scene.render.resolution_y = width, height
-    scene.render.image_settings.file_format = "PNG"
+    scene.render.image_settings.file_format, scene.render.image_settings.color_mode = "PNG", "RGB"
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = options.motion_blur, 0.5
     if options.engine == "CYCLES":
         cycles = scene.cycles
@@ -167,7 +167,7 @@ def set_render(scene, options):
         scene.eevee.taa_render_samples = options.samples
         if hasattr(scene.eevee, "use_ssr"):
             scene.eevee.use_ssr = scene.eevee.use_ssr_refraction = True
-    scene.view_settings.look = "Medium High Contrast"
+    scene.view_settings.look = "High Contrast"
 
 
 def denoisers(cycles):

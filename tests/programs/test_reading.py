@@ -94,25 +94,30 @@ def test_export(run, seiche):
     expect(len(said) == 1 and (run.folder / "export/post.ply").exists(), "a missing mesh was not exported")
 
 
-def test_houdini_script(run, seiche):
-    """Keys of the script for Houdini move the box as the table says. Nodes are stand-ins: this is not Houdini."""
-    keys, places = {}, {}
+def stand_in(keys, places):
+    """A module in place of Houdini's that keeps what is set at parameters: values in places, keys in keys."""
 
-
-    def geometry(_, name=None):
+    def node(_, name=None):
+        """Any node."""
         item = unittest.mock.MagicMock()
-        item.createNode.side_effect = geometry
+        item.createNode.side_effect = node
         item.parm.side_effect = lambda key: unittest.mock.MagicMock(
             set=lambda value: places.__setitem__((name, key), value),
             setKeyframe=lambda k: keys.setdefault((name, key), []).append(k.setValue.call_args[0][0]))
         return item
 
-    fake = unittest.mock.MagicMock()
-    fake.node.side_effect = lambda path: geometry(None, path)
-    fake.Keyframe.side_effect = unittest.mock.MagicMock
-    fake.text.variableName.side_effect = lambda text: text.replace(" ", "_")
+    hou = unittest.mock.MagicMock()
+    hou.node.side_effect = lambda path: node(None, path)
+    hou.Keyframe.side_effect = unittest.mock.MagicMock
+    hou.text.variableName.side_effect = lambda text: text.replace(" ", "_")
+    return hou
+
+
+def test_houdini_script(run, seiche):
+    """Keys of the script for Houdini move the box as the table says. Nodes are stand-ins: this is not Houdini."""
+    keys, places = {}, {}
     sys.path.insert(0, str(SHARE / "houdini"))
-    with unittest.mock.patch.dict(sys.modules, {"hou": fake}):
+    with unittest.mock.patch.dict(sys.modules, {"hou": stand_in(keys, places)}):
         import import_seiche
         import_seiche.main([str(run.folder), "--seiche", str(seiche)])
     poses, times = runs.Poses(run), run.times()
