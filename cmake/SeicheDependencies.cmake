@@ -29,7 +29,9 @@ find_library(IMATH_LIBRARY NAMES Imath Imath-3_1 REQUIRED)
 target_link_libraries(OpenVDB INTERFACE ${IMATH_LIBRARY})
 seiche_plain_library(tomlplusplus toml++/toml.h tomlplusplus)
 seiche_plain_library(HDF5 hdf5.h hdf5_serial hdf5/serial)
-seiche_plain_library(URDF urdf_parser/urdf_parser.h urdfdom_model)
+seiche_plain_library(URDF urdf_parser/urdf_parser.h urdfdom_model urdfdom)
+find_path(URDF_MODEL_INCLUDE urdf_model/model.h PATH_SUFFIXES urdfdom_headers REQUIRED)  # Debian 13 has it apart
+target_include_directories(URDF SYSTEM INTERFACE ${URDF_MODEL_INCLUDE})
 find_library(CONSOLE_BRIDGE_LIBRARY console_bridge REQUIRED)
 target_link_libraries(URDF INTERFACE ${CONSOLE_BRIDGE_LIBRARY})
 seiche_plain_library(CGAL_headers CGAL/version.h gmp)  # headers alone, with GMP and MPFR behind their exact numbers

@@ -30,6 +30,7 @@ using AddVerb = void (*)(CLI::App&, VerbContext&);
 // Table of verbs in the order of --help.
 const std::vector<AddVerb>& verbs();
 
+void add_init(CLI::App& program, VerbContext& context);
 void add_run(CLI::App& program, VerbContext& context);
 void add_resume(CLI::App& program, VerbContext& context);
 void add_check(CLI::App& program, VerbContext& context);
@@ -37,5 +38,8 @@ void add_validate(CLI::App& program, VerbContext& context);
 void add_info(CLI::App& program, VerbContext& context);
 void add_render(CLI::App& program, VerbContext& context);
 void add_export(CLI::App& program, VerbContext& context);
+void add_completion(CLI::App& program, VerbContext& context);
+void add_manual(CLI::App& program, VerbContext& context);
+void add_schema(CLI::App& program, VerbContext& context);
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 // The tables [liquid] and [gas] of a scene. Plain data in SI units.
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/shape_spec.h"
@@ -18,6 +19,14 @@ struct LiquidSourceSpec {
   VectorFormula velocity{"0", "0", "0"};
   double from = 0;
   double until = std::numeric_limits<double>::infinity();
+};
+
+// A region that draws the flow to a velocity, as a beach absorbs waves: du/dt = -rate (u - velocity).
+struct SpongeSpec {
+  Formula rate = "0";                     // 1/s, in x, y, z, t
+  VectorFormula velocity{"0", "0", "0"};  // m/s
+  std::optional<std::string> side;        // of the domain, "x_upper"; unset: the rate holds everywhere
+  std::optional<double> length;           // m, from that side; the rate falls off there as the square of the way
 };
 
 // Viscosity as a function of the shear rate. The table in fluid/rheology/rheology.h lists the parameters of each model.
@@ -55,6 +64,7 @@ struct LiquidSpec {
   std::optional<VectorFormula> prescribed_velocity;  // at all times; no solve, only the surface moves
   std::vector<LiquidRegionSpec> regions;
   std::vector<LiquidSourceSpec> sources;
+  std::vector<SpongeSpec> sponges;
 };
 
 // resolved: gas flows. volume_conserving: gas has one pressure per enclosed region, which keeps that region's volume.

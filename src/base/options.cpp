@@ -53,6 +53,8 @@ std::string type_name(OptionType type) {
       return "an array of numbers";
     case OptionType::axis:
       return "an array of three numbers";
+    case OptionType::quaternion:
+      return "an array of four numbers";
     case OptionType::spin:
       return "an array of three numbers (2D: a number)";
     case OptionType::formula:

@@ -18,6 +18,7 @@ enum class OptionType {
   interval,        // two numbers
   vector,          // as many numbers as the scene has dimensions
   axis,            // three numbers in 2D and 3D
+  quaternion,      // four numbers
   spin,            // angular velocity: three numbers; in 2D one, about z
   formula,         // a number or an expression
   formula_vector,  // as many formulas as the scene has dimensions

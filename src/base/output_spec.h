@@ -9,7 +9,7 @@ struct OutputSpec {
   std::vector<std::string> frames{"surface", "velocity"};
   std::vector<std::string> formats{"vdb"};
   std::string surface = "closed";  // the level set of frames; "free": open at walls, continued into solids
-  int checkpoint_every = 10;  // frames
+  int checkpoint_every = 10;       // frames
 };
 
 }  // namespace seiche

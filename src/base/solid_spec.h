@@ -11,8 +11,24 @@ namespace seiche {
 
 enum class Slip { free_slip, no_slip };
 
+// A wave maker's motion: that of a piston, or of a flap about a hinge at the bottom.
+struct WavesSpec {
+  std::string paddle = "piston";  // "flap"
+  double depth = 0;               // m, of the liquid at rest
+  double height = 0;              // m, from trough to crest; significant height of a spectrum
+  double period = 0;              // s; of the peak of a spectrum
+  std::string theory = "airy";    // "stokes": second order, for regular waves of a piston
+  std::string spectrum;           // "jonswap", "pierson_moskowitz"; empty: regular waves
+  double peakedness = 3.3;        // gamma of jonswap
+  int components = 24, seed = 1;  // of a spectrum
+  std::optional<double> ramp;     // s, until the full height; unset: two periods
+  Vec3 direction{1, 0, 0};        // of the waves
+  std::optional<Vec3> hinge;      // a point of the flap's axis, m
+};
+
 // Displacement of a kinematic solid from its rest pose: first rotate about center, then translate.
 struct MotionSpec {
+  std::optional<WavesSpec> waves;  // as read; expand_waves() makes formulas of them
   VectorFormula translate{"0", "0", "0"};
   Vec3 axis{0, 0, 1}, center{0, 0, 0};
   Formula degrees = "0";
@@ -55,6 +71,21 @@ struct ElasticSpec {
   std::vector<TractionSpec> tractions;
 };
 
+// Copies of a solid on a regular grid.
+struct ArraySpec {
+  Vec3 count{1, 1, 1};    // whole numbers
+  Vec3 spacing{0, 0, 0};  // m, from one copy to the next
+};
+
+// Copies of a solid at random places that keep apart.
+struct ScatterSpec {
+  int count = 0, seed = 1;
+  Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // box that holds the copies, m
+  std::optional<double> radius;         // of a ball that holds a copy, m; unset: that of the shape
+  double gap = 0;                       // least distance of these balls, m
+  bool turned = false;                  // each copy is turned at random
+};
+
 struct SolidSpec {
   std::string name;
   SolidKind kind = SolidKind::fixed;
@@ -66,6 +97,8 @@ struct SolidSpec {
   std::map<std::string, double> numbers;  // values of the keys that only this kind has, listed in its table row
   std::optional<double> friction;         // Coulomb's coefficient; unset: that of the other solid, 0 if both are unset
   std::optional<double> contact_angle;    // degrees; unset: that of the liquid
+  std::optional<ArraySpec> array;         // as read; expand_copies() makes solids of them
+  std::optional<ScatterSpec> scatter;
 };
 
 }  // namespace seiche

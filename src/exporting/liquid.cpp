@@ -22,6 +22,16 @@ const vdb::Grid* find_grid(const vdb::Frame& frame, const std::string& name) {
   return found == frame.grids.end() ? nullptr : &*found;
 }
 
+// Moves the points in the layer of half a cell on both sides of a side onto it. Meshing puts one point into each voxel,
+// so those of a voxel that the side cuts stand for it, and edges of the domain would be cut off by a quarter of a cell.
+void snap_to_sides(const vdb::Frame& frame, const Cells& cells, std::vector<Vec3>& points) {
+  const double reach = 0.5 * frame.cell_size * (1 - 1e-5);  // points are rounded to single precision
+  for (Vec3& x : points)
+    for (int a = 0; a < 3; ++a)
+      for (const double side : {frame.lower[a], frame.lower[a] + frame.cell_size * cells[std::size_t(a)]})
+        if (std::abs(x[a] - side) < reach) x[a] = side;
+}
+
 // A component of a field whose samples lie at lower + (i + offset) h.
 struct Samples {
   const float* values;
@@ -99,6 +109,7 @@ AttributedMesh liquid_mesh(const vdb::Frame& frame) {
   for (std::size_t a = 0; a < 3; ++a) nodes[a] = closed.upper[a] - closed.lower[a];
   AttributedMesh liquid;
   liquid.mesh = vdb::contour(closed.values, nodes, frame.lower + Vec3::Constant((0.5 - vdb::closing_layers) * h), h);
+  snap_to_sides(frame, cells, liquid.mesh.points);
   const vdb::Grid* flow_side = find_grid(frame, vdb::level_set_name(frame));
   for (const vdb::Grid& grid : frame.grids) {
     if (grid.kind == vdb::GridKind::level_set || grid.blocks.size() != 1) continue;

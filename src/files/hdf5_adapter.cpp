@@ -19,14 +19,14 @@ std::filesystem::path unfinished(const std::filesystem::path& path) {
 }
 
 // Closes a handle of HDF5 at the end of its scope.
-class Handle {
+class HdfHandle {
  public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
+  HdfHandle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~HdfHandle() {
     if (id_ >= 0) close_(id_);
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
+  HdfHandle(const HdfHandle&) = delete;
+  HdfHandle& operator=(const HdfHandle&) = delete;
   hid_t id() const { return id_; }
   bool failed() const { return id_ < 0; }
 
@@ -75,15 +75,15 @@ void Hdf5Writer::write(const std::string& name, const std::vector<std::uint64_t>
                        const void* values) {
   constexpr unsigned level = 4;  // of deflate
   const std::vector<hsize_t> sizes(extents.begin(), extents.end());
-  const Handle space(H5Screate_simple(int(sizes.size()), sizes.data(), nullptr), H5Sclose);
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), form(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const HdfHandle space(H5Screate_simple(int(sizes.size()), sizes.data(), nullptr), H5Sclose);
+  const HdfHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), form(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links.id(), 1);
   if (std::ranges::all_of(sizes, [](hsize_t n) { return n > 0; })) {
     H5Pset_chunk(form.id(), int(sizes.size()), chunk_of(sizes).data());
     H5Pset_shuffle(form.id());
     H5Pset_deflate(form.id(), level);
   }
-  const Handle set(H5Dcreate2(file_, name.c_str(), type, space.id(), links.id(), form.id(), H5P_DEFAULT), H5Dclose);
+  const HdfHandle set(H5Dcreate2(file_, name.c_str(), type, space.id(), links.id(), form.id(), H5P_DEFAULT), H5Dclose);
   if (set.failed() || H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     throw Error(ExitCode::output_failed, describe_failure(path_, "cannot hold " + name, errno));
 }

@@ -12,7 +12,9 @@
 #include "base/scene.h"
 #include "base/suggest.h"
 #include "fluid/rheology/rheology.h"
+#include "scene/copies.h"
 #include "scene/robots.h"
+#include "scene/waves.h"
 
 namespace seiche {
 namespace {
@@ -246,6 +248,8 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("probe")) check_names(c, scene.probes, "probe");
   if (context.clean("robot")) check_names(c, scene.robots, "robot");
   if (context.clean("robot") && context.clean("solid") && context.clean("joint")) expand_robots(context, root, scene);
+  if (context.clean("solid")) expand_copies(context, root, scene);
+  if (context.clean("solid") && context.clean("gravity")) expand_waves(context, root, scene);
   if (!context.clean("domain") || context.dimension == 0) return;
   check_probes(c, scene);
   if (context.clean("solid")) check_followed_solids(c, scene);

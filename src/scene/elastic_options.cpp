@@ -40,6 +40,7 @@ Section<S> material_section() {
   Section<S> s;
   const Range not_negative = between(0, number_limit);
   s.keys = {
+      material_key<S>(MaterialState::solid),
       value_key<S>({.key = "model", .type = T::choice, .choices = elastic_models(), .doc = "energy of deformation"},
                    &S::model),
       value_key<S>({.key = "youngs_modulus",
@@ -196,11 +197,12 @@ Section<S> elastic_section() {
   };
   Section<S> s;
   s.keys = {
-      inline_key<S>({.key = "material",
-                     .only_for = elastic,
-                     .presence = Presence::required,
-                     .doc = "its elastic law (youngs_modulus, poisson_ratio)"},
-                    itself, material_section()),
+      inline_key<S>(
+          {.key = "material",
+           .only_for = elastic,
+           .presence = Presence::required,
+           .doc = "its elastic law: youngs_modulus and poisson_ratio, or the name of a material, as \"rubber\""},
+          itself, material_section()),
       element_size_key(),
       value_key<S>({.key = "element_order",
                     .type = T::integer,

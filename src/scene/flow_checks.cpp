@@ -33,6 +33,7 @@ std::vector<std::string> beside_prescribed_flow(const Scene& scene) {
       {"liquid.rheology", !liquid.rheology.model.empty()},
       {"liquid.surface_tension", liquid.surface_tension > 0},
       {"liquid.separates", liquid.separates},
+      {"liquid.sponge", !liquid.sponges.empty()},
       {"[gas]", scene.gas.present},
       {"[[solid]]", !scene.solids.empty()},
   };

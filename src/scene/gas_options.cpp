@@ -15,6 +15,7 @@ Section<GasSpec> gas_section() {
                "resolved: gas flows, with one velocity field and pressure for both; volume_conserving: each enclosed "
                "region of air has one pressure and keeps its volume, and nothing flows in it"},
           &S::bubbles, {{"resolved", Bubbles::resolved}, {"volume_conserving", Bubbles::volume_conserving}}),
+      material_key<S>(MaterialState::gas),
       value_key<S>(density_option(), &S::density),
       value_key<S>({.key = "viscosity", .unit = "Pa s", .range = between(0, number_limit), .doc = "0: inviscid"},
                    &S::viscosity),

@@ -73,6 +73,50 @@ Section<LiquidSourceSpec> source_section() {
   return s;
 }
 
+void check_sponge(SceneContext& c, const Place& p, SpongeSpec& sponge) {
+  if (!c.clean(p.path)) return;
+  if (sponge.side.has_value() != sponge.length.has_value())
+    c.report(p, p.path + (sponge.length ? ": length is for a sponge along a side; name the side"
+                                        : ": a sponge along a side needs its length"));
+  if (sponge.side && c.dimension == 2 && (*sponge.side)[0] == 'z')
+    c.report(p, p.path + ": a scene in 2D has no side " + *sponge.side);
+}
+
+Section<SpongeSpec> sponge_section() {
+  using S = SpongeSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "rate",
+                    .type = T::formula,
+                    .unit = "1/s",
+                    .variables = "xyzt",
+                    .presence = Presence::required,
+                    .doc = "rate, at least 0, at which the flow approaches velocity; with a side, the rate there"},
+                   &S::rate),
+      value_key<S>({.key = "velocity",
+                    .type = T::formula_vector,
+                    .unit = "m/s",
+                    .variables = "xyzt",
+                    .unset = "zero",
+                    .doc = "velocity that the flow approaches"},
+                   &S::velocity),
+      value_key<S>({.key = "side",
+                    .type = T::choice,
+                    .choices = {"x_lower", "x_upper", "y_lower", "y_upper", "z_lower", "z_upper"},
+                    .unset = "the rate holds everywhere",
+                    .doc = "side of the domain that the sponge lies along"},
+                   &S::side),
+      value_key<S>({.key = "length",
+                    .unit = "m",
+                    .range = positive(),
+                    .unset = "required with side",
+                    .doc = "how far it reaches from that side; the rate falls to 0 there, as the square of the way"},
+                   &S::length),
+  };
+  s.finish = check_sponge;
+  return s;
+}
+
 Key<LiquidSpec> volume_key() {
   return choice_key<LiquidSpec, VolumeKeeping LiquidSpec::*, VolumeKeeping>(
       {.key = "volume",
@@ -102,6 +146,17 @@ Option density_option() {
   return {.key = "density", .unit = "kg/m^3", .range = positive(), .doc = "density"};
 }
 
+Option material_option(MaterialState state) {
+  const bool solid = state == MaterialState::solid;
+  return {.key = solid ? "name" : "material",
+          .type = T::choice,
+          .choices = material_names(state),
+          .unset = "as the other keys say",
+          .doc = solid                            ? "youngs_modulus, poisson_ratio and density of a material"
+                 : state == MaterialState::liquid ? "density, viscosity and surface_tension of a material"
+                                                  : "density and viscosity of a material"};
+}
+
 Option initial_velocity_option() {
   return {.key = "velocity",
           .type = T::formula_vector,
@@ -115,6 +170,7 @@ Section<LiquidSpec> liquid_section() {
   using S = LiquidSpec;
   Section<S> s;
   s.keys = {
+      material_key<S>(MaterialState::liquid),
       value_key<S>(density_option(), &S::density),
       value_key<S>({.key = "separates",
                     .type = T::boolean,
@@ -137,6 +193,11 @@ Section<LiquidSpec> liquid_section() {
       list_key<S, LiquidSourceSpec>(
           {.key = "source", .unset = "none", .doc = "liquid added in a shape for a time", .most = most_entries},
           &S::sources, source_section()),
+      list_key<S, SpongeSpec>({.key = "sponge",
+                               .unset = "none",
+                               .doc = "where the flow is drawn to a velocity, as a beach absorbs waves",
+                               .most = most_entries},
+                              &S::sponges, sponge_section()),
   };
   s.finish = [](SceneContext& c, const Place& p, S&) { check_one_viscosity(c, p); };
   return s;

@@ -4,6 +4,7 @@
 
 #include "base/options.h"
 #include "base/vec.h"
+#include "scene/materials.h"
 #include "scene/section.h"
 
 namespace seiche {
@@ -47,6 +48,18 @@ void check_one_viscosity(SceneContext& context, const Place& place);
 Key<Scene> gas_key();
 // Common to liquid and gas.
 Option density_option();
+// A key that names a material; fill_in_materials() has put numbers in its place before sections are read.
+Option material_option(MaterialState state);
+template <class Spec>
+Key<Spec> material_key(MaterialState state) {
+  const Option option = material_option(state);
+  return {option,
+          [option](SceneContext& c, const Place& p, Spec&) {
+            std::string name;
+            read_value(c, p, option, name);
+          },
+          [](const Spec&, int, const std::string&, SceneLines&) {}};
+}
 Option initial_velocity_option();
 
 // Reports a rotation axis that is missing (3D), zero or not along z (2D) in the table at `place`.

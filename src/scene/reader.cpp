@@ -11,6 +11,7 @@
 #include "base/scene.h"
 #include "scene/checks.h"
 #include "scene/include.h"
+#include "scene/materials.h"
 #include "scene/options.h"
 #include "scene/overrides.h"
 
@@ -66,6 +67,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   }
   for (const Override& override : overrides) context.override_paths.push_back(override.path);
   context.parameters = read_parameters(context, root);
+  fill_in_materials(context, root);
   const Scene defaults;
   context.dimension = root.find("dimension") ? 0 : defaults.dimension;
   Scene scene;

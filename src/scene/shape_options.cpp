@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "base/shape_spec.h"
 #include "scene/options.h"
@@ -15,19 +16,80 @@ using T = OptionType;
 
 const std::vector<std::string> axial{"cylinder", "capsule"};
 
+void set_rotation(const Eigen::Quaterniond& q, RotationSpec& rotation) {
+  const Eigen::AngleAxisd turn(q.normalized());
+  rotation = {turn.axis(), turn.angle() * 180 / M_PI};
+  if (turn.axis().head<2>().norm() == 0 && turn.axis()[2] < 0) rotation = {Vec3::UnitZ(), -rotation.degrees};
+}
+
+// Rotations in forms of their own become an axis and an angle, as which they are written.
+Key<RotationSpec> form_key(const Option& option,
+                           const std::function<void(SceneContext&, const Place&, RotationSpec&)>& read) {
+  Key<RotationSpec> key{option, {}, [](const RotationSpec&, int, const std::string&, SceneLines&) {}};
+  key.read = read;
+  return key;
+}
+
+Key<RotationSpec> euler_key() {
+  const Option option{.key = "euler",
+                      .type = T::axis,
+                      .unit = "degrees",
+                      .unset = "degrees is given",
+                      .doc = "angles about the fixed axes x, then y, then z"};
+  return form_key(option, [option](SceneContext& c, const Place& p, RotationSpec& rotation) {
+    Vec3 angles = Vec3::Zero();
+    read_value(c, p, option, angles);
+    angles *= M_PI / 180;
+    set_rotation(Eigen::AngleAxisd(angles[2], Vec3::UnitZ()) * Eigen::AngleAxisd(angles[1], Vec3::UnitY()) *
+                     Eigen::AngleAxisd(angles[0], Vec3::UnitX()),
+                 rotation);
+  });
+}
+
+Key<RotationSpec> quaternion_key() {
+  const Option option{.key = "quaternion",
+                      .type = T::quaternion,
+                      .unset = "degrees is given",
+                      .doc = "four numbers w, x, y, z, of any length"};
+  return form_key(option, [option](SceneContext& c, const Place& p, RotationSpec& rotation) {
+    if (p.node->kind != TomlNode::Kind::array || p.node->items.size() != 4)
+      return c.report(p, p.path + " must be an array of four numbers, w, x, y, z");
+    std::array<double, 4> q{};
+    const Option number{.key = option.key};
+    for (std::size_t n = 0; n < 4; ++n)
+      read_value(c, {&p.node->items[n], fmt::format("{}.{}", p.path, n)}, number, q[n]);
+    const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]);
+    if (!c.clean(p.path)) return;
+    if (given.norm() == 0) return c.report(p, p.path + " must not be zero");
+    set_rotation(given, rotation);
+  });
+}
+
+void check_rotation(SceneContext& c, const Place& p, RotationSpec& rotation) {
+  int forms = 0;
+  for (const char* form : {"degrees", "euler", "quaternion"}) forms += p.node->find(form) != nullptr;
+  if (forms != 1)
+    return c.report(p, p.path + (forms == 0 ? " is missing the key degrees; or give euler or quaternion"
+                                            : ": give one of degrees, euler and quaternion"));
+  if (p.node->find("degrees")) return check_axis(c, p, rotation.axis);
+  if (p.node->find("axis")) c.report(p, p.path + ": axis goes with degrees");
+  if (c.dimension == 2 && rotation.degrees != 0 && rotation.axis.head<2>().norm() > 1e-12)
+    c.report(p, p.path + ": a rotation in 2D is about z");
+}
+
 Section<RotationSpec> rotation_section() {
   Section<RotationSpec> s;
   s.keys = {
       value_key<RotationSpec>(
-          {.key = "axis", .type = T::axis, .doc = "axis through the origin; 3D scenes must give it"},
+          {.key = "axis", .type = T::axis, .doc = "axis through the origin; 3D scenes must give it with degrees"},
           &RotationSpec::axis),
-      value_key<RotationSpec>({.key = "degrees",
-                               .unit = "degrees",
-                               .presence = Presence::required,
-                               .doc = "angle, counter-clockwise seen against the axis"},
-                              &RotationSpec::degrees),
+      value_key<RotationSpec>(
+          {.key = "degrees", .unit = "degrees", .doc = "angle, counter-clockwise seen against the axis"},
+          &RotationSpec::degrees),
+      euler_key(),
+      quaternion_key(),
   };
-  s.finish = [](SceneContext& c, const Place& p, RotationSpec& r) { check_axis(c, p, r.axis); };
+  s.finish = check_rotation;
   return s;
 }
 

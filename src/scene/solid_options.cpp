@@ -1,7 +1,9 @@
 // Keys of [[solid]].
 #include "base/solid_spec.h"
 #include "coupling/solids/solid_kinds.h"
+#include "scene/copies.h"
 #include "scene/options.h"
+#include "scene/waves.h"
 
 namespace seiche {
 namespace {
@@ -73,6 +75,13 @@ Section<MotionSpec> motion_section() {
                             &MotionSpec::translate),
       inline_key<MotionSpec>({.key = "rotate", .unset = "no rotation", .doc = "rotation, applied before translate"},
                              itself, motion_rotation_section()),
+      optional_table_key<MotionSpec>(
+          {.key = "waves", .unset = "none", .doc = "motion of a wave maker, in place of both"}, &MotionSpec::waves,
+          waves_section()),
+  };
+  s.finish = [](SceneContext& c, const Place& p, MotionSpec&) {
+    if (p.node->find("waves") && (p.node->find("translate") || p.node->find("rotate")))
+      c.report(p, p.path + ": waves make the motion; leave translate and rotate out");
   };
   return s;
 }
@@ -102,6 +111,7 @@ Section<SolidSpec> solid_section() {
   angle.unset = "that of [liquid]";
   s.keys.push_back(value_key<SolidSpec>(angle, &SolidSpec::contact_angle));
   for (Key<SolidSpec>& key : lift<SolidSpec>(elastic_section(), &SolidSpec::elastic)) s.keys.push_back(std::move(key));
+  for (Key<SolidSpec>& key : copy_keys()) s.keys.push_back(std::move(key));
   for (const SolidKindRow& row : solid_kinds())
     for (const Option& option : row.numbers) s.keys.push_back(own_key(row.kind, option));
   s.finish = [](SceneContext& c, const Place& p, SolidSpec& solid) {

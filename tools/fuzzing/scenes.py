@@ -25,9 +25,10 @@ def uncovered(registry):
             is_shape = table in SHAPES and key.name in shapes.KEYS
             if table in SHAPES and key.name == "shape" and set(key.choices) - MAKEABLE:
                 yield f"{key.label}: {', '.join(set(key.choices) - MAKEABLE)}"
-            turn = table.endswith(".rotate") and key.name in ("axis", "degrees")
+            turn = table.endswith(".rotate") and key.name in ("axis", "degrees", "euler", "quaternion")
             mechanic = table.startswith(("joint[]", "robot[]"))   # joints.py, robots.py
-            if not (simple or mechanic or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
+            copies = table.endswith((".waves", ".array", ".scatter"))   # left out: see VALUES
+            if not (simple or mechanic or copies or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
                 yield key.label
 
 

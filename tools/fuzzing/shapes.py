@@ -57,6 +57,10 @@ MAKERS = {"box": box, "sphere": ball, "cylinder": rod, "capsule": rod, "plane": 
 
 
 def rotation(rng, dim, degrees):
+    if rng.random() < 0.2:
+        return {"euler": [0.0] * (2 if dim == 2 else 0) + [degrees] * (1 if dim == 2 else 3)}
+    if rng.random() < 0.1:
+        return {"quaternion": [1.0, *([0.0, 0.0] if dim == 2 else [0.3, -0.2]), 0.5]}
     turn = {"degrees": degrees}
     if dim == 3:
         turn["axis"] = point(unit_vector(rng, 3))

@@ -178,6 +178,21 @@ def sources(c, _):
     return [here]
 
 
+def sponges(c, _):
+    """Along a side, or everywhere; from slow to stiff against a step."""
+    if c.prescribes:
+        return None
+    here = {}
+    c.fill("liquid.sponge[]", here)
+    if c.rng.random() < 0.5:
+        axis = c.rng.randrange(c.dim)
+        here["side"] = f"{'xyz'[axis]}_{c.rng.choice(['lower', 'upper'])}"
+        here["length"] = number(c.extent[axis] * c.rng.uniform(0.1, 1.5))
+        for key in ("side", "length"):
+            c.use("liquid.sponge[]", key, here[key] if key == "side" else None)
+    return [here]
+
+
 def prescribed(c, _):
     """Divergence-free velocity; only in scenes with liquid alone."""
     if not c.prescribes:
@@ -292,6 +307,11 @@ VALUES = {
         stress_scale(c) * c.rng.choice([0.0, 0.3 * c.rng.random()])),
     ("liquid.rheology", "regularisation"): lambda c, _: number(c.speed / c.length * log_uniform(c, 1e-4, 1e-1)),
     ("liquid.region[]", "velocity"): lambda c, _: None if c.prescribes else flow(c, c.speed),
+    ("liquid", "sponge"): sponges,
+    ("liquid.sponge[]", "rate"): lambda c, _: c.rng.choice([number(log_uniform(c, 0.1, 1e3) / c.end), f"{1 / c.end!r}*(1+sin(x))"]),
+    ("liquid.sponge[]", "velocity"): lambda c, _: flow(c, c.speed),
+    ("liquid.sponge[]", "side"): lambda c, _: None,   # with length, by sponges()
+    ("liquid.sponge[]", "length"): lambda c, _: None,
     ("liquid.source[]", "velocity"): lambda c, _: None if c.prescribes else flow(c, c.speed),
     ("liquid.source[]", "from"): lambda c, _: number(c.end * c.rng.uniform(0, 0.5)),
     ("liquid.source[]", "start"): lambda c, _: number(c.end * c.rng.uniform(0, 0.5)),
@@ -309,6 +329,8 @@ VALUES = {
     ("solid[]", "velocity"): lambda c, _: vector(c, 0.3 * c.speed),
     ("solid[]", "angular_velocity"): angular_velocity,
     ("solid[]", "fixed"): fixed,
+    ("solid[]", "array"): lambda c, _: None,   # copies by tests/unit/scene/copies.cpp
+    ("solid[]", "scatter"): lambda c, _: None,
     ("solid[]", "spring_stiffness"): lambda c, _: number(log_uniform(c, 0.1, 1e3) * spring_scale(c)),
     ("solid[]", "spring_damping"): lambda c, _: c.rng.choice([0.0, number(spring_scale(c) * c.end)]),
     ("solid[]", "friction"): lambda c, _: c.rng.choice([0.0, 0.3, 1.0, 1e4]),
@@ -337,6 +359,7 @@ VALUES = {
 }
 for _prefix in ("solid[].motion", "solid[].pinned.motion"):
     VALUES[_prefix, "translate"] = lambda c, _: formulas_of_time(c, c.reach)
+    VALUES[_prefix, "waves"] = lambda c, _: None   # by tests/unit/scene/waves.cpp
     VALUES[_prefix, "rotate"] = lambda c, _, table=_prefix + ".rotate": motion_rotate(c, table)
     VALUES[_prefix + ".rotate", "axis"] = motion_axis
     VALUES[_prefix + ".rotate", "center"] = lambda c, _: point(c.slot)

@@ -9,6 +9,7 @@
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
+#include "coupling/state/sponge.h"
 #include "fluid/boundary/domain.h"
 #include "fluid/volume/ledger.h"
 #include "solid/mesh/point.h"
@@ -28,6 +29,7 @@ struct Setup {
   Solids<Dim> solids;
   OwnedExterior<Dim> exterior;  // before its start
   std::vector<Source<Dim>> sources;
+  std::vector<Sponge> sponges;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
   std::shared_ptr<const OpenParts<Dim>> open_parts;  // if tracks_volume() beside solids, none of which moves; else null

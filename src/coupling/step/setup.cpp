@@ -27,6 +27,7 @@
 #include "coupling/transport/liquid_viscosity.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
+#include "coupling/transport/sponges.h"
 #include "coupling/transport/tracked_volume.h"
 #include "coupling/transport/transport.h"
 #include "fluid/boundary/domain.h"
@@ -180,6 +181,7 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       solids(from, domain, perturbation, notes),
       exterior(make_exterior(fluids, domain)),
       sources(make_sources<Dim>(from, notes)),
+      sponges(make_sponges(from.liquid, from.domain)),
       followed(find_followed_points(from.probes, solids)) {
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);

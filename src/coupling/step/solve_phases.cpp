@@ -15,6 +15,7 @@
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
+#include "coupling/transport/sponges.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -280,6 +281,9 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene->time, s.features, before, phi, times.dt);
   Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry,
                                                     moved.brought ? &*moved.brought : nullptr);
+  const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
+  if (!s.sponges.empty())
+    absorb(s.domain, s.sponges, s.perturbation.gravity * gravity, moved.state.time, times.dt, transported.u);
   const double way = since_flow_fitted(s.fluids, s.solids, before, times);
   if (way > 0)
     p.convected =
@@ -287,7 +291,6 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
   p.by_sources = std::move(transported.by_sources);
-  const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, gravity, times.dt, p.u_star);
   if (moved.closed)
     keep_inertia_near_closed(s.domain, moved.geometry.faces, *moved.closed, before, phi, gravity, times.dt, p.u_star);

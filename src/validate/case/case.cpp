@@ -256,9 +256,4 @@ fs::path find_cases_folder(const fs::path& here, const fs::path& program) {
                                                places[0].string(), places[1].string(), places[2].string()));
 }
 
-fs::path program_file() {
-  std::error_code failed;
-  return fs::read_symlink("/proc/self/exe", failed);
-}
-
 }  // namespace seiche

@@ -68,7 +68,4 @@ MeasureSpec measure_of(const CaseSpec& one, const ResolutionSpec& resolution);
 // source tree around build/<preset>/. Throws Error(bad_input) naming the places searched.
 std::filesystem::path find_cases_folder(const std::filesystem::path& here, const std::filesystem::path& program);
 
-// File of the running program.
-std::filesystem::path program_file();
-
 }  // namespace seiche

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/agree.h"
+#include "base/program_file.h"
 #include "base/scene.h"
 #include "validate/case/checks.h"
 #include "validate/case/selection.h"

@@ -62,6 +62,7 @@ void check_refused(const std::string& text, const std::string& expected) {
   CHECK_THAT(message, Catch::Matchers::Contains(expected));
 }
 
+const std::string tail = "until = 1.5\n[[liquid.sponge]]\nrate = \"1+x\"\nside = \"x_upper\"\nlength = 0.2\n";
 const std::string liquid_text =
     "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
     "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = ";
@@ -106,7 +107,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += liquid_text + v("\"sin(x)\"", "0", "0") + "\n";
   text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
-  text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\nuntil = 1.5\n";
+  text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\n" + tail;
   text += "[[solid]]\nname = \"still\"\n" + placed + "slip = \"no_slip\"\ncontact_angle = 120\n";
   text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
           ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
