@@ -10,6 +10,8 @@ endif()
 install(TARGETS seiche RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY validation scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche  # as `seiche validate` looks for them
   COMPONENT program)
+install(DIRECTORY share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche COMPONENT program  # for Blender and others
+  FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
 install(FILES CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE NOTICE README.md SECURITY.md packages.txt
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -150,6 +150,9 @@ void UsdWriter::finish() {
       const Prim& prim = prims_.at(name);
       write(opening(name, prim));
       for (const std::string& attribute : prim.order) {
+        // Without this, values of a primvar count for the whole mesh.
+        if (attribute.find("primvars:") != std::string::npos)
+          write(fmt::format("        {} ( interpolation = \"vertex\" )\n", attribute));
         write(fmt::format("        {}.timeSamples = {{\n", attribute));
         std::ifstream in(prim.parts.at(attribute)->path(), std::ios::binary);
         std::string piece(1 << 20, '\0');

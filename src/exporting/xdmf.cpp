@@ -27,11 +27,33 @@ std::array<int, 3> node_counts(const std::array<int, 3>& cells, int dimension) {
   return {cells[0] + 1, cells[1] + 1, dimension == 2 ? 1 : cells[2] + 1};
 }
 
-// Slowest index first, as HDF5 and XDMF list extents.
-Extents extents_of(const std::array<int, 3>& n, int width) {
+// Slowest index first, as HDF5 and XDMF list extents; in 2D a list, as values of a mesh are.
+Extents extents_of(const std::array<int, 3>& n, int dimension, int width) {
   Extents extents{std::uint64_t(n[2]), std::uint64_t(n[1]), std::uint64_t(n[0])};
+  if (dimension == 2) extents = {extents[0] * extents[1] * extents[2]};
   if (width > 1) extents.push_back(std::uint64_t(width));
   return extents;
+}
+
+// Three numbers in the text; the newer reader of ParaView ends the program where the format is left out.
+std::string numbers(double a, double b, double c) {
+  return fmt::format(
+      "<DataItem Format=\"XML\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"3\">{:.17g} {:.17g} "
+      "{:.17g}</DataItem>",
+      a, b, c);
+}
+
+// A grid of a frame.
+std::string grid_text(const char* name, double time, const std::string& content) {
+  return fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\">\n<Time Value=\"{:.17g}\"/>\n{}</Grid>\n", name, time,
+                     content);
+}
+
+// The grids of all frames.
+std::string collection(const char* name, const std::string& grids) {
+  if (grids.empty()) return "";
+  return fmt::format("<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n", name,
+                     grids);
 }
 
 std::string attribute(const std::string& name, int width, const char* center, const std::string& item) {
@@ -79,26 +101,49 @@ std::string XdmfWriter::store(const std::string& name, const Extents& extents, c
 }
 
 // Axes are listed as z, y, x.
+std::string XdmfWriter::lattice(const vdb::Frame& frame, const std::array<int, 3>& cells) {
+  const std::array<int, 3> nodes = node_counts(cells, frame.dimension);
+  const double h = frame.cell_size;
+  if (frame.dimension != 2)
+    return fmt::format(
+        "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n"
+        "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">{}{}</Geometry>\n",
+        words(extents_of(nodes, 3, 1)), numbers(frame.lower[2], frame.lower[1], frame.lower[0]), numbers(h, h, h));
+  if (!plane_.empty()) return plane_;
+  std::vector<float> points;
+  for (int j = 0; j < nodes[1]; ++j)
+    for (int i = 0; i < nodes[0]; ++i)
+      points.insert(points.end(), {float(frame.lower[0] + i * h), float(frame.lower[1] + j * h), 0.0f});
+  std::vector<std::int32_t> corners;
+  for (int j = 0; j < cells[1]; ++j)
+    for (int i = 0; i < cells[0]; ++i) {
+      const std::int32_t at = j * nodes[0] + i;
+      corners.insert(corners.end(), {at, at + 1, at + 1 + nodes[0], at + nodes[0]});
+    }
+  const std::uint64_t count = corners.size() / 4;
+  plane_ = fmt::format(
+      "<Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">{}</Topology>\n"
+      "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+      count, store("grid/corners", {count, 4}, corners), store("grid/points", {points.size() / 3, 3}, points));
+  return plane_;
+}
+
 std::string XdmfWriter::fluid(const vdb::Frame& frame, const std::string& group) {
   std::array<int, 3> cells{};
   for (const vdb::Grid& grid : frame.grids) cells = grid.blocks.at(0).upper;
   const std::array<int, 3> nodes = node_counts(cells, frame.dimension);
-  std::string text = fmt::format(
-      "<Grid Name=\"fluid\" GridType=\"Uniform\">\n<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n"
-      "<Geometry GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Dimensions=\"3\">{:.9g} {:.9g} {:.9g}</DataItem>"
-      "<DataItem Dimensions=\"3\">{:.9g} {:.9g} {:.9g}</DataItem></Geometry>\n",
-      words(extents_of(nodes, 1)), frame.lower[2], frame.lower[1], frame.lower[0], frame.cell_size, frame.cell_size,
-      frame.cell_size);
+  std::string text = lattice(frame, cells);
   for (const vdb::Grid& grid : frame.grids) {
     const int width = grid.kind == vdb::GridKind::staggered_vector ? 3 : 1;
     const std::string name = grid.name == "vel" ? "velocity" : grid.name;
     const std::vector<float> values = vtk::cell_values(grid, cells, frame.dimension);
-    text += attribute(name, width, "Cell", store(group + "cells/" + name, extents_of(cells, width), values));
-    text += attribute(
-        name + "_at_nodes", width, "Node",
-        store(group + "nodes/" + name, extents_of(nodes, width), node_values(values, cells, frame.dimension, width)));
+    text += attribute(name, width, "Cell",
+                      store(group + "cells/" + name, extents_of(cells, frame.dimension, width), values));
+    text += attribute(name + "_at_nodes", width, "Node",
+                      store(group + "nodes/" + name, extents_of(nodes, frame.dimension, width),
+                            node_values(values, cells, frame.dimension, width)));
   }
-  return text + "</Grid>\n";
+  return text;
 }
 
 std::string XdmfWriter::surfaces(const render::SolidMesh& solids, const std::string& group) {
@@ -112,8 +157,8 @@ std::string XdmfWriter::surfaces(const render::SolidMesh& solids, const std::str
   const std::uint64_t width = flat ? 2 : 3, count = corners.size() / width;
   const std::vector<std::int32_t> solid(solids.solid.begin(), solids.solid.end());
   return fmt::format(
-      "<Grid Name=\"solids\" GridType=\"Uniform\">\n<Topology TopologyType=\"{}\" "
-      "NumberOfElements=\"{}\">{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n{}</Grid>\n",
+      "<Topology TopologyType=\"{}\" NumberOfElements=\"{}\">{}</Topology>\n"
+      "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n{}",
       flat ? "Polyline\" NodesPerElement=\"2" : "Triangle", count,
       store(group + "solids/corners", {count, width}, corners),
       store(group + "solids/points", {points.size() / 3, 3}, points),
@@ -122,21 +167,17 @@ std::string XdmfWriter::surfaces(const render::SolidMesh& solids, const std::str
 
 void XdmfWriter::add_frame(const vdb::Frame& frame, const render::SolidMesh& solids) {
   const std::string group = fmt::format("frame{:04d}/", frame.number);
-  frames_ += fmt::format(
-      "<Grid Name=\"frame {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
-      "<Time Value=\"{:.17g}\"/>\n",
-      frame.number, frame.time);
-  frames_ += fluid(frame, group);
-  if (!solids.solid.empty()) frames_ += surfaces(solids, group);
-  frames_ += "</Grid>\n";
+  fluid_ += grid_text("fluid", frame.time, fluid(frame, group));
+  if (!solids.solid.empty()) solids_ += grid_text("solids", frame.time, surfaces(solids, group));
 }
 
+// A collection for each of fluid and solids: with both in one for each frame, the older reader numbers their names, so
+// that they change from frame to frame.
 void XdmfWriter::finish() {
   arrays_.close();
   write_file(beside(stem_, ".xdmf"),
-             fmt::format("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"run\" "
-                         "GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n</Domain>\n</Xdmf>\n",
-                         frames_));
+             fmt::format("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n{}{}</Domain>\n</Xdmf>\n",
+                         collection("fluid", fluid_), collection("solids", solids_)));
 }
 
 }  // namespace seiche::exporting

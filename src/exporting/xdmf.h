@@ -25,6 +25,9 @@ class XdmfWriter {
   void finish();
 
  private:
+  // Topology and geometry of the grid. 2D is a mesh of quadrilaterals, stored once: on layers of one cell, ParaView's
+  // older reader fails, and grids of two axes lie in the plane of y and z.
+  std::string lattice(const vdb::Frame& frame, const std::array<int, 3>& cells);
   std::string fluid(const vdb::Frame& frame, const std::string& group);
   std::string surfaces(const render::SolidMesh& solids, const std::string& group);
   std::string item(const std::string& name, const std::vector<std::uint64_t>& extents, const char* type) const;
@@ -33,7 +36,7 @@ class XdmfWriter {
 
   std::filesystem::path stem_;
   Hdf5Writer arrays_;
-  std::string frames_;
+  std::string plane_, fluid_, solids_;  // of the .xdmf: the grid of a 2D run; grids of all frames
 };
 
 }  // namespace seiche::exporting
