@@ -12,6 +12,12 @@ install(DIRECTORY validation scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche 
   COMPONENT program)
 install(DIRECTORY share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/seiche COMPONENT program  # for Blender and others
   FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+install(FILES share/man/seiche.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES share/completions/seiche.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  RENAME seiche COMPONENT program)
+install(FILES share/completions/_seiche DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+install(FILES share/completions/seiche.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+  COMPONENT program)
 install(FILES CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE NOTICE README.md SECURITY.md packages.txt
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -25,13 +25,13 @@ std::vector<const CLI::App*> shown_verbs(const CLI::App& program) {
   return shown;
 }
 
-std::string options_of(const CLI::App& verb) {
+std::string option_words(const CLI::App& verb) {
   std::string words;
   for (const CLI::Option* option : shown_options(verb)) words += " --" + option->get_lnames()[0];
   return words;
 }
 
-std::string verb_names(const CLI::App& program) {
+std::string words_of_verbs(const CLI::App& program) {
   std::string words;
   for (const CLI::App* verb : shown_verbs(program)) words += (words.empty() ? "" : " ") + verb->get_name();
   return words;
@@ -43,9 +43,9 @@ std::string bash_completion(const CLI::App& program) {
       "  local word=\"${{COMP_WORDS[COMP_CWORD]}}\" words=\"\"\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then words=\"{} --help --version\"; else\n"
       "    case \"${{COMP_WORDS[1]}}\" in\n",
-      verb_names(program));
+      words_of_verbs(program));
   for (const CLI::App* verb : shown_verbs(program))
-    text += fmt::format("      {}) words=\"{}\" ;;\n", verb->get_name(), options_of(*verb).substr(1));
+    text += fmt::format("      {}) words=\"{}\" ;;\n", verb->get_name(), option_words(*verb).substr(1));
   return text +
          "    esac\n  fi\n  case \"$word\" in -*) ;; *) [ \"$COMP_CWORD\" -gt 1 ] && return ;; esac\n"
          "  COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n}\ncomplete -o default -F _seiche seiche\n";
