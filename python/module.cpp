@@ -18,6 +18,7 @@
 #include "geometry/vdb/openvdb_adapter.h"
 #include "scene/materials.h"
 #include "scene/reader.h"
+#include "scene/values.h"
 #include "scene/writer.h"
 
 namespace py = pybind11;
@@ -40,8 +41,10 @@ const Communicator& ranks() {
 std::string toml_text(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value) && !py::isinstance<py::array>(value))
-    return py::repr(py::float_(value)).cast<std::string>();
+  if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
+  const bool is_list =
+      py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) || py::isinstance<py::array>(value);
+  if (!is_list) return py::repr(py::float_(py::reinterpret_borrow<py::object>(value))).cast<std::string>();
   std::string text = "[";
   for (const py::handle item : py::iter(value)) {
     const std::string one = toml_text(item);
@@ -125,7 +128,7 @@ py::array array_of(const FieldView& view, int dimension) {
   for (int a = 0; a < dimension; ++a) strides.push_back(py::ssize_t(view.strides[std::size_t(a)] * sizeof(double)));
   py::array_t<double> array(shape, strides, view.first, keeps);
   array.attr("flags").attr("writeable") = false;
-  return std::move(array);
+  return array;
 }
 
 // A scene with all values in SI units.
