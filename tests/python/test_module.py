@@ -28,8 +28,8 @@ name = "box"
 kind = "rigid"
 density = 300.0
 shape = "box"
-lower = [0.6, 0.0]
-upper = [0.7, 0.1]
+lower = [0.6, 0.02]
+upper = [0.7, 0.12]
 [[probe]]
 name = "level"
 kind = "surface_height"
@@ -86,7 +86,7 @@ def scenes(_):
     expect(seiche.Scene.parse(scene.text).text == scene.text, "a written scene reads back otherwise")
     expect(numpy.array_equal(scene.upper, [1.0, 0.5, 0.0]) and scene.cell_size == 0.03125, str(scene.upper))
     refused(lambda: seiche.Scene.parse(TANK.replace("upper =", "uper =", 1)), "uper", "did you mean 'upper'?")
-    refused(lambda: seiche.Scene.parse(TANK, set={"time.end": -1}), "time.end")
+    refused(lambda: seiche.Scene.parse(TANK, set={"time.frame_rate": -1}), "time.frame_rate")
     refused(lambda: seiche.Scene.read("/not/there.toml"), "/not/there.toml")
     expect(seiche.materials()["oak"]["density"] == 680, "oak")
 
@@ -142,8 +142,8 @@ def fields(_):
 def meshes(program):
     """Frames and the liquid's mesh, against what the program's tables say."""
     text = TANK.replace("dimension = 2", "dimension = 3").replace("0.5]", "0.5, 0.25]").replace("[0.0, 0.0]", "[0.0, 0.0, 0.0]")
-    text = text.replace("[0.4, 0.3]", "[0.4, 0.3, 0.25]").replace("[0.6, 0.0]", "[0.6, 0.0, 0.1]")
-    text = text.replace("[0.7, 0.1]", "[0.7, 0.1, 0.2]").replace("[0.2, 0.1]", "[0.2, 0.1, 0.1]")
+    text = text.replace("[0.4, 0.3]", "[0.4, 0.3, 0.25]").replace("[0.6, 0.02]", "[0.6, 0.02, 0.1]")
+    text = text.replace("[0.7, 0.12]", "[0.7, 0.12, 0.2]").replace("[0.2, 0.1]", "[0.2, 0.1, 0.1]")
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "tank.toml"
         scene.write_text(text)

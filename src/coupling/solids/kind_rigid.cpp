@@ -45,8 +45,8 @@ void RigidParticipant<Dim>::couple(const CoupledStep<Dim>& step, int block, Coup
 
 template <int Dim>
 void RigidParticipant<Dim>::take_sums(const CoupledStep<Dim>& step, int block, const double* sums,
-                                      SolidCoupling<Dim>& c) const {
-  add_buoyancy(step, body(), c.bodies[std::size_t(block)], c.first[std::size_t(block)], sums, c);
+                                      CouplingParts<Dim>& parts) const {
+  add_buoyancy(step, body(), state_, block, sums, parts);
 }
 
 // M target = M free + dt buoyancy_correction,  push = M target.

@@ -27,7 +27,7 @@ class RigidParticipant : public Participant<Dim> {
   Eigen::VectorXd generalised(const BodyImpulse& impulse) const override;
 
   void couple(const CoupledStep<Dim>& step, int block, CouplingParts<Dim>& parts) const override;
-  void take_sums(const CoupledStep<Dim>& step, int block, const double* sums, SolidCoupling<Dim>& c) const override;
+  void take_sums(const CoupledStep<Dim>& step, int block, const double* sums, CouplingParts<Dim>& parts) const override;
   void set_target(double dt, int block, SolidCoupling<Dim>& c) const override;
   void take(const SolidCoupling<Dim>& c, int block, const Eigen::VectorXd& v, double horizon) override;
   void advance(const Stride<Dim>& stride) override;

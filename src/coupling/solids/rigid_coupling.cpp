@@ -22,7 +22,7 @@ template <int Dim>
 struct Sums {
   Vec<Dim> volume = Vec<Dim>::Zero();                    // sum_f s A h over the faces of each axis
   std::array<Vec3, Dim> moment;                          // sum_f s A h (x_f - X), X the centre of mass
-  double wet = 0, surface = 0;                           // |net area| of wet cells, by density, and of all cells
+  double wet = 0, dry = 0, surface = 0;                  // |net area|: of wet cells, by density; beyond phi = 0; of all
   Generalised<Dim> missing = Generalised<Dim>::Zero();   // missing_load(), of bodies that others reach into
   std::vector<std::pair<Site, Generalised<Dim>>> cells;  // net area and moment of each cell, by site
   Sums() { moment.fill(Vec3::Zero()); }
@@ -77,7 +77,8 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
 // Net areas below this are round-off. A body closes the cells inside it alike on all sides, and they have no row.
 constexpr double smallest_face = 1e-12;
 
-// The body's block of J. Also sets sums.surface and sums.wet; gas counts as wet by its density over the liquid's.
+// The body's block of J. Also sets sums.surface, sums.wet and sums.dry; gas counts as wet by its density over the
+// liquid's.
 template <int Dim>
 ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
                        const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
@@ -88,7 +89,11 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
   for (const auto& [cell, mode] : sums.cells) {
     const double area = mode.template head<Dim>().norm();
     const bool wet = rows.has_pressure(cell);
-    if (area > smallest_face) sums.surface += area, sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
+    if (area > smallest_face) {
+      sums.surface += area;
+      sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
+      sums.dry += phi[cell] < 0 ? 0 : area;
+    }
     for (int k = 0; k < block.width && rows.row[cell] >= 0; ++k)
       if (wet)
         block.add(int(rows.row[cell] - rows.first), k, mask[k] * mode[k]);
@@ -105,7 +110,7 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
 template <int Dim>
 void append(const Sums<Dim>& s, std::vector<double>& all) {
   for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
-  all.insert(all.end(), {s.wet, s.surface});
+  all.insert(all.end(), {s.wet, s.dry, s.surface});
   all.insert(all.end(), s.missing.begin(), s.missing.end());
 }
 
@@ -113,8 +118,8 @@ template <int Dim>
 Sums<Dim> read_sums(const double* next) {
   Sums<Dim> s;
   for (int a = 0; a < Dim; ++a, next += 4) s.volume[a] = next[0], s.moment[a] = Vec3(next[1], next[2], next[3]);
-  s.wet = next[0], s.surface = next[1];
-  s.missing = Eigen::Map<const Generalised<Dim>>(next + 2);
+  s.wet = next[0], s.dry = next[1], s.surface = next[2];
+  s.missing = Eigen::Map<const Generalised<Dim>>(next + 3);
   return s;
 }
 
@@ -260,26 +265,37 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
 }
 
 template <int Dim>
-void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, int first, const double* sums,
-                  SolidCoupling<Dim>& c) {
+void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const RigidState& r, int block,
+                  const double* sums, CouplingParts<Dim>& parts) {
+  constexpr double trace = 1e-9;  // of the surface: round-off
   const Setup<Dim>& s = step.setup;
-  if (!lies_within<Dim>(s.scene->domain, body, step.geometry.placed[std::size_t(k)].pose)) return;
-  const Vec3 gravity = s.fluids.gravity.of_step(step.state.time, step.dt);
+  SolidCoupling<Dim>& c = parts.coupling;
+  const int k = c.bodies[std::size_t(block)], first = c.first[std::size_t(block)];
+  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
+  if (!lies_within<Dim>(s.scene->domain, body, pose)) return;
+  const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
   const Sums<Dim> all = read_sums<Dim>(sums);
-  const Vec3 arm = step.geometry.placed[std::size_t(k)].pose.rotation * Vec3(body.mass().centroid - body.mass().center);
-  const Generalised<Dim> missing = jointed_neighbours(s.solids, step.geometry.placed, k).empty()
-                                       ? buoyancy_difference(all, body.mass().volume, arm, s.fluids.density() * gravity)
-                                       : all.missing;
-  c.buoyancy_correction.template segment<twist_size<Dim>>(first) =
-      missing.cwiseProduct(freedom_mask<Dim>(body.spec().rigid));
+  const bool jointed = !jointed_neighbours(s.solids, step.geometry.placed, k).empty();
+  if (!jointed && all.wet > 0 && all.dry > trace * all.surface) {
+    if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
+    if (parts.missing.size() == 0) parts.missing.setZero(c.size());
+    parts.missing.template segment<twist_size<Dim>>(first) =
+        missing_load(step, body, k, r.center, *parts.open).cwiseProduct(mask);
+    return;
+  }
+  const Vec3 arm = pose.rotation * Vec3(body.mass().centroid - body.mass().center);
+  const Vec3 weight = s.fluids.density() * s.fluids.gravity.of_step(step.state.time, step.dt);
+  const Generalised<Dim> missing = jointed ? all.missing : buoyancy_difference(all, body.mass().volume, arm, weight);
+  c.buoyancy_correction.template segment<twist_size<Dim>>(first) = missing.cwiseProduct(mask);
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                       \
-  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);            \
-  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                            \
-  template void couple_rigid_body<D>(const CoupledStep<D>&, const Body<D>&, const RigidState&, int, \
-                                     CouplingParts<D>&);                                            \
-  template void add_buoyancy<D>(const CoupledStep<D>&, const Body<D>&, int, int, const double*, SolidCoupling<D>&);
+#define SEICHE_INSTANTIATE(D)                                                                                 \
+  template Eigen::Matrix<double, twist_size<D>, 1> stacked<D>(const Vec3&, const Vec3&);                      \
+  template Twist unstacked<D>(const Eigen::VectorXd&, int, const Vec3&);                                      \
+  template void couple_rigid_body<D>(const CoupledStep<D>&, const Body<D>&, const RigidState&, int,           \
+                                     CouplingParts<D>&);                                                      \
+  template void add_buoyancy<D>(const CoupledStep<D>&, const Body<D>&, const RigidState&, int, const double*, \
+                                CouplingParts<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

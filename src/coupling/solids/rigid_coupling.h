@@ -11,12 +11,13 @@ template <int Dim>
 void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, const RigidState& r, int block,
                        CouplingParts<Dim>& parts);
 
-// Sets buoyancy_correction of body k from the difference between its volume and that of its face shares; where jointed
-// solids may reach into it, from the pieces of its surface that these leave open. `sums`: over all ranks. Bodies that
-// are not wholly within the domain get none.
+// Sets buoyancy_correction of a body from the difference between its volume and that of its face shares; where jointed
+// solids may reach into it, from the pieces of its surface that these leave open. Where the liquid's surface meets it,
+// adds that of this rank's pieces to parts.missing. `sums`: over all ranks. Bodies that are not wholly within the
+// domain get none. Collective.
 template <int Dim>
-void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, int first, const double* sums,
-                  SolidCoupling<Dim>& coupling);
+void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const RigidState& r, int block,
+                  const double* sums, CouplingParts<Dim>& parts);
 
 // Packs (v, omega) of a body into generalised coordinates (2D: v_x, v_y, omega_z; 3D: all six), and unpacks them from v
 // at `first`.

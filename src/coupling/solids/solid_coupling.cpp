@@ -52,8 +52,12 @@ void gather(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) {
   });
   if (!parts.sums.empty()) step.setup.domain.ranks.global_sum(parts.sums);
   for_each_block(solids, c, [&](const Participant<Dim>& p, int b) {
-    p.take_sums(step, b, parts.sums.data() + first_sum[std::size_t(b)], c);
+    p.take_sums(step, b, parts.sums.data() + first_sum[std::size_t(b)], parts);
   });
+  if (parts.missing.size() > 0) {
+    step.setup.domain.ranks.global_sum(parts.missing);
+    c.buoyancy_correction += parts.missing;
+  }
   for (const auto& interaction : step.setup.solids.interactions) interaction->couple(step, parts);
   for_each_block(solids, c, [&](const Participant<Dim>& p, int b) { p.finish_columns(step, b, parts); });
 }

@@ -60,6 +60,7 @@ struct CouplingParts {
   std::vector<BodyEntries> entries = {};  // columns that interactions may correct
   std::vector<std::shared_ptr<const VelocityPotential>> potentials = {};
   std::optional<CellField<Dim, char>> open = {};  // open_cells(), once computed
+  Eigen::VectorXd missing = {};  // loads to be added to buoyancy_correction, this rank's part; empty: none
 };
 
 // Gathers the coupling for one solve. Collective.

@@ -82,7 +82,7 @@ class Participant {
   // parts.sums return in take_sums(), summed over the ranks. set_target() comes last, once the mass matrix exists.
   // `block`: index in SolidCoupling::bodies. Collective.
   virtual void couple(const CoupledStep<Dim>&, int /*block*/, CouplingParts<Dim>&) const {}
-  virtual void take_sums(const CoupledStep<Dim>&, int /*block*/, const double* /*sums*/, SolidCoupling<Dim>&) const {}
+  virtual void take_sums(const CoupledStep<Dim>&, int /*block*/, const double* /*sums*/, CouplingParts<Dim>&) const {}
   virtual void finish_columns(const CoupledStep<Dim>&, int /*block*/, CouplingParts<Dim>&) const {}
   virtual void set_target(double /*dt*/, int /*block*/, SolidCoupling<Dim>&) const {}
 
