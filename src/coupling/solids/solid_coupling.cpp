@@ -55,7 +55,7 @@ void gather(const CoupledStep<Dim>& step, CouplingParts<Dim>& parts) {
     p.take_sums(step, b, parts.sums.data() + first_sum[std::size_t(b)], parts);
   });
   if (parts.missing.size() > 0) {
-    step.setup.domain.ranks.global_sum(parts.missing);
+    step.setup.domain.ranks.global_sum(std::span(parts.missing.data(), std::size_t(parts.missing.size())));
     c.buoyancy_correction += parts.missing;
   }
   for (const auto& interaction : step.setup.solids.interactions) interaction->couple(step, parts);
