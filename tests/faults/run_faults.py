@@ -802,7 +802,7 @@ def surface_encloses_the_liquid(frame, volume):
     expect(edges == sorted((b, a) for a, b in edges), "the surface is open")
     a, b, c, d = (points[quads[:, k]].astype(float) for k in range(4))
     within = abs((a * (numpy.cross(b, c) + numpy.cross(c, d))).sum()) / 6
-    expect(abs(within - volume) < 0.03 * volume,  # the mesh cuts edges off at a few cells' size
+    expect(abs(within - volume) < 0.04 * volume,  # a point a voxel cuts h^2/4 off 3.8 m of edges, 3.1 %, and corners
            f"{within} m^3 within the surface, {volume} m^3 of liquid")
 
 
