@@ -22,7 +22,8 @@ template <int Dim>
 struct Sums {
   Vec<Dim> volume = Vec<Dim>::Zero();                    // sum_f s A h over the faces of each axis
   std::array<Vec3, Dim> moment;                          // sum_f s A h (x_f - X), X the centre of mass
-  double wet = 0, dry = 0, surface = 0;                  // |net area|: of wet cells, by density; beyond phi = 0; of all
+  double wet = 0, surface = 0;                           // |net area| of wet cells, by density, and of all cells
+  double dry = 0, level = 0, count = 0;                  // |net area| beyond phi = 0; heights of phi = 0, their number
   Generalised<Dim> missing = Generalised<Dim>::Zero();   // missing_load(), of bodies that others reach into
   std::vector<std::pair<Site, Generalised<Dim>>> cells;  // net area and moment of each cell, by site
   Sums() { moment.fill(Vec3::Zero()); }
@@ -77,11 +78,29 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
 // Net areas below this are round-off. A body closes the cells inside it alike on all sides, and they have no row.
 constexpr double smallest_face = 1e-12;
 
-// The body's block of J. Also sets sums.surface, sums.wet and sums.dry; gas counts as wet by its density over the
-// liquid's.
+// Unit vector against gravity; zero without gravity.
+Vec3 upwards(const Vec3& gravity) {
+  return gravity.norm() > 0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::Zero());
+}
+
+// Notes how a cell beside the body lies to the liquid's surface, whose height there is x.up - phi where it is level.
 template <int Dim>
-ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const CellField<Dim>& phi,
-                       const PressureRows<Dim>& rows, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+void look_at_surface(const Layout<Dim>& l, const CellField<Dim>& phi, Site cell, double area, const Vec3& up,
+                     Sums<Dim>& sums) {
+  if (phi[cell] >= 0) sums.dry += area;
+  if (std::abs(phi[cell]) > l.h()) return;
+  sums.level += up.dot(extend<Dim>(l.position(l.index(cell), cell_offset<Dim>()))) - phi[cell];
+  sums.count += 1;
+}
+
+// The body's block of J. Also sets sums.surface and sums.wet; gas counts as wet by its density over the liquid's.
+template <int Dim>
+ColumnBlock make_block(const CoupledStep<Dim>& step, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+  const Domain<Dim>& domain = step.setup.domain;
+  const Fluids& fluids = step.setup.fluids;
+  const CellField<Dim>& phi = step.state.phi;
+  const PressureRows<Dim>& rows = step.rows;
+  const Vec3 up = upwards(fluids.gravity.of_step(step.state.time, step.dt));
   const double dry = fluids.gas_density() / fluids.density();
   ColumnBlock block;
   block.width = twist_size<Dim>;
@@ -92,7 +111,7 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
     if (area > smallest_face) {
       sums.surface += area;
       sums.wet += wet ? area * (phi[cell] < 0 ? 1 : dry) : 0;
-      sums.dry += phi[cell] < 0 ? 0 : area;
+      look_at_surface(domain.layout, phi, cell, area, up, sums);
     }
     for (int k = 0; k < block.width && rows.row[cell] >= 0; ++k)
       if (wet)
@@ -110,7 +129,7 @@ ColumnBlock make_block(const Domain<Dim>& domain, const Fluids& fluids, const Ce
 template <int Dim>
 void append(const Sums<Dim>& s, std::vector<double>& all) {
   for (int a = 0; a < Dim; ++a) all.insert(all.end(), {s.volume[a], s.moment[a][0], s.moment[a][1], s.moment[a][2]});
-  all.insert(all.end(), {s.wet, s.dry, s.surface});
+  all.insert(all.end(), {s.wet, s.surface, s.dry, s.level, s.count});
   all.insert(all.end(), s.missing.begin(), s.missing.end());
 }
 
@@ -118,8 +137,8 @@ template <int Dim>
 Sums<Dim> read_sums(const double* next) {
   Sums<Dim> s;
   for (int a = 0; a < Dim; ++a, next += 4) s.volume[a] = next[0], s.moment[a] = Vec3(next[1], next[2], next[3]);
-  s.wet = next[0], s.dry = next[1], s.surface = next[2];
-  s.missing = Eigen::Map<const Generalised<Dim>>(next + 3);
+  s.wet = next[0], s.surface = next[1], s.dry = next[2], s.level = next[3], s.count = next[4];
+  s.missing = Eigen::Map<const Generalised<Dim>>(next + 5);
   return s;
 }
 
@@ -172,6 +191,41 @@ Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& bod
     torque += (extend<Dim>(piece.middle) - center).cross(load);
   }
   return stacked<Dim>(force, torque);
+}
+
+// What J'p misses of the load of p(x) = rho g.(x - x_0), x_0 at the `level` of the liquid (m along up): the load of p
+// on the wet pieces of the surface, less A J'p of its values at the wet cells' centres. It is exact for any shares of
+// faces. Pieces and cells next to the level have p near 0, so which of them are wet matters to second order. This
+// rank's part.
+template <int Dim>
+Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
+                               double level, const CellField<Dim, char>& open) {
+  const Domain<Dim>& domain = step.setup.domain;
+  const Vec3 gravity = step.setup.fluids.gravity.of_step(step.state.time, step.dt), origin = level * upwards(gravity);
+  const auto pressure = [&](Site cell, const Vec3& x) {
+    return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) * gravity.dot(x - origin);
+  };
+  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
+  std::vector<Vec<Dim>> points;
+  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  for (const ExposedPiece<Dim>& exposed :
+       exposed_pieces(domain, open, body.contact_surface(), points,
+                      JointedNeighbours<Dim>(domain, step.setup.solids, step.geometry, k))) {
+    const PieceArea<Dim> piece = area_of(exposed.piece, body.contact_surface(), points);
+    const Vec3 middle = extend<Dim>(piece.middle);
+    const Vec3 load = -pressure(exposed.cell, middle) * extend<Dim>(piece.area);
+    force += load;
+    torque += (middle - center).cross(load);
+  }
+  Generalised<Dim> missing = stacked<Dim>(force, torque);
+  const Sums<Dim> sums = add_up(domain, *step.geometry.shares[std::size_t(k)], center);
+  const double face = domain.layout.geometry().cell_volume() / domain.layout.h();
+  for (const auto& [cell, mode] : sums.cells)
+    missing -= face *
+               pressure(cell, extend<Dim>(domain.layout.position(domain.layout.index(cell), cell_offset<Dim>()))) *
+               mode;
+  return missing;
 }
 
 template <int Dim>
@@ -251,7 +305,7 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
   for (int i = 0; i < n; ++i) c.freedom[std::size_t(first + i)] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
   Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
-  c.J.blocks[std::size_t(block)] = make_block(s.domain, s.fluids, step.state.phi, step.rows, mask, sums);
+  c.J.blocks[std::size_t(block)] = make_block(step, mask, sums);
   const int k = c.bodies[std::size_t(block)];
   if (!jointed_neighbours(s.solids, step.geometry.placed, k).empty()) {
     if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
@@ -276,11 +330,11 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const Rig
   const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
   const Sums<Dim> all = read_sums<Dim>(sums);
   const bool jointed = !jointed_neighbours(s.solids, step.geometry.placed, k).empty();
-  if (!jointed && all.wet > 0 && all.dry > trace * all.surface) {
+  if (!jointed && all.wet > 0 && all.dry > trace * all.surface && all.count > 0) {
     if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
     if (parts.missing.size() == 0) parts.missing.setZero(c.size());
     parts.missing.template segment<twist_size<Dim>>(first) =
-        missing_load(step, body, k, r.center, *parts.open).cwiseProduct(mask);
+        floating_load(step, body, k, r.center, all.level / all.count, *parts.open).cwiseProduct(mask);
     return;
   }
   const Vec3 arm = pose.rotation * Vec3(body.mass().centroid - body.mass().center);
