@@ -193,10 +193,20 @@ Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& bod
   return stacked<Dim>(force, torque);
 }
 
+// Volume within a closed surface, m^Dim.
+double volume_within(const SurfaceMesh& surface) {
+  double sum = 0;
+  const auto& x = surface.points;
+  for (const auto& t : surface.triangles)
+    sum += x[std::size_t(t[0])].dot(x[std::size_t(t[1])].cross(x[std::size_t(t[2])])) / 6;
+  for (const auto& s : surface.segments) sum += x[std::size_t(s[0])].cross(x[std::size_t(s[1])])[2] / 2;
+  return sum;
+}
+
 // What J'p misses of the load of p(x) = rho g.(x - x_0), x_0 at the `level` of the liquid (m along up): the load of p
 // on the wet pieces of the surface, less A J'p of its values at the wet cells' centres. It is exact for any shares of
-// faces. Pieces and cells next to the level have p near 0, so which of them are wet matters to second order. This
-// rank's part.
+// faces. Pieces and cells next to the level have p near 0, so which of them are wet matters to second order. Facets cut
+// a little off round shapes; loads count by the ratio of the volumes. This rank's part.
 template <int Dim>
 Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
                                double level, const CellField<Dim, char>& open) {
@@ -218,7 +228,8 @@ Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& bo
     force += load;
     torque += (middle - center).cross(load);
   }
-  Generalised<Dim> missing = stacked<Dim>(force, torque);
+  const double whole = body.mass().volume / volume_within(body.contact_surface());
+  Generalised<Dim> missing = whole * stacked<Dim>(force, torque);
   const Sums<Dim> sums = add_up(domain, *step.geometry.shares[std::size_t(k)], center);
   const double face = domain.layout.geometry().cell_volume() / domain.layout.h();
   for (const auto& [cell, mode] : sums.cells)
