@@ -83,13 +83,18 @@ Vec3 upwards(const Vec3& gravity) {
   return gravity.norm() > 0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::Zero());
 }
 
+template <int Dim>
+Vec3 center_of(const Layout<Dim>& l, Site cell) {
+  return extend<Dim>(l.position(l.index(cell), cell_offset<Dim>()));
+}
+
 // Notes how a cell beside the body lies to the liquid's surface, whose height there is x.up - phi where it is level.
 template <int Dim>
 void look_at_surface(const Layout<Dim>& l, const CellField<Dim>& phi, Site cell, double area, const Vec3& up,
                      Sums<Dim>& sums) {
   if (phi[cell] >= 0) sums.dry += area;
   if (std::abs(phi[cell]) > l.h()) return;
-  sums.level += up.dot(extend<Dim>(l.position(l.index(cell), cell_offset<Dim>()))) - phi[cell];
+  sums.level += up.dot(center_of(l, cell)) - phi[cell];
   sums.count += 1;
 }
 
@@ -142,29 +147,43 @@ Sums<Dim> read_sums(const double* next) {
   return s;
 }
 
-// Area with its normal, and middle, of a piece.
+// Points (m) and weights (m^(Dim-1)) of a rule for a plane piece that is exact for polynomials of second degree, as in
+// the moment of a linear pressure: Gauss's two points of a segment, the middles of the sides of triangles.
 template <int Dim>
-struct PieceArea {
-  Vec<Dim> area = Vec<Dim>::Zero(), middle = Vec<Dim>::Zero();
-};
-
-template <int Dim>
-PieceArea<Dim> area_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points) {
-  const std::vector<Vec<Dim>> corners = corners_of(piece, surface, points);
-  if constexpr (Dim == 2)
-    return {(corners[1] - corners[0]).norm() * piece.normal, 0.5 * (corners[0] + corners[1])};
-  else {
-    PieceArea<Dim> sum;
-    double total = 0;
+std::vector<std::pair<Vec<Dim>, double>> points_on(const std::vector<Vec<Dim>>& corners) {
+  std::vector<std::pair<Vec<Dim>, double>> points;
+  if constexpr (Dim == 2) {
+    const Vec<2> middle = 0.5 * (corners[0] + corners[1]), half = 0.5 * (corners[1] - corners[0]);
+    for (const double side : {-1.0, 1.0}) points.emplace_back(middle + side / std::sqrt(3.0) * half, half.norm());
+  } else {
     for (std::size_t n = 2; n < corners.size(); ++n) {
-      const double area = 0.5 * (corners[n - 1] - corners[0]).cross(corners[n] - corners[0]).norm();
-      sum.middle += area / 3 * (corners[0] + corners[n - 1] + corners[n]);
-      total += area;
+      const std::array<Vec<3>, 3> t{corners[0], corners[n - 1], corners[n]};
+      const double area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+      for (std::size_t a = 0; a < 3; ++a) points.emplace_back(0.5 * (t[a] + t[(a + 1) % 3]), area / 3);
     }
-    if (total > 0) sum.middle /= total;
-    sum.area = total * piece.normal;
-    return sum;
   }
+  return points;
+}
+
+// The load -int p n dA (N) and its moment about `center` over the pieces of the surface that no other solid covers.
+// p(cell, x): Pa, at a point of a piece on which the cell acts. This rank's part.
+template <int Dim, class Pressure>
+Generalised<Dim> load_on_pieces(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
+                                const CellField<Dim, char>& open, const Pressure& p) {
+  const Domain<Dim>& domain = step.setup.domain;
+  const SurfaceMesh& surface = body.contact_surface();
+  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
+  std::vector<Vec<Dim>> points;
+  for (const Vec3& X : surface.points) points.push_back(truncate<Dim>(pose.apply(X)));
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+  for (const ExposedPiece<Dim>& exposed : exposed_pieces(
+           domain, open, surface, points, JointedNeighbours<Dim>(domain, step.setup.solids, step.geometry, k)))
+    for (const auto& [at, weight] : points_on<Dim>(corners_of(exposed.piece, surface, points))) {
+      const Vec3 x = extend<Dim>(at), load = -p(exposed.cell, x) * weight * extend<Dim>(exposed.piece.normal);
+      force += load;
+      torque += (x - center).cross(load);
+    }
+  return stacked<Dim>(force, torque);
 }
 
 // The load -rho int g.(x - x_c) n dA over the pieces of the surface that no other solid covers, and its moment about X:
@@ -173,24 +192,11 @@ PieceArea<Dim> area_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface,
 template <int Dim>
 Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
                               const CellField<Dim, char>& open) {
-  const Domain<Dim>& domain = step.setup.domain;
-  const Fluids& fluids = step.setup.fluids;
-  const Vec3 gravity = fluids.gravity.of_step(step.state.time, step.dt);
-  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
-  std::vector<Vec<Dim>> points;
-  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  for (const ExposedPiece<Dim>& exposed :
-       exposed_pieces(domain, open, body.contact_surface(), points,
-                      JointedNeighbours<Dim>(domain, step.setup.solids, step.geometry, k))) {
-    const PieceArea<Dim> piece = area_of(exposed.piece, body.contact_surface(), points);
-    const Vec<Dim> from = domain.layout.position(domain.layout.index(exposed.cell), cell_offset<Dim>());
-    const double density = density_beside(fluids, step.rows, step.state.phi, exposed.cell);
-    const Vec3 load = -density * gravity.dot(extend<Dim>(Vec<Dim>(piece.middle - from))) * extend<Dim>(piece.area);
-    force += load;
-    torque += (extend<Dim>(piece.middle) - center).cross(load);
-  }
-  return stacked<Dim>(force, torque);
+  const Vec3 gravity = step.setup.fluids.gravity.of_step(step.state.time, step.dt);
+  return load_on_pieces(step, body, k, center, open, [&](Site cell, const Vec3& x) {
+    return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) *
+           gravity.dot(x - center_of(step.setup.domain.layout, cell));
+  });
 }
 
 // Volume within a closed surface, m^Dim.
@@ -215,27 +221,11 @@ Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& bo
   const auto pressure = [&](Site cell, const Vec3& x) {
     return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) * gravity.dot(x - origin);
   };
-  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
-  std::vector<Vec<Dim>> points;
-  for (const Vec3& X : body.contact_surface().points) points.push_back(truncate<Dim>(pose.apply(X)));
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  for (const ExposedPiece<Dim>& exposed :
-       exposed_pieces(domain, open, body.contact_surface(), points,
-                      JointedNeighbours<Dim>(domain, step.setup.solids, step.geometry, k))) {
-    const PieceArea<Dim> piece = area_of(exposed.piece, body.contact_surface(), points);
-    const Vec3 middle = extend<Dim>(piece.middle);
-    const Vec3 load = -pressure(exposed.cell, middle) * extend<Dim>(piece.area);
-    force += load;
-    torque += (middle - center).cross(load);
-  }
   const double whole = body.mass().volume / volume_within(body.contact_surface());
-  Generalised<Dim> missing = whole * stacked<Dim>(force, torque);
-  const Sums<Dim> sums = add_up(domain, *step.geometry.shares[std::size_t(k)], center);
+  Generalised<Dim> missing = whole * load_on_pieces(step, body, k, center, open, pressure);
   const double face = domain.layout.geometry().cell_volume() / domain.layout.h();
-  for (const auto& [cell, mode] : sums.cells)
-    missing -= face *
-               pressure(cell, extend<Dim>(domain.layout.position(domain.layout.index(cell), cell_offset<Dim>()))) *
-               mode;
+  for (const auto& [cell, mode] : add_up(domain, *step.geometry.shares[std::size_t(k)], center).cells)
+    missing -= face * pressure(cell, center_of(domain.layout, cell)) * mode;
   return missing;
 }
 
