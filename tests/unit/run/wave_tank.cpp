@@ -59,7 +59,7 @@ Waves measure(const Scene& scene, double period, double end) {
   for (const double x : {6.0, 6.0 + apart}) {
     ProbeSpec probe;
     probe.name = fmt::format("x{}", x);
-    probe.kind = "surface_height";
+    probe.kind = ProbeKind::surface_height;
     probe.position = {x, 0.5, 0};
     s.probes.push_back(probe);
   }

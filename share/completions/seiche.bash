@@ -1,0 +1,22 @@
+# bash completion of seiche: source <(seiche completion bash)
+_seiche() {
+  local word="${COMP_WORDS[COMP_CWORD]}" words=""
+  if [ "$COMP_CWORD" -eq 1 ]; then words="run resume check validate info render export init completion manual schema --help --version"; else
+    case "${COMP_WORDS[1]}" in
+      run) words="--help --out --overwrite --set --frames --threads --walltime --watchdog --quiet" ;;
+      resume) words="--help --end --set --force --frames --threads --walltime --watchdog --quiet" ;;
+      check) words="--help --set" ;;
+      validate) words="--help --level --list --out --cases --write-docs --record --threads --fresh --report-only" ;;
+      info) words="--help" ;;
+      render) words="--help --frames --size --out --camera --up --color --contact-sheet --animation" ;;
+      export) words="--help --format --frames --out --up" ;;
+      init) words="--help --example --list --overwrite" ;;
+      completion) words="--help" ;;
+      manual) words="--help" ;;
+      schema) words="--help" ;;
+    esac
+  fi
+  case "$word" in -*) ;; *) [ "$COMP_CWORD" -gt 1 ] && return ;; esac
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
+}
+complete -o default -F _seiche seiche
