@@ -49,13 +49,15 @@ void RigidParticipant<Dim>::take_sums(const CoupledStep<Dim>& step, int block, c
   add_buoyancy(step, body(), state_, block, sums, parts);
 }
 
-// M target = M free + dt buoyancy_correction,  push = M target.
+// M target = M free + dt buoyancy_correction,  push = M target. Fixed axes bear the correction's load.
 template <int Dim>
 void RigidParticipant<Dim>::set_target(double dt, int block, SolidCoupling<Dim>& c) const {
   const int first = c.first[std::size_t(block)], n = twist_size<Dim>;
   const Eigen::MatrixXd M = c.mass.block(first, first, n, n);
-  c.target.segment(first, n) =
-      c.free.segment(first, n) + dt * DenseLdlt(M).solve(c.buoyancy_correction.segment(first, n));
+  Eigen::VectorXd load = c.buoyancy_correction.segment(first, n);
+  for (int i = 0; i < n; ++i)
+    if (c.is_held(first + i)) load[i] = 0;
+  c.target.segment(first, n) = c.free.segment(first, n) + dt * DenseLdlt(M).solve(load);
   c.push.segment(first, n) = M * c.target.segment(first, n);
 }
 

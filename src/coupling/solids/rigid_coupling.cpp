@@ -328,20 +328,19 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const Rig
   const int k = c.bodies[std::size_t(block)], first = c.first[std::size_t(block)];
   const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
   if (!lies_within<Dim>(s.scene->domain, body, pose)) return;
-  const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
   const Sums<Dim> all = read_sums<Dim>(sums);
   const bool jointed = !jointed_neighbours(s.solids, step.geometry.placed, k).empty();
   if (!jointed && all.wet > 0 && all.dry > trace * all.surface && all.count > 0) {
     if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
     if (parts.missing.size() == 0) parts.missing.setZero(c.size());
     parts.missing.template segment<twist_size<Dim>>(first) =
-        floating_load(step, body, k, r.center, all.level / all.count, *parts.open).cwiseProduct(mask);
+        floating_load(step, body, k, r.center, all.level / all.count, *parts.open);
     return;
   }
   const Vec3 arm = pose.rotation * Vec3(body.mass().centroid - body.mass().center);
   const Vec3 weight = s.fluids.density() * s.fluids.gravity.of_step(step.state.time, step.dt);
   const Generalised<Dim> missing = jointed ? all.missing : buoyancy_difference(all, body.mass().volume, arm, weight);
-  c.buoyancy_correction.template segment<twist_size<Dim>>(first) = missing.cwiseProduct(mask);
+  c.buoyancy_correction.template segment<twist_size<Dim>>(first) = missing;
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                                 \
