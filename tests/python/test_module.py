@@ -199,7 +199,7 @@ def ranks(_):
     simulation = seiche.Simulation(seiche.Scene.parse(TANK), threads=1)
     simulation.run(0.05)
     shape = simulation.field("surface").shape
-    expect(shape[0] * shape[1] == 32 * 16 // 2, f"rank {seiche.rank()} has {shape}")
+    expect(shape[1] == 16 and 0 < shape[0] < 32, f"rank {seiche.rank()} has {shape}")   # shared by work
     expect(simulation.stats["cells_liquid"] > 100, "stats")
 
 
