@@ -1107,6 +1107,36 @@ def command_line(bench):
     expect(bench.path("out/scene/stats.csv").exists(), "the default folder is not out/<scene name>")
 
 
+def first_scenes(bench):
+    """`init` copies examples with their files, keeps what is there, and names examples that are near."""
+    bench.run("init", "--list").needs(0, "dam_break_2d", "floating_boxes_2d")
+    bench.run("init", "mine.toml").needs(0, "written: mine.toml", "seiche check mine.toml")
+    bench.run("check", "mine.toml").needs(0, "no errors")
+    bench.run("init", "mine.toml", "--example", "floating_boxes_2d").needs(2, "mine.toml: is there already")
+    bench.run("init", "mine.toml", "--example", "floating_boxes_2d", "--overwrite").needs(0)
+    bench.run("init", "x/robot.toml", "--example", "paddling_robot").needs(0, "x/robot.toml", ".urdf")
+    bench.run("check", "x/robot.toml").needs(0, "no errors")
+    bench.run("init", "y.toml", "--example", "dam_brake_2d").needs(2, "did you mean 'dam_break_2d'?")
+
+
+def exported_runs(bench):
+    """`export` says what is wrong with a folder or a run; what it writes has all frames."""
+    bench.simulate("--frames", "2").needs(0)
+    bench.run("export", "out", "--format", "ply").needs(2, "is a run in 2D", "--format xdmf")
+    bench.run("export", "out", "--format", "xdmf").needs(0, "3 frames")
+    bench.run("export", "out").needs(2, "--format")
+    bench.run("export", "out", "--format", "stl").needs(2, "stl")
+    bench.run("export", ".", "--format", "usd").needs(2, "there are no frames")
+    bench.simulate("--frames", "1", text=BALL, out="solid").needs(0)
+    for form in ("ply", "obj", "usd"):
+        bench.run("export", "solid", "--format", form, "--frames", "0-1", "--up", "z").needs(0, "2 frames")
+    names = {file.name for file in bench.path("solid/export").iterdir()}
+    expect({"liquid.0001.ply", "liquid.0001.obj", "solid.usda"} <= names, f"{names}")
+    bench.run("export", "solid", "--format", "ply", "--frames", "7").needs(2, "7")
+    (bench.path("solid") / "solids.csv").write_text("time,name,x\n")
+    bench.run("export", "solid", "--format", "usd").needs(2, "solids.csv", "there is no column")
+
+
 def misspelt_words(bench):
     """Misspelt verbs and options are reported with the right ones; so is a scene in place of a run's folder."""
     scene = bench.scene()
@@ -1152,7 +1182,7 @@ TABLES = {
     "checkpoints": [damaged_checkpoints, damaged_tables, no_checkpoint_left, extra_file_is_ignored, swapped_rank_files,
                     foreign_checkpoints, other_rank_counts, edited_scene],
     "frames": [frames_open_elsewhere],
-    "command_line": [command_line, misspelt_words, pictures_and_overwriting],
+    "command_line": [command_line, first_scenes, exported_runs, misspelt_words, pictures_and_overwriting],
     "rigid": [bodies_overlap_at_start, body_overlaps_wall, body_far_outside, mesh_in_millimetres, body_leaves_the_domain, body_thinner_than_a_cell,
               body_smaller_than_a_cell, too_many_bodies, fast_body_and_thin_wall, body_squeezed_between_solids,
               piston_in_a_full_tank, density_ratios, no_gravity_and_too_much, gravity_flips, prescribed_motion_jumps],
