@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include "base/curves.h"
 #include "base/error.h"
 #include "base/expression_names.h"
 #include "base/expression_terms.h"
@@ -20,6 +21,10 @@ std::vector<std::string> keys_of(const Map& map) {
   std::vector<std::string> keys;
   for (const auto& [name, entry] : map) keys.push_back(name);
   return keys;
+}
+
+double value_of_curve(void* curve, double t) {
+  return (*static_cast<const Curve*>(curve))(t);
 }
 
 void define_constants(mu::Parser& parser) {
@@ -44,6 +49,8 @@ Expression::Expression(const Formula& text) : impl_(std::make_unique<Impl>()) {
     p.DefineVar("t", &impl_->t);
     define_constants(p);
     for (const auto& [name, value] : declared_signals()) p.DefineVar(name, signal_slot(name));
+    for (const auto& [name, curve] : declared_curves())
+      p.DefineFunUserData(name, value_of_curve, const_cast<Curve*>(curve));
     p.SetExpr(text);
     impl_->constant = p.GetUsedVar().empty();
     impl_->value = p.Eval();

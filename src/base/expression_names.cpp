@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/curves.h"
 #include "base/expression_terms.h"
 #include "base/signals.h"
 #include "base/suggest.h"
@@ -72,7 +73,8 @@ std::vector<NameInText> names_in(const std::string& text) {
 }
 
 std::optional<std::string> fault_of_names(const std::string& text) {
-  const auto functions = names_of([](TermKind kind) { return kind == TermKind::function; });
+  auto functions = names_of([](TermKind kind) { return kind == TermKind::function; });
+  for (const auto& [name, curve] : declared_curves()) functions.push_back(name);
   auto values = names_of([](TermKind kind) { return kind == TermKind::variable || kind == TermKind::constant; });
   for (const auto& [name, value] : declared_signals()) values.push_back(name);
   for (const NameInText& found : names_in(text)) {

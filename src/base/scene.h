@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "base/curves.h"
 #include "base/domain_spec.h"
 #include "base/fluid_spec.h"
 #include "base/gravity_spec.h"
@@ -20,6 +21,7 @@ namespace seiche {
 
 struct Scene {
   std::string title;
+  std::map<std::string, Curve> curves;    // functions in formulas (base/curves.h)
   std::map<std::string, double> signals;  // values at the start (base/signals.h)
   int dimension = 3;
   GravitySpec gravity;

@@ -1,4 +1,6 @@
 // Keys of what a scene is built from: other files, named numbers, signals.
+#include <fmt/format.h>
+
 #include "base/scene.h"
 #include "scene/formula.h"
 #include "scene/options.h"
@@ -47,10 +49,35 @@ Key<Scene> signals_key() {
           }};
 }
 
+std::string list_of(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + number_text(number);
+  return "[" + text + "]";
+}
+
+// read_curves() reads it first.
+Key<Scene> curves_key() {
+  const Option option{.key = "curves",
+                      .type = T::table,
+                      .unset = "none",
+                      .doc = "functions of time for formulas, by points or from CSV files; see parameters.md"};
+  return {option, [](SceneContext&, const Place&, Scene&) {},
+          [](const Scene& scene, int, const std::string& path, SceneLines& lines) {
+            if (scene.curves.empty()) return;
+            const std::string here = join_path(path, "curves");
+            lines.push_back({here, "", section_title(here)});
+            for (const auto& [name, curve] : scene.curves)
+              lines.push_back({join_path(here, name), name,
+                               fmt::format("{{ times = {}, values = {}, interpolate = \"{}\" }}", list_of(curve.times),
+                                           list_of(curve.values),
+                                           curve.interpolation == Interpolation::linear ? "linear" : "smooth")});
+          }};
+}
+
 }  // namespace
 
 std::vector<Key<Scene>> naming_keys() {
-  return {include_key(), parameters_key(), signals_key()};
+  return {include_key(), parameters_key(), signals_key(), curves_key()};
 }
 
 }  // namespace seiche

@@ -23,7 +23,7 @@ struct TransformSpec;
 
 // The top level; all other keys are below it.
 const Section<Scene>& scene_section();
-std::vector<Key<Scene>> naming_keys();  // include, parameters, signals
+std::vector<Key<Scene>> naming_keys();  // include, parameters, signals, curves
 Section<ShapeSpec> shape_section();
 // rotate and translate.
 Section<TransformSpec> placement_section();

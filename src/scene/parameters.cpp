@@ -26,13 +26,6 @@ std::optional<double> value_of(const std::string& text, std::string& fault) {
   return Expression(text)(Vec3(0, 0, 0), 0);
 }
 
-// An identifier that expressions do not know.
-bool is_free_name(const std::string& name) {
-  const bool word = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
-                    std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-  return word && fault_of_names(name).has_value() && fault_of_names(name + "(1)").has_value();
-}
-
 // Parameters that the text needs and that are not known yet.
 bool waits(const std::string& text, const TomlNode& table, const Parameters& known) {
   for (const NameInText& found : names_in(text))
@@ -83,6 +76,12 @@ std::vector<const TomlEntry*> take_numbers(SceneContext& context, const TomlNode
 }
 
 }  // namespace
+
+bool is_free_name(const std::string& name) {
+  const bool word = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+                    std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  return word && fault_of_names(name).has_value() && fault_of_names(name + "(1)").has_value();
+}
 
 std::string with_parameters(const std::string& text, const Parameters& parameters) {
   if (parameters.empty()) return text;

@@ -13,6 +13,9 @@ struct TomlNode;
 
 using Parameters = std::map<std::string, double>;
 
+// True for an identifier that expressions do not know.
+bool is_free_name(const std::string& name);
+
 // The text with each parameter's value in its place.
 std::string with_parameters(const std::string& text, const Parameters& parameters);
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/scene.h"
 #include "scene/checks.h"
+#include "scene/curves.h"
 #include "scene/include.h"
 #include "scene/materials.h"
 #include "scene/options.h"
@@ -69,11 +70,13 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   context.parameters = read_parameters(context, root);
   if (!context.clean("parameters")) context.throw_problems();  // what uses them would only repeat their faults
   const Parameters signals = read_signals(context, root);
+  std::map<std::string, Curve> curves = read_curves(context, root);
   fill_in_materials(context, root);
   const Scene defaults;
   context.dimension = root.find("dimension") ? 0 : defaults.dimension;
   Scene scene;
   scene.signals = signals;
+  scene.curves = std::move(curves);
   read_section(context, {&root, ""}, scene_section(), own_options(scene_section()), scene);
   check_scene(context, root, scene);
   context.throw_problems();

@@ -9,7 +9,7 @@ from fuzzing.shapes import AXES, fit_shape, number, point
 from fuzzing.values import VALUES, table_of
 
 # Keys that the plan of a scene sets: dimension, grid and duration.
-PLANNED = {("", "dimension"), ("", "include"), ("", "parameters"), ("", "signals"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"),
+PLANNED = {("", "dimension"), ("", "include"), ("", "parameters"), ("", "signals"), ("", "curves"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"),
            ("", "joint"), ("", "robot"), ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
