@@ -8,8 +8,8 @@ namespace seiche {
 namespace {
 
 struct Declared {
-  std::deque<Curve> all;  // never shortened: formulas hold addresses
-  std::map<std::string, const Curve*> by_name;
+  std::deque<TimeCurve> all;  // never shortened: formulas hold addresses
+  std::map<std::string, const TimeCurve*> by_name;
 };
 
 Declared& declared() {
@@ -27,10 +27,10 @@ double slope_between(double before, double after, double h_before, double h_afte
 }  // namespace
 
 // The ends have the slopes of their intervals.
-void Curve::set_slopes() {
+void TimeCurve::set_slopes() {
   const std::size_t n = times.size();
   slopes.assign(n, 0);
-  if (interpolation != Interpolation::smooth || n < 2) return;
+  if (form != CurveForm::smooth || n < 2) return;
   const auto h = [&](std::size_t k) { return times[k + 1] - times[k]; };
   const auto secant = [&](std::size_t k) { return (values[k + 1] - values[k]) / h(k); };
   for (std::size_t k = 1; k + 1 < n; ++k) slopes[k] = slope_between(secant(k - 1), secant(k), h(k - 1), h(k));
@@ -38,17 +38,17 @@ void Curve::set_slopes() {
   slopes[n - 1] = secant(n - 2);
 }
 
-double Curve::operator()(double t) const {
+double TimeCurve::operator()(double t) const {
   if (!(t > times.front())) return values.front();
   if (t >= times.back()) return values.back();
   const auto k = std::size_t(std::upper_bound(times.begin(), times.end(), t) - times.begin()) - 1;
   const double h = times[k + 1] - times[k], s = (t - times[k]) / h, a = values[k], b = values[k + 1];
-  if (interpolation == Interpolation::linear) return a + s * (b - a);
+  if (form == CurveForm::linear) return a + s * (b - a);
   const double rise = s * s * (3 - 2 * s);  // cubic Hermite polynomials
   return a + rise * (b - a) + h * s * (1 - s) * ((1 - s) * slopes[k] - s * slopes[k + 1]);
 }
 
-void declare_curves(const std::map<std::string, Curve>& curves) {
+void declare_curves(const std::map<std::string, TimeCurve>& curves) {
   declared().by_name.clear();
   for (const auto& [name, curve] : curves) {
     declared().all.push_back(curve);
@@ -57,7 +57,7 @@ void declare_curves(const std::map<std::string, Curve>& curves) {
   }
 }
 
-std::map<std::string, const Curve*> declared_curves() {
+std::map<std::string, const TimeCurve*> declared_curves() {
   return declared().by_name;
 }
 

@@ -24,7 +24,7 @@ std::vector<std::string> keys_of(const Map& map) {
 }
 
 double value_of_curve(void* curve, double t) {
-  return (*static_cast<const Curve*>(curve))(t);
+  return (*static_cast<const TimeCurve*>(curve))(t);
 }
 
 void define_constants(mu::Parser& parser) {
@@ -50,7 +50,7 @@ Expression::Expression(const Formula& text) : impl_(std::make_unique<Impl>()) {
     define_constants(p);
     for (const auto& [name, value] : declared_signals()) p.DefineVar(name, signal_slot(name));
     for (const auto& [name, curve] : declared_curves())
-      p.DefineFunUserData(name, value_of_curve, const_cast<Curve*>(curve));
+      p.DefineFunUserData(name, value_of_curve, const_cast<TimeCurve*>(curve));
     p.SetExpr(text);
     impl_->constant = p.GetUsedVar().empty();
     impl_->value = p.Eval();

@@ -21,8 +21,8 @@ namespace seiche {
 
 struct Scene {
   std::string title;
-  std::map<std::string, Curve> curves;    // functions in formulas (base/curves.h)
-  std::map<std::string, double> signals;  // values at the start (base/signals.h)
+  std::map<std::string, TimeCurve> curves;  // functions in formulas (base/curves.h)
+  std::map<std::string, double> signals;    // values at the start (base/signals.h)
   int dimension = 3;
   GravitySpec gravity;
   DomainSpec domain;

@@ -38,8 +38,8 @@ class CurveReader {
       : context_(context), table_(entry.value), path_("curves." + entry.key), line_(entry.line) {}
 
   // The curve; without points where a fault was reported.
-  Curve read() {
-    Curve curve;
+  TimeCurve read() {
+    TimeCurve curve;
     if (table_.kind != TomlNode::Kind::table)
       return report("must be a table, such as { file = \"motion.csv\" } or { times = [0, 1], values = [0, 2] }"), curve;
     for (const TomlEntry& key : table_.entries) {
@@ -48,7 +48,7 @@ class CurveReader {
       const auto near = suggest(key.key, known);
       return report("has no key '" + key.key + "'" + (near ? "; did you mean '" + *near + "'?" : "")), curve;
     }
-    curve.interpolation = interpolation();
+    curve.form = form();
     if (table_.find("file"))
       read_file(curve);
     else
@@ -65,11 +65,11 @@ class CurveReader {
     context_.report(path_, line_, path_ + ": " + text);
   }
 
-  Interpolation interpolation() {
+  CurveForm form() {
     const TomlEntry* given = table_.find("interpolate");
     if (given && given->value.text != "smooth" && given->value.text != "linear")
       report("interpolate is \"smooth\" or \"linear\"");
-    return given && given->value.text == "linear" ? Interpolation::linear : Interpolation::smooth;
+    return given && given->value.text == "linear" ? CurveForm::linear : CurveForm::smooth;
   }
 
   double number(const std::string& key, double fallback) {
@@ -99,7 +99,7 @@ class CurveReader {
     return place >= 1 && place <= double(header.size()) ? std::size_t(place) - 1 : header.size();
   }
 
-  void read_file(Curve& curve) {
+  void read_file(TimeCurve& curve) {
     std::filesystem::path file;
     const std::string why = fault_of_path(context_, table_.find("file")->value.text, file);
     if (!why.empty()) return report(why);
@@ -128,7 +128,7 @@ class CurveReader {
     }
   }
 
-  void check(Curve& curve) {
+  void check(TimeCurve& curve) {
     if (!failed_ && curve.times.size() != curve.values.size())
       report(fmt::format("has {} times and {} values", curve.times.size(), curve.values.size()));
     if (!failed_ && curve.times.empty()) report("has no points");
@@ -148,9 +148,9 @@ class CurveReader {
 
 }  // namespace
 
-std::map<std::string, Curve> read_curves(SceneContext& context, const TomlNode& root) {
+std::map<std::string, TimeCurve> read_curves(SceneContext& context, const TomlNode& root) {
   declare_curves({});
-  std::map<std::string, Curve> curves;
+  std::map<std::string, TimeCurve> curves;
   const TomlEntry* entry = root.find("curves");
   if (!entry) return curves;
   if (entry->value.kind != TomlNode::Kind::table)

@@ -10,6 +10,6 @@ namespace seiche {
 
 // Reads and declares the curves. Reports names that are taken, points out of order, and files that cannot be read, with
 // their line.
-std::map<std::string, Curve> read_curves(SceneContext& context, const TomlNode& root);
+std::map<std::string, TimeCurve> read_curves(SceneContext& context, const TomlNode& root);
 
 }  // namespace seiche

@@ -61,17 +61,17 @@ Key<Scene> curves_key() {
                       .type = T::table,
                       .unset = "none",
                       .doc = "functions of time for formulas, by points or from CSV files; see parameters.md"};
-  return {option, [](SceneContext&, const Place&, Scene&) {},
-          [](const Scene& scene, int, const std::string& path, SceneLines& lines) {
-            if (scene.curves.empty()) return;
-            const std::string here = join_path(path, "curves");
-            lines.push_back({here, "", section_title(here)});
-            for (const auto& [name, curve] : scene.curves)
-              lines.push_back({join_path(here, name), name,
-                               fmt::format("{{ times = {}, values = {}, interpolate = \"{}\" }}", list_of(curve.times),
-                                           list_of(curve.values),
-                                           curve.interpolation == Interpolation::linear ? "linear" : "smooth")});
-          }};
+  return {
+      option, [](SceneContext&, const Place&, Scene&) {},
+      [](const Scene& scene, int, const std::string& path, SceneLines& lines) {
+        if (scene.curves.empty()) return;
+        const std::string here = join_path(path, "curves");
+        lines.push_back({here, "", section_title(here)});
+        for (const auto& [name, curve] : scene.curves)
+          lines.push_back({join_path(here, name), name,
+                           fmt::format("{{ times = {}, values = {}, interpolate = \"{}\" }}", list_of(curve.times),
+                                       list_of(curve.values), curve.form == CurveForm::linear ? "linear" : "smooth")});
+      }};
 }
 
 }  // namespace

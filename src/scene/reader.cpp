@@ -70,7 +70,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::f
   context.parameters = read_parameters(context, root);
   if (!context.clean("parameters")) context.throw_problems();  // what uses them would only repeat their faults
   const Parameters signals = read_signals(context, root);
-  std::map<std::string, Curve> curves = read_curves(context, root);
+  std::map<std::string, TimeCurve> curves = read_curves(context, root);
   fill_in_materials(context, root);
   const Scene defaults;
   context.dimension = root.find("dimension") ? 0 : defaults.dimension;

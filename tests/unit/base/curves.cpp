@@ -12,8 +12,8 @@ using namespace seiche;
 
 namespace {
 
-Curve through(std::vector<double> times, std::vector<double> values, Interpolation interpolation) {
-  Curve curve{std::move(times), std::move(values), interpolation};
+TimeCurve through(std::vector<double> times, std::vector<double> values, CurveForm interpolation) {
+  TimeCurve curve{std::move(times), std::move(values), interpolation};
   curve.set_slopes();
   return curve;
 }
@@ -21,8 +21,8 @@ Curve through(std::vector<double> times, std::vector<double> values, Interpolati
 }  // namespace
 
 TEST_CASE("curves pass through their points and are constant beyond") {
-  for (const Interpolation kind : {Interpolation::smooth, Interpolation::linear}) {
-    const Curve curve = through({1, 2, 4}, {3, -1, 5}, kind);
+  for (const CurveForm kind : {CurveForm::smooth, CurveForm::linear}) {
+    const TimeCurve curve = through({1, 2, 4}, {3, -1, 5}, kind);
     CHECK(curve(0) == 3);
     CHECK(curve(1) == 3);
     CHECK(curve(2) == -1);
@@ -30,11 +30,11 @@ TEST_CASE("curves pass through their points and are constant beyond") {
     CHECK(curve(9) == 5);
     CHECK(through({7}, {2}, kind)(1) == 2);
   }
-  CHECK(through({0, 2}, {0, 4}, Interpolation::linear)(0.5) == 1);
+  CHECK(through({0, 2}, {0, 4}, CurveForm::linear)(0.5) == 1);
 }
 
 TEST_CASE("smooth curves do not overshoot, and their slope is continuous") {
-  const Curve curve = through({0, 1, 1.1, 2, 3}, {0, 0, 1, 1, 0.5}, Interpolation::smooth);
+  const TimeCurve curve = through({0, 1, 1.1, 2, 3}, {0, 0, 1, 1, 0.5}, CurveForm::smooth);
   double steepest = 0, jump = 0, last = 0;
   constexpr double dt = 1e-4;
   for (double t = 0; t < 3; t += dt) {
@@ -53,7 +53,7 @@ TEST_CASE("smooth curves come near a function between its points") {
   const auto worst = [](int n) {
     std::vector<double> t, v;
     for (int k = 0; k <= n; ++k) t.push_back(1.2 * k / n), v.push_back(std::exp(t.back()));
-    const Curve curve = through(t, v, Interpolation::smooth);
+    const TimeCurve curve = through(t, v, CurveForm::smooth);
     double most = 0;
     for (double x = 0.3; x < 0.9; x += 0.001) most = std::max(most, std::abs(curve(x) - std::exp(x)));
     return most;
@@ -62,7 +62,7 @@ TEST_CASE("smooth curves come near a function between its points") {
 }
 
 TEST_CASE("formulas use declared curves, and keep those that they were parsed with") {
-  declare_curves({{"lift", {{0, 1}, {0, 2}, Interpolation::linear}}});
+  declare_curves({{"lift", {{0, 1}, {0, 2}, CurveForm::linear}}});
   const Expression formula("1 + 2*lift(t/2)");
   CHECK(formula({0, 0, 0}, 1) == 3);
   CHECK_FALSE(formula.is_constant());
