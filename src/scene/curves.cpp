@@ -136,7 +136,6 @@ class CurveReader {
       if (!(curve.times[n] > curve.times[n - 1]))
         report(
             fmt::format("its time {:g} does not come after {:g}; sort the points", curve.times[n], curve.times[n - 1]));
-    if (failed_) curve = {{0}, {0}};
   }
 
   SceneContext& context_;
@@ -161,6 +160,7 @@ std::map<std::string, TimeCurve> read_curves(SceneContext& context, const TomlNo
                      "curves." + one.key + ": a curve's name is a word that formulas do not know yet");
     else
       curves[one.key] = CurveReader(context, one).read();
+    if (!context.clean("curves." + one.key)) curves[one.key] = TimeCurve{{0.0}, {0.0}};  // so that formulas find it
   }
   declare_curves(curves);
   return curves;
