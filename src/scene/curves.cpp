@@ -160,7 +160,8 @@ std::map<std::string, TimeCurve> read_curves(SceneContext& context, const TomlNo
                      "curves." + one.key + ": a curve's name is a word that formulas do not know yet");
     else
       curves[one.key] = CurveReader(context, one).read();
-    if (!context.clean("curves." + one.key)) curves[one.key] = TimeCurve{{0.0}, {0.0}};  // so that formulas find it
+    if (curves.contains(one.key) && !context.clean("curves." + one.key))
+      curves[one.key] = TimeCurve{{0.0}, {0.0}};  // so that formulas find it
   }
   declare_curves(curves);
   return curves;
