@@ -1,5 +1,6 @@
 #pragma once
 // The solids of a run: their surfaces in a frame, and where they were placed.
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 // Keys of shapes: permitted and required ones of each shape.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
