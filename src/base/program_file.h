@@ -1,5 +1,5 @@
 #pragma once
-// Where the program and what came with it are.
+// Places of the program and of what came with it.
 #include <filesystem>
 #include <string>
 
