@@ -10,6 +10,7 @@
 #include "coupling/state/setup.h"
 #include "fluid/boundary/domain.h"
 #include "linalg/core/matrix_entries.h"
+#include "solid/body/mass_properties.h"
 
 namespace seiche {
 namespace {
@@ -199,16 +200,6 @@ Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& bod
   });
 }
 
-// Volume within a closed surface, m^Dim.
-double volume_within(const SurfaceMesh& surface) {
-  double sum = 0;
-  const auto& x = surface.points;
-  for (const auto& t : surface.triangles)
-    sum += x[std::size_t(t[0])].dot(x[std::size_t(t[1])].cross(x[std::size_t(t[2])])) / 6;
-  for (const auto& s : surface.segments) sum += x[std::size_t(s[0])].cross(x[std::size_t(s[1])])[2] / 2;
-  return sum;
-}
-
 // What J'p misses of the load of p(x) = rho g.(x - x_0), x_0 at the `level` of the liquid (m along up): the load of p
 // on the wet pieces of the surface, less A J'p of its values at the wet cells' centres. It is exact for any shares of
 // faces. Pieces and cells next to the level have p near 0, so which of them are wet matters to second order. Facets cut
@@ -221,7 +212,7 @@ Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& bo
   const auto pressure = [&](Site cell, const Vec3& x) {
     return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) * gravity.dot(x - origin);
   };
-  const double whole = body.mass().volume / volume_within(body.contact_surface());
+  const double whole = body.mass().volume / mass_of_surface<Dim>(body.contact_surface(), 1).volume;
   Generalised<Dim> missing = whole * load_on_pieces(step, body, k, center, open, pressure);
   const double face = domain.layout.geometry().cell_volume() / domain.layout.h();
   for (const auto& [cell, mode] : add_up(domain, *step.geometry.shares[std::size_t(k)], center).cells)

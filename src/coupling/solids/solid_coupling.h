@@ -31,9 +31,9 @@ struct SolidCoupling {
   Eigen::VectorXd free;  // without liquid and contact; elastic bodies: v + dt g, a scale and first guess
   // v* of rigid bodies, with the buoyancy correction; else 0.
   Eigen::VectorXd target;
-  // Loads for the difference between a body's volume and that of its face shares: wet bodies feel exactly rho g times
-  // their volume. Rigid bodies: force and torque (N, N m). Elastic bodies: nodal forces (N), which for thin ones are
-  // the weight of the liquid beside them. Else 0.
+  // Loads that face shares miss: wet bodies feel exactly rho g times their volume, floating ones the linear pressure on
+  // their wet surface. Rigid bodies: force and torque (N, N m). Elastic bodies: nodal forces (N), which for thin ones
+  // are the weight of the liquid beside them. Else 0.
   Eigen::VectorXd buoyancy_correction;
   // Mass (kg) and momentum before the step (kg m/s) of liquid that moves with thin elastic bodies (liquid_beside.h).
   // Both are part of `mass` and `push`.

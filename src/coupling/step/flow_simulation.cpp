@@ -31,10 +31,9 @@
 namespace seiche {
 namespace {
 
-// After most_for_energy halvings a step with energy from nowhere counts: its account is not exact.
-constexpr int most_halvings = 7, most_for_energy = 3;
-// Steps between looks at how the work of ranks is balanced.
-constexpr int steps_between_looks = 16;
+// After most_for_energy halvings a step with energy from nowhere counts: its account is not exact. Every
+// steps_between_looks steps, the balance of work between ranks is looked at.
+constexpr int most_halvings = 7, most_for_energy = 3, steps_between_looks = 16;
 
 template <int Dim>
 class FlowSimulation : public Simulation {
@@ -51,6 +50,7 @@ class FlowSimulation : public Simulation {
     refresh_from_state();
   }
 
+  ~FlowSimulation() override { replace_state({}); }  // views outlive the simulation
   void set_fault_hook(FaultHook hook) override { phases_.hook = std::move(hook); }
   double time() const override { return state_.time; }
   std::int64_t step_count() const override { return state_.step; }
