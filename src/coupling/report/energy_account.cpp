@@ -84,10 +84,11 @@ double heat_of_step(const State<Dim>& before, const State<Dim>& state, const Sol
                0.5 * powers.viscous.dissipation - powers.viscous_transport);
 }
 
-// Load of the fluids on solid k in the step: that of the solve, with the viscous one a mean over the step.
+// Load of the fluids on solid k in the step: that of the solve, on faces of the grid, with the viscous one a mean over
+// the step.
 template <int Dim>
 SolidLoad mean_load(const State<Dim>& before, const State<Dim>& state, const SolidState& solid, std::size_t k) {
-  SolidLoad load{solid.force, solid.torque};
+  SolidLoad load{solid.force - solid.unseen_force, solid.torque - solid.unseen_torque};
   if (before.viscous_loads.empty() || state.viscous_loads.empty()) return load;
   const double w = weight_of_start(state, state.time - before.time);
   load.force += w * (before.viscous_loads[k].force - state.viscous_loads[k].force);

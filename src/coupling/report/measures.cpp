@@ -1,6 +1,8 @@
 #include "coupling/report/measures.h"
 
+#include "base/scene.h"
 #include "base/time_spec.h"
+#include "coupling/solids/prescribed_loads.h"
 #include "coupling/solids/pressure_loads.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/solids.h"
@@ -99,10 +101,11 @@ void measure_bodies(const Fluids& fluids, const TimeSpec& time, const State<Dim>
 
 // Loads of the pressure on the faces that each solid closes, plus those that state and solids keep.
 template <int Dim>
-std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
-                                       const State<Dim>& state, const StepGeometry<Dim>& g) {
+std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& g) {
+  const Solids<Dim>& solids = setup.solids;
   std::vector<SolidState> states;
-  const std::vector<SolidLoad> by_pressure = pressure_loads(domain, solids, g, state.pressure);
+  const std::vector<SolidLoad> by_pressure = pressure_loads(setup.domain, solids, g, state.pressure),
+                               beyond = loads_beyond_faces(setup.domain, setup.fluids, solids, g, state);
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Pose& pose = g.placed[k].pose;
     const Eigen::Quaterniond q(pose.rotation);
@@ -112,9 +115,11 @@ std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<D
     out.orientation = {q.w(), q.x(), q.y(), q.z()};
     out.velocity = g.placed[k].twist.at(out.position);
     out.angular_velocity = g.placed[k].twist.angular;
-    state.solids[k].describe(time, state, out);
+    state.solids[k].describe(setup.scene->time, state, out);
     for (const std::vector<SolidLoad>* loads : {&by_pressure, &state.viscous_loads, &state.convected_loads})
       if (!loads->empty()) out.force += (*loads)[k].force, out.torque += (*loads)[k].torque;
+    out.force += out.unseen_force = beyond[k].force;
+    out.torque += out.unseen_torque = beyond[k].torque;
     state.solids[k].add_loads(out);
   }
   return states;
@@ -125,8 +130,7 @@ std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<D
   template double kinetic_energy_of_fluids_before<D>(const Domain<D>&, const Fluids&, const State<D>&,                \
                                                      const NodeField<D>&);                                            \
   template void measure_bodies<D>(const Fluids&, const TimeSpec&, const State<D>&, StepStats&);                       \
-  template std::vector<SolidState> measure_solids<D>(const Domain<D>&, const Solids<D>&, const TimeSpec&,             \
-                                                     const State<D>&, const StepGeometry<D>&);
+  template std::vector<SolidState> measure_solids<D>(const Setup<D>&, const State<D>&, const StepGeometry<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)
 

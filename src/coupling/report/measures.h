@@ -28,8 +28,8 @@ void measure_bodies(const Fluids& fluids, const TimeSpec& time, const State<Dim>
 
 // Pose, velocity and the liquid's force and torque on every solid. Collective.
 template <int Dim>
-std::vector<SolidState> measure_solids(const Domain<Dim>& domain, const Solids<Dim>& solids, const TimeSpec& time,
-                                       const State<Dim>& state, const StepGeometry<Dim>& geometry);
+std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state,
+                                       const StepGeometry<Dim>& geometry);
 
 // One sample of a probe. `geometry`: of the last solve. Collective; equal on all ranks.
 template <int Dim>

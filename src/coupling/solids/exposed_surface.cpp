@@ -25,13 +25,6 @@ std::vector<IVec<Dim>> steps_outward(const Vec<Dim>& normal) {
   return steps;
 }
 
-template <int Dim>
-Vec<Dim> middle_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points) {
-  Vec<Dim> middle = Vec<Dim>::Zero();
-  for (const Vec<Dim>& corner : corners_of(piece, surface, points)) middle += corner;
-  return middle / double(piece.outline.size());
-}
-
 }  // namespace
 
 template <int Dim>
@@ -83,13 +76,10 @@ CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Di
 }
 
 template <int Dim>
-std::vector<ExposedPiece<Dim>> exposed_pieces(const Domain<Dim>& domain, const CellField<Dim, char>& open,
-                                              const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points,
-                                              const JointedNeighbours<Dim>& neighbours) {
-  constexpr int reach = 2;  // cells from a piece to the cell that acts on it, at most
+std::vector<ExposedPiece<Dim>> seen_from_cells(const Domain<Dim>& domain, const CellField<Dim, char>& open,
+                                               std::vector<FacetPiece<Dim>> pieces) {
   std::vector<ExposedPiece<Dim>> exposed;
-  for (FacetPiece<Dim>& piece : cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach), surface, points)) {
-    if (neighbours.any() && neighbours.cover(middle_of(piece, surface, points))) continue;
+  for (FacetPiece<Dim>& piece : pieces)
     for (const IVec<Dim>& step : steps_outward<Dim>(piece.normal)) {
       const IVec<Dim> cell = piece.cell + step;
       const Site c = domain.layout.site(cell);
@@ -97,14 +87,28 @@ std::vector<ExposedPiece<Dim>> exposed_pieces(const Domain<Dim>& domain, const C
       if (domain.layout.cells().contains(cell)) exposed.push_back({c, std::move(piece)});
       break;
     }
-  }
   return exposed;
+}
+
+template <int Dim>
+std::vector<ExposedPiece<Dim>> exposed_pieces(const Domain<Dim>& domain, const CellField<Dim, char>& open,
+                                              const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points,
+                                              const JointedNeighbours<Dim>& neighbours) {
+  std::vector<FacetPiece<Dim>> pieces =
+      cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach_of_pieces), surface, points);
+  const auto covered = [&](const FacetPiece<Dim>& piece) {
+    return neighbours.cover(middle_of(piece, surface, points));
+  };
+  if (neighbours.any()) pieces.erase(std::remove_if(pieces.begin(), pieces.end(), covered), pieces.end());
+  return seen_from_cells(domain, open, std::move(pieces));
 }
 
 #define SEICHE_INSTANTIATE(D)                                                                             \
   template std::vector<int> jointed_neighbours<D>(const Solids<D>&, const std::vector<Placement>&, int);  \
   template class JointedNeighbours<D>;                                                                    \
   template CellField<D, char> open_cells<D>(const Domain<D>&, const FaceGeometry<D>&);                    \
+  template std::vector<ExposedPiece<D>> seen_from_cells<D>(const Domain<D>&, const CellField<D, char>&,   \
+                                                           std::vector<FacetPiece<D>>);                   \
   template std::vector<ExposedPiece<D>> exposed_pieces<D>(const Domain<D>&, const CellField<D, char>&,    \
                                                           const SurfaceMesh&, const std::vector<Vec<D>>&, \
                                                           const JointedNeighbours<D>&);

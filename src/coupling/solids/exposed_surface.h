@@ -40,9 +40,25 @@ struct ExposedPiece {
   FacetPiece<Dim> piece;
 };
 
+// Mean of a piece's corners, m.
+template <int Dim>
+Vec<Dim> middle_of(const FacetPiece<Dim>& piece, const SurfaceMesh& surface, const std::vector<Vec<Dim>>& points) {
+  Vec<Dim> middle = Vec<Dim>::Zero();
+  for (const Vec<Dim>& corner : corners_of(piece, surface, points)) middle += corner;
+  return middle / double(piece.outline.size());
+}
+
 // Flags of cells with a face whose velocity is an unknown, ghosts filled. Collective.
 template <int Dim>
 CellField<Dim, char> open_cells(const Domain<Dim>& domain, const FaceGeometry<Dim>& faces);
+
+// Cells of a layout's padding that cut_at_cells() has to reach for the pieces on which a rank's cells act.
+constexpr int reach_of_pieces = 2;
+
+// The pieces on which this rank's cells act, of pieces in its padding. `open`: open_cells().
+template <int Dim>
+std::vector<ExposedPiece<Dim>> seen_from_cells(const Domain<Dim>& domain, const CellField<Dim, char>& open,
+                                               std::vector<FacetPiece<Dim>> pieces);
 
 // The pieces on which this rank's cells act. All ranks choose the same cell for a piece. Corners of the surface are at
 // `points` (m). `open`: open_cells().

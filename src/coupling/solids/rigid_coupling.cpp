@@ -6,6 +6,7 @@
 #include "base/scene.h"
 #include "coupling/solids/coupled_step.h"
 #include "coupling/solids/exposed_surface.h"
+#include "coupling/solids/surface_load.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "fluid/boundary/domain.h"
@@ -148,43 +149,16 @@ Sums<Dim> read_sums(const double* next) {
   return s;
 }
 
-// Points (m) and weights (m^(Dim-1)) of a rule for a plane piece that is exact for polynomials of second degree, as in
-// the moment of a linear pressure: Gauss's two points of a segment, the middles of the sides of triangles.
-template <int Dim>
-std::vector<std::pair<Vec<Dim>, double>> points_on(const std::vector<Vec<Dim>>& corners) {
-  std::vector<std::pair<Vec<Dim>, double>> points;
-  if constexpr (Dim == 2) {
-    const Vec<2> middle = 0.5 * (corners[0] + corners[1]), half = 0.5 * (corners[1] - corners[0]);
-    for (const double side : {-1.0, 1.0}) points.emplace_back(middle + side / std::sqrt(3.0) * half, half.norm());
-  } else {
-    for (std::size_t n = 2; n < corners.size(); ++n) {
-      const std::array<Vec<3>, 3> t{corners[0], corners[n - 1], corners[n]};
-      const double area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
-      for (std::size_t a = 0; a < 3; ++a) points.emplace_back(0.5 * (t[a] + t[(a + 1) % 3]), area / 3);
-    }
-  }
-  return points;
-}
-
-// The load -int p n dA (N) and its moment about `center` over the pieces of the surface that no other solid covers.
-// p(cell, x): Pa, at a point of a piece on which the cell acts. This rank's part.
+// The load of p over the pieces of body k's surface that no other solid covers (surface_load.h).
 template <int Dim, class Pressure>
-Generalised<Dim> load_on_pieces(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
-                                const CellField<Dim, char>& open, const Pressure& p) {
-  const Domain<Dim>& domain = step.setup.domain;
+Generalised<Dim> load_on_surface(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
+                                 const CellField<Dim, char>& open, const Pressure& p) {
   const SurfaceMesh& surface = body.contact_surface();
-  const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
-  std::vector<Vec<Dim>> points;
-  for (const Vec3& X : surface.points) points.push_back(truncate<Dim>(pose.apply(X)));
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-  for (const ExposedPiece<Dim>& exposed : exposed_pieces(
-           domain, open, surface, points, JointedNeighbours<Dim>(domain, step.setup.solids, step.geometry, k)))
-    for (const auto& [at, weight] : points_on<Dim>(corners_of(exposed.piece, surface, points))) {
-      const Vec3 x = extend<Dim>(at), load = -p(exposed.cell, x) * weight * extend<Dim>(exposed.piece.normal);
-      force += load;
-      torque += (x - center).cross(load);
-    }
-  return stacked<Dim>(force, torque);
+  const std::vector<Vec<Dim>> points = placed_points<Dim>(surface, step.geometry.placed[std::size_t(k)].pose);
+  const JointedNeighbours<Dim> neighbours(step.setup.domain, step.setup.solids, step.geometry, k);
+  const SolidLoad load =
+      load_on_pieces(exposed_pieces(step.setup.domain, open, surface, points, neighbours), surface, points, center, p);
+  return stacked<Dim>(load.force, load.torque);
 }
 
 // The load -rho int g.(x - x_c) n dA over the pieces of the surface that no other solid covers, and its moment about X:
@@ -194,7 +168,7 @@ template <int Dim>
 Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
                               const CellField<Dim, char>& open) {
   const Vec3 gravity = step.setup.fluids.gravity.of_step(step.state.time, step.dt);
-  return load_on_pieces(step, body, k, center, open, [&](Site cell, const Vec3& x) {
+  return load_on_surface(step, body, k, center, open, [&](Site cell, const Vec3& x) {
     return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) *
            gravity.dot(x - center_of(step.setup.domain.layout, cell));
   });
@@ -212,23 +186,11 @@ Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& bo
   const auto pressure = [&](Site cell, const Vec3& x) {
     return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) * gravity.dot(x - origin);
   };
-  const double whole = body.mass().volume / mass_of_surface<Dim>(body.contact_surface(), 1).volume;
-  Generalised<Dim> missing = whole * load_on_pieces(step, body, k, center, open, pressure);
+  Generalised<Dim> missing = body.facet_ratio() * load_on_surface(step, body, k, center, open, pressure);
   const double face = domain.layout.geometry().cell_volume() / domain.layout.h();
   for (const auto& [cell, mode] : add_up(domain, *step.geometry.shares[std::size_t(k)], center).cells)
     missing -= face * pressure(cell, center_of(domain.layout, cell)) * mode;
   return missing;
-}
-
-template <int Dim>
-bool lies_within(const DomainSpec& d, const Body<Dim>& body, const Pose& pose) {
-  const auto& points = body.contact_surface().points;
-  return std::all_of(points.begin(), points.end(), [&](const Vec3& X) {
-    const Vec3 x = pose.apply(X);
-    for (int a = 0; a < Dim; ++a)
-      if (x[a] < d.lower[a] || x[a] > d.upper[a]) return false;
-    return true;
-  });
 }
 
 // Pressure rho g.x + const on the face shares gives the force -rho g_a V_a along each axis and the torque
@@ -318,7 +280,7 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const Rig
   SolidCoupling<Dim>& c = parts.coupling;
   const int k = c.bodies[std::size_t(block)], first = c.first[std::size_t(block)];
   const Pose& pose = step.geometry.placed[std::size_t(k)].pose;
-  if (!lies_within<Dim>(s.scene->domain, body, pose)) return;
+  if (!lies_within(s.domain.layout.geometry(), placed_points<Dim>(body.contact_surface(), pose))) return;
   const Sums<Dim> all = read_sums<Dim>(sums);
   const bool jointed = !jointed_neighbours(s.solids, step.geometry.placed, k).empty();
   if (!jointed && all.wet > 0 && all.dry > trace * all.surface && all.count > 0) {

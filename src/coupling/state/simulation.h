@@ -65,6 +65,7 @@ struct SolidState {
   Vec3 velocity{0, 0, 0}, angular_velocity{0, 0, 0};
   Vec3 force{0, 0, 0}, torque{0, 0, 0};          // from the fluid, N and N m about position
   Vec3 pin_force{0, 0, 0}, pin_torque{0, 0, 0};  // likewise, from the pins of an elastic solid
+  Vec3 unseen_force{0, 0, 0}, unseen_torque{0, 0, 0};  // part of both that the solve, with faces of the grid, misses
 };
 
 // One row of joints.csv. Loads act on the joint's first solid, the torque about the joint's point.

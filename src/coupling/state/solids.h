@@ -6,6 +6,7 @@
 #include "coupling/state/joint_rows.h"
 #include "coupling/state/operator_perturbation.h"
 #include "fluid/boundary/domain.h"
+#include "geometry/mesh/facet_pieces.h"
 
 namespace seiche {
 
@@ -21,6 +22,7 @@ struct Solids {
   Participants<Dim> at_start;
   Interactions<Dim> interactions;
   std::optional<ContactScene<Dim>> contact;  // set if any solid has unknowns
+  std::vector<std::vector<FacetPiece<Dim>>> still_pieces;  // pieces_of_still_solids()
 
   // Appends notes of reading the shapes, for the log. The domain must outlive the solids.
   Solids(const Scene& scene, const Domain<Dim>& domain, const OperatorPerturbation& perturbation,

@@ -207,7 +207,7 @@ class FlowSimulation : public Simulation {
     const bool solved = !setup_->fluids.has_prescribed_flow();
     if (solved) a.failure = fault_of_energy(*setup_, state_, stats_, geometry_.psi, a);
     if (!a.failure.empty()) return a;
-    a.solids = measure_solids(setup_->domain, setup_->solids, setup_->scene->time, a.state, a.geometry);
+    a.solids = measure_solids(*setup_, a.state, a.geometry);
     if (solved) a.state.work = work_after(*setup_, state_, stats_, a.solids, a);
     return a;
   }
@@ -343,10 +343,7 @@ class FlowSimulation : public Simulation {
     solids_ = std::move(solids);
   }
 
-  void refresh_from_state() {
-    refresh(measure(state_, geometry_),
-            measure_solids(setup_->domain, setup_->solids, setup_->scene->time, state_, geometry_));
-  }
+  void refresh_from_state() { refresh(measure(state_, geometry_), measure_solids(*setup_, state_, geometry_)); }
 
   std::vector<SurfaceMesh> rest_surfaces() const {
     std::vector<SurfaceMesh> surfaces;

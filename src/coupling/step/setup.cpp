@@ -8,6 +8,7 @@
 #include "coupling/exterior/exteriors.h"
 #include "coupling/report/measures.h"
 #include "coupling/solids/contact_setup.h"
+#include "coupling/solids/prescribed_loads.h"
 #include "coupling/solids/solid_kinds.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
@@ -136,7 +137,8 @@ Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const Operato
       joints(scene, bodies),
       geometry(domain.layout, domain.sides, bodies, joints.pairs_apart()),
       at_start(make_participants(bodies)),
-      interactions(make_interactions(bodies, joints)) {
+      interactions(make_interactions(bodies, joints)),
+      still_pieces(pieces_of_still_solids(domain, bodies)) {
   if (has_unknowns()) contact.emplace(make_contact_scene(scene.domain, at_start, joints.pairs_apart(), perturbation));
 }
 

@@ -49,30 +49,32 @@ void split(const Corners<Dim>& p, int axis, double plane, const FacetPart<Dim>& 
   }
 }
 
-// Cuts a part at all planes between cells along an axis.
+// Cuts a part at all planes between cells along an axis, and drops what lies before the plane `first` or after `last`.
 template <int Dim>
-void cut_along(const Corners<Dim>& p, int axis, const FacetPart<Dim>& part, std::vector<FacetPart<Dim>>& pieces) {
+void cut_along(const Corners<Dim>& p, int axis, int first, int last, const FacetPart<Dim>& part,
+               std::vector<FacetPart<Dim>>& pieces) {
   double low = 1e300, high = -1e300;
   for (const FacetWeights<Dim>& w : part)
     low = std::min(low, p.row(axis).dot(w)), high = std::max(high, p.row(axis).dot(w));
   FacetPart<Dim> rest = part;
-  for (double plane = std::floor(low) + 1; plane < high; plane += 1) {
+  for (double plane = std::max(std::floor(low) + 1, double(first)); plane < high; plane += 1) {
     FacetPart<Dim> below, above;
     split(p, axis, plane, rest, below, above);
-    if (below.size() >= Dim) pieces.push_back(std::move(below));
+    if (below.size() >= Dim && plane > first) pieces.push_back(std::move(below));
+    if (plane >= last) return;
     rest = std::move(above);
   }
   if (rest.size() >= Dim) pieces.push_back(std::move(rest));
 }
 
-// Cuts a facet along all axes.
+// Cuts a facet along all axes. Parts beyond the box are dropped before they are cut further.
 template <int Dim>
-std::vector<FacetPart<Dim>> cut(const Corners<Dim>& p) {
+std::vector<FacetPart<Dim>> cut(const Corners<Dim>& p, const Box<Dim>& box) {
   std::vector<FacetPart<Dim>> parts(1);
   for (int i = 0; i < Dim; ++i) parts[0].push_back(FacetWeights<Dim>::Unit(i));
   for (int a = 0; a < Dim; ++a) {
     std::vector<FacetPart<Dim>> finer;
-    for (const FacetPart<Dim>& part : parts) cut_along(p, a, part, finer);
+    for (const FacetPart<Dim>& part : parts) cut_along(p, a, box.lower[a], box.upper[a], part, finer);
     parts = std::move(finer);
   }
   return parts;
@@ -108,7 +110,7 @@ std::vector<FacetPiece<Dim>> cut_at_cells(const Geometry<Dim>& grid, const Box<D
     for (int i = 0; i < Dim; ++i) p.col(i) = (points[std::size_t(facets[n][std::size_t(i)])] - grid.lower) / grid.h;
     const Vec<Dim> normal = area_normal(p);
     if (normal.norm() == 0 || !may_meet(p, box)) continue;
-    for (FacetPart<Dim>& part : cut(p)) {
+    for (FacetPart<Dim>& part : cut(p, box)) {
       const IVec<Dim> cell = cell_beside<Dim>(p, part, normal.normalized());
       if (box.contains(cell)) pieces.push_back({cell, int(n), normal.normalized(), std::move(part)});
     }

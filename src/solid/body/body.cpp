@@ -36,6 +36,17 @@ Vec3 center_of(const ShapeSpec& spec, const SurfaceMesh& surface) {
   return enclosed.allFinite() ? enclosed : center;
 }
 
+bool is_round(const std::string& kind) {
+  return kind == "sphere" || kind == "cylinder" || kind == "capsule";
+}
+
+// Volume of a round shape, or of its hole.
+template <int Dim>
+double round_volume(ShapeSpec spec, const ShapeOptions& options, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  spec.invert = false;
+  return mass_properties<Dim>(spec, 1, options, lower, upper).volume;
+}
+
 // With the mass, centre and inertia that the scene gives. The inertia of a shape of one density goes with the mass.
 MassProperties given_mass(MassProperties m, const RigidSpec& rigid) {
   m.centroid = m.center;
@@ -66,6 +77,9 @@ Body<Dim>::Body(const SolidSpec& spec, const ShapeOptions& options, const Vec<Di
     mass_ = given_mass(mass_properties<Dim>(spec.shape, density, options, lower, upper), spec.rigid);
     for (const Vec3& x : surface_.points) radius_ = std::max(radius_, (x - mass_.center).norm());
   }
+  if (spec.kind.is_free() || is_round(spec.shape.kind))
+    facet_ratio_ = (spec.kind.is_free() ? mass_.volume : round_volume<Dim>(spec.shape, options, lower, upper)) /
+                   std::abs(mass_of_surface<Dim>(surface_, 1).volume);
   reference_ = spec.kind.is_free() ? mass_.center : center_of<Dim>(spec.shape, surface_);
   thin_ = is_thinner_than(*this, options.cell_size, lower, upper);
   if (thin_) thin_surface_ = std::make_shared<const ThinSurface<Dim>>(surface_);

@@ -45,6 +45,9 @@ class Body {
   const ElasticSolid<Dim>& elastic() const { return *elastic_; }   // of a solid that deforms only
   const MassProperties& mass() const { return mass_; }             // at rest; zero unless forces move it
   const SurfaceMesh& contact_surface() const { return surface_; }  // in the rest pose
+  // Volume of a sphere, cylinder or capsule, or of a solid that forces move, over that within its surface, whose facets
+  // cut a little off round shapes. 1 for others.
+  double facet_ratio() const { return facet_ratio_; }
   double radius() const { return radius_; }  // of a rigid body about its centre of mass, m; 0 for other solids
   // True if a grid can miss the solid (solid/body/thinness.h).
   bool is_thin() const { return thin_; }
@@ -79,7 +82,7 @@ class Body {
   MassProperties mass_;
   SurfaceMesh surface_;
   Vec3 reference_{0, 0, 0};
-  double radius_ = 0;
+  double radius_ = 0, facet_ratio_ = 1;
   bool thin_ = false;
   std::shared_ptr<const ThinSurface<Dim>> thin_surface_;  // of a thin solid that is not elastic
 };

@@ -1,0 +1,233 @@
+#include "coupling/solids/prescribed_loads.h"
+
+#include "coupling/geometry/seams.h"
+#include "coupling/solids/surface_load.h"
+
+namespace seiche {
+namespace {
+
+constexpr double touching = 1e-2;  // cells: no liquid between surfaces that are nearer to each other
+
+template <int Dim>
+Vec<Dim> center_of_cell(const Domain<Dim>& domain, Site cell) {
+  return domain.layout.position(domain.layout.index(cell), cell_offset<Dim>());
+}
+
+template <int Dim>
+bool is_counted(const Body<Dim>& body) {
+  return !body.is_free() && !body.deforms() && !body.is_thin();
+}
+
+// Fluids beside a solid: cells with liquid, with gas that has a pressure, with nothing.
+struct Beside {
+  double liquid = 0, gas = 0, nothing = 0;
+  bool one_fluid() const { return nothing == 0 && (liquid == 0 || gas == 0); }
+};
+
+// Load of a pressure on the faces that a solid closes: F = sum_f s A (p_low - p_high) e_f. This rank's part.
+template <int Dim, class Pressure>
+SolidLoad load_on_faces(const Domain<Dim>& domain, const FaceShares& shares, const Vec3& about, const Pressure& p) {
+  const Layout<Dim>& l = domain.layout;
+  SolidLoad load;
+  for (const FaceShare& share : shares) {
+    IVec<Dim> cell = l.index(share.face);
+    const Vec3 arm = extend<Dim>(l.position(cell, face_offset<Dim>(share.axis))) - about;
+    const double area = share.closed * l.geometry().face_area();
+    for (const int side : {-1, 1}) {  // the cell above, then the cell below
+      if (l.cells().contains(cell)) {
+        const Site c = l.site(cell);
+        const Vec3 force =
+            side * area * p(c, center_of_cell(domain, c)) * extend<Dim>(Vec<Dim>(Vec<Dim>::Unit(share.axis)));
+        load.force += force;
+        load.torque += arm.cross(force);
+      }
+      cell[share.axis] -= 1;
+    }
+  }
+  return load;
+}
+
+// Drops pieces of solid k that another solid n covers, of those with covers(n). pose(n): its pose.
+template <int Dim, class Covers, class Poses>
+void drop_covered(double h, const std::vector<Body<Dim>>& bodies, int k, const std::vector<Vec<Dim>>& points,
+                  const Covers& covers, const Poses& pose, std::vector<FacetPiece<Dim>>& pieces) {
+  const SurfaceMesh& surface = bodies[std::size_t(k)].contact_surface();
+  for (std::size_t n = 0; n < bodies.size() && !pieces.empty(); ++n) {
+    if (int(n) == k || !covers(int(n))) continue;
+    const Pose there = pose(int(n));
+    const auto covered = [&](const FacetPiece<Dim>& piece) {
+      return bodies[n].distance_in(there, middle_of(piece, surface, points)) < touching * h;
+    };
+    pieces.erase(std::remove_if(pieces.begin(), pieces.end(), covered), pieces.end());
+  }
+}
+
+// What the loads of all solids read.
+template <int Dim>
+class PrescribedLoads {
+ public:
+  PrescribedLoads(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                  const StepGeometry<Dim>& geometry, const State<Dim>& state)
+      : domain_(domain),
+        fluids_(fluids),
+        solids_(solids),
+        geometry_(geometry),
+        state_(state),
+        gravity_(truncate<Dim>(fluids.gravity.of_step(state.time, state.dt_now))),
+        open_(open_cells(domain, geometry.faces)) {}
+
+  // Local; fluids beside the solid, over all ranks.
+  SolidLoad of(int k, const Beside& beside) const {
+    const Body<Dim>& body = solids_.bodies[std::size_t(k)];
+    const Pose pose = pose_at_solve(k);
+    const std::vector<Vec<Dim>> points = placed_points<Dim>(body.contact_surface(), pose);
+    if (!domain_touches(points) || crosses_periodic_side(points)) return {};
+    const bool whole = lies_within(domain_.layout.geometry(), points);
+    if (whole && beside.one_fluid()) return beyond(k, points, [&](Site c, const Vec3& x) { return uniform(c, x); });
+    return beyond(k, points, [&](Site c, const Vec3& x) { return in_cell(c, x); });
+  }
+
+  Beside beside(int k) const {
+    Beside b;
+    const auto count = [&](Site c, const auto&) {
+      (state_.pressure[c] == 0 ? b.nothing : state_.phi[c] < 0 ? b.liquid : b.gas) += open_[c] ? 1 : 0;
+      return 0.0;
+    };
+    load_on_faces(domain_, *geometry_.shares[std::size_t(k)], Vec3(0, 0, 0), count);
+    return b;
+  }
+
+ private:
+  // Pose at the last solve.
+  Pose pose_at_solve(int k) const {
+    const Body<Dim>& body = solids_.bodies[std::size_t(k)];
+    return body.is_prescribed() ? body.pose(state_.time - state_.since_solve) : geometry_.placed[std::size_t(k)].pose;
+  }
+
+  double density(Site c) const {
+    return state_.pressure[c] == 0 ? 0 : state_.phi[c] < 0 ? fluids_.density() : fluids_.gas_density();
+  }
+  double uniform(Site c, const Vec3& x) const { return density(c) * gravity_.dot(truncate<Dim>(x)); }
+  double in_cell(Site c, const Vec3& x) const {
+    return state_.pressure[c] + density(c) * gravity_.dot(truncate<Dim>(x) - center_of_cell(domain_, c));
+  }
+
+  bool domain_touches(const std::vector<Vec<Dim>>& points) const {
+    Eigen::AlignedBox<double, Dim> box, domain;
+    for (const Vec<Dim>& x : points) box.extend(x);
+    const Geometry<Dim>& g = domain_.layout.geometry();
+    domain.extend(g.lower).extend(g.lower + g.h * g.cells.template cast<double>());
+    return !points.empty() && domain.intersects(box);
+  }
+
+  // True if solid n may touch a surface with these points.
+  bool near(const std::vector<Vec<Dim>>& points, int n) const {
+    const double slack = domain_.layout.h();
+    Eigen::AlignedBox<double, Dim> box;
+    for (const Vec<Dim>& x : points) box.extend(x);
+    const Eigen::AlignedBox<double, Dim> other =
+        placed_box(solids_.bodies[std::size_t(n)], {pose_at_solve(n), {}, {}, {}});
+    return other.isEmpty() || box.exteriorDistance(other) < slack;
+  }
+
+  // Pieces beyond a periodic side have no cell.
+  bool crosses_periodic_side(const std::vector<Vec<Dim>>& points) const {
+    Geometry<Dim> open_ends = domain_.layout.geometry();
+    for (int a = 0; a < Dim; ++a)
+      if (!open_ends.periodic[a]) {
+        constexpr int far = 1 << 24;
+        open_ends.lower[a] -= far * open_ends.h;
+        open_ends.cells[a] = 2 * far;
+      }
+    return !lies_within(open_ends, points, reach_of_pieces);
+  }
+
+  template <class Pressure>
+  SolidLoad beyond(int k, const std::vector<Vec<Dim>>& points, const Pressure& p) const {
+    const Body<Dim>& body = solids_.bodies[std::size_t(k)];
+    const SurfaceMesh& surface = body.contact_surface();
+    const Vec3 about = geometry_.pivots[std::size_t(k)];
+    SolidLoad load = load_on_pieces(pieces(k, points), surface, points, about, p);
+    const SolidLoad faces = load_on_faces(domain_, *geometry_.shares[std::size_t(k)], about,
+                                          [&](Site c, const Vec<Dim>& x) { return p(c, extend<Dim>(x)); });
+    load.force = body.facet_ratio() * load.force - faces.force;
+    load.torque = body.facet_ratio() * load.torque - faces.torque;
+    return load;
+  }
+
+  // Pieces that no other prescribed solid covers, with the cells that act on them.
+  std::vector<ExposedPiece<Dim>> pieces(int k, const std::vector<Vec<Dim>>& points) const {
+    const std::vector<Body<Dim>>& bodies = solids_.bodies;
+    const bool still = !bodies[std::size_t(k)].moves();
+    std::vector<FacetPiece<Dim>> all =
+        still ? solids_.still_pieces[std::size_t(k)]
+              : cut_at_cells(domain_.layout.geometry(), domain_.layout.grown(reach_of_pieces),
+                             bodies[std::size_t(k)].contact_surface(), points);
+    const auto covers = [&](int n) {
+      const Body<Dim>& other = bodies[std::size_t(n)];
+      return is_counted(other) && (!still || other.moves()) && near(points, n);
+    };
+    drop_covered(
+        domain_.layout.h(), bodies, k, points, covers, [&](int n) { return pose_at_solve(n); }, all);
+    return seen_from_cells(domain_, open_, std::move(all));
+  }
+
+  const Domain<Dim>& domain_;
+  const Fluids& fluids_;
+  const Solids<Dim>& solids_;
+  const StepGeometry<Dim>& geometry_;
+  const State<Dim>& state_;
+  Vec<Dim> gravity_;
+  CellField<Dim, char> open_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<SolidLoad> loads_beyond_faces(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
+                                          const StepGeometry<Dim>& geometry, const State<Dim>& state) {
+  std::vector<SolidLoad> loads(solids.bodies.size());
+  const auto counted = [](const Body<Dim>& body) { return is_counted(body); };
+  if (std::none_of(solids.bodies.begin(), solids.bodies.end(), counted)) return loads;
+  const PrescribedLoads<Dim> prescribed(domain, fluids, solids, geometry, state);
+  std::vector<double> beside, sums;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const Beside b = is_counted(solids.bodies[k]) ? prescribed.beside(int(k)) : Beside();
+    beside.insert(beside.end(), {b.liquid, b.gas, b.nothing});
+  }
+  domain.ranks.global_sum(beside);
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (is_counted(solids.bodies[k]))
+      loads[k] = prescribed.of(int(k), {beside[3 * k], beside[3 * k + 1], beside[3 * k + 2]});
+    for (const Vec3& v : {loads[k].force, loads[k].torque}) sums.insert(sums.end(), v.begin(), v.end());
+  }
+  domain.ranks.global_sum(sums);
+  for (std::size_t k = 0; k < loads.size(); ++k) loads[k] = {Vec3(&sums[6 * k]), Vec3(&sums[6 * k + 3])};
+  return loads;
+}
+
+template <int Dim>
+std::vector<std::vector<FacetPiece<Dim>>> pieces_of_still_solids(const Domain<Dim>& domain,
+                                                                 const std::vector<Body<Dim>>& bodies) {
+  std::vector<std::vector<FacetPiece<Dim>>> pieces(bodies.size());
+  const auto still = [&](int k) { return is_counted(bodies[std::size_t(k)]) && !bodies[std::size_t(k)].moves(); };
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    if (!still(int(k))) continue;
+    const std::vector<Vec<Dim>> points = placed_points<Dim>(bodies[k].contact_surface(), Pose());
+    pieces[k] = cut_at_cells(domain.layout.geometry(), domain.layout.grown(reach_of_pieces),
+                             bodies[k].contact_surface(), points);
+    drop_covered(
+        domain.layout.h(), bodies, int(k), points, still, [&](int) { return Pose(); }, pieces[k]);
+  }
+  return pieces;
+}
+
+#define SEICHE_INSTANTIATE(D)                                                                              \
+  template std::vector<SolidLoad> loads_beyond_faces<D>(const Domain<D>&, const Fluids&, const Solids<D>&, \
+                                                        const StepGeometry<D>&, const State<D>&);          \
+  template std::vector<std::vector<FacetPiece<D>>> pieces_of_still_solids<D>(const Domain<D>&,             \
+                                                                             const std::vector<Body<D>>&);
+SEICHE_INSTANTIATE(2)
+SEICHE_INSTANTIATE(3)
+
+}  // namespace seiche
