@@ -5,9 +5,11 @@
 #include <map>
 #include <string>
 
+#include "base/contact_spec.h"
 #include "base/curves.h"
 #include "base/domain_spec.h"
 #include "base/fluid_spec.h"
+#include "base/force_spec.h"
 #include "base/gravity_spec.h"
 #include "base/joint_spec.h"
 #include "base/output_spec.h"
@@ -32,6 +34,8 @@ struct Scene {
   std::vector<SolidSpec> solids;
   std::vector<RobotSpec> robots;  // as read; expand_robots() makes solids and joints of them
   std::vector<JointSpec> joints;
+  std::vector<ContactSpec> contacts;
+  std::vector<ForceSpec> forces;
   std::vector<ProbeSpec> probes;
   std::string tracking = "level_set";
   SolverSpec solver;

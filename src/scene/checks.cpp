@@ -247,6 +247,7 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("joint")) check_names(c, scene.joints, "joint");
   if (context.clean("probe")) check_names(c, scene.probes, "probe");
   if (context.clean("robot")) check_names(c, scene.robots, "robot");
+  if (context.clean("force")) check_names(c, scene.forces, "force");
   if (context.clean("robot") && context.clean("solid") && context.clean("joint")) expand_robots(context, root, scene);
   if (context.clean("solid")) expand_copies(context, root, scene);
   if (context.clean("solid") && context.clean("gravity")) expand_waves(context, root, scene);
@@ -256,6 +257,8 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("solid") && context.clean("joint")) check_joints(context, root, scene);
+  if (context.clean("solid") && context.clean("force")) check_forces(context, root, scene);
+  if (context.clean("solid") && context.clean("contact")) check_contacts(context, root, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);

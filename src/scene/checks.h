@@ -17,6 +17,10 @@ void check_motions(SceneContext& context, const TomlNode& root, const Scene& sce
 // Part of check_scene(): joints name solids that are there, and have what their kind needs.
 void check_joints(SceneContext& context, const TomlNode& root, const Scene& scene);
 
+// Parts of check_scene(): forces and contacts name solids that are there, and do something.
+void check_forces(SceneContext& context, const TomlNode& root, const Scene& scene);
+void check_contacts(SceneContext& context, const TomlNode& root, const Scene& scene);
+
 // Part of check_scene(): a prescribed flow excludes everything that acts on a flow.
 void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Scene& scene);
 

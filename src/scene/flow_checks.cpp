@@ -36,6 +36,7 @@ std::vector<std::string> beside_prescribed_flow(const Scene& scene) {
       {"liquid.sponge", !liquid.sponges.empty()},
       {"[gas]", scene.gas.present},
       {"[[solid]]", !scene.solids.empty()},
+      {"[[force]]", !scene.forces.empty()},
   };
   std::vector<std::string> names;
   for (const auto& [name, given] : all)

@@ -198,6 +198,27 @@ Section<ProbeSpec> probe_section() {
   return s;
 }
 
+Section<ContactSpec> contact_section() {
+  using S = ContactSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "between",
+                    .type = T::names,
+                    .presence = Presence::required,
+                    .doc = "names of the solids on both sides, or one for pairs among themselves; * stands for any "
+                           "characters, ? for one; \"domain\": its sides"},
+                   &S::between),
+      value_key<S>({.key = "friction",
+                    .range = between(0, number_limit),
+                    .unset = "by the solids' own coefficients",
+                    .doc = "Coulomb's coefficient where they touch"},
+                   &S::friction),
+      value_key<S>({.key = "collide", .type = T::boolean, .doc = "false: they pass through each other"}, &S::collide),
+  };
+  s.finish = [](SceneContext& c, const Place& p, S& contact) { contact.where = c.where(p.node->line); };
+  return s;
+}
+
 Section<Scene> tracking_section() {
   const std::string reason = "particles are not in this version";
   Section<Scene> s;
@@ -346,6 +367,16 @@ Section<Scene> build_scene_section() {
                               .most = most_entries},
                              &S::joints, joint_section()),
       robot_key(),
+      list_key<S, ContactSpec>({.key = "contact",
+                                .unset = "all solids touch, with friction by their own coefficients",
+                                .doc = "friction of pairs of solids, and pairs that pass through each other",
+                                .most = most_entries},
+                               &S::contacts, contact_section()),
+      list_key<S, ForceSpec>({.key = "force",
+                              .unset = "gravity alone",
+                              .doc = "forces on liquid and solids: fields, wind, loads; see forces.md",
+                              .most = 100},
+                             &S::forces, force_section()),
       list_key<S, ProbeSpec>({.key = "probe",
                               .unset = "none",
                               .doc = "measurements for probes.csv; a row without values where there is nothing to "

@@ -9,7 +9,9 @@
 
 namespace seiche {
 
+struct ContactSpec;
 struct ElasticSpec;
+struct ForceSpec;
 struct JointSpec;
 struct LiquidSpec;
 struct MotionSpec;
@@ -33,6 +35,7 @@ Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
 Section<JointSpec> joint_section();
+Section<ForceSpec> force_section();
 Section<RobotSpec> robot_section();
 
 // Keys of viscous liquid.

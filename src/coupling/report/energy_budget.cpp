@@ -9,6 +9,7 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
 #include "coupling/tension/surface_tension.h"
+#include "coupling/transport/forces.h"
 #include "coupling/transport/given_motion.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
@@ -126,8 +127,10 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
       std::max(surface_energy(s.domain, s.fluids, before.phi), surface_energy(s.domain, s.fluids, attempt.state.phi));
   b.mass = std::max(total_mass(s.fluids, s.solids, start), total_mass(s.fluids, s.solids, attempt.stats));
   b.gain = span * (s.fluids.gravity.of_step(t + dt, dt).norm() + s.fluids.gravity.of_step(t, before.dt_now).norm());
+  b.gain += span * largest_field(s.forces, s.domain.layout.geometry(), t, t + span);
   b.given = jitter_speed(s.domain, before, dt) + fastest_led(s.solids, attempt, t, span) +
-            std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt);
+            std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt) +
+            fastest_dragged(s.domain, s.forces, t, span);
   b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
   b.pushed = pushed(s.domain, s.fluids, s.solids, attempt, t, dt);
   for (const auto& interaction : s.solids.interactions)

@@ -53,14 +53,18 @@ class Cavities : public Interaction<Dim> {
 }  // namespace
 
 template <int Dim>
-Interactions<Dim> make_interactions(const std::vector<Body<Dim>>& bodies, const JointSet<Dim>& joints) {
+Interactions<Dim> make_interactions(const Domain<Dim>& domain, const std::vector<Body<Dim>>& bodies,
+                                    const JointSet<Dim>& joints, const std::vector<Force<Dim>>& forces) {
   Interactions<Dim> list;
   list.push_back(std::make_unique<Cavities<Dim>>(bodies));
   if (!joints.list.empty()) list.push_back(make_joint_interaction(joints));
+  if (!forces.empty()) list.push_back(make_applied_forces(domain, forces));
   return list;
 }
 
-template Interactions<2> make_interactions<2>(const std::vector<Body<2>>&, const JointSet<2>&);
-template Interactions<3> make_interactions<3>(const std::vector<Body<3>>&, const JointSet<3>&);
+template Interactions<2> make_interactions<2>(const Domain<2>&, const std::vector<Body<2>>&, const JointSet<2>&,
+                                              const std::vector<Force<2>>&);
+template Interactions<3> make_interactions<3>(const Domain<3>&, const std::vector<Body<3>>&, const JointSet<3>&,
+                                              const std::vector<Force<3>>&);
 
 }  // namespace seiche

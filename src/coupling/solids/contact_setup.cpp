@@ -41,7 +41,8 @@ std::vector<ContactWall> closed_sides(const DomainSpec& d) {
 
 template <int Dim>
 ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participants<Dim>& solids,
-                                     std::vector<std::array<int, 2>> apart, const OperatorPerturbation& perturbation) {
+                                     std::vector<std::array<int, 2>> apart, PairFrictions friction,
+                                     const OperatorPerturbation& perturbation) {
   std::vector<ContactBody> contact;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     const Body<Dim>& body = solids[k].body();
@@ -52,7 +53,8 @@ ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participant
     if (c.friction) *c.friction *= perturbation.friction;
     c.name = body.spec().name;
   }
-  return {contact, closed_sides<Dim>(extent), std::move(apart)};
+  for (auto& [pair, mu] : friction) mu *= perturbation.friction;
+  return {contact, closed_sides<Dim>(extent), std::move(apart), std::move(friction)};
 }
 
 template <int Dim>
@@ -257,7 +259,8 @@ double safe_share(const Solids<Dim>& solids, const State<Dim>& state, double dt)
 
 #define SEICHE_INSTANTIATE(D)                                                                                      \
   template ContactScene<D> make_contact_scene<D>(const DomainSpec&, const Participants<D>&,                        \
-                                                 std::vector<std::array<int, 2>>, const OperatorPerturbation&);    \
+                                                 std::vector<std::array<int, 2>>, PairFrictions,                   \
+                                                 const OperatorPerturbation&);                                     \
   template std::string solids_at_periodic_sides<D>(const Domain<D>&, const Solids<D>&, const State<D>&);           \
   template std::string prescribed_across_periodic_sides<D>(const Domain<D>&, const State<D>&,                      \
                                                            const std::vector<Placement>&);                         \

@@ -11,11 +11,12 @@ namespace seiche {
 struct DomainSpec;
 struct TimeSpec;
 
-// All solids of the scene, of which the pairs `apart` never touch. Every side of the domain is a wall, except periodic
-// and outflow sides.
+// All solids of the scene, of which the pairs `apart` never touch, with the friction that pairs have of their own.
+// Every side of the domain is a wall, except periodic and outflow sides.
 template <int Dim>
 ContactScene<Dim> make_contact_scene(const DomainSpec& extent, const Participants<Dim>& solids,
-                                     std::vector<std::array<int, 2>> apart, const OperatorPerturbation& perturbation);
+                                     std::vector<std::array<int, 2>> apart, PairFrictions friction,
+                                     const OperatorPerturbation& perturbation);
 
 // Throws Error(bad_input), naming the pairs and depths: a body with unknowns touches or overlaps something at the
 // start, or an elastic body crosses a periodic side.

@@ -31,7 +31,7 @@ template <int Dim>
 std::vector<int> jointed_neighbours(const Solids<Dim>& solids, const std::vector<Placement>& placed, int k) {
   const auto box = [&](int n) { return placed_box(solids.bodies[std::size_t(n)], placed[std::size_t(n)]); };
   std::vector<int> near;
-  for (const auto& [a, b] : solids.joints.pairs_apart())
+  for (const auto& [a, b] : solids.apart)
     if ((a == k || b == k) && box(a).intersects(box(b))) near.push_back(a == k ? b : a);
   return near;
 }

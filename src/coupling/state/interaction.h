@@ -38,9 +38,12 @@ using Interactions = std::vector<std::unique_ptr<const Interaction<Dim>>>;
 
 template <int Dim>
 struct JointSet;
+template <int Dim>
+struct Force;
 
 // All interactions possible in a scene. They keep references.
 template <int Dim>
-Interactions<Dim> make_interactions(const std::vector<Body<Dim>>& bodies, const JointSet<Dim>& joints);
+Interactions<Dim> make_interactions(const Domain<Dim>& domain, const std::vector<Body<Dim>>& bodies,
+                                    const JointSet<Dim>& joints, const std::vector<Force<Dim>>& forces);
 
 }  // namespace seiche

@@ -6,6 +6,7 @@
 #include "coupling/state/exterior.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
+#include "coupling/state/force.h"
 #include "coupling/state/operator_perturbation.h"
 #include "coupling/state/solids.h"
 #include "coupling/state/source.h"
@@ -26,6 +27,7 @@ struct Setup {
   std::vector<std::string> notes;  // from reading the shapes, for the log
   Fluids fluids;
   Domain<Dim> domain;
+  std::vector<Force<Dim>> forces;  // before the solids, which refer to them
   Solids<Dim> solids;
   OwnedExterior<Dim> exterior;  // before its start
   std::vector<Source<Dim>> sources;

@@ -18,15 +18,16 @@ template <int Dim>
 struct Solids {
   std::vector<Body<Dim>> bodies;
   JointSet<Dim> joints;
+  SharedPairs apart;  // pairs that joints or [[contact]] let reach into each other, ascending
   SolidGeometry<Dim> geometry;
   Participants<Dim> at_start;
   Interactions<Dim> interactions;
-  std::optional<ContactScene<Dim>> contact;  // set if any solid has unknowns
+  std::optional<ContactScene<Dim>> contact;                // set if any solid has unknowns
   std::vector<std::vector<FacetPiece<Dim>>> still_pieces;  // pieces_of_still_solids()
 
-  // Appends notes of reading the shapes, for the log. The domain must outlive the solids.
-  Solids(const Scene& scene, const Domain<Dim>& domain, const OperatorPerturbation& perturbation,
-         std::vector<std::string>& notes);
+  // Appends notes of reading the shapes, for the log. The domain and the forces must outlive the solids.
+  Solids(const Scene& scene, const Domain<Dim>& domain, const std::vector<Force<Dim>>& forces,
+         const OperatorPerturbation& perturbation, std::vector<std::string>& notes);
   Solids(const Solids&) = delete;
 
   bool has_unknowns() const;

@@ -10,6 +10,7 @@
 #include "coupling/solids/contact_setup.h"
 #include "coupling/solids/prescribed_loads.h"
 #include "coupling/solids/solid_kinds.h"
+#include "coupling/state/contact_pairs.h"
 #include "coupling/state/features.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/operator_perturbation.h"
@@ -93,6 +94,13 @@ std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::strin
   return sources;
 }
 
+template <int Dim>
+std::vector<Force<Dim>> make_forces(const Scene& scene, std::vector<std::string>& notes) {
+  std::vector<Force<Dim>> forces;
+  for (const ForceSpec& spec : scene.forces) forces.emplace_back(spec, ShapeOptions{scene.domain.cell_size, &notes});
+  return forces;
+}
+
 // Message for an initial velocity that is not finite. `region`: its index; -1: the liquid's own velocity.
 template <int Dim>
 std::string velocity_fault(const Fluids& fluids, int region, int axis, double value, const Vec<Dim>& x) {
@@ -131,15 +139,17 @@ FaceField<Dim> initial_velocity(const Domain<Dim>& domain, const Fluids& fluids,
 }  // namespace
 
 template <int Dim>
-Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const OperatorPerturbation& perturbation,
-                    std::vector<std::string>& notes)
+Solids<Dim>::Solids(const Scene& scene, const Domain<Dim>& domain, const std::vector<Force<Dim>>& forces,
+                    const OperatorPerturbation& perturbation, std::vector<std::string>& notes)
     : bodies(make_bodies<Dim>(scene, notes)),
       joints(scene, bodies),
-      geometry(domain.layout, domain.sides, bodies, joints.pairs_apart()),
+      apart(pairs_apart(scene, joints.pairs_apart())),
+      geometry(domain.layout, domain.sides, bodies, apart),
       at_start(make_participants(bodies)),
-      interactions(make_interactions(bodies, joints)),
+      interactions(make_interactions(domain, bodies, joints, forces)),
       still_pieces(pieces_of_still_solids(domain, bodies)) {
-  if (has_unknowns()) contact.emplace(make_contact_scene(scene.domain, at_start, joints.pairs_apart(), perturbation));
+  if (has_unknowns())
+    contact.emplace(make_contact_scene(scene.domain, at_start, apart, pair_frictions(scene), perturbation));
 }
 
 template <int Dim>
@@ -180,7 +190,8 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       fluids(from),
       domain(from.domain, fluids.is_viscous() ? WallFlow::sticks : WallFlow::slips, int(std::ceil(from.time.cfl)),
              ranks, std::move(blocks)),
-      solids(from, domain, perturbation, notes),
+      forces(make_forces<Dim>(from, notes)),
+      solids(from, domain, forces, perturbation, notes),
       exterior(make_exterior(fluids, domain)),
       sources(make_sources<Dim>(from, notes)),
       sponges(make_sponges(from.liquid, from.domain)),

@@ -12,6 +12,7 @@
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
 #include "coupling/transport/drifting.h"
+#include "coupling/transport/forces.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
@@ -284,6 +285,9 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
   if (!s.sponges.empty())
     absorb(s.domain, s.sponges, s.perturbation.gravity * gravity, moved.state.time, times.dt, transported.u);
+  if (!s.forces.empty())
+    apply_forces(s.domain, s.fluids, s.forces, phi, s.perturbation.gravity * gravity, moved.state.time, times.dt,
+                 transported.u);
   const double way = since_flow_fitted(s.fluids, s.solids, before, times);
   if (way > 0)
     p.convected =

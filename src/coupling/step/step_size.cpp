@@ -23,13 +23,14 @@ namespace {
 
 // The flow crosses at most cfl cells: (v + g dt) dt = cfl h. The shortest gravity waves, omega^2 = pi g/h, have omega
 // dt <= 1.5, since the leapfrog of surface and velocity is stable below 2. Squares of the rates of gravity and tension
-// add.
+// add. Fields of forces count as gravity.
 template <int Dim>
-double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
-                             const State<Dim>& state, double until) {
+double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Force<Dim>>& forces,
+                             const TimeSpec& time, const State<Dim>& state, double until) {
   if (fluids.has_prescribed_flow()) return limit_of_prescribed(domain, fluids, time, state, until - state.time);
-  const double v = fastest_component(domain, state), g = fluids.gravity.largest(state.time, until),
-               reach = time.cfl * domain.layout.h();
+  const double v = fastest_component(domain, state), reach = time.cfl * domain.layout.h(),
+               g = fluids.gravity.largest(state.time, until) +
+                   largest_field(forces, domain.layout.geometry(), state.time, until);
   const double capillary = capillary_step(domain, fluids);
   if (g == 0) return std::min(capillary, v > 0 ? reach / v : std::numeric_limits<double>::infinity());
   const double flow = 2 * reach / (v + std::sqrt(v * v + 4 * g * reach));
@@ -41,8 +42,9 @@ double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, co
 // Velocities that sides and sources give are limited likewise, as the flow takes them on within the step.
 template <int Dim>
 double limit_of_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
-                     const std::vector<Source<Dim>>& sources, const State<Dim>& state, double until) {
-  const double limit = limit_of_present_flow(domain, fluids, time, state, until);
+                     const std::vector<Source<Dim>>& sources, const std::vector<Force<Dim>>& forces,
+                     const State<Dim>& state, double until) {
+  const double limit = limit_of_present_flow(domain, fluids, forces, time, state, until);
   if (fluids.has_prescribed_flow()) return limit;
   const double span = std::min(limit, until - state.time),
                given = limit_of_given_flow(domain, time, sources, state.time, span);
@@ -220,8 +222,8 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
     const double plan = std::min(*spec.fixed_step, dt / least);
     return remaining < least * plan ? plan : std::min(plan, remaining);
   }
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, next,
-                                                                  next.time + remaining));
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources,
+                                                                  s.forces, next, next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   plan = limit_of_solids(s.domain, s.solids, next, plan);
   return remaining < least * plan ? plan : share_evenly(plan, remaining);
@@ -230,7 +232,8 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene->time, state.time);
-  const double dt = std::min(state.planned, limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until));
+  const double dt =
+      std::min(state.planned, limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, s.forces, state, until));
   return limit_of_solids(s.domain, s.solids, state, dt) >= state.planned * (1 - 1e-9);
 }
 
@@ -248,8 +251,8 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   const bool planned = s.solids.leads_ahead() && state.step > 0 && !spec.fixed_step;
-  double dt =
-      spec.fixed_step ? *spec.fixed_step : limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, state, until);
+  double dt = spec.fixed_step ? *spec.fixed_step
+                              : limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, s.forces, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) {
     dt = limit_of_given_velocity(state, std::min(dt, remaining));

@@ -2,6 +2,7 @@
 // Contact and friction between rigid and deformable bodies over one time interval: incremental potential contact (Li et
 // al. 2020; rigid bodies: Ferguson et al. 2021). Impacts are inelastic. docs/contact.md has the equations.
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ struct ContactBody {
   // bodies, so pinned parts may rest on them.
   std::vector<char> pinned = {};
 };
+
+// Coulomb's coefficient of pairs of bodies, the lower index first; the second is -1 for all walls.
+using PairFrictions = std::map<std::array<int, 2>, double>;
 
 // The half-space behind the plane is closed to bodies. A wall has no friction coefficient of its own.
 struct ContactWall {
@@ -81,10 +85,11 @@ template <int Dim>
 class ContactScene {
  public:
   struct Data;
-  // `apart`: pairs of bodies that never touch each other, as jointed ones; ascending, the lower index first. Throws
-  // Error(bad_input) on indices out of range.
+  // `apart`: pairs of bodies that never touch each other, as jointed ones; ascending, the lower index first.
+  // `friction`: coefficients of pairs in place of those of both bodies. Throws Error(bad_input) on indices out of
+  // range.
   ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls,
-               std::vector<std::array<int, 2>> apart = {});
+               std::vector<std::array<int, 2>> apart = {}, PairFrictions friction = {});
   const Data& data() const { return *data_; }
 
  private:

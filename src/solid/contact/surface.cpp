@@ -32,9 +32,10 @@ void number(const ContactBody& body, typename ContactScene<Dim>::Data& data) {
 
 template <int Dim>
 ContactScene<Dim>::ContactScene(const std::vector<ContactBody>& bodies, const std::vector<ContactWall>& walls,
-                                std::vector<std::array<int, 2>> apart) {
+                                std::vector<std::array<int, 2>> apart, PairFrictions friction) {
   auto data = std::make_shared<Data>();
   data->apart = std::move(apart);
+  data->pair_friction = std::move(friction);
   data->point_begin = {0};
   for (const ContactBody& b : bodies) {
     data->names.push_back(b.name.empty() ? "body " + std::to_string(data->names.size()) : b.name);

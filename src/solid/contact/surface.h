@@ -6,6 +6,7 @@
 
 #include "geometry/mesh/surface_tree.h"
 #include "solid/contact/contact.h"
+#include "solid/contact/friction.h"
 
 namespace seiche {
 
@@ -42,10 +43,17 @@ struct ContactScene<Dim>::Data {
   std::vector<int> node_count;            // of each deformable body's mesh; 0 for others
   int size = 0;                           // of the stacked velocities
   std::vector<std::array<int, 2>> apart;  // pairs of bodies that never touch, ascending
+  PairFrictions pair_friction;
 
   // For pairs with the lower index first.
   bool may_touch(int a, int b) const {
     return !std::binary_search(apart.begin(), apart.end(), std::array<int, 2>{a, b});
+  }
+  // Coulomb's coefficient between a body and another one, or walls (-1).
+  double friction_between(int a, int b) const {
+    const auto given = pair_friction.find(b < 0 ? std::array{a, b} : std::array{std::min(a, b), std::max(a, b)});
+    if (given != pair_friction.end()) return given->second;
+    return contact::pair_friction(friction[std::size_t(a)], b < 0 ? std::nullopt : friction[std::size_t(b)]);
   }
   bool moves(int body) const { return first_dof[body] >= 0; }
   bool deforms(int body) const { return control[body] == BodyControl::deformable; }

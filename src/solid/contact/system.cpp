@@ -330,8 +330,7 @@ std::vector<FrictionPoint<Dim>> friction_points(const Scene<Dim>& scene, const P
                                                 const std::vector<Candidate>& pairs, const Weights& w) {
   std::vector<FrictionPoint<Dim>> found;
   for (const Candidate& pair : pairs) {
-    const int second = second_body(pair);
-    const double mu = pair_friction(scene.friction[pair.first], second < 0 ? std::nullopt : scene.friction[second]);
+    const double mu = scene.friction_between(pair.first, second_body(pair));
     if (mu == 0) continue;
     const PairPoints<Dim> x = gather<Dim>(pair, at.points);
     const Separation<Dim> apart = separate<Dim>(scene, pair, x);

@@ -1,0 +1,15 @@
+#pragma once
+// Forces of the scene on solids that forces move.
+#include "coupling/state/force.h"
+#include "coupling/state/interaction.h"
+
+namespace seiche {
+
+// Adds the forces to the solids' momentum over a step, and what resists motion to their mass. Fields give a body m a at
+// its centre of mass and the torque of its change over the body, each node of an elastic one its own. Keeps
+// references.
+template <int Dim>
+std::unique_ptr<const Interaction<Dim>> make_applied_forces(const Domain<Dim>& domain,
+                                                            const std::vector<Force<Dim>>& forces);
+
+}  // namespace seiche
