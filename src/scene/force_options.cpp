@@ -1,4 +1,5 @@
-// Keys of [[force]].
+// Keys of [[force]] and [[contact]].
+#include "base/contact_spec.h"
 #include "base/force_spec.h"
 #include "scene/options.h"
 
@@ -45,15 +46,19 @@ std::vector<Key<ForceSpec>> force_target_keys() {
 
 std::vector<Key<ForceSpec>> field_keys() {
   using S = ForceSpec;
+  return {value_key<S>({.key = "acceleration",
+                        .type = T::formula_vector,
+                        .unit = "m/s^2",
+                        .variables = "xyzt",
+                        .only_for = for_kinds({"acceleration"}),
+                        .presence = Presence::required,
+                        .doc = "acceleration of what is at x, y, z, beside gravity"},
+                       &S::acceleration)};
+}
+
+std::vector<Key<ForceSpec>> whirl_keys() {
+  using S = ForceSpec;
   return {
-      value_key<S>({.key = "acceleration",
-                    .type = T::formula_vector,
-                    .unit = "m/s^2",
-                    .variables = "xyzt",
-                    .only_for = for_kinds({"acceleration"}),
-                    .presence = Presence::required,
-                    .doc = "acceleration of what is at x, y, z, beside gravity"},
-                   &S::acceleration),
       value_key<S>({.key = "center",
                     .type = T::vector,
                     .unit = "m",
@@ -168,7 +173,7 @@ Section<ShapeSpec> force_region_section() {
 Section<ForceSpec> force_section() {
   using S = ForceSpec;
   Section<S> s;
-  for (auto& keys : {force_target_keys(), field_keys(), drag_keys(), load_keys()})
+  for (auto& keys : {force_target_keys(), field_keys(), whirl_keys(), drag_keys(), load_keys()})
     s.keys.insert(s.keys.end(), keys.begin(), keys.end());
   s.keys.push_back(optional_table_key<S, ShapeSpec>(
       {.key = "region",
@@ -177,6 +182,27 @@ Section<ForceSpec> force_section() {
        .doc = "a shape within which it acts: on liquid there, and on solids whose centre of mass lies there"},
       &S::region, force_region_section()));
   s.finish = [](SceneContext& c, const Place& p, S& force) { force.where = c.where(p.node->line); };
+  return s;
+}
+
+Section<ContactSpec> contact_section() {
+  using S = ContactSpec;
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "between",
+                    .type = T::names,
+                    .presence = Presence::required,
+                    .doc = "names of the solids on both sides, or one for pairs among themselves; * stands for any "
+                           "characters, ? for one; \"domain\": its sides"},
+                   &S::between),
+      value_key<S>({.key = "friction",
+                    .range = between(0, number_limit),
+                    .unset = "by the solids' own coefficients",
+                    .doc = "Coulomb's coefficient where they touch"},
+                   &S::friction),
+      value_key<S>({.key = "collide", .type = T::boolean, .doc = "false: they pass through each other"}, &S::collide),
+  };
+  s.finish = [](SceneContext& c, const Place& p, S& contact) { contact.where = c.where(p.node->line); };
   return s;
 }
 

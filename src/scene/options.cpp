@@ -198,27 +198,6 @@ Section<ProbeSpec> probe_section() {
   return s;
 }
 
-Section<ContactSpec> contact_section() {
-  using S = ContactSpec;
-  Section<S> s;
-  s.keys = {
-      value_key<S>({.key = "between",
-                    .type = T::names,
-                    .presence = Presence::required,
-                    .doc = "names of the solids on both sides, or one for pairs among themselves; * stands for any "
-                           "characters, ? for one; \"domain\": its sides"},
-                   &S::between),
-      value_key<S>({.key = "friction",
-                    .range = between(0, number_limit),
-                    .unset = "by the solids' own coefficients",
-                    .doc = "Coulomb's coefficient where they touch"},
-                   &S::friction),
-      value_key<S>({.key = "collide", .type = T::boolean, .doc = "false: they pass through each other"}, &S::collide),
-  };
-  s.finish = [](SceneContext& c, const Place& p, S& contact) { contact.where = c.where(p.node->line); };
-  return s;
-}
-
 Section<Scene> tracking_section() {
   const std::string reason = "particles are not in this version";
   Section<Scene> s;
@@ -341,24 +320,10 @@ Key<Scene> robot_key() {
       &Scene::robots, robot_section());
 }
 
-Section<Scene> build_scene_section() {
+// Keys of solids and of what acts between them and on them.
+std::vector<Key<Scene>> solid_keys_of_scene() {
   using S = Scene;
-  const auto itself = [](auto& s) -> auto& {
-    return s;
-  };
-  Section<S> s;
-  s.keys = {
-      value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
-      dimension_key(),
-      access_key(),
-      gravity_key(),
-      block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},
-                   &S::domain, domain_section()),
-      block_key<S>({.key = "time", .presence = Presence::required, .doc = "how long (end) and in which steps"},
-                   &S::time, time_section()),
-      block_key<S>({.key = "liquid", .unset = "no liquid", .doc = "the liquid and where it is"}, &S::liquid,
-                   liquid_section()),
-      gas_key(),
+  return {
       list_key<S, SolidSpec>({.key = "solid", .unset = "none", .doc = "solids in the liquid", .most = most_entries},
                              &S::solids, solid_section()),
       list_key<S, JointSpec>({.key = "joint",
@@ -377,6 +342,27 @@ Section<Scene> build_scene_section() {
                               .doc = "forces on liquid and solids: fields, wind, loads; see forces.md",
                               .most = 100},
                              &S::forces, force_section()),
+  };
+}
+
+Section<Scene> build_scene_section() {
+  using S = Scene;
+  const auto itself = [](auto& s) -> auto& {
+    return s;
+  };
+  Section<S> s;
+  s.keys = {
+      value_key<S>({.key = "title", .type = T::text, .doc = "for people"}, &S::title),
+      dimension_key(),
+      access_key(),
+      gravity_key(),
+      block_key<S>({.key = "domain", .presence = Presence::required, .doc = "the box of cells (upper, cell_size)"},
+                   &S::domain, domain_section()),
+      block_key<S>({.key = "time", .presence = Presence::required, .doc = "how long (end) and in which steps"},
+                   &S::time, time_section()),
+      block_key<S>({.key = "liquid", .unset = "no liquid", .doc = "the liquid and where it is"}, &S::liquid,
+                   liquid_section()),
+      gas_key(),
       list_key<S, ProbeSpec>({.key = "probe",
                               .unset = "none",
                               .doc = "measurements for probes.csv; a row without values where there is nothing to "
@@ -387,7 +373,8 @@ Section<Scene> build_scene_section() {
       block_key<S>({.key = "solver", .doc = "the solves for pressure and viscosity"}, &S::solver, solver_section()),
       block_key<S>({.key = "output", .doc = "what is written"}, &S::output, output_section()),
   };
-  const std::vector<Key<S>> naming = naming_keys();
+  const std::vector<Key<S>> naming = naming_keys(), solids = solid_keys_of_scene();
+  s.keys.insert(s.keys.begin() + 8, solids.begin(), solids.end());
   s.keys.insert(s.keys.begin() + 4, naming.begin(), naming.end());  // before the first table, as TOML wants values
   return s;
 }

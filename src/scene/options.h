@@ -36,6 +36,7 @@ Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
 Section<JointSpec> joint_section();
 Section<ForceSpec> force_section();
+Section<ContactSpec> contact_section();
 Section<RobotSpec> robot_section();
 
 // Keys of viscous liquid.

@@ -105,7 +105,7 @@ std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>
   const Solids<Dim>& solids = setup.solids;
   std::vector<SolidState> states;
   const std::vector<SolidLoad> by_pressure = pressure_loads(setup.domain, solids, g, state.pressure),
-                               beyond = loads_beyond_faces(setup.domain, setup.fluids, solids, g, state);
+                               beyond = loads_beyond_faces(setup, g, state);
   for (std::size_t k = 0; k < solids.bodies.size(); ++k) {
     const Pose& pose = g.placed[k].pose;
     const Eigen::Quaterniond q(pose.rotation);

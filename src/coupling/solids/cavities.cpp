@@ -1,4 +1,5 @@
 // Constraint between elastic walls: sealed liquid without a free surface keeps its volume.
+#include "coupling/solids/applied_forces.h"
 #include "coupling/solids/joints.h"
 #include "coupling/solids/kind_elastic.h"
 #include "coupling/solids/solid_coupling.h"

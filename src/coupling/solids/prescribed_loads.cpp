@@ -66,15 +66,14 @@ void drop_covered(double h, const std::vector<Body<Dim>>& bodies, int k, const s
 template <int Dim>
 class PrescribedLoads {
  public:
-  PrescribedLoads(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                  const StepGeometry<Dim>& geometry, const State<Dim>& state)
-      : domain_(domain),
-        fluids_(fluids),
-        solids_(solids),
+  PrescribedLoads(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry, const State<Dim>& state)
+      : setup_(setup),
+        domain_(setup.domain),
+        fluids_(setup.fluids),
+        solids_(setup.solids),
         geometry_(geometry),
         state_(state),
-        gravity_(truncate<Dim>(fluids.gravity.of_step(state.time, state.dt_now))),
-        open_(open_cells(domain, geometry.faces)) {}
+        open_(open_cells(setup.domain, geometry.faces)) {}
 
   // Local; fluids beside the solid, over all ranks.
   SolidLoad of(int k, const Beside& beside) const {
@@ -83,7 +82,9 @@ class PrescribedLoads {
     const std::vector<Vec<Dim>> points = placed_points<Dim>(body.contact_surface(), pose);
     if (!domain_touches(points) || crosses_periodic_side(points)) return {};
     const bool whole = lies_within(domain_.layout.geometry(), points);
-    if (whole && beside.one_fluid()) return beyond(k, points, [&](Site c, const Vec3& x) { return uniform(c, x); });
+    const Vec<Dim> pull = pull_at(geometry_.pivots[std::size_t(k)]);
+    if (whole && beside.one_fluid())
+      return beyond(k, points, [&](Site c, const Vec3& x) { return density(c) * pull.dot(truncate<Dim>(x)); });
     return beyond(k, points, [&](Site c, const Vec3& x) { return in_cell(c, x); });
   }
 
@@ -107,9 +108,13 @@ class PrescribedLoads {
   double density(Site c) const {
     return state_.pressure[c] == 0 ? 0 : state_.phi[c] < 0 ? fluids_.density() : fluids_.gas_density();
   }
-  double uniform(Site c, const Vec3& x) const { return density(c) * gravity_.dot(truncate<Dim>(x)); }
+  // Gravity and fields, m/s^2.
+  Vec<Dim> pull_at(const Vec3& x) const {
+    return truncate<Dim>(pull_on_liquid(fluids_.gravity, setup_.forces, x, state_.time, state_.dt_now));
+  }
   double in_cell(Site c, const Vec3& x) const {
-    return state_.pressure[c] + density(c) * gravity_.dot(truncate<Dim>(x) - center_of_cell(domain_, c));
+    const Vec<Dim> center = center_of_cell(domain_, c);
+    return state_.pressure[c] + density(c) * pull_at(extend<Dim>(center)).dot(truncate<Dim>(x) - center);
   }
 
   bool domain_touches(const std::vector<Vec<Dim>>& points) const {
@@ -172,24 +177,26 @@ class PrescribedLoads {
     return seen_from_cells(domain_, open_, std::move(all));
   }
 
+  const Setup<Dim>& setup_;
   const Domain<Dim>& domain_;
   const Fluids& fluids_;
   const Solids<Dim>& solids_;
   const StepGeometry<Dim>& geometry_;
   const State<Dim>& state_;
-  Vec<Dim> gravity_;
   CellField<Dim, char> open_;
 };
 
 }  // namespace
 
 template <int Dim>
-std::vector<SolidLoad> loads_beyond_faces(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                                          const StepGeometry<Dim>& geometry, const State<Dim>& state) {
+std::vector<SolidLoad> loads_beyond_faces(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                                          const State<Dim>& state) {
+  const Domain<Dim>& domain = setup.domain;
+  const Solids<Dim>& solids = setup.solids;
   std::vector<SolidLoad> loads(solids.bodies.size());
   const auto counted = [](const Body<Dim>& body) { return is_counted(body); };
   if (std::none_of(solids.bodies.begin(), solids.bodies.end(), counted)) return loads;
-  const PrescribedLoads<Dim> prescribed(domain, fluids, solids, geometry, state);
+  const PrescribedLoads<Dim> prescribed(setup, geometry, state);
   std::vector<double> beside, sums;
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const Beside b = is_counted(solids.bodies[k]) ? prescribed.beside(int(k)) : Beside();
@@ -222,10 +229,9 @@ std::vector<std::vector<FacetPiece<Dim>>> pieces_of_still_solids(const Domain<Di
   return pieces;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                              \
-  template std::vector<SolidLoad> loads_beyond_faces<D>(const Domain<D>&, const Fluids&, const Solids<D>&, \
-                                                        const StepGeometry<D>&, const State<D>&);          \
-  template std::vector<std::vector<FacetPiece<D>>> pieces_of_still_solids<D>(const Domain<D>&,             \
+#define SEICHE_INSTANTIATE(D)                                                                                      \
+  template std::vector<SolidLoad> loads_beyond_faces<D>(const Setup<D>&, const StepGeometry<D>&, const State<D>&); \
+  template std::vector<std::vector<FacetPiece<D>>> pieces_of_still_solids<D>(const Domain<D>&,                     \
                                                                              const std::vector<Body<D>>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -1,7 +1,6 @@
 #pragma once
 // Loads on static and prescribed solids by pieces of their surface.
-#include "coupling/state/fluids.h"
-#include "coupling/state/solids.h"
+#include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 
 namespace seiche {
@@ -12,8 +11,8 @@ namespace seiche {
 // liquid at rest (docs/decisions/0064-loads-on-floating-bodies.md). Where one fluid surrounds a solid, p = rho g.x,
 // since errors of faces then cancel but for those. Torques as in pressure_loads(). Collective.
 template <int Dim>
-std::vector<SolidLoad> loads_beyond_faces(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
-                                          const StepGeometry<Dim>& geometry, const State<Dim>& state);
+std::vector<SolidLoad> loads_beyond_faces(const Setup<Dim>& setup, const StepGeometry<Dim>& geometry,
+                                          const State<Dim>& state);
 
 // Pieces of the surfaces of static solids that no other static solid covers, fixed for the run. One list a solid; empty
 // for others.

@@ -80,6 +80,12 @@ Generalised<Dim> freedom_mask(const RigidSpec& spec) {
 // Net areas below this are round-off. A body closes the cells inside it alike on all sides, and they have no row.
 constexpr double smallest_face = 1e-12;
 
+// Gravity and fields at a point, m/s^2: what liquid at rest there hangs on.
+template <int Dim>
+Vec3 pull_at(const CoupledStep<Dim>& step, const Vec3& x) {
+  return pull_on_liquid(step.setup.fluids.gravity, step.setup.forces, x, step.state.time, step.dt);
+}
+
 // Unit vector against gravity; zero without gravity.
 Vec3 upwards(const Vec3& gravity) {
   return gravity.norm() > 0 ? Vec3(-gravity.normalized()) : Vec3(Vec3::Zero());
@@ -102,12 +108,13 @@ void look_at_surface(const Layout<Dim>& l, const CellField<Dim>& phi, Site cell,
 
 // The body's block of J. Also sets sums.surface and sums.wet; gas counts as wet by its density over the liquid's.
 template <int Dim>
-ColumnBlock make_block(const CoupledStep<Dim>& step, const Generalised<Dim>& mask, Sums<Dim>& sums) {
+ColumnBlock make_block(const CoupledStep<Dim>& step, const Vec3& center, const Generalised<Dim>& mask,
+                       Sums<Dim>& sums) {
   const Domain<Dim>& domain = step.setup.domain;
   const Fluids& fluids = step.setup.fluids;
   const CellField<Dim>& phi = step.state.phi;
   const PressureRows<Dim>& rows = step.rows;
-  const Vec3 up = upwards(fluids.gravity.of_step(step.state.time, step.dt));
+  const Vec3 up = upwards(pull_at(step, center));
   const double dry = fluids.gas_density() / fluids.density();
   ColumnBlock block;
   block.width = twist_size<Dim>;
@@ -167,7 +174,7 @@ Generalised<Dim> load_on_surface(const CoupledStep<Dim>& step, const Body<Dim>& 
 template <int Dim>
 Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
                               const CellField<Dim, char>& open) {
-  const Vec3 gravity = step.setup.fluids.gravity.of_step(step.state.time, step.dt);
+  const Vec3 gravity = pull_at(step, center);
   return load_on_surface(step, body, k, center, open, [&](Site cell, const Vec3& x) {
     return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) *
            gravity.dot(x - center_of(step.setup.domain.layout, cell));
@@ -182,7 +189,7 @@ template <int Dim>
 Generalised<Dim> floating_load(const CoupledStep<Dim>& step, const Body<Dim>& body, int k, const Vec3& center,
                                double level, const CellField<Dim, char>& open) {
   const Domain<Dim>& domain = step.setup.domain;
-  const Vec3 gravity = step.setup.fluids.gravity.of_step(step.state.time, step.dt), origin = level * upwards(gravity);
+  const Vec3 gravity = pull_at(step, center), origin = level * upwards(gravity);
   const auto pressure = [&](Site cell, const Vec3& x) {
     return density_beside(step.setup.fluids, step.rows, step.state.phi, cell) * gravity.dot(x - origin);
   };
@@ -259,7 +266,7 @@ void couple_rigid_body(const CoupledStep<Dim>& step, const Body<Dim>& body, cons
   const Generalised<Dim> mask = freedom_mask<Dim>(body.spec().rigid);
   for (int i = 0; i < n; ++i) c.freedom[std::size_t(first + i)] = mask[i] != 0 ? Freedom::free : Freedom::fixed;
   Sums<Dim> sums = add_up(s.domain, *step.geometry.shares[std::size_t(c.bodies[std::size_t(block)])], r.center);
-  c.J.blocks[std::size_t(block)] = make_block(step, mask, sums);
+  c.J.blocks[std::size_t(block)] = make_block(step, r.center, mask, sums);
   const int k = c.bodies[std::size_t(block)];
   if (!jointed_neighbours(s.solids, step.geometry.placed, k).empty()) {
     if (!parts.open) parts.open = open_cells(s.domain, step.geometry.faces);
@@ -291,7 +298,7 @@ void add_buoyancy(const CoupledStep<Dim>& step, const Body<Dim>& body, const Rig
     return;
   }
   const Vec3 arm = pose.rotation * Vec3(body.mass().centroid - body.mass().center);
-  const Vec3 weight = s.fluids.density() * s.fluids.gravity.of_step(step.state.time, step.dt);
+  const Vec3 weight = s.fluids.density() * pull_at(step, r.center);
   const Generalised<Dim> missing = jointed ? all.missing : buoyancy_difference(all, body.mass().volume, arm, weight);
   c.buoyancy_correction.template segment<twist_size<Dim>>(first) = missing;
 }

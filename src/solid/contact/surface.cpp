@@ -1,5 +1,7 @@
 #include "solid/contact/surface.h"
 
+#include "solid/contact/friction.h"
+
 #include "base/error.h"
 
 namespace seiche {
@@ -51,6 +53,15 @@ ContactScene<Dim>::ContactScene(const std::vector<ContactBody>& bodies, const st
   data_ = data;
 }
 
+template <int Dim>
+double ContactScene<Dim>::Data::friction_between(int a, int b) const {
+  const auto given = pair_friction.find(b < 0 ? std::array{a, b} : std::array{std::min(a, b), std::max(a, b)});
+  if (given != pair_friction.end()) return given->second;
+  return contact::pair_friction(friction[std::size_t(a)], b < 0 ? std::nullopt : friction[std::size_t(b)]);
+}
+
+template double ContactScene<2>::Data::friction_between(int, int) const;
+template double ContactScene<3>::Data::friction_between(int, int) const;
 template class ContactScene<2>;
 template class ContactScene<3>;
 

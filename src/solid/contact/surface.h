@@ -6,7 +6,6 @@
 
 #include "geometry/mesh/surface_tree.h"
 #include "solid/contact/contact.h"
-#include "solid/contact/friction.h"
 
 namespace seiche {
 
@@ -50,11 +49,7 @@ struct ContactScene<Dim>::Data {
     return !std::binary_search(apart.begin(), apart.end(), std::array<int, 2>{a, b});
   }
   // Coulomb's coefficient between a body and another one, or walls (-1).
-  double friction_between(int a, int b) const {
-    const auto given = pair_friction.find(b < 0 ? std::array{a, b} : std::array{std::min(a, b), std::max(a, b)});
-    if (given != pair_friction.end()) return given->second;
-    return contact::pair_friction(friction[std::size_t(a)], b < 0 ? std::nullopt : friction[std::size_t(b)]);
-  }
+  double friction_between(int a, int b) const;
   bool moves(int body) const { return first_dof[body] >= 0; }
   bool deforms(int body) const { return control[body] == BodyControl::deformable; }
   bool any_deforms() const {
