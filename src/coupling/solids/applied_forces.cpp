@@ -184,7 +184,7 @@ class ForcesOnSolids {
     const auto& solid = p.body().elastic();
     const Eigen::VectorXd v = p.velocity();
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(2 * f.force.size());  // forces, then rates
-    for (const auto& facet : facets_of<Dim>(solid.surface.mesh)) {
+    for (const auto& facet : facets_of<Dim>(solid.surface.facets)) {
       std::vector<Vec<Dim>> corners;
       Vec<Dim> middle = Vec<Dim>::Zero(), velocity = Vec<Dim>::Zero();
       for (int i = 0; i < Dim; ++i) {

@@ -8,6 +8,7 @@
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
+#include "levelset/fractions.h"
 
 namespace seiche {
 namespace {
