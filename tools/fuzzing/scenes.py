@@ -3,6 +3,7 @@ import math
 import random
 
 from fuzzing import shapes
+from fuzzing.forces import make_contacts, make_forces
 from fuzzing.joints import make_joints
 from fuzzing.robots import make_robots
 from fuzzing.shapes import AXES, fit_shape, number, point
@@ -10,7 +11,7 @@ from fuzzing.values import VALUES, table_of
 
 # Keys that the plan of a scene sets: dimension, grid and duration.
 PLANNED = {("", "dimension"), ("", "include"), ("", "parameters"), ("", "signals"), ("", "curves"), ("", "domain"), ("", "time"), ("", "liquid"), ("", "gas"), ("", "solid"),
-           ("", "joint"), ("", "robot"), ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
+           ("", "joint"), ("", "robot"), ("", "force"), ("", "contact"), ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
 SHAPES = ("liquid.region[]", "liquid.source[]", "solid[]", "solid[].pinned", "solid[].traction")
@@ -26,7 +27,7 @@ def uncovered(registry):
             if table in SHAPES and key.name == "shape" and set(key.choices) - MAKEABLE:
                 yield f"{key.label}: {', '.join(set(key.choices) - MAKEABLE)}"
             turn = table.endswith(".rotate") and key.name in ("axis", "degrees", "euler", "quaternion")
-            mechanic = table.startswith(("joint[]", "robot[]"))   # joints.py, robots.py
+            mechanic = table.startswith(("joint[]", "robot[]", "force[]", "contact[]"))   # joints.py, robots.py, forces.py
             copies = table.endswith((".waves", ".array", ".scatter"))   # left out: see VALUES
             if not (simple or mechanic or copies or is_shape or turn or (table, key.name) in VALUES or (table, key.name) in PLANNED):
                 yield key.label
@@ -204,6 +205,7 @@ def make_scene(registry, rng: random.Random):
         if c.dim == 3 and not scene["joint"] and mechanics.random() < 0.3:
             scene["solid"].pop()
             scene["robot"] = make_robots(c, places[-1][0])
+    scene["force"], scene["contact"] = make_forces(c, scene["solid"]), make_contacts(c, scene["solid"])
     names = [None] + [s.get("name") for s in scene["solid"]]
     scene["probe"] = [p for p in found if probe_joint(c, p, scene.get("joint")) and p.get("solid") in names]
     c.rng = usual
