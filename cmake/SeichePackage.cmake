@@ -1,5 +1,5 @@
 # Debian packages by `cpack --config build/release/CPackConfig.cmake`, into build/release/packages: seiche, the program,
-# and libseiche-dev, the static libraries. The tools that cpack needs are under [package] in packages.txt.
+# libseiche-dev, the static libraries, and with SEICHE_PYTHON python3-seiche, the module. The tools that cpack needs are under [package] in packages.txt.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME seiche)
 set(CPACK_PACKAGE_VENDOR "The Seiche developers")
@@ -7,6 +7,9 @@ set(CPACK_PACKAGE_CONTACT "The Seiche developers")  # Debian's Maintainer
 set(CPACK_PACKAGE_DIRECTORY "${CMAKE_BINARY_DIR}/packages")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL program development)
+if(SEICHE_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -38,6 +41,14 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${seiche_development_packages}")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Static libraries and headers of Seiche. CMake projects find them by
 find_package(Seiche).
+.
+${seiche_licence_note}")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-seiche)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, libopenblas0-serial | libopenblas0 | libblas.so.3")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python module of Seiche: scenes, runs step by step, fields as NumPy arrays.
 .
 ${seiche_licence_note}")
 
