@@ -170,11 +170,11 @@ struct Balance {
       correction.add(now.center, dt * extra.linear);
       correction.angular += dt * extra.angular;
     }
-    const auto solids_now = measure_solids(p.setup.domain, p.setup.solids, p.setup.scene->time, p.state, p.geometry);
+    const auto solids_now = measure_solids(p.setup, p.state, p.geometry);
     for (std::size_t k = 0; k < solids_now.size(); ++k) {
       if (p.state.solids[k].unknowns() > 0) continue;
-      solids.add(solids_now[k].position, -dt * solids_now[k].force);
-      solids.angular -= dt * solids_now[k].torque;
+      solids.add(solids_now[k].position, -dt * (solids_now[k].force - solids_now[k].unseen_force));
+      solids.angular -= dt * (solids_now[k].torque - solids_now[k].unseen_torque);
     }
     add_sides(p);
   }
