@@ -51,6 +51,7 @@ TEST_CASE("a field that is the same everywhere acts as gravity does") {
     test::add_pool(s, 0.5);
     s.solids = {test::rigid_box("float", {0.3, 0.2, 0.3}, {0.5, 0.52, dim == 2 ? 0 : 0.5}, 600)};
     s.time.fixed_step = 2e-3;
+    s.solver.tolerance = 1e-12;
     const auto run = [&](const Scene& scene) {
       const auto sim = make_simulation(scene, Communicator());
       for (int n = 0; n < 20; ++n) sim->step(1);
@@ -95,7 +96,7 @@ TEST_CASE("wind drags the liquid's surface by its stress") {
   double momentum = 0;
   for (int n = 0; n < 25; ++n) momentum = sim->step(1).momentum[0];
   const double exact = 0.002 * 1.2 * 400 * sim->time();
-  CHECK(momentum == Approx(exact).epsilon(0.05));  // the topmost cell is partly full
+  CHECK(momentum == Approx(exact).epsilon(1e-3));  // less what the wind no longer sees of the moving water
 }
 
 // A field alpha z x r turns a body of any shape by alpha t, and moves its centre as a point.
@@ -169,7 +170,7 @@ TEST_CASE("wind pushes the dry side of solids that faces it") {
   }
 }
 
-TEST_CASE("a load acts where it is given, and turns with the solid if it says so") {
+TEST_CASE("a load acts where it is given and turns with the solid if it says so") {
   SolidSpec box = test::rigid_box("box", {0.2, 0.1, 0}, middle2, 500);
   Scene s = dry_scene(2, box);
   s.forces = {of_kind(ForceKind::load)};
@@ -207,7 +208,7 @@ TEST_CASE("fields act on every node of elastic solids") {
   CHECK(end.position[0] == Approx(0.5 + 0.01).epsilon(1e-3));
 }
 
-TEST_CASE("forces act on the solids that they name, within their region") {
+TEST_CASE("forces act on the solids that they name and within their region") {
   Scene s = test::box_scene(2, 12);
   s.time.fixed_step = 1e-3;
   s.solids = {test::rigid_box("crate_a", {0.1, 0.1, 0}, {0.2, 0.5, 0}, 500),

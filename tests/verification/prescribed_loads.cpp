@@ -43,7 +43,7 @@ TEST_CASE("a static box in the surface bears the weight of the water that it dis
     for (const double part : {0.0, 0.13, 0.5, 0.77}) {
       const double bottom = 0.25 + part * h, level = 0.5 + 0.3 * h;
       Scene s = pool_scene(dim, cells, level);
-      s.solids = {still(test::rigid_box("box", {0.4, 0.5, 0.5}, {0.5, bottom + 0.25, 0.5}, 1))};
+      s.solids = {still(test::rigid_box("box", {0.4, 0.5, 0.5}, {0.5, bottom + 0.25, dim == 2 ? 0 : 0.5}, 1))};
       const SolidState box = loads_in(s)[0];
       const double exact = rho * g * 0.4 * depth * (level - bottom);
       INFO(dim << "D, bottom " << part << " of a cell above a line");
@@ -63,7 +63,7 @@ TEST_CASE("a gate that stands on the floor holds back two levels exactly") {
     Scene s = pool_scene(2, cells, d);
     LiquidRegionSpec high;
     high.shape.kind = "box";
-    high.shape.upper = {left, H, 0};
+    high.shape.upper = {left + 2 * h, H, 0};
     high.shape.where = "test";
     s.liquid.regions.push_back(high);
     s.solids = {still(test::rigid_box("gate", {4 * h, 1, 0}, {left + 2 * h, 0.5, 0}, 1))};
@@ -105,9 +105,10 @@ TEST_CASE("a slope and a round vessel carry the water that rests on them") {
 TEST_CASE("no water acts on static solids where they touch") {
   Scene s = pool_scene(2, 32, 0.8);
   s.solids = {still(test::rigid_box("low", {0.3, 0.25, 0}, {0.5, 0.125, 0}, 1)),
-              still(test::rigid_box("high", {0.2, 0.2, 0}, {0.5, 0.35, 0}, 1))};
+              still(test::rigid_box("high", {0.1875, 0.2, 0}, {0.5, 0.35, 0}, 1))};  // its sides on grid lines
   const std::vector<SolidState> loads = loads_in(s);
-  const double on_low = rho * g * 0.1 * (0.8 - 0.25), on_high = rho * g * 0.2 * (0.8 - 0.45);  // tops that are wet
+  const double on_low = rho * g * 0.1125 * (0.8 - 0.25),
+               on_high = rho * g * 0.1875 * (0.8 - 0.45);  // tops that are wet
   CHECK(loads[0].force[1] == Approx(-on_low).epsilon(1e-8));
   CHECK(loads[1].force[1] == Approx(-on_high).epsilon(1e-8));
 }

@@ -140,6 +140,7 @@ class ForcesOnSolids {
     const SurfaceMesh& surface = body.participant.body().contact_surface();
     const std::vector<Vec<Dim>> points = placed_points<Dim>(surface, body.pose);
     const Twist6 V = body.twists().transpose() * body.participant.velocity();
+    const double round = std::pow(body.participant.body().facet_ratio(), 1 - 1.0 / Dim);  // facets cut areas, too
     TwistForce sum;
     for (const FacetPiece<Dim>& piece :
          cut_at_cells(domain_.layout.geometry(), domain_.layout.cells(), surface, points)) {
@@ -148,7 +149,7 @@ class ForcesOnSolids {
       for (const auto& [at, weight] : points_on<Dim>(corners_of(piece, surface, points))) {
         const Vec3 x = extend<Dim>(at), w = force.velocity(x, t_);
         const Eigen::Matrix<double, 3, 6> G = velocity_at(x - body.center);
-        const double rate = dry * weight * wind_rate(force.spec, w - G * V, extend<Dim>(piece.normal));
+        const double rate = round * dry * weight * wind_rate(force.spec, w - G * V, extend<Dim>(piece.normal));
         sum.force += rate * G.transpose() * w;
         sum.slope += rate * G.transpose() * G;
       }

@@ -67,7 +67,8 @@ class ForcesAtFaces {
     const Vec3 n = normal_at_face(l_, phi_, axis, f),
                relative = force.velocity(x, t_ - 0.5 * dt_) - velocity_at_face(l_, u, axis, f),
                along = relative - n.dot(relative) * n;
-    const double rate = force.spec.surface_drag * force.spec.air_density * along.norm() / (fluids_.density() * l_.h());
+    const double layer = 0.5 * l_.h() - d;  // from the surface to the bottom of the cell: what moves with this face
+    const double rate = force.spec.surface_drag * force.spec.air_density * along.norm() / (fluids_.density() * layer);
     return rate / (1 + rate * dt_) * along[axis];
   }
 
