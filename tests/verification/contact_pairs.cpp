@@ -11,6 +11,20 @@ namespace {
 
 constexpr double g = 9.81;
 
+ContactSpec friction_between(const std::vector<std::string>& names, double friction) {
+  ContactSpec contact;
+  contact.between = names;
+  contact.friction = friction;
+  return contact;
+}
+
+ContactSpec passing(const std::string& a, const std::string& b) {
+  ContactSpec contact;
+  contact.between = {a, b};
+  contact.collide = false;
+  return contact;
+}
+
 // A flat block on a static slab, both turned: gravity leans by 30 degrees instead.
 Scene incline(const std::vector<ContactSpec>& contacts) {
   Scene s = test::box_scene(2, 16, 4);
@@ -37,10 +51,12 @@ double acceleration(const Scene& scene) {
 
 TEST_CASE("a pair has the friction of the last entry that names it") {
   const double exact = g * (0.5 - 0.3 * std::sqrt(0.75));
-  CHECK(acceleration(incline({{{"bl*", "slab"}, 0.3}})) == Approx(exact).epsilon(0.01));
-  CHECK(acceleration(incline({{{"*"}, 0.9}, {{"slab", "block"}, 0.3}})) == Approx(exact).epsilon(0.01));
-  CHECK(acceleration(incline({{{"block", "domain"}, 0.9}})) == Approx(0.5 * g).epsilon(0.01));  // it touches no side
-  CHECK(std::abs(acceleration(incline({{{"*"}, 0.9}}))) < 0.01 * g);                            // 0.9 > tan 30
+  CHECK(acceleration(incline({friction_between({"bl*", "slab"}, 0.3)})) == Approx(exact).epsilon(0.01));
+  CHECK(acceleration(incline({friction_between({"*"}, 0.9), friction_between({"slab", "block"}, 0.3)})) ==
+        Approx(exact).epsilon(0.01));
+  CHECK(acceleration(incline({friction_between({"block", "domain"}, 0.9)})) ==
+        Approx(0.5 * g).epsilon(0.01));                                               // it touches no side
+  CHECK(std::abs(acceleration(incline({friction_between({"*"}, 0.9)}))) < 0.01 * g);  // 0.9 > tan 30
 }
 
 // Two boxes that fly at each other swap places, with the momentum that they had.
@@ -52,7 +68,7 @@ TEST_CASE("solids that do not collide pass through each other") {
                 test::rigid_box("b", {0.2, 0.2, 0.2}, {0.75, 0.52, z}, 800)};
     s.solids[0].rigid.velocity = {1, 0, 0};
     s.solids[1].rigid.velocity = {-1, 0, 0};
-    s.contacts = {{{"a", "b"}, {}, false}};
+    s.contacts = {passing("a", "b")};
     const auto sim = make_simulation(s, Communicator());
     while (sim->time() < 0.5) sim->step(0.5);
     CHECK(sim->solids()[0].position[0] == Approx(0.75).epsilon(1e-9));
@@ -68,7 +84,7 @@ TEST_CASE("solids pass through each other in water") {
   s.solids = {test::rigid_box("sinks", {0.15, 0.15, 0}, {0.5, 0.55, 0}, 2000),
               test::rigid_box("post", {0.3, 0.2, 0}, {0.5, 0.3, 0}, 500)};
   s.solids[1].kind = SolidKind::fixed;
-  s.contacts = {{{"sinks", "post"}, {}, false}};
+  s.contacts = {passing("sinks", "post")};
   const auto sim = make_simulation(s, Communicator());
   double fastest = 0;
   while (sim->time() < 0.45) fastest = std::max(fastest, sim->step(0.45).max_speed);

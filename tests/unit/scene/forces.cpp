@@ -47,7 +47,7 @@ TEST_CASE("forces that could do nothing are refused with the remedy") {
   check_refused(force("kind = \"load\"\nforce = [1, 0, 0]\naxis = [0, 0, 0]\n"), "axis");
   check_refused(force("kind = \"point\"\ncenter = [0, 0, 0]\nstrength = 1\n"), "needs 'radius'");
   check_refused(force(field + "rate = 3\n"), "'rate' in [[force]] is only for kind = \"drag\"");
-  check_refused(force("kind = \"wind\"\nvelocity = [1, 0, 0]\n[gas]\ndensity = 1\n"), "gas flows");
+  check_refused(force("kind = \"wind\"\nvelocity = [1, 0, 0]\n[gas]\ndensity = 1\n"), "here [gas] flows");
   const std::string flat = "dimension = 2\n[domain]\nupper = [1, 1]\ncell_size = 0.125\n[time]\nend = 1\n";
   check_refused(flat + "[[force]]\nkind = \"vortex\"\ncenter = [0, 0]\nstrength = 1\nradius = 1\naxis = [1, 0, 0]\n",
                 "in 2D the axis is [0, 0, 1]");
