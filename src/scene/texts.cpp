@@ -60,7 +60,8 @@ std::string to_toml(const std::string& value, const Option& option, int) {
   return option.type == OptionType::formula ? formula_text(value) : quote_toml(value);
 }
 
-std::string to_toml(const std::vector<std::string>& value, const Option&, int) {
+std::string to_toml(const std::vector<std::string>& value, const Option& option, int) {
+  if (option.type == OptionType::names && value.empty()) return {};
   return array_text(value, value.size(), quote_toml);
 }
 

@@ -62,8 +62,8 @@ TEST_CASE("a field that is the same everywhere acts as gravity does") {
     s.forces = {field({"0", "-9.81", "0"})};
     const auto [v, energy] = run(heavy);
     const auto [w, other] = run(s);
-    CHECK(w == Approx(v).epsilon(1e-9));  // the same sums but for their order
-    CHECK(other == Approx(energy).epsilon(1e-9));
+    CHECK(w == Approx(v).epsilon(1e-5));  // faces in the air that are not solved for fall by gravity alone
+    CHECK(other == Approx(energy).epsilon(1e-5));
   }
 }
 
@@ -165,7 +165,8 @@ TEST_CASE("wind pushes the dry side of solids that faces it") {
       const double volume =
           round ? (dim == 2 ? test::pi * 0.04 : 4.0 / 3 * test::pi * 0.008) : (dim == 2 ? 0.06 : 0.024);
       const double a = 0.5 * 1.2 * 0.8 * area * 100 / (50 * volume);
-      CHECK(after(s, 1e-3).velocity[0] == Approx(1e-3 * a).epsilon(round ? 0.01 : 2e-3));  // facets; v over 2 w
+      CHECK(after(s, 1e-3).velocity[0] ==
+            Approx(1e-3 * a).epsilon(round ? 0.02 : 2e-3));  // chords cut up to 2 % of the radius
     }
   }
 }

@@ -18,11 +18,45 @@ bool is_counted(const Body<Dim>& body) {
   return !body.is_free() && !body.deforms() && !body.is_thin();
 }
 
-// Fluids beside a solid: cells with liquid, with gas that has a pressure, with nothing.
+// What lies beside a solid, summed over the ranks: cells with liquid, with gas that has a pressure, with nothing; the
+// area of its exposed pieces and their area vector, m^(Dim-1).
+template <int Dim>
 struct Beside {
-  double liquid = 0, gas = 0, nothing = 0;
-  bool one_fluid() const { return nothing == 0 && (liquid == 0 || gas == 0); }
+  Eigen::Matrix<double, 4 + Dim, 1> sums = Eigen::Matrix<double, 4 + Dim, 1>::Zero();
+
+  double& liquid() { return sums[0]; }
+  double& gas() { return sums[1]; }
+  double& nothing() { return sums[2]; }
+  double& area() { return sums[3]; }
+  // True if one fluid surrounds it.
+  bool is_surrounded() const {
+    constexpr double rounding = 1e-9;
+    return sums[2] == 0 && (sums[0] == 0 || sums[1] == 0) && sums.template tail<Dim>().norm() <= rounding * sums[3];
+  }
 };
+
+// A linear pressure: value + slope.(x - at).
+template <int Dim>
+struct LinearPressure {
+  double value = 0;
+  Vec<Dim> slope, at;
+  double operator()(const Vec<Dim>& x) const { return value + slope.dot(x - at); }
+};
+
+// The part of a segment or convex polygon where p is positive.
+template <int Dim>
+std::vector<Vec<Dim>> positive_part(const std::vector<Vec<Dim>>& corners, const LinearPressure<Dim>& p) {
+  std::vector<Vec<Dim>> part;
+  for (std::size_t n = 0; n < corners.size(); ++n) {
+    const double here = p(corners[n]);
+    if (here >= 0) part.push_back(corners[n]);
+    if (Dim == 2 && n + 1 == corners.size()) break;
+    const Vec<Dim>& next = corners[(n + 1) % corners.size()];
+    const double there = p(next);
+    if (here * there < 0) part.push_back(corners[n] + here / (here - there) * (next - corners[n]));
+  }
+  return part;
+}
 
 // Load of a pressure on the faces that a solid closes: F = sum_f s A (p_low - p_high) e_f. This rank's part.
 template <int Dim, class Pressure>
@@ -73,32 +107,53 @@ class PrescribedLoads {
         solids_(setup.solids),
         geometry_(geometry),
         state_(state),
+        seen_(setup.solids.bodies.size()),
         open_(open_cells(setup.domain, geometry.faces)) {}
 
-  // Local; fluids beside the solid, over all ranks.
-  SolidLoad of(int k, const Beside& beside) const {
+  // Finds the pieces of solid k that count, and what lies beside it on this rank.
+  Beside<Dim> look(int k) {
+    Beside<Dim> b;
+    Seen& seen = seen_.at(std::size_t(k));
     const Body<Dim>& body = solids_.bodies[std::size_t(k)];
-    const Pose pose = pose_at_solve(k);
-    const std::vector<Vec<Dim>> points = placed_points<Dim>(body.contact_surface(), pose);
-    if (!domain_touches(points) || crosses_periodic_side(points)) return {};
-    const bool whole = lies_within(domain_.layout.geometry(), points);
-    const Vec<Dim> pull = pull_at(geometry_.pivots[std::size_t(k)]);
-    if (whole && beside.one_fluid())
-      return beyond(k, points, [&](Site c, const Vec3& x) { return density(c) * pull.dot(truncate<Dim>(x)); });
-    return beyond(k, points, [&](Site c, const Vec3& x) { return in_cell(c, x); });
-  }
-
-  Beside beside(int k) const {
-    Beside b;
-    const auto count = [&](Site c, const auto&) {
-      (state_.pressure[c] == 0 ? b.nothing : state_.phi[c] < 0 ? b.liquid : b.gas) += open_[c] ? 1 : 0;
+    if (!is_counted(body)) return b;
+    seen.points = placed_points<Dim>(body.contact_surface(), pose_at_solve(k));
+    seen.counts = domain_touches(seen.points) && !crosses_periodic_side(seen.points);
+    if (!seen.counts) return b;
+    seen.pieces = pieces(k, seen.points);
+    for (const ExposedPiece<Dim>& exposed : seen.pieces)
+      for (const auto& [x, weight] : points_on<Dim>(corners_of(exposed.piece, body.contact_surface(), seen.points))) {
+        b.area() += weight;
+        b.sums.template tail<Dim>() += weight * exposed.piece.normal;
+      }
+    load_on_faces(domain_, *geometry_.shares[std::size_t(k)], Vec3(0, 0, 0), [&](Site c, const auto&) {
+      if (open_[c]) (state_.pressure[c] == 0 ? b.nothing() : state_.phi[c] < 0 ? b.liquid() : b.gas()) += 1;
       return 0.0;
-    };
-    load_on_faces(domain_, *geometry_.shares[std::size_t(k)], Vec3(0, 0, 0), count);
+    });
     return b;
   }
 
+  // This rank's part.
+  SolidLoad of(int k, const Beside<Dim>& beside) const {
+    if (!seen_[std::size_t(k)].counts) return {};
+    const FaceShares& shares = *geometry_.shares[std::size_t(k)];
+    const Vec3 about = geometry_.pivots[std::size_t(k)];
+    if (!beside.is_surrounded())
+      return less(on_pieces(k, [&](Site c) { return near_cell(c); }),
+                  load_on_faces(domain_, shares, about, [&](Site c, const auto&) { return state_.pressure[c]; }));
+    const LinearPressure<Dim> p{0, pull_at(about), truncate<Dim>(about)};
+    const auto weighted = [&](Site c) { return LinearPressure<Dim>{0, density(c) * p.slope, p.at}; };
+    return less(on_pieces(k, [&](Site c) { return std::pair(weighted(c), false); }),
+                load_on_faces(domain_, shares, about, [&](Site c, const Vec<Dim>& x) { return weighted(c)(x); }));
+  }
+
  private:
+  // A solid's surface: points at the solve, m, and pieces on which this rank's cells act.
+  struct Seen {
+    bool counts = false;
+    std::vector<Vec<Dim>> points;
+    std::vector<ExposedPiece<Dim>> pieces;
+  };
+
   // Pose at the last solve.
   Pose pose_at_solve(int k) const {
     const Body<Dim>& body = solids_.bodies[std::size_t(k)];
@@ -112,9 +167,20 @@ class PrescribedLoads {
   Vec<Dim> pull_at(const Vec3& x) const {
     return truncate<Dim>(pull_on_liquid(fluids_.gravity, setup_.forces, x, state_.time, state_.dt_now));
   }
-  double in_cell(Site c, const Vec3& x) const {
-    const Vec<Dim> center = center_of_cell(domain_, c);
-    return state_.pressure[c] + density(c) * pull_at(extend<Dim>(center)).dot(truncate<Dim>(x) - center);
+  static SolidLoad less(const SolidLoad& a, const SolidLoad& b) { return {a.force - b.force, a.torque - b.torque}; }
+
+  // The pressure p_c + rho g.(x - x_c) near a cell, and true if it ends where it is 0. Cells that the surface crosses
+  // may have no pressure: that of the neighbour deepest in the liquid goes on.
+  std::pair<LinearPressure<Dim>, bool> near_cell(Site c) const {
+    Site wet = c;
+    bool surface = state_.pressure[c] == 0;
+    for_each_face_of(domain_.layout, c, [&](int, Site, int, Site next) {
+      surface = surface || state_.pressure[next] == 0;
+      if (state_.pressure[c] == 0 && state_.pressure[next] != 0 && state_.phi[next] < state_.phi[wet]) wet = next;
+    });
+    const Vec<Dim> center = center_of_cell(domain_, wet);
+    return {{state_.pressure[wet], density(wet) * pull_at(extend<Dim>(center)), center},
+            surface && std::abs(state_.phi[wet]) < 1.5 * domain_.layout.h()};
   }
 
   bool domain_touches(const std::vector<Vec<Dim>>& points) const {
@@ -147,16 +213,24 @@ class PrescribedLoads {
     return !lies_within(open_ends, points, reach_of_pieces);
   }
 
-  template <class Pressure>
-  SolidLoad beyond(int k, const std::vector<Vec<Dim>>& points, const Pressure& p) const {
+  // pressure_of(cell): a LinearPressure, and true if only its positive part acts.
+  template <class Pressures>
+  SolidLoad on_pieces(int k, const Pressures& pressure_of) const {
     const Body<Dim>& body = solids_.bodies[std::size_t(k)];
-    const SurfaceMesh& surface = body.contact_surface();
     const Vec3 about = geometry_.pivots[std::size_t(k)];
-    SolidLoad load = load_on_pieces(pieces(k, points), surface, points, about, p);
-    const SolidLoad faces = load_on_faces(domain_, *geometry_.shares[std::size_t(k)], about,
-                                          [&](Site c, const Vec<Dim>& x) { return p(c, extend<Dim>(x)); });
-    load.force = body.facet_ratio() * load.force - faces.force;
-    load.torque = body.facet_ratio() * load.torque - faces.torque;
+    const Seen& seen = seen_[std::size_t(k)];
+    SolidLoad load;
+    for (const ExposedPiece<Dim>& exposed : seen.pieces) {
+      const auto [p, ends_at_surface] = pressure_of(exposed.cell);
+      std::vector<Vec<Dim>> corners = corners_of(exposed.piece, body.contact_surface(), seen.points);
+      if (ends_at_surface) corners = positive_part(corners, p);
+      if (corners.size() < Dim) continue;
+      for (const auto& [x, weight] : points_on<Dim>(corners)) {
+        const Vec3 force = -body.facet_ratio() * p(x) * weight * extend<Dim>(exposed.piece.normal);
+        load.force += force;
+        load.torque += (extend<Dim>(x) - about).cross(force);
+      }
+    }
     return load;
   }
 
@@ -183,6 +257,7 @@ class PrescribedLoads {
   const Solids<Dim>& solids_;
   const StepGeometry<Dim>& geometry_;
   const State<Dim>& state_;
+  std::vector<Seen> seen_;
   CellField<Dim, char> open_;
 };
 
@@ -196,16 +271,17 @@ std::vector<SolidLoad> loads_beyond_faces(const Setup<Dim>& setup, const StepGeo
   std::vector<SolidLoad> loads(solids.bodies.size());
   const auto counted = [](const Body<Dim>& body) { return is_counted(body); };
   if (std::none_of(solids.bodies.begin(), solids.bodies.end(), counted)) return loads;
-  const PrescribedLoads<Dim> prescribed(setup, geometry, state);
+  PrescribedLoads<Dim> prescribed(setup, geometry, state);
   std::vector<double> beside, sums;
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    const Beside b = is_counted(solids.bodies[k]) ? prescribed.beside(int(k)) : Beside();
-    beside.insert(beside.end(), {b.liquid, b.gas, b.nothing});
+    const Beside<Dim> b = prescribed.look(int(k));
+    beside.insert(beside.end(), b.sums.begin(), b.sums.end());
   }
   domain.ranks.global_sum(beside);
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    if (is_counted(solids.bodies[k]))
-      loads[k] = prescribed.of(int(k), {beside[3 * k], beside[3 * k + 1], beside[3 * k + 2]});
+    Beside<Dim> b;
+    std::copy_n(&beside[k * std::size_t(b.sums.size())], b.sums.size(), b.sums.begin());
+    loads[k] = prescribed.of(int(k), b);
     for (const Vec3& v : {loads[k].force, loads[k].torque}) sums.insert(sums.end(), v.begin(), v.end());
   }
   domain.ranks.global_sum(sums);
