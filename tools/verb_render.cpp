@@ -73,7 +73,7 @@ void add_look_options(CLI::App& verb, RenderWords& words) {
       ->expected(0, 1)
       ->default_str("1")
       ->check(CLI::Range(0.0, 100.0));
-  verb.add_flag("--transparent", words.options.transparent, "3D: no ground and no sky, but alpha");
+  verb.add_flag("--transparent", words.options.transparent, "3D: no ground and no sky, but alpha; plain");
   verb.add_flag("--plain", words.options.plain, "No texts, axes, colour bar, edges of the domain");
   verb.add_option("--font", words.options.font, "Font of the texts, a family or a file; default: DejaVu Sans");
 }

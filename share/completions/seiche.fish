@@ -53,7 +53,7 @@ complete -c seiche -n '__fish_seen_subcommand_from render' -l turntable -r -d '3
 complete -c seiche -n '__fish_seen_subcommand_from render' -l up -r -d 'Axis that points up: auto (against gravity), x, y, z'
 complete -c seiche -n '__fish_seen_subcommand_from render' -l material -r -d 'The liquid looks like water, honey, milk, ...; auto: by the scenes density and viscosity'
 complete -c seiche -n '__fish_seen_subcommand_from render' -l foam -d '3D: white foam and spray where the surface bends and is fast; amount'
-complete -c seiche -n '__fish_seen_subcommand_from render' -l transparent -d '3D: no ground and no sky, but alpha'
+complete -c seiche -n '__fish_seen_subcommand_from render' -l transparent -d '3D: no ground and no sky, but alpha; plain'
 complete -c seiche -n '__fish_seen_subcommand_from render' -l plain -d 'No texts, axes, colour bar, edges of the domain'
 complete -c seiche -n '__fish_seen_subcommand_from render' -l font -r -d 'Font of the texts, a family or a file; default: DejaVu Sans'
 complete -c seiche -n '__fish_seen_subcommand_from render' -l contact-sheet -d 'Also one PNG with up to 12 frames; without a name: contact_sheet.png in --out'

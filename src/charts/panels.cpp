@@ -152,7 +152,8 @@ void add_stats(std::vector<RunTables>& runs, Panel& panel, const std::string& co
     const double first = start == Start::is_zero ? first_value(curve) : 0;
     for (double& value : curve.value) value -= first;
     if (start == Start::is_gap && !curve.value.empty() && curve.time[0] == 0) curve.value[0] = NAN;
-    const bool all_zero = std::all_of(curve.value.begin(), curve.value.end(), [](double v) { return !(v != 0); });
+    const bool all_zero =
+        std::all_of(curve.value.begin(), curve.value.end(), [](double v) { return !(std::abs(v) > 0); });
     if (!all_zero) panel.curves.push_back(std::move(curve));
   }
 }

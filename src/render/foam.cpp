@@ -8,6 +8,8 @@
 namespace seiche::render {
 namespace {
 
+constexpr float thickest = 0.85f;  // share of foam: what is below shines through
+
 // Share of a value between two bounds (Ihmsen et al., eq. 1).
 float between_bounds(float value, float low, float high) {
   return std::clamp((value - low) / (high - low), 0.0f, 1.0f);
@@ -57,13 +59,13 @@ ScalarVolume foam_of(const ScalarVolume& phi, const FaceVelocity& velocity, floa
         const Vec3f u(velocity.at_center(cell, 0), velocity.at_center(cell, 1), velocity.at_center(cell, 2));
         const float energy = between_bounds(u.squaredNorm() / (fast * fast), 0.15f, 1.0f);
         if (energy <= 0) continue;
-        const float crest = between_bounds(std::abs(curvature(phi, cell)), 0.15f, 0.8f);
+        const float crest = between_bounds(std::abs(curvature(phi, cell)), 0.25f, 1.2f);
         foam.values[(std::size_t(k) * phi.cells[1] + j) * phi.cells[0] + i] = amount * energy * crest;
       }
     }
   });
   smooth_cells(foam);
-  for (float& value : foam.values) value = std::min(2.0f * value, 1.0f);
+  for (float& value : foam.values) value = std::min(1.5f * value, thickest);
   return foam;
 }
 

@@ -28,7 +28,7 @@ const NamedLook looks[] = {
     {"ethanol", {{1.0f, 0.8f, 0.8f}, {0.10f, 0.11f, 0.12f}, 1.36f, none, none, from_srgb(0.62f, 0.72f, 0.80f)}},
     {"glycerol", {{0.9f, 0.9f, 1.4f}, {0.13f, 0.13f, 0.11f}, 1.47f, none, none, from_srgb(0.70f, 0.74f, 0.72f)}},
     {"mercury", {none, none, 1.5f, none, {0.78f, 0.78f, 0.76f}, from_srgb(0.62f, 0.63f, 0.65f)}},
-    {"olive_oil", {{2.2f, 2.6f, 22.0f}, {0.30f, 0.25f, 0.012f}, 1.47f, none, none, from_srgb(0.66f, 0.62f, 0.14f)}},
+    {"olive_oil", {{1.8f, 3.2f, 22.0f}, {0.34f, 0.24f, 0.015f}, 1.47f, none, none, from_srgb(0.66f, 0.62f, 0.14f)}},
     {"honey", {{1.5f, 6.0f, 40.0f}, {0.42f, 0.14f, 0.006f}, 1.49f, none, none, from_srgb(0.84f, 0.54f, 0.07f)}},
     {"milk", {none, none, 1.35f, {0.90f, 0.88f, 0.82f}, none, from_srgb(0.91f, 0.89f, 0.83f)}},
     {"blood", {none, none, 1.36f, {0.24f, 0.007f, 0.009f}, none, from_srgb(0.55f, 0.03f, 0.05f)}},

@@ -44,10 +44,10 @@ void draw_label(Painter& painter, const std::string& label) {
   painter.text(0.7f * size, 0.7f * size + cap_height(size), label, size, ink);
 }
 
-// Speed at which water is taken for fast: that of a fall over a sixth of the domain's height.
+// Speed at which water is taken for fast: that of a fall over half of the domain's height.
 float fast_speed(const Job& job, const Stage& stage) {
   const auto g = float(Gravity(job.scene.gravity).at(0).norm());
-  return std::sqrt(2 * (g > 0 ? g : 9.81f) * stage.domain.size()[stage.up_axis] / 6);
+  return std::sqrt((g > 0 ? g : 9.81f) * stage.domain.size()[stage.up_axis]);
 }
 
 // Streamlines in the liquid of a 2D frame, or in all fluid where gas flows, and outside of solids.
@@ -165,12 +165,12 @@ Camera Studio::camera_of(const Shot& shot) const {
 
 Studio::Result Studio::draw_solid(const Shot& shot, const std::filesystem::path& file) {
   const RenderOptions& o = job_.options;
-  const bool exr = o.format == Format::exr;
-  const Canvas canvas = trace_picture(stage_, camera_of(shot), {!o.plain && !o.transparent, !exr});
+  const bool exr = o.format == Format::exr, plain = o.plain || o.transparent;
+  const Canvas canvas = trace_picture(stage_, camera_of(shot), {!plain, !exr});
   Result result{label_of_frame(*frame_), {}};
   if (exr) return write_exr(file, canvas), result;
   result.image = to_image(canvas);
-  if (!o.plain) {
+  if (!plain) {
     Painter painter(result.image, o.font);
     const PlotStyle style{text_size(o.width, o.height)};
     const float bar = 0.5f * float(o.height), y = 0.5f * (float(o.height) - bar);

@@ -6,10 +6,10 @@
 namespace seiche::render {
 namespace {
 
-constexpr float least_distance = 0.5f;  // at which a line ends before another one, in spacings
-constexpr float least_length = 1.5f;    // of a line, in spacings
-constexpr float rest = 1e-3f;           // speed below which the fluid rests, over the largest one
-constexpr int longest = 4000;           // steps of a line in one direction
+constexpr float least_distance = 0.5f;   // at which a line ends before another one, in spacings
+constexpr float least_length = 1.5f;     // of a line, in spacings
+constexpr float rest = 1e-3f;            // speed below which the fluid rests, over the largest one
+constexpr int longest = 4000;            // steps of a line in one direction
 constexpr float sharpest_turn = 0.966f;  // cosine of the largest angle in half a step, 15 degrees
 
 // Points of the lines by squares of the side `spacing`, for questions of distance.
