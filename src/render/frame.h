@@ -44,7 +44,7 @@ void clip_to_containers(LoadedFrame& frame, const std::vector<SolidSpec>& solids
 // Replaces the outlines of static and prescribed solids of a 2D frame, which the run sampled on its grid, by those of
 // the scene's shapes: exact for boxes and planes, polygons of up to 256 corners for round ones; shapes given by
 // formulas or level sets are contoured up to eight times finer. Solids whose shape is not where the frame has them, as
-// after a change of the scene, keep the frame's outline.
+// after a change of the scene, or cannot be read, keep the frame's outline.
 void refine_outlines(LoadedFrame& frame, const std::vector<SolidSpec>& solids);
 
 }  // namespace seiche::render

@@ -9,7 +9,13 @@
 namespace seiche::render {
 namespace {
 
-constexpr int parts = 3;  // of a cell's side, between which the contour is straight
+constexpr double most_nodes = 2e6;  // of the contour's grid, where the cells alone are not more
+
+// Parts of a cell's side, between which the contour is straight: three, fewer on grids that are fine anyway.
+int parts_of_cell(const ScalarVolume& phi) {
+  const double cells = double(phi.cells[0]) * phi.cells[1];
+  return std::clamp(int(std::sqrt(most_nodes / cells)), 1, 3);
+}
 
 // Weights of four values in the Catmull-Rom curve between the middle two, at t in [0, 1].
 std::array<double, 4> cubic_weights(double t) {
@@ -50,7 +56,8 @@ std::vector<Polygon> liquid_outlines(const ScalarVolume& phi) {
   const Vec<2> lower = domain.lower.head<2>().cast<double>(), upper = domain.upper.head<2>().cast<double>();
   const Vec<2> beyond = Vec<2>::Constant(phi.h);
   SolidMesh contour;
-  contour.mesh = closed_contour<2>(SmoothLevelSet(phi), double(phi.h) / parts, lower - beyond, upper + beyond);
+  contour.mesh =
+      closed_contour<2>(SmoothLevelSet(phi), double(phi.h) / parts_of_cell(phi), lower - beyond, upper + beyond);
   contour.solid.assign(contour.mesh.segments.size(), 0);
   return close_outlines(contour, 0, domain);
 }

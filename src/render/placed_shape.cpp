@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/expression.h"
 #include "base/solid_spec.h"
 #include "geometry/shapes/closed_surface.h"
@@ -81,6 +82,14 @@ void add_outline(SolidMesh& solids, int solid, const SurfaceMesh& outline, const
   }
 }
 
+void refine_outline(LoadedFrame& frame, const SolidSpec& solid, int n, double h) {
+  const PlacedShape<2> shape(solid, h / finer, frame.time);
+  if (!agrees(shape, frame.solids, n, h)) return;
+  const SurfaceMesh outline = outline_of(solid.shape, box_at_rest(frame, n, shape), h);
+  remove_solid(frame.solids, n);
+  add_outline(frame.solids, n, outline, shape);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -104,12 +113,11 @@ void refine_outlines(LoadedFrame& frame, const std::vector<SolidSpec>& solids) {
   if (frame.dimension != 2 || frame.solids.mesh.segments.empty()) return;
   const double h = frame.phi ? frame.phi->h : frame.quantity ? frame.quantity->h : 0;
   for (std::size_t n = 0; n < solids.size() && h > 0; ++n) {
-    if (solids[n].kind.is_free()) continue;
-    const PlacedShape<2> shape(solids[n], h / finer, frame.time);
-    if (!has_segments(frame.solids, int(n)) || !agrees(shape, frame.solids, int(n), h)) continue;
-    const SurfaceMesh outline = outline_of(solids[n].shape, box_at_rest(frame, int(n), shape), h);
-    remove_solid(frame.solids, int(n));
-    add_outline(frame.solids, int(n), outline, shape);
+    if (solids[n].kind.is_free() || !has_segments(frame.solids, int(n))) continue;
+    try {
+      refine_outline(frame, solids[n], int(n), h);
+    } catch (const Error&) {  // such as a file of the shape that is gone: the frame's outline stays
+    }
   }
 }
 

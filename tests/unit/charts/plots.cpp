@@ -202,7 +202,7 @@ TEST_CASE("runs are compared on one plot, written as PNG, SVG or PDF") {
   CHECK(panels[0].curves[1].value.size() == 5);
 }
 
-TEST_CASE("axes hold all values; constants lie in the middle; logarithms leave out what is not positive") {
+TEST_CASE("axes hold all values, constants lie in the middle, logarithms leave out what is not positive") {
   Panel panel{"", {{"", {0, 1, 2}, {-1, 3, NAN}}}};
   CHECK(range_of(panel).low == Approx(-1.2));
   CHECK(range_of(panel).high == Approx(3.2));
