@@ -40,7 +40,8 @@ double tick_step(double range, int count) {
 std::string tick_text(double value, double step) {
   if (std::abs(value) < 1e-6 * step) value = 0;
   if (step >= 1e5 || step < 1e-4) {
-    const int digits = value == 0 ? 1 : int(std::floor(std::log10(std::abs(value)) - std::log10(step) + 1e-9)) + 1;
+    const int digits =
+        value == 0 ? 1 : int(std::floor(std::log10(std::abs(value)) + 1e-9) - std::floor(std::log10(step) + 1e-9)) + 1;
     return value == 0 ? "0" : fmt::format("{:.{}g}", value, std::clamp(digits, 1, 9));
   }
   return fmt::format("{:.{}f}", value, std::max(0, int(-std::floor(std::log10(step) + 1e-9))));

@@ -185,6 +185,9 @@ TEST_CASE("ticks are round numbers that print with the digits they need") {
   CHECK(tick_text(0.6000000001, 0.2) == "0.6");
   CHECK(tick_text(-1e-12, 0.2) == "0.0");
   CHECK(tick_text(4000, 2000) == "4000");
+  CHECK(tick_text(1.5e-10, 5e-11) == "1.5e-10");
+  CHECK(tick_text(2e-10, 1e-10) == "2e-10");
+  CHECK(tick_text(0.29992401, 1e-8) == "0.29992401");
 }
 
 TEST_CASE("outlines are filled: closed ones, holes, and those that the border of the region cuts") {
