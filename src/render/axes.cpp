@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace seiche::render {
@@ -14,13 +15,39 @@ int ticks_along(const Axis& axis, float size, bool along_x) {
   return std::clamp(int(std::abs(axis.to - axis.from) / (size * (along_x ? 4.5f : 2.8f))), 1, 8);
 }
 
-std::vector<Tick> decades(const Axis& axis, int count) {
+// "10⁻⁵", or "1000" for small powers.
+std::string power_text(int power) {
+  if (std::abs(power) <= 3) return fmt::format("{:g}", std::pow(10.0, power));
+  static const std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "10⁻" : "10";
+  for (const char digit : fmt::format("{}", std::abs(power))) text += digits[std::size_t(digit - '0')];
+  return text;
+}
+
+std::vector<Tick> linear_ticks(const Axis& axis, int count) {
   std::vector<Tick> ticks;
-  const int first = int(std::ceil(std::log10(axis.low) - 1e-9)), last = int(std::floor(std::log10(axis.high) + 1e-9));
-  const int stride = std::max(1, (last - first + count) / std::max(1, count));
-  for (int power = first; power <= last; power += stride)
-    ticks.push_back({std::pow(10.0, power), fmt::format("1e{}", power)});
+  const double step = tick_step(axis.high - axis.low, count);
+  const double first = std::ceil(axis.low / step - 1e-6), last = std::floor(axis.high / step + 1e-6);
+  if (!std::isfinite(first) || !(last - first < 100)) return ticks;
+  for (double n = first; n <= last; ++n) ticks.push_back({n * step, tick_text(n * step, step)});
   return ticks;
+}
+
+// Powers of ten; on short axes 1, 2 and 5 times them, or round steps.
+std::vector<Tick> logarithmic_ticks(const Axis& axis, int count) {
+  const int first = int(std::ceil(std::log10(axis.low) - 1e-9)), last = int(std::floor(std::log10(axis.high) + 1e-9));
+  std::vector<Tick> ticks;
+  const int stride = std::max(1, (last - first + count) / std::max(1, count));
+  for (int power = first; power <= last; power += stride) ticks.push_back({std::pow(10.0, power), power_text(power)});
+  if (last - first >= 2) return ticks;
+  ticks.clear();
+  for (int power = first - 1; power <= last; ++power) {
+    for (const int factor : {1, 2, 5}) {
+      const double value = factor * std::pow(10.0, power);
+      if (value >= axis.low && value <= axis.high) ticks.push_back({value, fmt::format("{:g}", value)});
+    }
+  }
+  return ticks.size() >= 2 ? ticks : linear_ticks(axis, count);
 }
 
 // Room between the rectangle and the numbers.
@@ -53,13 +80,7 @@ float Axis::place(double value) const {
 }
 
 std::vector<Tick> ticks_of(const Axis& axis, int count) {
-  if (axis.logarithmic) return decades(axis, count);
-  std::vector<Tick> ticks;
-  const double step = tick_step(axis.high - axis.low, count);
-  const double first = std::ceil(axis.low / step - 1e-6), last = std::floor(axis.high / step + 1e-6);
-  if (!std::isfinite(first) || !(last - first < 100)) return ticks;
-  for (double n = first; n <= last; ++n) ticks.push_back({n * step, tick_text(n * step, step)});
-  return ticks;
+  return axis.logarithmic ? logarithmic_ticks(axis, count) : linear_ticks(axis, count);
 }
 
 float widest(const Painter& painter, const std::vector<Tick>& ticks, float size) {

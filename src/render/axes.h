@@ -29,7 +29,8 @@ struct Tick {
   std::string text;
 };
 
-// About `count` ticks within the axis, ascending; powers of ten on logarithmic axes.
+// About `count` ticks within the axis, ascending. Logarithmic axes have powers of ten, or round numbers between few of
+// them.
 std::vector<Tick> ticks_of(const Axis& axis, int count);
 
 // Texts and lines of a plot.

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "base/error.h"
+#include "render/axes.h"
 #include "render/outline.h"
-#include "render/painter.h"
 #include "render/run.h"
 #include "render/trace.h"
 
@@ -188,6 +188,14 @@ TEST_CASE("ticks are round numbers that print with the digits they need") {
   CHECK(tick_text(1.5e-10, 5e-11) == "1.5e-10");
   CHECK(tick_text(2e-10, 1e-10) == "2e-10");
   CHECK(tick_text(0.29992401, 1e-8) == "0.29992401");
+  const auto logarithmic = [](double low, double high) {
+    std::string text;
+    for (const Tick& tick : ticks_of({low, high, 0, 1, "", true}, 6)) text += tick.text + " ";
+    return text;
+  };
+  CHECK(logarithmic(3e-6, 2e-2) == "10⁻⁵ 10⁻⁴ 0.001 0.01 ");
+  CHECK(logarithmic(15, 170) == "20 50 100 ");
+  CHECK(logarithmic(0.26, 0.33) == "0.26 0.27 0.28 0.29 0.30 0.31 0.32 0.33 ");
 }
 
 TEST_CASE("outlines are filled: closed ones, holes, and those that the border of the region cuts") {
