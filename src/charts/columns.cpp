@@ -78,6 +78,13 @@ std::string unit_of(const std::string& table, const std::string& column) {
   return "";
 }
 
+std::string unit_in_2d(const std::string& unit) {
+  if (unit == "m³") return "m²";
+  if (unit == "N m") return "N";
+  const bool per_depth = unit == "J" || unit == "N s" || unit == "W" || unit == "N";
+  return per_depth ? unit + "/m" : unit;
+}
+
 const std::vector<std::string>& table_names() {
   static const std::vector<std::string> names{"stats", "solids", "probes", "joints"};
   return names;

@@ -11,6 +11,9 @@ namespace seiche::charts {
 // number or is not known.
 std::string unit_of(const std::string& table, const std::string& column);
 
+// The unit of the same quantity in 2D, where volumes are areas, and masses, forces and energies count per m of depth.
+std::string unit_in_2d(const std::string& unit);
+
 // Names of the tables in the order in which columns are searched.
 const std::vector<std::string>& table_names();
 

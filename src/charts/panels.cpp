@@ -49,6 +49,12 @@ std::string without_empty(std::initializer_list<std::string> words) {
   return text;
 }
 
+// Unit of a column in the panels of these runs, which the first one decides.
+std::string unit_here(const std::vector<RunTables>& runs, const std::string& table, const std::string& column) {
+  const std::string unit = unit_of(table, column);
+  return runs.front().dimension == 2 ? unit_in_2d(unit) : unit;
+}
+
 std::string with_unit(const std::string& what, const std::string& unit) {
   return unit.empty() ? what : fmt::format("{} ({})", what, unit);
 }
@@ -174,21 +180,11 @@ const char* unit_of_kind(const ProbeSpec& probe) {
   }
 }
 
-// Units of the probes by name, from the scene of the run; none if it cannot be read.
-std::map<std::string, std::string> probe_units(const std::filesystem::path& run) {
-  std::map<std::string, std::string> units;
-  try {
-    for (const ProbeSpec& probe : read_scene(RunPaths{run}.scene()).probes) units[probe.name] = unit_of_kind(probe);
-  } catch (const Error&) {  // the unit is then that of all kinds
-  }
-  return units;
-}
-
 void add_probes(std::vector<RunTables>& runs, PanelList& list, const PlotOptions& options) {
   for (RunTables& run : runs) {
     const Table* table = run.table("probes");
     if (!table) continue;
-    std::map<std::string, std::string> units = probe_units(run.folder);
+    std::map<std::string, std::string>& units = run.probe_units;
     for (const std::string& name : chosen_names(*table, options, "probes.csv")) {
       for (const char* column : {"value", "x", "y", "z"}) {
         if (table->find(column) == table->columns.size()) continue;
@@ -197,7 +193,7 @@ void add_probes(std::vector<RunTables>& runs, PanelList& list, const PlotOptions
             curve_of(*table, column, name, without_empty({part.empty() ? name : name + "." + part, run.label}));
         const bool flat = part == "z" && first_value(curve) == 0;
         if (is_empty(curve) || flat) continue;
-        const std::string unit = units.count(name) > 0 ? units[name] : unit_of("probes", column);
+        const std::string unit = units.count(name) > 0 ? units[name] : unit_here(runs, "probes", column);
         list.panel("probes " + unit, with_unit("probes", unit)).curves.push_back(std::move(curve));
       }
     }
@@ -205,6 +201,18 @@ void add_probes(std::vector<RunTables>& runs, PanelList& list, const PlotOptions
 }
 
 }  // namespace
+
+void RunTables::read_scene_of_run() {
+  try {
+    const Scene scene = read_scene(RunPaths{folder}.scene());
+    dimension = scene.dimension;
+    for (const ProbeSpec& probe : scene.probes) {
+      const std::string unit = unit_of_kind(probe);
+      probe_units[probe.name] = dimension == 2 ? unit_in_2d(unit) : unit;
+    }
+  } catch (const Error&) {  // units are then those of 3D, and of all kinds of probes
+  }
+}
 
 const Table* RunTables::table(const std::string& name) {
   const auto known = tables.find(name);
@@ -224,7 +232,7 @@ std::vector<Panel> panels_of_columns(std::vector<RunTables>& runs, const PlotOpt
         throw Error(ExitCode::bad_input,
                     fmt::format("--columns: {} has no '{}' in {}.csv", run.folder.string(), word, name));
       for (const std::string& column : columns_meant(*table, word)) {
-        const std::string unit = unit_of(name, column);
+        const std::string unit = unit_here(runs, name, column);
         Panel& panel = list.panel(unit.empty() ? column : unit, "");
         retitle(panel, word, unit);
         for (const std::string& who : chosen_names(*table, options, name + ".csv")) {
@@ -239,11 +247,11 @@ std::vector<Panel> panels_of_columns(std::vector<RunTables>& runs, const PlotOpt
 
 std::vector<Panel> usual_panels(std::vector<RunTables>& runs, const PlotOptions& options) {
   PanelList list(options.logarithmic);
-  Panel& energy = list.panel("energy", "energy (J)");
+  Panel& energy = list.panel("energy", with_unit("energy", unit_here(runs, "stats", "kinetic_energy")));
   add_stats(runs, energy, "kinetic_energy", "kinetic", Start::stays);
   add_stats(runs, energy, "potential_energy", "potential - start", Start::is_zero);
   add_stats(runs, energy, "elastic_energy", "elastic", Start::stays);
-  Panel& volume = list.panel("volume", "volume (m³)");
+  Panel& volume = list.panel("volume", with_unit("volume", unit_here(runs, "stats", "liquid_volume")));
   add_stats(runs, volume, "liquid_volume", "liquid", Start::stays);
   add_stats(runs, volume, "gas_volume", "gas", Start::stays);
   add_stats(runs, list.panel("speed", "largest speed (m/s)"), "max_speed", "", Start::stays);

@@ -13,7 +13,11 @@ struct RunTables {
   std::string label;  // tells runs apart
   std::filesystem::path folder;
   std::map<std::string, Table> tables;
+  int dimension = 3;
+  std::map<std::string, std::string> probe_units;  // by name
 
+  // Takes dimension and probes from the run's scene; without one they stay unknown.
+  void read_scene_of_run();
   // Reads the table where it was not yet. Null if the run has none.
   const Table* table(const std::string& name);
 };

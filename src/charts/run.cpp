@@ -24,7 +24,11 @@ std::vector<RunTables> open_runs(const PlotOptions& options) {
                   fmt::format("{}: there is no such folder; give the directory of a run", run.string()));
     }
     const std::filesystem::path clean = (run / "").lexically_normal().parent_path();
-    runs.push_back({options.runs.size() > 1 ? clean.filename().string() : "", run, {}});
+    RunTables tables;
+    tables.label = options.runs.size() > 1 ? clean.filename().string() : "";
+    tables.folder = run;
+    tables.read_scene_of_run();
+    runs.push_back(std::move(tables));
   }
   for (std::size_t n = 1; n < runs.size(); ++n)  // the same last name: whole paths tell runs apart
     for (std::size_t m = 0; m < n; ++m)

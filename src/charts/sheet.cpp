@@ -170,7 +170,8 @@ void draw_sheet(Painter& painter, const std::vector<Panel>& panels) {
   PlotStyle style{std::max(9.0f, 0.75f * render::text_size(int(2.2f * room_x), int(2.2f * room_y)))};
   style.size = std::min(style.size, std::max(9.0f, 1.1f * render::text_size(painter.width(), painter.height())));
   for (int n = 0; n < count; ++n) {
-    const float x = float(n % columns) * room_x, y = float(n / columns) * room_y;
+    const int column = n % columns, row = n / columns;
+    const float x = float(column) * room_x, y = float(row) * room_y;
     draw_panel(painter, panels[std::size_t(n)], {x, y + 0.4f * style.size, x + room_x, y + room_y}, style);
   }
 }

@@ -66,11 +66,19 @@ void store_run(const fs::path& run, int steps) {
   write_file(run / "probes.csv", probes);
 }
 
+RunTables run_at(const std::string& label, const fs::path& folder) {
+  RunTables run;
+  run.label = label;
+  run.folder = folder;
+  run.read_scene_of_run();
+  return run;
+}
+
 std::vector<Panel> panels_for(const fs::path& run, const std::vector<std::string>& columns) {
   PlotOptions options;
   options.runs = {run};
   options.columns = columns;
-  std::vector<RunTables> runs{{"", run, {}}};
+  std::vector<RunTables> runs{run_at("", run)};
   return columns.empty() ? usual_panels(runs, options) : panels_of_columns(runs, options);
 }
 
@@ -154,6 +162,20 @@ TEST_CASE("the usual sheet has energy, volume, step, iterations and probes, with
   CHECK(panels[0].curves[1].value[5] == -25);  // less the potential energy of the start
 }
 
+TEST_CASE("the scene of a run decides units: per metre of depth in 2D, and by kind of probe") {
+  const Scratch scratch;
+  const fs::path run = scratch.folder / "a";
+  store_run(run, 2);
+  write_file(run / "scene.toml",
+             "dimension = 2\n[domain]\nlower = [0.0, 0.0]\nupper = [1.0, 1.0]\ncell_size = 0.1\n[time]\nend = 1.0\n"
+             "[[probe]]\nname = \"gauge\"\nkind = \"pressure\"\nposition = [0.5, 0.5]\n");
+  const std::vector<Panel> panels = panels_for(run, {});
+  CHECK(panels[0].title == "energy (J/m)");
+  CHECK(panels[1].title == "volume (m²)");
+  CHECK(unit_in_2d("N m") == "N");
+  CHECK(unit_in_2d("m/s") == "m/s");
+}
+
 TEST_CASE("columns, names, tables and files that are not there are refused with those that are") {
   const Scratch scratch;
   const fs::path run = scratch.folder / "a";
@@ -194,7 +216,7 @@ TEST_CASE("runs are compared on one plot, written as PNG, SVG or PDF") {
   options.out = scratch.folder / "volume.pdf";
   plot_runs(options);
   CHECK(read_whole_file(options.out).starts_with("%PDF"));
-  std::vector<RunTables> runs{{"a", scratch.folder / "a", {}}, {"b", scratch.folder / "b", {}}};
+  std::vector<RunTables> runs{run_at("a", scratch.folder / "a"), run_at("b", scratch.folder / "b")};
   const std::vector<Panel> panels = panels_of_columns(runs, options);
   REQUIRE(panels.size() == 1);
   REQUIRE(panels[0].curves.size() == 2);
