@@ -145,7 +145,7 @@ double first_value(const Curve& curve) {
   return 0;
 }
 
-// What becomes of the row of the start, t = 0.
+// Treatment of the row of the start, t = 0.
 enum class Start { stays, is_zero, is_gap };
 
 // Adds a column of stats.csv of each run.

@@ -48,7 +48,7 @@ class Derivatives {
  public:
   Derivatives(const FaceVelocity& velocity, const std::optional<ScalarVolume>& phi) : u_(velocity), phi_(phi) {}
 
-  // Of component `of` along an axis.
+  // The derivative of component `of` along an axis.
   float along(int axis, int of, const std::array<int, 3>& cell) const {
     std::array<int, 3> low = cell, high = cell;
     if (cell[axis] > 0 && holds_flow(cell, axis, -1)) --low[axis];

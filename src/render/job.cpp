@@ -72,7 +72,7 @@ std::string quantity_of_job(const RenderOptions& options, const vdb::Frame& firs
   return first.dimension == 2 && has_speed ? "speed" : "none";
 }
 
-// What asks for the frames' velocity; "" if nothing does.
+// The option that needs the frames' velocity; "" if none does.
 std::string needs_velocity(const RenderOptions& options) {
   return options.streamlines ? "--streamlines" : options.foam ? "--foam" : "";
 }

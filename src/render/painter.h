@@ -36,7 +36,7 @@ class Painter {
   void fill(const std::vector<Polygon>& outlines, const Vec3f& color, float alpha = 1);
   // A line with round joints through points; `dash` > 0: dashes of that length.
   void stroke(const Polygon& line, float width, const Vec3f& color, bool closed = false, float dash = 0);
-  // What `draw` draws is cut off outside of the outlines.
+  // Cuts off what `draw` draws outside of the outlines.
   void within(const std::vector<Polygon>& outlines, const std::function<void()>& draw);
   // The picture stretched over a rectangle, smooth between pixels.
   void picture(const Image& image, float x0, float y0, float x1, float y1);
@@ -46,9 +46,9 @@ class Painter {
             bool turned = false);
   float text_width(std::string_view text, float size) const;
 
-  // The pixels drawn so far; of png alone.
+  // The pixels drawn so far; for png alone.
   Image image() const;
-  // The file of vectors; ends the drawing. Of svg and pdf alone.
+  // The file of vectors; ends the drawing. For svg and pdf alone.
   std::string page();
 
  private:

@@ -18,7 +18,7 @@ struct Shot {
 // The pictures of a job in their order: one a frame, or `turntable` of a single one.
 std::vector<Shot> shots_of(const Job& job);
 
-// What pictures are drawn of.
+// Draws pictures; keeps the loaded frame from one to the next.
 class Studio {
  public:
   explicit Studio(const Job& job);

@@ -57,8 +57,8 @@ void draw_liquid(Painter& painter, const Plot& plot, const Mapping& map) {
   const std::vector<Polygon> outlines = map.picture(liquid_outlines(plot.phi));
   if (outlines.empty()) return;
   if (!plot.quantity) return painter.fill(outlines, plot.liquid);
-  const auto& [x0, y0, x1, y1] = map.rectangle;
-  painter.within(outlines, [&] { painter.picture(colors_of(plot, map), x0, y0, x1, y1); });
+  const std::array<float, 4>& r = map.rectangle;
+  painter.within(outlines, [&] { painter.picture(colors_of(plot, map), r[0], r[1], r[2], r[3]); });
 }
 
 void draw_solids(Painter& painter, const Plot& plot, const Mapping& map) {

@@ -42,12 +42,12 @@ float fresnel(const Stage& stage, float cosine) {
   return least + (1 - least) * std::pow(1 - std::clamp(cosine, 0.0f, 1.0f), 5.0f);
 }
 
-// What mirrors show: the opaque surroundings.
+// Light that mirrors show: that of the opaque surroundings.
 Vec3f outside(const Stage& stage, const Ray& ray) {
   return shade_opaque(stage, ray, find_opaque(stage, ray, 1e-4f * stage.reach));
 }
 
-// What a ray sees directly or through liquid: without ground and sky on a transparent stage, but with their shadows.
+// Light seen directly or through liquid: without ground and sky on a transparent stage, but with their shadows.
 Light seen_at(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
   if (!stage.transparent || hit.kind == OpaqueHit::Kind::solid) return {shade_opaque(stage, ray, hit), 1};
   const bool ground = hit.kind == OpaqueHit::Kind::ground;
