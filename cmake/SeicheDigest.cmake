@@ -2,7 +2,7 @@
 # flags. What judges, draws or describes runs does not count, so that runs made before still count for seiche validate.
 set(counted "${CMAKE_BINARY_DIR}/digest_sources.txt")
 file(GLOB_RECURSE run_sources CONFIGURE_DEPENDS src/*.cpp src/*.h)
-list(FILTER run_sources EXCLUDE REGEX "/src/(validate|render|info|exporting)/|/src/scene/docs[^/]*$")
+list(FILTER run_sources EXCLUDE REGEX "/src/(validate|render|charts|info|exporting)/|/src/scene/docs[^/]*$")
 list(APPEND run_sources "${CMAKE_CURRENT_SOURCE_DIR}/CMakeLists.txt" "${CMAKE_CURRENT_SOURCE_DIR}/cmake/SeicheDependencies.cmake")
 list(SORT run_sources)
 list(JOIN run_sources "\n" lines)

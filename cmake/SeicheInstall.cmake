@@ -23,7 +23,7 @@ install(FILES CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE NOTICE README.md
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes COMPONENT program)  # README.md links to it
 
-foreach(layer base grid geometry linalg levelset fluid solid coupling files scene run render info exporting validate all)
+foreach(layer base grid geometry linalg levelset fluid solid coupling files scene run render charts info exporting validate all)
   if(TARGET seiche_${layer})
     install(TARGETS seiche_${layer} EXPORT SeicheTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
       COMPONENT development)

@@ -22,8 +22,8 @@ The source is under Apache-2.0.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME seiche)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# OpenBLAS is named, for CHOLMOD's package is content with a BLAS of half the speed.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, libopenblas0-serial | libopenblas0 | libblas.so.3")
+# OpenBLAS is named, for CHOLMOD's package is content with a BLAS of half the speed. Pictures need a font.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "openmpi-bin, libopenblas0-serial | libopenblas0 | libblas.so.3, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS ffmpeg)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Seiche simulates water and other liquids in 2D and 3D, with solids that float,
 sink, collide and bend. One solve a step finds pressure and motion of all bodies.

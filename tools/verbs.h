@@ -37,6 +37,7 @@ void add_check(CLI::App& program, VerbContext& context);
 void add_validate(CLI::App& program, VerbContext& context);
 void add_info(CLI::App& program, VerbContext& context);
 void add_render(CLI::App& program, VerbContext& context);
+void add_plot(CLI::App& program, VerbContext& context);
 void add_export(CLI::App& program, VerbContext& context);
 void add_completion(CLI::App& program, VerbContext& context);
 void add_manual(CLI::App& program, VerbContext& context);

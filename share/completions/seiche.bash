@@ -1,14 +1,15 @@
 # bash completion of seiche: source <(seiche completion bash)
 _seiche() {
   local word="${COMP_WORDS[COMP_CWORD]}" words=""
-  if [ "$COMP_CWORD" -eq 1 ]; then words="run resume check validate info render export init completion manual schema --help --version"; else
+  if [ "$COMP_CWORD" -eq 1 ]; then words="run resume check validate info render plot export init completion manual schema --help --version"; else
     case "${COMP_WORDS[1]}" in
       run) words="--help --out --overwrite --set --frames --threads --walltime --watchdog --quiet" ;;
       resume) words="--help --end --set --force --frames --threads --walltime --watchdog --quiet" ;;
       check) words="--help --set" ;;
       validate) words="--help --level --list --out --cases --write-docs --record --threads --fresh --report-only" ;;
       info) words="--help" ;;
-      render) words="--help --frames --size --out --camera --up --color --contact-sheet --animation" ;;
+      render) words="--help --frames --size --format --out --color --colors --range --per-frame --streamlines --camera --camera-path --camera-steps --turntable --up --material --foam --transparent --plain --font --contact-sheet --animation" ;;
+      plot) words="--help --file --columns --names --out --size --log --font" ;;
       export) words="--help --format --frames --out --up" ;;
       init) words="--help --example --list --overwrite" ;;
       completion) words="--help" ;;

@@ -2,7 +2,8 @@
 // False colours and the colour bar.
 #include <string>
 
-#include "render/image.h"
+#include "render/axes.h"
+#include "render/color_maps.h"
 
 namespace seiche::render {
 
@@ -10,22 +11,18 @@ namespace seiche::render {
 struct ColorScale {
   float low = 0, high = 1;
   std::string label;
+  const ColorMap* map = &color_map("viridis");
 };
 
-// From dark violet through blue and green to yellow, with increasing lightness; t is clamped to [0, 1]. Linear light.
-Vec3f color_map(float t);
-
-// Colour of a value on the scale.
+// Colour of a value on the scale; that of the nearer end beyond it.
 Vec3f color_of(const ColorScale& scale, float value);
 
-// Round step (1, 2 or 5 times a power of ten) that divides `range` into about `count` parts.
-double tick_step(double range, int count);
+// Draws a vertical bar over x0 <= x <= x1, y0 <= y <= y1 with numbers on its right and its label, read upwards, beyond
+// them.
+void draw_color_bar(Painter& painter, const std::array<float, 4>& x0y0x1y1, const ColorScale& scale,
+                    const PlotStyle& style);
 
-// The number with the digits that a step of this size needs.
-std::string tick_text(double value, double step);
-
-// Draws a vertical bar x0 <= x < x1, y0 <= y < y1 with numbers on its right and its label above.
-void draw_color_bar(Canvas& canvas, const std::array<int, 4>& x0y0x1y1, const ColorScale& scale, int font,
-                    const Vec3f& ink);
+// Room that the bar's numbers and label take on its right, in pixels, for a bar of that length.
+float room_of_color_bar(const Painter& painter, const ColorScale& scale, float length, const PlotStyle& style);
 
 }  // namespace seiche::render

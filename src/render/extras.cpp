@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "files/checked_file.h"
-#include "render/font.h"
+#include "render/painter.h"
 
 extern char** environ;
 
@@ -71,7 +71,8 @@ void paste(Image& onto, const Image& picture, int x0, int y0) {
 
 }  // namespace
 
-ContactSheet::ContactSheet(int pictures, int width, int height) : pictures_(pictures), tiles_(std::min(pictures, 12)) {
+ContactSheet::ContactSheet(int pictures, int width, int height, const std::string& font)
+    : font_(font), pictures_(pictures), tiles_(std::min(pictures, 12)) {
   columns_ = tiles_ > 6 ? 4 : std::min(tiles_, 3);
   tile_width_ = std::min(width, 480);
   tile_height_ = std::max(1, tile_width_ * height / width);
@@ -85,10 +86,13 @@ void ContactSheet::offer(int index, const Image& picture, const std::string& lab
   if (next_ >= tiles_ || index != wanted) return;
   const int x0 = gap + next_ % columns_ * (tile_width_ + gap), y0 = gap + next_ / columns_ * (tile_height_ + gap);
   paste(image_, shrink(picture, tile_width_, tile_height_), x0, y0);
-  const int font = tile_width_ >= 400 ? 2 : 1;
-  Canvas tag(std::min(tile_width_, text_width(label, font) + 6 * font), 11 * font, Vec3f::Constant(0.9f));
-  draw_text(tag, 3 * font, 2 * font, label, font, {0.05f, 0.06f, 0.08f});
-  paste(image_, to_image(tag), x0, y0);
+  const float size = std::max(9.0f, float(tile_width_) / 26);
+  Painter measure(1, 1, Format::png, font_);
+  const int width = std::min(tile_width_, int(measure.text_width(label, size) + size));
+  Painter tag(width, int(1.6f * size), Format::png, font_);
+  tag.rectangle(0, 0, float(tag.width()), float(tag.height()), Vec3f::Constant(0.9f));
+  tag.text(0.5f * size, 0.8f * size + 0.5f * cap_height(size), label, size, {0.05f, 0.06f, 0.08f});
+  paste(image_, tag.image(), x0, y0);
   ++next_;
 }
 

@@ -11,13 +11,14 @@ namespace seiche::render {
 // Contact sheet of up to twelve evenly spaced pictures of a series, including first and last, in rows of up to four.
 class ContactSheet {
  public:
-  ContactSheet(int pictures, int width, int height);
+  ContactSheet(int pictures, int width, int height, const std::string& font);
   // Adds picture `index` of the series (from zero, ascending) if it is selected, and prints the label on it in a
   // readable size.
   void offer(int index, const Image& picture, const std::string& label);
   const Image& image() const { return image_; }
 
  private:
+  std::string font_;
   int pictures_, tiles_, columns_, tile_width_, tile_height_, next_ = 0;
   Image image_;
 };

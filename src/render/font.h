@@ -1,22 +1,20 @@
 #pragma once
-// A 5 x 7 bitmap font: digits, lower-case letters (capitals look the same, except P), common signs.
-#include <string_view>
-
-#include "render/image.h"
+// Scalable fonts of the system, found by fontconfig.
+#include <filesystem>
+#include <string>
 
 namespace seiche::render {
 
-enum class Anchor { start, middle, end };
+struct FontFile {
+  std::filesystem::path file;
+  int index = 0;  // of the face in the file
+};
 
-// Draws the text with its top at y and its start, middle or end at x. A font pixel is scale x scale pixels. Characters
-// without a glyph become '?'.
-void draw_text(Canvas& canvas, int x, int y, std::string_view text, int scale, const Vec3f& color,
-               Anchor anchor = Anchor::start);
+// The font for a name: "" for DejaVu Sans or, without it, another font of the system; a family such as "Liberation
+// Serif"; or a file (a name with '/'). Throws Error(bad_input) with the remedy if there is none.
+FontFile find_font(const std::string& name);
 
-// Width of the text in pixels; its height is 7 scale.
-int text_width(std::string_view text, int scale);
-
-// Font scale for a picture of this height.
-int font_scale(int picture_height);
+// Height of small texts for a picture of this size, in pixels.
+float text_size(int width, int height);
 
 }  // namespace seiche::render

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/vdb/openvdb_adapter.h"
 #include "render/bvh.h"
+#include "render/fields.h"
 
 namespace seiche {
 struct SolidSpec;
@@ -20,19 +20,19 @@ struct LoadedFrame {
   Box domain;
   std::optional<ScalarVolume> phi;       // the level set; unset if the frame holds none
   std::optional<ScalarVolume> quantity;  // shown in false colours
+  std::optional<FaceVelocity> velocity;
   SolidMesh solids;
 };
 
-// Reads frames/frame.NNNN.vdb and, if present, frames/solids.NNNN.vtu. `quantity` is "none", "speed", or the name of a
-// grid (the length for vectors). Throws Error(bad_input); for an unknown quantity it lists the available ones.
-LoadedFrame load_frame(const std::filesystem::path& frames, int number, const std::string& quantity);
+// Parts that not every picture needs.
+struct FrameWants {
+  std::string quantity = "none";  // or a name for quantity_of()
+  std::string velocity;           // the option that needs it; empty: none does
+};
 
-// Level set of a decoded frame, if any, and a quantity of it at cell centres.
-std::optional<ScalarVolume> level_set_of(const vdb::Frame& frame);
-ScalarVolume quantity_of(const vdb::Frame& frame, const std::string& quantity);
-
-// "speed m/s"; only the name if the unit is unknown.
-std::string label_of(const std::string& quantity);
+// Reads frames/frame.NNNN.vdb and, if present, frames/solids.NNNN.vtu. Throws Error(bad_input) where the frame lacks
+// what is wanted.
+LoadedFrame load_frame(const std::filesystem::path& frames, int number, const FrameWants& wants);
 
 // Numbers of the frames in the folder, ascending.
 std::vector<int> list_frames(const std::filesystem::path& frames);
@@ -40,5 +40,11 @@ std::vector<int> list_frames(const std::filesystem::path& frames);
 // Removes the liquid inside inverted solids (containers). The level set continues into solids, and containers are drawn
 // without their outside.
 void clip_to_containers(LoadedFrame& frame, const std::vector<SolidSpec>& solids);
+
+// Replaces the outlines of static and prescribed solids of a 2D frame, which the run sampled on its grid, by those of
+// the scene's shapes: exact for boxes and planes, polygons of up to 256 corners for round ones; shapes given by
+// formulas or level sets are contoured up to eight times finer. Solids whose shape is not where the frame has them, as
+// after a change of the scene, or cannot be read, keep the frame's outline.
+void refine_outlines(LoadedFrame& frame, const std::vector<SolidSpec>& solids);
 
 }  // namespace seiche::render

@@ -29,34 +29,33 @@ void blend(Canvas& canvas, int x, int y, const Vec3f& color, float alpha) {
   if (x < 0 || y < 0 || x >= canvas.width || y >= canvas.height) return;
   Vec3f& pixel = canvas.at(x, y);
   pixel += alpha * (color - pixel);
-}
-
-void fill(Canvas& canvas, const std::array<int, 4>& x0y0x1y1, const Vec3f& color, float alpha) {
-  for (int y = x0y0x1y1[1]; y < x0y0x1y1[3]; ++y) {
-    for (int x = x0y0x1y1[0]; x < x0y0x1y1[2]; ++x) blend(canvas, x, y, color, alpha);
-  }
-}
-
-void draw_line(Canvas& canvas, const Eigen::Vector2f& from, const Eigen::Vector2f& to, float width, const Vec3f& color,
-               float alpha) {
-  stroke(canvas, from, to, width, color, [alpha](int, int, float) { return alpha; });
+  if (canvas.alpha.empty()) return;
+  float& cover = canvas.alpha[std::size_t(y) * canvas.width + x];
+  cover += alpha * (1 - cover);
 }
 
 Image to_image(const Canvas& canvas) {
   static const std::array<std::uint8_t, 4097> table = srgb_table();
   Image image{canvas.width, canvas.height, {}};
   image.rgb.reserve(canvas.pixels.size() * 3);
-  for (const Vec3f& pixel : canvas.pixels) {
+  for (std::size_t i = 0; i < canvas.pixels.size(); ++i) {
+    const float alpha = canvas.alpha.empty() ? 1.0f : canvas.alpha[i];
+    const Vec3f light = alpha > 0 ? Vec3f(canvas.pixels[i] / alpha) : Vec3f(Vec3f::Zero());
     for (int c = 0; c < 3; ++c) {
-      const float root = std::sqrt(std::clamp(pixel[c], 0.0f, 1.0f));
+      const float root = std::sqrt(std::clamp(light[c], 0.0f, 1.0f));
       image.rgb.push_back(table[std::size_t(root * 4096 + 0.5f)]);
     }
+    if (!canvas.alpha.empty()) image.alpha.push_back(std::uint8_t(std::lround(255 * std::clamp(alpha, 0.0f, 1.0f))));
   }
   return image;
 }
 
 Vec3f from_srgb(float r, float g, float b) {
   return {decode_srgb(r), decode_srgb(g), decode_srgb(b)};
+}
+
+Vec3f to_srgb(const Vec3f& light) {
+  return {encode_srgb(light[0]), encode_srgb(light[1]), encode_srgb(light[2])};
 }
 
 Image shrink(const Image& image, int width, int height) {

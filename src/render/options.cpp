@@ -84,6 +84,15 @@ CameraSpec parse_camera(const std::string& text) {
   return camera;
 }
 
+std::array<float, 2> parse_color_range(const std::string& text) {
+  const auto parts = split(text, ',');
+  const auto low = read_number<float>(parts.front()), high = read_number<float>(parts.back());
+  if (parts.size() == 2 && low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high)
+    return {*low, *high};
+  throw Error(ExitCode::bad_input,
+              fmt::format("--range: '{}' is not a range; give the lowest and the highest value, as 0,2.5", text));
+}
+
 std::vector<int> choose_frames(const std::string& text, const std::vector<int>& available) {
   if (text == "all") return available;
   const std::set<int> there(available.begin(), available.end());

@@ -1,6 +1,7 @@
 #include "render/outline.h"
 
 #include <map>
+#include <set>
 
 namespace seiche::render {
 namespace {
@@ -134,29 +135,26 @@ std::vector<Polygon> close_outlines(const SolidMesh& solids, int solid, const Bo
   return std::move(chains.closed);
 }
 
-std::vector<float> row_coverage(const std::vector<Polygon>& polygons, int x0, int n, int y) {
-  constexpr int lines = 4;
-  std::vector<float> cover(n, 0.0f);
-  for (int line = 0; line < lines; ++line) {
-    const float height = float(y) + (float(line) + 0.5f) / lines;
-    std::vector<float> crossings;
+std::vector<std::vector<Polygon>> solid_outlines(const SolidMesh& solids, const Box& box) {
+  std::vector<std::vector<Polygon>> outlines;
+  for (const int solid : std::set<int>(solids.solid.begin(), solids.solid.end()))
+    outlines.push_back(close_outlines(solids, solid, box));
+  return outlines;
+}
+
+bool is_inside(const std::vector<std::vector<Polygon>>& solids, const Vec2f& x) {
+  for (const std::vector<Polygon>& polygons : solids) {
+    bool inside = false;
     for (const Polygon& polygon : polygons) {
       for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vec2f &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        if ((a.y() <= height) == (b.y() <= height)) continue;
-        crossings.push_back(a.x() + (height - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        if ((a.y() <= x.y()) == (b.y() <= x.y())) continue;
+        inside ^= a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > x.x();
       }
     }
-    std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const float from = std::max(crossings[i] - float(x0), 0.0f),
-                  to = std::min(crossings[i + 1] - float(x0), float(n));
-      for (int x = int(from); float(x) < to; ++x) {
-        cover[x] += (std::min(to, float(x + 1)) - std::max(from, float(x))) / lines;
-      }
-    }
+    if (inside) return true;
   }
-  return cover;
+  return false;
 }
 
 }  // namespace seiche::render

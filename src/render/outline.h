@@ -6,15 +6,15 @@
 
 namespace seiche::render {
 
-using Vec2f = Eigen::Vector2f;
-using Polygon = std::vector<Vec2f>;
-
 // Joins the segments of one solid to closed polygons with the inside to their left. Chains that end at the border of
 // the sampled region are closed along the border of `box`, enlarged to hold the whole mesh. A solid that is the outside
 // of its outlines also gets that border.
 std::vector<Polygon> close_outlines(const SolidMesh& solids, int solid, const Box& box);
 
-// Coverage of each pixel (x0 <= x < x0 + n, row y) by the polygons with the even-odd rule; pixel coordinates.
-std::vector<float> row_coverage(const std::vector<Polygon>& polygons, int x0, int n, int y);
+// The outlines of all solids, one after another.
+std::vector<std::vector<Polygon>> solid_outlines(const SolidMesh& solids, const Box& box);
+
+// True if x is inside any of the solids, by the even-odd rule of each.
+bool is_inside(const std::vector<std::vector<Polygon>>& solids, const Vec2f& x);
 
 }  // namespace seiche::render

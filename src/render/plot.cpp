@@ -11,109 +11,124 @@
 namespace seiche::render {
 namespace {
 
-const Vec3f ink{0.05f, 0.06f, 0.08f};
+constexpr float bar_width = 1.0f;  // of the colour bar, in text sizes
 
-// Maps between world and pixel coordinates of a plot.
+PlotStyle style_of(const Painter& painter) {
+  return {text_size(painter.width(), painter.height())};
+}
+
+// Maps m to pixels.
 struct Mapping {
-  std::array<int, 4> rectangle;
+  std::array<float, 4> rectangle;
   Vec2f lower;
-  Vec2f pixel;  // m a pixel along x and y
+  float pixels;  // a m
 
-  Vec3f world(float x, float y) const {
-    return {lower.x() + (x - float(rectangle[0])) * pixel.x(), lower.y() + (float(rectangle[3]) - y) * pixel.y(), 0};
-  }
   Vec2f picture(const Vec2f& x) const {
-    return {float(rectangle[0]) + (x.x() - lower.x()) / pixel.x(),
-            float(rectangle[3]) - (x.y() - lower.y()) / pixel.y()};
+    return {rectangle[0] + (x.x() - lower.x()) * pixels, rectangle[3] - (x.y() - lower.y()) * pixels};
+  }
+  std::vector<Polygon> picture(std::vector<Polygon> polygons) const {
+    for (Polygon& polygon : polygons)
+      for (Vec2f& x : polygon) x = picture(x);
+    return polygons;
+  }
+  std::vector<Polygon> border() const {
+    const auto& [x0, y0, x1, y1] = rectangle;
+    return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
   }
 };
 
-Mapping map_domain(const Box& domain, int width, int height) {
-  Mapping map{plot_rectangle(domain, width, height), domain.lower.head<2>(), {1, 1}};
-  map.pixel.x() = domain.size()[0] / float(map.rectangle[2] - map.rectangle[0]);
-  map.pixel.y() = domain.size()[1] / float(map.rectangle[3] - map.rectangle[1]);
-  return map;
-}
-
-void paint_liquid(Canvas& canvas, const Plot& plot, const Mapping& map) {
-  const Vec3f blue = from_srgb(0.20f, 0.47f, 0.74f);
-  parallel_range(map.rectangle[1], map.rectangle[3], [&](int y) {
-    for (int x = map.rectangle[0]; x < map.rectangle[2]; ++x) {
-      Vec3f at = map.world(float(x) + 0.5f, float(y) + 0.5f);
-      at[2] = plot.phi.lower[2] + 0.5f * plot.phi.h;
-      const float phi = plot.phi.sample(at);
-      const float cover = std::clamp(0.5f - phi / map.pixel.x(), 0.0f, 1.0f);
-      if (cover <= 0) continue;
-      blend(canvas, x, y, plot.quantity ? color_of(plot.scale, plot.quantity->sample(at)) : blue, cover);
+// Colours of the quantity over the rectangle: a sample a pixel.
+Image colors_of(const Plot& plot, const Mapping& map) {
+  const auto& [x0, y0, x1, y1] = map.rectangle;
+  Canvas canvas(std::max(1, int(std::lround(x1 - x0))), std::max(1, int(std::lround(y1 - y0))), Vec3f::Zero());
+  const Vec3f size = plot.domain.size();
+  parallel_range(0, canvas.height, [&](int y) {
+    for (int x = 0; x < canvas.width; ++x) {
+      const Vec3f at(plot.domain.lower[0] + (float(x) + 0.5f) / float(canvas.width) * size[0],
+                     plot.domain.upper[1] - (float(y) + 0.5f) / float(canvas.height) * size[1],
+                     plot.quantity->lower[2] + 0.5f * plot.quantity->h);
+      canvas.at(x, y) = color_of(plot.scale, plot.quantity->sample(at));
     }
   });
+  return to_image(canvas);
 }
 
-void paint_solids(Canvas& canvas, const Plot& plot, const Mapping& map) {
-  const auto& [x0, y0, x1, y1] = map.rectangle;
+void draw_liquid(Painter& painter, const Plot& plot, const Mapping& map) {
+  const std::vector<Polygon> outlines = map.picture(liquid_outlines(plot.phi));
+  if (outlines.empty()) return;
+  if (!plot.quantity) return painter.fill(outlines, plot.liquid);
+  const std::array<float, 4>& r = map.rectangle;
+  painter.within(outlines, [&] { painter.picture(colors_of(plot, map), r[0], r[1], r[2], r[3]); });
+}
+
+void draw_solids(Painter& painter, const Plot& plot, const Mapping& map) {
   for (const int solid : std::set<int>(plot.solids.solid.begin(), plot.solids.solid.end())) {
-    auto polygons = close_outlines(plot.solids, solid, plot.domain);
-    for (Polygon& polygon : polygons) {
-      for (Vec2f& x : polygon) x = map.picture(x);
-    }
-    const Vec3f color = solid_color(plot.colors, solid);
-    for (int y = y0; y < y1; ++y) {
-      const auto cover = row_coverage(polygons, x0, x1 - x0, y);
-      for (int x = x0; x < x1; ++x) blend(canvas, x, y, color, cover[x - x0]);
-    }
+    painter.fill(map.picture(close_outlines(plot.solids, solid, plot.domain)), solid_color(plot.colors, solid));
   }
 }
 
-void draw_axes(Canvas& canvas, const Plot& plot, const Mapping& map, int font) {
-  const auto [x0, y0, x1, y1] = map.rectangle;
-  for (const auto& side : {std::array<int, 4>{x0 - 1, y0 - 1, x1 + 1, y0},
-                           {x0 - 1, y1, x1 + 1, y1 + 1},
-                           {x0 - 1, y0, x0, y1},
-                           {x1, y0, x1 + 1, y1}}) {
-    fill(canvas, side, ink, 1);
+// A head in the middle of a streamline, in the direction of the flow.
+Polygon arrow_head(const Polygon& line, float size) {
+  const std::size_t middle = line.size() / 2;
+  const Vec2f along = (line[middle] - line[middle - 1]).normalized(), side(-along.y(), along.x());
+  return {line[middle] + 0.5f * size * along, line[middle] - 0.5f * size * along + 0.35f * size * side,
+          line[middle] - 0.5f * size * along - 0.35f * size * side};
+}
+
+void draw_streamlines(Painter& painter, const Plot& plot, const Mapping& map, const PlotStyle& style) {
+  for (const Polygon& line : map.picture(plot.streamlines)) {
+    if (line.size() < 3) continue;
+    painter.stroke(line, 2.6f * style.line(), Vec3f::Constant(0.75f));  // apart from dark colours
+    painter.stroke(line, style.line(), style.ink);
+    painter.fill({arrow_head(line, 0.55f * style.size)}, style.ink);
   }
-  for (int a = 0; a < 2; ++a) {
-    const double low = plot.domain.lower[a], high = plot.domain.upper[a];
-    const int room = a == 0 ? (x1 - x0) / (45 * font) : (y1 - y0) / (25 * font);
-    const double step = tick_step(high - low, std::clamp(room, 1, 8));
-    for (double tick = std::ceil(low / step - 1e-6) * step; tick <= high + 1e-6 * step; tick += step) {
-      Vec2f at = plot.domain.lower.head<2>();
-      at[a] = float(tick);
-      const Vec2f p = map.picture(at);
-      const int x = int(std::lround(p.x())), y = int(std::lround(p.y()));
-      if (a == 0) fill(canvas, {x, y, x + 1, y + 3 * font}, ink, 1);
-      if (a == 0) draw_text(canvas, x, y + 5 * font, tick_text(tick, step), font, ink, Anchor::middle);
-      if (a == 1) fill(canvas, {x - 3 * font, y, x, y + 1}, ink, 1);
-      if (a == 1) draw_text(canvas, x - 5 * font, y - 3 * font, tick_text(tick, step), font, ink, Anchor::end);
-    }
-  }
-  draw_text(canvas, (x0 + x1) / 2, y1 + 15 * font, "x (m)", font, ink, Anchor::middle);
-  draw_text(canvas, x0 - 6 * font, y0 - 11 * font, "y (m)", font, ink, Anchor::middle);
+}
+
+Axis axis_of(const Plot& plot, int axis) {
+  return {plot.domain.lower[axis], plot.domain.upper[axis], 0, 1, axis == 0 ? "x (m)" : "y (m)"};
+}
+
+// The margins around the domain: left, above, right, below.
+std::array<float, 4> margins(const Painter& painter, const Plot& plot, const PlotStyle& style) {
+  if (plot.plain) return {0, 0, 0, 0};
+  const auto height = float(painter.height());
+  std::array<float, 4> sides{room_left(painter, axis_of(plot, 1), height, style) + 0.5f * style.size, 2.6f * style.size,
+                             2.2f * style.size, room_below(axis_of(plot, 0), style) + 0.5f * style.size};
+  if (plot.quantity) sides[2] = (1.2f + bar_width) * style.size + room_of_color_bar(painter, plot.scale, height, style);
+  return sides;
 }
 
 }  // namespace
 
-std::array<int, 4> plot_rectangle(const Box& domain, int width, int height) {
-  const int font = font_scale(height);
-  const int low_x = 46 * font, high_x = width - 66 * font, low_y = 30 * font, high_y = height - 28 * font;
-  const float fit = std::min(float(high_x - low_x) / domain.size()[0], float(high_y - low_y) / domain.size()[1]);
-  const int w = std::max(1, int(std::lround(domain.size()[0] * fit)));
-  const int h = std::max(1, int(std::lround(domain.size()[1] * fit)));
-  const int x0 = low_x + (high_x - low_x - w) / 2, y0 = low_y + (high_y - low_y - h) / 2;
-  return {x0, y0, x0 + w, y0 + h};
+std::array<float, 4> plot_rectangle(const Painter& painter, const Plot& plot) {
+  const auto [left, above, right, below] = margins(painter, plot, style_of(painter));
+  const float room_x = std::max(8.0f, float(painter.width()) - left - right);
+  const float room_y = std::max(8.0f, float(painter.height()) - above - below);
+  const Vec3f size = plot.domain.size();
+  const float fit = std::min(room_x / size[0], room_y / size[1]);
+  const float x0 = std::round(left + 0.5f * (room_x - fit * size[0]));
+  const float y0 = std::round(above + 0.5f * (room_y - fit * size[1]));
+  return {x0, y0, x0 + fit * size[0], y0 + fit * size[1]};
 }
 
-Canvas plot_picture(const Plot& plot, int width, int height) {
-  Canvas canvas(width, height, Vec3f::Constant(0.97f));
-  const Mapping map = map_domain(plot.domain, width, height);
+void draw_plot(Painter& painter, const Plot& plot) {
+  const PlotStyle style = style_of(painter);
+  Mapping map{plot_rectangle(painter, plot), plot.domain.lower.head<2>(), 1};
   const auto [x0, y0, x1, y1] = map.rectangle;
-  fill(canvas, map.rectangle, Vec3f::Ones(), 1);
-  paint_liquid(canvas, plot, map);
-  paint_solids(canvas, plot, map);
-  const int font = font_scale(height);
-  draw_axes(canvas, plot, map, font);
-  if (plot.quantity) draw_color_bar(canvas, {x1 + 8 * font, y0, x1 + 18 * font, y1}, plot.scale, font, ink);
-  return canvas;
+  map.pixels = (x1 - x0) / plot.domain.size()[0];
+  if (!plot.plain) painter.rectangle(0, 0, float(painter.width()), float(painter.height()), Vec3f::Constant(0.97f));
+  painter.rectangle(x0, y0, x1, y1, Vec3f::Ones());
+  painter.within(map.border(), [&] {
+    draw_liquid(painter, plot, map);
+    draw_streamlines(painter, plot, map, style);
+    draw_solids(painter, plot, map);
+  });
+  if (plot.plain) return;
+  Axis x = axis_of(plot, 0), y = axis_of(plot, 1);
+  x.from = x0, x.to = x1, y.from = y1, y.to = y0;
+  draw_frame(painter, x, y, style, false);
+  const float bar = x1 + 1.2f * style.size;
+  if (plot.quantity) draw_color_bar(painter, {bar, y0, bar + bar_width * style.size, y1}, plot.scale, style);
 }
 
 }  // namespace seiche::render

@@ -42,6 +42,7 @@ Vec3f ground_light(const Stage& stage, const Vec3f& x) {
     t = next + 1e-2f * stage.liquid->phi().h;
     inside = !inside;
   }
+  if (path > 0 && stage.look.is_opaque()) return Vec3f::Zero();
   return path > 0 ? Vec3f(0.82f * transmitted(stage, 0.7f * path)) : Vec3f::Ones();
 }
 
@@ -158,23 +159,30 @@ float sun_at(const Stage& stage, const Vec3f& x) {
   return is_blocked(stage, {x, stage.to_light}, 2e-3f * stage.reach) ? 0.0f : 1.0f;
 }
 
-Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
-  if (hit.kind == OpaqueHit::Kind::sky) return sky(stage, ray.direction);
-  if (hit.kind == OpaqueHit::Kind::ground) return shade_ground(stage, ray, hit);
-  const Vec3f x = ray.at(hit.t);
-  const float facing = std::max(0.0f, hit.normal.dot(stage.to_light));
-  const float sun = facing > 0 ? facing * sun_at(stage, x + 1e-4f * stage.reach * hit.normal) : 0.0f;
-  const float open = 0.5f + 0.5f * hit.normal[stage.up_axis];
+Vec3f light_on_surface(const Stage& stage, const Vec3f& x, const Vec3f& normal) {
+  const float facing = std::max(0.0f, normal.dot(stage.to_light));
+  const float sun = facing > 0 ? facing * sun_at(stage, x + 1e-4f * stage.reach * normal) : 0.0f;
+  const float open = 0.5f + 0.5f * normal[stage.up_axis];
   const float height = std::clamp((x[stage.up_axis] - stage.ground) / (0.25f * stage.reach), 0.0f, 1.0f);
   const Vec3f from_sky(0.85f, 0.95f, 1.1f), from_ground(0.62f, 0.6f, 0.56f);
   const Vec3f ambient = (0.24f + 0.10f * height) * (open * from_sky + (1 - open) * from_ground);
-  return solid_color(stage.colors, hit.solid).cwiseProduct(ambient + 0.95f * sun * sun_color);
+  return ambient + 0.95f * sun * sun_color;
 }
 
-// Colour depth independent of the scene's size: lengths are relative to the domain's diagonal.
+Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
+  if (hit.kind == OpaqueHit::Kind::sky) return sky(stage, ray.direction);
+  if (hit.kind == OpaqueHit::Kind::ground) return shade_ground(stage, ray, hit);
+  return solid_color(stage.colors, hit.solid).cwiseProduct(light_on_surface(stage, ray.at(hit.t), hit.normal));
+}
+
+float shadow_on_ground(const Stage& stage, const Vec3f& x) {
+  const Vec3f all = 0.40f * haze + 0.85f * sun_color;
+  const Vec3f lit = 0.40f * haze + 0.85f * sun_color.cwiseProduct(light_on_ground(stage, x));
+  return std::clamp(1 - lit.sum() / all.sum(), 0.0f, 1.0f);
+}
+
 Vec3f transmitted(const Stage& stage, float length) {
-  const Vec3f rate(8.0f, 2.3f, 1.2f);
-  return (-rate * (length / stage.reach)).array().exp();
+  return (-stage.look.absorption * (length / stage.reach)).array().exp();
 }
 
 }  // namespace seiche::render

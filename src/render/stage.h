@@ -5,6 +5,7 @@
 
 #include "render/bvh.h"
 #include "render/color.h"
+#include "render/liquid_look.h"
 #include "render/volume.h"
 
 namespace seiche::render {
@@ -21,7 +22,9 @@ struct Stage {
   Box domain;
   int up_axis = 1;
   std::unique_ptr<LiquidSurface> liquid;  // empty: no liquid
-  std::optional<ScalarVolume> quantity;   // for false colours
+  LiquidLook look;
+  std::optional<ScalarVolume> foam;      // share of foam, 0 to 1
+  std::optional<ScalarVolume> quantity;  // for false colours
   ColorScale scale;
   Bvh solids;
   std::vector<char> containers;  // by solid: not drawn from outside
@@ -30,6 +33,7 @@ struct Stage {
   float reach = 1;               // diagonal of the domain, m
   Vec3f to_light{0, 1, 0};
   GroundShadow shadow;
+  bool transparent = false;  // ground and sky are not drawn, but shadows and what liquid mirrors of them
 
   Vec3f up() const { return Vec3f::Unit(up_axis); }
 };
@@ -47,12 +51,16 @@ struct OpaqueHit {
 };
 OpaqueHit find_opaque(const Stage& stage, const Ray& ray, float t0);
 
-// Linear light from the hit.
+// Linear light from the hit; from a matt white surface at x.
 Vec3f shade_opaque(const Stage& stage, const Ray& ray, const OpaqueHit& hit);
+Vec3f light_on_surface(const Stage& stage, const Vec3f& x, const Vec3f& normal);
 Vec3f sky(const Stage& stage, const Vec3f& direction);
 
 // Share of the key light that reaches x past the solids.
 float sun_at(const Stage& stage, const Vec3f& x);
+
+// Share of its light that the ground at x lacks in the shadow, 0 to 1.
+float shadow_on_ground(const Stage& stage, const Vec3f& x);
 
 // Transmitted share of light after a path of this length in the liquid, by channel (Beer-Lambert).
 Vec3f transmitted(const Stage& stage, float length);

@@ -7,11 +7,19 @@
 namespace seiche::render {
 namespace {
 
-constexpr float refraction = 1.33f;  // index of water
+// Light along a ray, multiplied by alpha: the share of what stands behind the picture that it covers.
+struct Light {
+  Vec3f rgb{0, 0, 0};
+  float alpha = 1;
+};
+
+Light mix(const Light& a, const Light& b, float share) {
+  return {a.rgb + share * (b.rgb - a.rgb), a.alpha + share * (b.alpha - a.alpha)};
+}
 
 // Result of one ray: light, distance of the first object, and which one (edges between objects are anti-aliased).
 struct Sample {
-  Vec3f light{0, 0, 0};
+  Light light;
   float t = 1e30f;
   int thing = 0;
 };
@@ -28,13 +36,26 @@ bool refract(const Vec3f& d, const Vec3f& n, float eta, Vec3f& out) {
   return true;
 }
 
-// Schlick's approximation for water.
-float fresnel(float cosine) {
-  return 0.02f + 0.98f * std::pow(1 - std::clamp(cosine, 0.0f, 1.0f), 5.0f);
+// Schlick's approximation.
+float fresnel(const Stage& stage, float cosine) {
+  const float root = (stage.look.index - 1) / (stage.look.index + 1), least = root * root;
+  return least + (1 - least) * std::pow(1 - std::clamp(cosine, 0.0f, 1.0f), 5.0f);
 }
 
+// Light that mirrors show: that of the opaque surroundings.
 Vec3f outside(const Stage& stage, const Ray& ray) {
   return shade_opaque(stage, ray, find_opaque(stage, ray, 1e-4f * stage.reach));
+}
+
+// Light seen directly or through liquid: without ground and sky on a transparent stage, but with their shadows.
+Light seen_at(const Stage& stage, const Ray& ray, const OpaqueHit& hit) {
+  if (!stage.transparent || hit.kind == OpaqueHit::Kind::solid) return {shade_opaque(stage, ray, hit), 1};
+  const bool ground = hit.kind == OpaqueHit::Kind::ground;
+  return {Vec3f::Zero(), ground ? shadow_on_ground(stage, ray.at(hit.t)) : 0.0f};
+}
+
+Light seen_outside(const Stage& stage, const Ray& ray) {
+  return seen_at(stage, ray, find_opaque(stage, ray, 1e-4f * stage.reach));
 }
 
 Sample trace(const Stage& stage, const Ray& ray, int depth);
@@ -42,11 +63,16 @@ Sample trace(const Stage& stage, const Ray& ray, int depth);
 // Light that the liquid itself scatters towards the eye.
 Vec3f scattered(const Stage& stage, const Vec3f& x) {
   const float height = (x[stage.up_axis] - stage.ground) / stage.domain.size()[stage.up_axis];
-  return Vec3f(0.010f, 0.115f, 0.185f) * (0.8f + 0.9f * std::clamp(height, 0.0f, 1.0f));
+  return stage.look.glow * (0.8f + 0.9f * std::clamp(height, 0.0f, 1.0f));
+}
+
+// Light that comes through liquid: tinted, with what the liquid scatters in front of it.
+Light behind_liquid(const Light& behind, const Vec3f& left, const Vec3f& glow) {
+  return {left.cwiseProduct(behind.rgb) + glow, 1 - left.mean() * (1 - behind.alpha)};
 }
 
 // Light along a ray that starts in the liquid.
-Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
+Light through_liquid(const Stage& stage, const Ray& ray, int depth) {
   const float h = stage.liquid->phi().h;
   const Span span = clip(ray, stage.domain);
   const OpaqueHit opaque = find_opaque(stage, ray, 1e-3f * h);
@@ -57,19 +83,18 @@ Vec3f through_liquid(const Stage& stage, const Ray& ray, int depth) {
   const float film = depth == 0 ? 0.03f * stage.reach : 0.0f;  // least tint, so that thin sheets are visible
   const Vec3f left = transmitted(stage, path + film);
   const Vec3f glow = (Vec3f::Ones() - left).cwiseProduct(scattered(stage, ray.at(0.5f * path)));
-  if (opaque.t <= leave) return left.cwiseProduct(shade_opaque(stage, ray, opaque)) + glow;
+  if (opaque.t <= leave) return behind_liquid(seen_at(stage, ray, opaque), left, glow);
   const Vec3f x = ray.at(leave);
   Vec3f direction = ray.direction;  // walls do not refract, so objects behind them stay recognisable
-  if (!through_wall && !refract(ray.direction, -stage.liquid->normal(x), refraction, direction)) {
+  if (!through_wall && !refract(ray.direction, -stage.liquid->normal(x), stage.look.index, direction)) {
     const Vec3f mirrored = reflect(ray.direction, stage.liquid->normal(x)).normalized();
-    const Vec3f beyond =
-        depth < 3 ? through_liquid(stage, {x + 0.02f * h * mirrored, mirrored}, depth + 1) : scattered(stage, x);
-    return left.cwiseProduct(beyond) + glow;
+    const Light beyond = depth < 3 ? through_liquid(stage, {x + 0.02f * h * mirrored, mirrored}, depth + 1)
+                                   : Light{scattered(stage, x), 1};
+    return behind_liquid(beyond, left, glow);
   }
   const Ray onward{x + 0.05f * h * direction, direction};
-  return left.cwiseProduct(depth < 3 && !through_wall ? trace(stage, onward, depth + 1).light
-                                                      : outside(stage, onward)) +
-         glow;
+  const bool goes_on = depth < 3 && !through_wall;
+  return behind_liquid(goes_on ? trace(stage, onward, depth + 1).light : seen_outside(stage, onward), left, glow);
 }
 
 // First liquid along the ray before `limit`: at its surface or at a wall that it touches. Negative t: none.
@@ -79,15 +104,33 @@ struct LiquidHit {
   bool at_wall = false, eye_inside = false;
 };
 
-Vec3f shade_clear(const Stage& stage, const Vec3f& x, const LiquidHit& hit, const Vec3f& direction, int depth) {
+Light shade_clear(const Stage& stage, const Vec3f& x, const LiquidHit& hit, const Vec3f& direction, int depth) {
   const Vec3f& normal = hit.normal;
   const float dullness = hit.at_wall ? 0.35f : 1.0f;  // reduced mirroring at walls, so that the inside is visible
-  const float mirror = dullness * fresnel(-direction.dot(normal));
+  const float mirror = dullness * fresnel(stage, -direction.dot(normal));
   Vec3f inward = direction;
-  refract(direction, normal, 1 / refraction, inward);
-  const Vec3f seen = through_liquid(stage, {x, inward}, depth);
+  refract(direction, normal, 1 / stage.look.index, inward);
+  const Light seen = through_liquid(stage, {x, inward}, depth);
   const Vec3f mirrored = outside(stage, {x + 1e-3f * stage.reach * normal, reflect(direction, normal)});
-  return seen + mirror * (mirrored - seen);
+  return mix(seen, {mirrored, 1}, mirror);
+}
+
+// Metals mirror; milk and blood are matt below a clear skin.
+Light shade_opaque_liquid(const Stage& stage, const Vec3f& x, const Vec3f& normal, const Vec3f& direction) {
+  const float edge = fresnel(stage, -direction.dot(normal));
+  const Vec3f mirrored = outside(stage, {x + 1e-3f * stage.reach * normal, reflect(direction, normal)});
+  const Vec3f& metal = stage.look.metal;
+  if (metal.maxCoeff() > 0) return {mirrored.cwiseProduct(metal + edge * (Vec3f::Ones() - metal)), 1};
+  const Vec3f matt = stage.look.albedo.cwiseProduct(light_on_surface(stage, x, normal));
+  return mix({matt, 1}, {mirrored, 1}, edge);
+}
+
+Light shade_surface(const Stage& stage, const Vec3f& x, const LiquidHit& hit, const Vec3f& direction, int depth) {
+  const Light own = stage.look.is_opaque() ? shade_opaque_liquid(stage, x, hit.normal, direction)
+                                           : shade_clear(stage, x, hit, direction, depth);
+  const float foam = stage.foam && !hit.at_wall ? stage.foam->sample(x) : 0.0f;
+  if (foam <= 0) return own;
+  return mix(own, {0.92f * light_on_surface(stage, x, hit.normal), 1}, std::min(foam, 1.0f));
 }
 
 Vec3f shade_false_color(const Stage& stage, const Vec3f& x, const Vec3f& normal, const Vec3f& direction) {
@@ -98,7 +141,7 @@ Vec3f shade_false_color(const Stage& stage, const Vec3f& x, const Vec3f& normal,
   const float open = 0.5f + 0.5f * normal[stage.up_axis];
   const Vec3f base = albedo * (0.35f + 0.2f * open + 0.55f * sun);
   const Vec3f mirrored = sky(stage, reflect(direction, normal));
-  return base + 0.4f * fresnel(-direction.dot(normal)) * (mirrored - base);
+  return base + 0.4f * fresnel(stage, -direction.dot(normal)) * (mirrored - base);
 }
 
 LiquidHit find_liquid(const Stage& stage, const Ray& ray, float limit) {
@@ -120,17 +163,18 @@ Sample trace(const Stage& stage, const Ray& ray, int depth) {
   const float limit = stage.liquid ? opaque.t - 0.05f * stage.liquid->phi().h : opaque.t;
   const LiquidHit liquid = find_liquid(stage, ray, limit);
   if (liquid.t < 0) {
-    return {shade_opaque(stage, ray, opaque), opaque.t, int(opaque.kind) + opaque.solid};
+    return {seen_at(stage, ray, opaque), opaque.t, int(opaque.kind) + opaque.solid};
   }
   const Vec3f x = ray.at(liquid.t);
   if (liquid.eye_inside) return {through_liquid(stage, {x, ray.direction}, depth), liquid.t, -1};
-  if (stage.quantity) return {shade_false_color(stage, x, liquid.normal, ray.direction), liquid.t, -1};
-  return {shade_clear(stage, x, liquid, ray.direction, depth), liquid.t, -1};
+  if (stage.quantity) return {{shade_false_color(stage, x, liquid.normal, ray.direction), 1}, liquid.t, -1};
+  return {shade_surface(stage, x, liquid, ray.direction, depth), liquid.t, -1};
 }
 
 // Compresses highlights: light above 0.8 approaches 1 smoothly.
-Vec3f expose(const Vec3f& light) {
-  return light.unaryExpr([](float v) { return v < 0.8f ? v : 0.8f + 0.2f * (v - 0.8f) / (v - 0.8f + 0.2f); });
+Light expose(const Light& light) {
+  return {light.rgb.unaryExpr([](float v) { return v < 0.8f ? v : 0.8f + 0.2f * (v - 0.8f) / (v - 0.8f + 0.2f); }),
+          light.alpha};
 }
 
 // True if a neighbour of the pixel shows another object or clearly different light.
@@ -140,18 +184,25 @@ bool is_rough(const std::vector<Sample>& samples, const Camera& camera, int x, i
   for (const int other : {y * camera.width + x1, y1 * camera.width + x, y * camera.width + std::max(0, x - 1),
                           std::max(0, y - 1) * camera.width + x}) {
     const Sample& there = samples[std::size_t(other)];
-    if (there.thing != here.thing || (there.light - here.light).cwiseAbs().maxCoeff() > 0.06f) return true;
+    if (there.thing != here.thing || (there.light.rgb - here.light.rgb).cwiseAbs().maxCoeff() > 0.06f) return true;
+    if (std::abs(there.light.alpha - here.light.alpha) > 0.06f) return true;
   }
   return false;
 }
 
-Vec3f four_rays(const Stage& stage, const Camera& camera, int x, int y) {
-  Vec3f sum = Vec3f::Zero();
+Light light_along(const Stage& stage, const Camera& camera, const TraceStyle& style, float u, float v) {
+  const Light light = trace(stage, camera.ray(u, v), 0).light;
+  return style.expose ? expose(light) : light;
+}
+
+Light four_rays(const Stage& stage, const Camera& camera, const TraceStyle& style, int x, int y) {
+  Light sum{Vec3f::Zero(), 0};
   for (int k = 0; k < 4; ++k) {
     const float u = float(x) + 0.25f + 0.5f * float(k & 1), v = float(y) + 0.25f + 0.5f * float(k >> 1);
-    sum += expose(trace(stage, camera.ray(u, v), 0).light);
+    const Light light = light_along(stage, camera, style, u, v);
+    sum.rgb += 0.25f * light.rgb, sum.alpha += 0.25f * light.alpha;
   }
-  return sum / 4;
+  return sum;
 }
 
 // Draws the twelve edges of the domain, faint behind objects.
@@ -177,23 +228,27 @@ void draw_domain(Canvas& canvas, const Stage& stage, const Camera& camera, const
 
 }  // namespace
 
-Canvas trace_picture(const Stage& stage, const Camera& camera) {
+Canvas trace_picture(const Stage& stage, const Camera& camera, const TraceStyle& style) {
   std::vector<Sample> samples(std::size_t(camera.width) * camera.height);
   parallel_range(0, camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
       Sample& sample = samples[std::size_t(y) * camera.width + x];
       sample = trace(stage, camera.ray(float(x) + 0.5f, float(y) + 0.5f), 0);
-      sample.light = expose(sample.light);
+      if (style.expose) sample.light = expose(sample.light);
     }
   });
   Canvas canvas(camera.width, camera.height, Vec3f::Zero());
+  if (stage.transparent) canvas.alpha.resize(canvas.pixels.size());
   parallel_range(0, camera.height, [&](int y) {
     for (int x = 0; x < camera.width; ++x) {
-      const Sample& sample = samples[std::size_t(y) * camera.width + x];
-      canvas.at(x, y) = is_rough(samples, camera, x, y) ? four_rays(stage, camera, x, y) : sample.light;
+      const std::size_t pixel = std::size_t(y) * camera.width + x;
+      const Light light =
+          is_rough(samples, camera, x, y) ? four_rays(stage, camera, style, x, y) : samples[pixel].light;
+      canvas.pixels[pixel] = light.rgb;
+      if (stage.transparent) canvas.alpha[pixel] = light.alpha;
     }
   });
-  draw_domain(canvas, stage, camera, samples);
+  if (style.edges) draw_domain(canvas, stage, camera, samples);
   return canvas;
 }
 

@@ -5,7 +5,13 @@
 
 namespace seiche::render {
 
-// The picture with the domain's edges: about one ray per pixel in smooth areas and four elsewhere; rows in parallel.
-Canvas trace_picture(const Stage& stage, const Camera& camera);
+struct TraceStyle {
+  bool edges = true;   // of the domain
+  bool expose = true;  // highlights are compressed into [0, 1]; false: light as it is, for EXR
+};
+
+// About one ray per pixel in smooth areas and four elsewhere; rows in parallel. The canvas of a transparent stage has
+// alpha.
+Canvas trace_picture(const Stage& stage, const Camera& camera, const TraceStyle& style = {});
 
 }  // namespace seiche::render

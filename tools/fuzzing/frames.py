@@ -45,6 +45,10 @@ shape = "level_set"
 file = "frame.vdb"
 """
 MOST_PRINTED = 1 << 20   # bytes
+COLORS = ["auto", "speed", "pressure", "none", "vorticity", "divergence"]
+# Further options of render, by dimension.
+LOOKS = {2: [["--streamlines"], ["--format", "svg", "--per-frame", "--color", "vorticity"], ["--format", "pdf"]],
+         3: [["--foam", "--color", "none"], ["--format", "exr", "--transparent"], ["--frames", "0", "--turntable", "2"]]}
 
 
 def numbers(dim):
@@ -82,8 +86,9 @@ def attempt(bench, index, folder):
     (folder / "frame.vdb").write_bytes(data)
     (folder / "scene.toml").write_text(LEVEL_SET.format(**numbers(dim)))
     verbs = [("info", f"out/{file.relative_to(out)}"), ("info", "out"),
-             ("render", "out", "--size", "160x120", "--color", rng.choice(["auto", "speed", "pressure", "none"])),
-             ("check", "scene.toml")]
+             ("render", "out", "--size", "160x120", "--color", rng.choice(COLORS)),
+             ("render", "out", "--size", "160x120", *rng.choice(LOOKS[dim])),
+             ("plot", "out"), ("check", "scene.toml")]
     ends = []
     for words in verbs:
         ended = bench.program.run(*words, folder=folder, ranks=1)

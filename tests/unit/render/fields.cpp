@@ -1,0 +1,280 @@
+// Quantities derived from the velocity, ranges of colours, streamlines, foam.
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "base/error.h"
+#include "base/fluid_spec.h"
+#include "base/solid_spec.h"
+#include "files/checked_file.h"
+#include "render/foam.h"
+#include "render/job.h"
+#include "render/liquid_look.h"
+#include "render/placed_shape.h"
+#include "render/streamlines.h"
+
+namespace fields_tests {
+using namespace seiche;
+using namespace seiche::render;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Scratch {
+  fs::path folder = fs::temp_directory_path() / ("seiche_fields_" + std::to_string(getpid()));
+  Scratch() { fs::create_directories(folder / "frames"); }
+  ~Scratch() { fs::remove_all(folder); }
+};
+
+const auto silent = [](const std::string&) {};
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::bad_input);
+    return error.what();
+  }
+  return "";
+}
+
+// Liquid everywhere in the unit square or cube, with velocity u(x) at the faces' centres.
+vdb::Frame flow(int dimension, int n, const std::function<Vec3(const Vec3&)>& u) {
+  vdb::Frame frame;
+  frame.dimension = dimension;
+  frame.cell_size = 1.0 / n;
+  const int depth = dimension == 3 ? n : 1;
+  vdb::Grid surface{"surface", vdb::GridKind::level_set, 3.0f / float(n), {}}, velocity;
+  vdb::Block values{{0, 0, 0}, {n, n, depth}, {}}, vectors{{0, 0, 0}, {n, n, depth}, {}};
+  for (int c = 0; c < n * n * depth; ++c) {
+    const Vec3 middle((c % n + 0.5) / n, (c / n % n + 0.5) / n, dimension == 3 ? (c / (n * n) + 0.5) / n : 0);
+    values.values.push_back(-3.0f / float(n));
+    for (int a = 0; a < 3; ++a)
+      vectors.values.push_back(float(u(middle - 0.5 / n * Vec3::Unit(a * (a < dimension)))[a]));
+  }
+  surface.blocks.push_back(values);
+  velocity.name = "vel";
+  velocity.kind = vdb::GridKind::staggered_vector;
+  velocity.blocks.push_back(vectors);
+  frame.grids = {surface, velocity};
+  return frame;
+}
+
+void store(const Scratch& scratch, vdb::Frame frame, int number) {
+  frame.number = number;
+  frame.time = 0.1 * number;
+  frame.creator = "test";
+  write_file(scratch.folder / "frames" / ("frame.000" + std::to_string(number) + ".vdb"), vdb::encode(frame));
+}
+
+Vec3 rotation(const Vec3& x) {
+  return Vec3(0.5 - x[1], x[0] - 0.5, 0) * 3;
+}
+
+RenderOptions options_for(const Scratch& scratch) {
+  RenderOptions options;
+  options.run = scratch.folder;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("vorticity, divergence and components of linear flows are exact") {
+  const auto all_near = [](const ScalarVolume& volume, float wanted, int margin) {
+    bool near = true;
+    for (int j = margin; j < volume.cells[1] - margin; ++j)
+      for (int i = margin; i < volume.cells[0] - margin; ++i)
+        near = near && std::abs(volume.at(i, j, volume.cells[2] / 2) - wanted) < 1e-4f;  // single precision over h
+    return near;
+  };
+  for (const int dimension : {2, 3}) {
+    const vdb::Frame turning = flow(dimension, 12, rotation);
+    // frames lack the high faces of the last cells, whose centres then have the mean of one
+    CHECK(all_near(quantity_of(turning, "vorticity"), 6, 2));
+    CHECK(all_near(quantity_of(turning, "divergence"), 0, 0));
+    const vdb::Frame growing = flow(dimension, 12, [](const Vec3& x) { return Vec3(2 * x[0], -0.5 * x[1], 0); });
+    CHECK(all_near(quantity_of(growing, "divergence"), 1.5, 0));
+    CHECK(all_near(quantity_of(growing, "vorticity"), 0, 0));
+    CHECK(quantity_of(growing, "velocity_x").at(3, 5, 0) == Approx(2 * 3.5 / 12));
+  }
+  CHECK(has_sign("vorticity", 2));
+  CHECK(!has_sign("vorticity", 3));
+  CHECK(label_of("vorticity") == "vorticity (s⁻¹)");
+}
+
+TEST_CASE("a quantity that a frame lacks is refused with what it has and what to ask for") {
+  vdb::Frame frame = flow(2, 8, rotation);
+  CHECK_THAT(message_of([&] { quantity_of(frame, "pressure"); }),
+             Catch::Contains("can show none, speed, vorticity, divergence, velocity_x, velocity_y;") &&
+                 Catch::Contains("needs \"pressure\" in output.frames"));
+  CHECK_THAT(message_of([&] { quantity_of(frame, "vortcity"); }), Catch::Contains("did you mean 'vorticity'?"));
+  CHECK_THAT(message_of([&] { quantity_of(frame, "velocity_z"); }), Catch::Contains("holds no 'velocity_z'"));
+  frame.grids.pop_back();
+  CHECK_THAT(message_of([&] { quantity_of(frame, "speed"); }),
+             Catch::Contains("can show none;") && Catch::Contains("needs \"velocity\" in output.frames"));
+  CHECK_THAT(message_of([&] { velocity_of(frame, "--streamlines"); }),
+             Catch::Contains("--streamlines: frame 0 holds no velocity") && Catch::Contains("output.frames"));
+}
+
+TEST_CASE("colours range over all frames, or one, or as given, and about zero for quantities with a sign") {
+  const Scratch scratch;
+  for (const int number : {0, 1})
+    store(scratch, flow(2, 16, [&](const Vec3&) { return Vec3(1.0 + 3 * number, 0, 0); }), number);
+  RenderOptions options = options_for(scratch);
+  Job job = prepare_job(options, silent);
+  CHECK(job.wants.quantity == "speed");
+  CHECK(job.scale.low == 0);
+  CHECK(job.scale.high == Approx(4));
+  CHECK(job.scale.map->name == "viridis");
+  options.per_frame = true;
+  job = prepare_job(options, silent);
+  CHECK(scale_of(job, load_frame(job.frames, 0, job.wants)).high == Approx(1));
+  CHECK(scale_of(job, load_frame(job.frames, 1, job.wants)).high == Approx(4));
+  options.per_frame = false;
+  options.range = {-1.0f, 9.0f};
+  options.color_map = "magma";
+  job = prepare_job(options, silent);
+  CHECK(job.scale.low == -1);
+  CHECK(job.scale.high == 9);
+  CHECK(job.scale.map->name == "magma");
+  options = options_for(scratch);
+  options.color = "velocity_x";
+  job = prepare_job(options, silent);
+  CHECK(job.scale.low == Approx(-4));
+  CHECK(job.scale.high == Approx(4));
+  CHECK(job.scale.map->name == "coolwarm");
+}
+
+TEST_CASE("options that do not fit are refused with what to do") {
+  const auto refused = [](int dimension, bool has_quantity, const std::function<void(RenderOptions&)>& set) {
+    RenderOptions options;
+    set(options);
+    return message_of([&] { require_fitting_options(options, dimension, has_quantity); });
+  };
+  using O = RenderOptions;
+  CHECK_THAT(refused(3, false, [](O& o) { o.streamlines = true; }), Catch::Contains("--streamlines is for 2D runs"));
+  CHECK_THAT(refused(3, false, [](O& o) { o.format = Format::svg; }), Catch::Contains("take png or exr"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.format = Format::exr; }), Catch::Contains("take svg, pdf or png"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.turntable = 8; }), Catch::Contains("--turntable is for 3D runs"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.foam = 1.0f; }), Catch::Contains("--foam is for 3D runs"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.transparent = true; }), Catch::Contains("--transparent is for 3D runs"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.camera = CameraSpec{}; }), Catch::Contains("--camera is for 3D runs"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.range = {0.0f, 1.0f}; }), Catch::Contains("add --color speed"));
+  CHECK_THAT(refused(2, false, [](O& o) { o.per_frame = true; }), Catch::Contains("add --color speed"));
+  CHECK_THAT(refused(2, true,
+                     [](O& o) {
+                       o.per_frame = true, o.range = {0.0f, 1.0f};
+                     }),
+             Catch::Contains("exclude each other"));
+  CHECK_THAT(refused(3, false, [](O& o) { o.turntable = 8, o.camera_path = "x.csv"; }),
+             Catch::Contains("exclude each other"));
+  CHECK_THAT(refused(2, true, [](O& o) { o.format = Format::svg, o.animation = "film.mp4"; }),
+             Catch::Contains("leave out --format svg"));
+  CHECK(refused(2, true, [](O& o) { o.format = Format::pdf, o.streamlines = true; }).empty());
+  CHECK(refused(3, false, [](O& o) { o.format = Format::exr, o.transparent = true, o.foam = 2.0f; }).empty());
+  CHECK(parse_color_range("-1, 2.5") == std::array<float, 2>{-1, 2.5f});
+  for (const char* text : {"", "1", "2,1", "1,1", "0,nan", "0,1,2", "a,b"})
+    CHECK_THAT(message_of([&] { parse_color_range(text); }), Catch::Contains("as 0,2.5"));
+}
+
+TEST_CASE("streamlines of a rotation are circles that keep apart, and none run where nothing flows") {
+  const FaceVelocity velocity = velocity_of(flow(2, 40, rotation), "test");
+  const auto everywhere = [](const Vec2f&) { return true; };
+  const float spacing = 0.06f;
+  const std::vector<Polygon> lines = streamlines(velocity, spacing, everywhere);
+  CHECK(lines.size() > 4);
+  const Vec2f center(0.5f, 0.5f);
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const float radius = (lines[n].front() - center).norm();
+    for (const Vec2f& x : lines[n]) {
+      CHECK((x - center).norm() ==
+            Approx(radius).margin(2e-3));  // midpoint rule, steps of 0.01 on radii of 0.05 and more
+      for (std::size_t m = 0; m < n; ++m)
+        for (const Vec2f& y : lines[m]) REQUIRE((x - y).norm() > 0.49f * spacing);
+    }
+    const Vec2f first = lines[n][0] - center, second = lines[n][1] - center;
+    CHECK(first.x() * second.y() - first.y() * second.x() > 0);  // in the sense of the rotation
+  }
+  CHECK(streamlines(velocity, spacing, [](const Vec2f&) { return false; }).empty());
+  CHECK(streamlines(velocity_of(flow(2, 8, [](const Vec3&) { return Vec3(0, 0, 0); }), ""), 0.1f, everywhere).empty());
+}
+
+TEST_CASE("foam is where the surface bends and is fast") {
+  const int n = 24;
+  ScalarVolume drop;
+  drop.cells = {n, n, n};
+  drop.h = 1.0f / n;
+  for (int c = 0; c < n * n * n; ++c) {
+    const Vec3f x = (Vec3f(float(c % n), float(c / n % n), float(c / (n * n))) + Vec3f::Constant(0.5f)) * drop.h;
+    // a drop of two cells above a flat surface
+    const float ball = (x - Vec3f(0.5f, 0.7f, 0.5f)).norm() - 2 * drop.h;
+    drop.values.push_back(std::clamp(std::min(ball, x.y() - 0.3f), -3 * drop.h, 3 * drop.h));
+  }
+  FaceVelocity velocity{drop.cells, drop.lower, drop.h, {}};
+  for (int c = 0; c < n * n * n; ++c) velocity.values.insert(velocity.values.end(), {0, -2, 0});
+  const ScalarVolume fast = foam_of(drop, velocity, 1, 1), slow = foam_of(drop, velocity, 100, 1);
+  CHECK(fast.sample({0.5f, 0.7f + 2 * drop.h, 0.5f}) > 0.3f);
+  CHECK(fast.sample({0.2f, 0.3f, 0.2f}) == 0);
+  CHECK(*std::max_element(slow.values.begin(), slow.values.end()) == 0);
+}
+
+TEST_CASE("liquids look like the material with their density and viscosity") {
+  const auto named = [](double density, const std::string& viscosity) {
+    LiquidSpec liquid;
+    liquid.density = density;
+    liquid.viscosity = viscosity;
+    return material_of(liquid);
+  };
+  CHECK(named(1000, "0.0") == "water");
+  CHECK(named(998.2, "1.002e-3") == "water");
+  CHECK(named(1420, "10") == "honey");
+  CHECK(named(1300, "50*(1+x)") == "honey");
+  CHECK(named(1261, "1.41") == "glycerol");
+  CHECK(named(911, "0.084") == "olive_oil");
+  CHECK(named(13546, "0") == "mercury");
+  CHECK(named(1030, "2e-3") == "milk");
+  CHECK(named(1030, "0") == "water");
+  CHECK(named(1060, "3.5e-3") == "blood");
+  CHECK(liquid_look("milk").is_opaque());
+  CHECK(!liquid_look("honey").is_opaque());
+  CHECK_THAT(message_of([] { liquid_look("hony"); }), Catch::Contains("did you mean 'honey'?; liquids are water,"));
+}
+
+TEST_CASE("outlines of static and prescribed solids become those of the scene's shapes") {
+  LoadedFrame frame;
+  frame.dimension = 2;
+  frame.time = 0.5;
+  frame.domain = {Vec3f::Zero(), Vec3f(1, 1, 0.1f)};
+  frame.phi = ScalarVolume{{10, 10, 1}, {0, 0, 0}, 0.1f, std::vector<float>(100, 0.3f)};
+  SolidSpec box;
+  box.shape.kind = "box";
+  box.shape.lower = Vec3(0.22, 0.2, 0), box.shape.upper = Vec3(0.4, 0.51, 0);
+  box.kind = SolidKind::kinematic;
+  box.motion.translate = {"0.2*t", "0", "0"};
+  // what a run samples on its grid: corners are cut
+  const auto sampled = [&](double shift) {
+    SolidMesh solids;
+    solids.mesh.points = {
+        {0.32 + shift, 0.23, 0}, {0.35 + shift, 0.2, 0}, {0.5 + shift, 0.48, 0}, {0.32 + shift, 0.5, 0}};
+    solids.mesh.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    solids.solid = {0, 0, 0, 0};
+    return solids;
+  };
+  frame.solids = sampled(0);
+  refine_outlines(frame, {box});
+  std::vector<Vec3> corners;
+  for (const auto& segment : frame.solids.mesh.segments) corners.push_back(frame.solids.mesh.points[segment[0]]);
+  REQUIRE(corners.size() == 4);
+  for (const Vec3& corner : {Vec3(0.32, 0.2, 0), Vec3(0.5, 0.2, 0), Vec3(0.5, 0.51, 0), Vec3(0.32, 0.51, 0)}) {
+    const auto is_it = [&](const Vec3& x) { return (x - corner).norm() < 1e-12; };
+    CHECK(std::any_of(corners.begin(), corners.end(), is_it));
+  }
+  frame.solids = sampled(0.3);  // elsewhere than the scene has it: the frame is right
+  refine_outlines(frame, {box});
+  CHECK(frame.solids.mesh.points[0] == Vec3(0.62, 0.23, 0));
+}
+
+}  // namespace fields_tests
