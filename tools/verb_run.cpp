@@ -5,6 +5,7 @@
 #include "base/scene.h"
 #include "console.h"
 #include "run/command.h"
+#include "verb_options.h"
 #include "verbs.h"
 
 namespace seiche {
@@ -39,6 +40,8 @@ void add_session_options(CLI::App& verb, SessionOptions& session) {
       "--quiet", [&session] { session.verbosity = Verbosity::quiet; }, "Print warnings and errors only");
 }
 
+}  // namespace
+
 void add_set_option(CLI::App& verb, std::vector<Override>& overrides) {
   verb.add_option_function<std::vector<std::string>>(
           "--set",
@@ -53,8 +56,6 @@ void add_set_option(CLI::App& verb, std::vector<Override>& overrides) {
 Surroundings surroundings(const VerbContext& context) {
   return {context.ranks, context.emergency, terminal_console()};
 }
-
-}  // namespace
 
 void add_run(CLI::App& program, VerbContext& context) {
   CLI::App* verb = program.add_subcommand("run", "Run a scene");
@@ -85,16 +86,6 @@ void add_resume(CLI::App& program, VerbContext& context) {
   verb->callback([options, &context] {
     context.stops = Stops::when_safe;
     context.action = [options, &context] { return resume_command(*options, surroundings(context)); };
-  });
-}
-
-void add_check(CLI::App& program, VerbContext& context) {
-  CLI::App* verb = program.add_subcommand("check", "Read and verify a scene, report what it will cost, run nothing");
-  const auto options = std::make_shared<CheckOptions>();
-  verb->add_option("scene", options->scene, "Scene file")->required();
-  add_set_option(*verb, options->overrides);
-  verb->callback([options, &context] {
-    context.action = [options, &context] { return check_command(*options, surroundings(context)); };
   });
 }
 

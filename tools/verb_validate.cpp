@@ -51,7 +51,7 @@ void add_validate(CLI::App& program, VerbContext& context) {
       ->excludes(fresh);
   verb->add_option("--break", options.perturbation, "Test only: operator:factor")->group("");
   verb->footer(
-      "Exit codes: 0 all cases passed; 1 a case missed its bar (a fault of ours: the table and validation.json say "
+      "Exit codes: 0 all cases passed; 1 a case missed its bar (the table and validation.json say "
       "which); 2 wrong command line, case or scene, nothing was run; 3 a case could not be run to its end or measured; "
       "others as for `seiche run`.");
   verb->callback([words, &context] {

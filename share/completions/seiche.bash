@@ -5,7 +5,7 @@ _seiche() {
     case "${COMP_WORDS[1]}" in
       run) words="--help --out --overwrite --set --frames --threads --walltime --watchdog --quiet" ;;
       resume) words="--help --end --set --force --frames --threads --walltime --watchdog --quiet" ;;
-      check) words="--help --set" ;;
+      check) words="--help --set --picture --measure --threads --json" ;;
       validate) words="--help --level --list --out --cases --write-docs --record --threads --fresh --report-only" ;;
       info) words="--help" ;;
       render) words="--help --frames --size --format --out --color --colors --range --per-frame --streamlines --camera --camera-path --camera-steps --turntable --up --material --foam --transparent --plain --font --contact-sheet --animation" ;;

@@ -132,7 +132,7 @@ GridSummary summarize(const VtkDocument& document) {
   return summary;
 }
 
-// What `take` makes of a file; its errors say what is expected instead.
+// Result of `take` on a file; its errors say what is expected instead.
 template <class Take>
 auto read(const std::filesystem::path& file, const char* expected, const Take& take) {
   const mesh::Source source{file, mesh::read_bytes(file)};

@@ -5,35 +5,33 @@
 #include <cmath>
 
 #include "base/agree.h"
-#include "base/gravity.h"
 #include "base/scene.h"
+#include "base/thread_limit.h"
+#include "files/checked_file.h"
+#include "files/frames.h"
 #include "fluid/rheology/rheology.h"
 #include "geometry/shapes/shapes.h"
 #include "run/command.h"
-#include "run/loop.h"
+#include "run/estimate.h"
 #include "run/memory.h"
 #include "run/mesh_extents.h"
+#include "run/start_table.h"
+#include "run/threads.h"
+#include "scene/writer.h"
 #include "solid/elastic/solid.h"
 #include "solid/mesh/point.h"
 
 namespace seiche {
 namespace {
 
-// Rough number of cells that one core advances per second; measured on dam breaks.
-constexpr double cells_a_core_second = 3e5;
-
 // Grids up to this size are set up as for a run, within a few seconds.
 constexpr std::int64_t most_cells_set_up = 2'000'000;
 
 // Findings about the solids of a scene.
 struct Verified {
-  std::vector<std::string> notes, meshes, factors;
+  std::vector<std::string> notes, meshes;
+  double nodes = 0, factors = 0;  // of elastic solids; bytes of their Cholesky factors
 };
-
-std::string describe_factors(const std::string& name, int dimension, int nodes) {
-  return fmt::format("the factors of '{}' take about {}", name,
-                     readable_bytes(factor_bytes(dimension, dimension * nodes)));
-}
 
 // The set-up for a run makes the shapes of sources and solids itself and tells their notes; doing it here as well would
 // double the time.
@@ -58,7 +56,8 @@ void verify_elastic(const Scene& scene, const SolidSpec& solid, const ShapeOptio
       point_of_probe<Dim>(elastic.body.mesh, probe);
   }
   found.meshes.push_back(describe_mesh<Dim>(solid.name, elastic.body.mesh));
-  found.factors.push_back(describe_factors(solid.name, Dim, elastic.body.size() / Dim));
+  found.nodes += double(elastic.body.size()) / Dim;
+  found.factors += factor_bytes(Dim, elastic.body.size());
 }
 
 template <int Dim>
@@ -76,93 +75,153 @@ Verified verify_solids(const Scene& scene, bool set_up) {
   return found;
 }
 
-// Speed of liquid that falls freely through the domain, sqrt(2 g H), m/s. 0 without gravity.
-double fall_speed(const Scene& scene) {
-  const Gravity gravity(scene.gravity);
-  const Vec3 start = gravity.at(0);
-  const double g = gravity.largest(0, scene.time.end), first = start.norm();
-  const Vec3 extent = scene.domain.upper - scene.domain.lower;
-  const double height = first > 0 ? std::abs(extent.dot(start)) / first : g > 0 ? extent.maxCoeff() : 0;
-  return std::sqrt(2 * g * height);
-}
-
-// Number of steps dt = cfl h / speed, at least one a frame.
-double expected_steps(const Scene& scene, double speed) {
-  double dt = speed > 0 ? scene.time.cfl * scene.domain.cell_size / speed : 1 / scene.time.frame_rate;
-  if (scene.time.max_step) dt = std::min(dt, *scene.time.max_step);
-  if (scene.time.fixed_step) dt = *scene.time.fixed_step;
-  return std::ceil(std::max({0.0, scene.time.end / dt, double(last_frame(scene.time))}));
-}
-
-std::string report(const Scene& scene, const Cost& cost, int ranks) {
-  const auto& n = scene.domain.cells;
-  const int frames = last_frame(scene.time) + 1;
-  const double speed = fall_speed(scene), steps = expected_steps(scene, speed);
-  const double seconds = steps * double(cost.cells) / (cells_a_core_second * ranks);
-  // A frame holds at most a level set and three velocity components a cell, 4 bytes each.
-  const double frame_bytes = 16.0 * double(cost.cells);
-  std::string text = fmt::format("cells   {} ({} x {}", cost.cells, n[0], n[1]);
-  if (scene.dimension == 3) text += fmt::format(" x {}", n[2]);
-  text += fmt::format(")\nmemory  about {}\n", readable_bytes(cost.bytes));
-  text += fmt::format("frames  {} (0 to {:g} s, {:g} a second), at most {} on disk\n", frames, scene.time.end,
-                      scene.time.frame_rate, readable_bytes(frames * frame_bytes));
-  text += fmt::format("steps   {} {:.0f}, {}\n", speed > 0 ? "about" : "at least", steps,
-                      speed > 0 ? "if the liquid falls through the whole domain"
-                                : "one a frame; without gravity it depends on how fast the liquid flows");
-  return text + fmt::format("time    about {} on {} core{}, within a factor of three", readable_seconds(seconds), ranks,
-                            ranks == 1 ? "" : "s");
-}
-
-// Description of the initial state.
-struct Start {
-  std::vector<std::string> lines, warnings;
+// Description of a scene at its start, and of the cost of its run.
+struct Findings {
+  std::vector<std::string> warnings, lines;
+  JsonMembers json;
 };
 
-// Sets up the initial state, which evaluates the formulas as a run would, and describes liquid and solids.
-Start look_at_start(const Scene& scene, const Cost& cost, Verified& found, const Communicator& ranks) {
-  if (cost.cells <= most_cells_set_up) {
-    const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);
-    for (std::size_t k = 0; k < scene.solids.size(); ++k)
-      if (scene.solids[k].kind.has_elements)
-        found.factors.push_back(
-            describe_factors(scene.solids[k].name, scene.dimension, int(simulation->solid_volume(k).rest.size())));
-    Start start{simulation->describe_start(), found.notes};
-    for (std::string& text : simulation->take_warnings())
-      if (std::find(start.warnings.begin(), start.warnings.end(), text) == start.warnings.end())
-        start.warnings.push_back(std::move(text));
-    return start;
+// Writes frame 0 as a run directory that the renderer can read.
+void write_start(const Scene& scene, const Simulation& simulation, const std::filesystem::path& folder,
+                 const Communicator& ranks) {
+  Scene shown = scene;
+  shown.output.frames = {"surface"};
+  shown.output.formats = {"vdb"};
+  shown.output.surface = "closed";
+  const RunPaths paths{folder};
+  agree_on_root(ranks, "writing the start of the scene", [&] {
+    make_folder(paths.frames());
+    write_file(paths.scene(), write_scene(shown));
+  });
+  FrameWriter(shown, paths, ranks).write({0, 0, 0}, simulation, PhaseFault::none);
+}
+
+// Makes steps and keeps nothing of them. Collective.
+TrialSteps make_trial_steps(const Scene& scene, Simulation& simulation, int steps, const Communicator& ranks) {
+  std::vector<double> seconds;
+  TrialSteps trial;
+  for (int n = 0; n < steps && simulation.time() < scene.time.end; ++n) {
+    const double frame = 1 / scene.time.frame_rate, now = simulation.time();
+    const double next = (std::floor(now / frame * (1 + 1e-12) + 1e-9) + 1) * frame;
+    seconds.push_back(ranks.global_max(simulation.step(std::min(next, scene.time.end)).wall_seconds));
   }
-  Start start{found.meshes, found.notes};
-  start.lines.push_back(
+  trial.steps = int(seconds.size());
+  if (seconds.empty()) return trial;
+  const bool skips_first = seconds.size() > 2;  // it sets up what later steps reuse
+  const auto first = seconds.begin() + skips_first;
+  const auto [least, most] = std::minmax_element(first, seconds.end());
+  trial.fastest = *least;
+  trial.slowest = *most;
+  std::nth_element(first, first + (seconds.end() - first) / 2, seconds.end());
+  trial.seconds = *(first + (seconds.end() - first) / 2);
+  trial.dt = simulation.time() / trial.steps;
+  trial.memory = ranks.global_sum(peak_resident_bytes());
+  return trial;
+}
+
+std::string grid_line(const Scene& scene, std::int64_t cells) {
+  const auto& n = scene.domain.cells;
+  std::string text = fmt::format("cells   {} ({} x {}", cells, n[0], n[1]);
+  return text + (scene.dimension == 3 ? fmt::format(" x {})", n[2]) : ")");
+}
+
+void describe_cost(const Scene& scene, const RunSize& size, const std::optional<TrialSteps>& trial,
+                   const Threads& threads, const Communicator& ranks, Findings& found) {
+  const RunEstimate estimate = estimate_run(scene, size, ranks.size(), threads.count, trial);
+  for (std::string& line : estimate_lines(scene, estimate, ranks.size(), threads.count, trial))
+    found.lines.push_back(std::move(line));
+  found.json.emplace_back("size", size_json(size));
+  found.json.emplace_back("estimate", estimate_json(estimate, trial));
+}
+
+// The same for a grid that is too large to be set up here: half of it is taken as liquid.
+void describe_unseen(const Scene& scene, const Cost& cost, const Verified& verified, const Threads& threads,
+                     const Communicator& ranks, Findings& found) {
+  RunSize size;
+  size.cells = double(cost.cells);
+  size.fluid = size.near = size.cells / 2;
+  size.band = 6 * std::pow(size.cells, 1 - 1.0 / scene.dimension);
+  size.nodes = verified.nodes;
+  size.factors = verified.factors;
+  found.lines.insert(found.lines.end(), verified.meshes.begin(), verified.meshes.end());
+  found.lines.push_back(
       "note: the grid is too large to evaluate formulas and measure liquid and solids here; the run does it as it "
-      "begins");
-  return start;
+      "begins. Estimates below take half of the cells as liquid; --measure 3 sets the scene up and tries it");
+  describe_cost(scene, size, {}, threads, ranks, found);
+}
+
+// Sets up the initial state, which evaluates the formulas as a run would, and describes liquid, solids and costs.
+// Collective.
+void look_at_start(const Scene& scene, const CheckOptions& options, const Threads& threads, const Communicator& ranks,
+                   Findings& found) {
+  const std::unique_ptr<Simulation> simulation = make_simulation(scene, ranks);
+  for (std::string& text : simulation->take_warnings())
+    if (std::find(found.warnings.begin(), found.warnings.end(), text) == found.warnings.end())
+      found.warnings.push_back(std::move(text));
+  const StartAccount start = simulation->start_account();
+  for (std::string& line : start_table(start, scene.dimension)) found.lines.push_back(std::move(line));
+  found.lines.insert(found.lines.end(), start.others.begin(), start.others.end());
+  found.json = start_json(start, scene.dimension);
+  const RunSize size = measure_size(scene, *simulation, ranks);
+  if (size.factors > 0)
+    found.lines.push_back(fmt::format("factors of elastic solids take about {}", readable_bytes(size.factors)));
+  if (!options.frame_folder.empty()) write_start(scene, *simulation, options.frame_folder, ranks);
+  std::optional<TrialSteps> trial;
+  if (options.trial_steps > 0) trial = make_trial_steps(scene, *simulation, options.trial_steps, ranks);
+  describe_cost(scene, size, trial, threads, ranks, found);
+}
+
+void print(const Findings& found, const CheckOptions& options, const Communicator& ranks, RunLog& log) {
+  for (const std::string& text : found.warnings) log.warn(text);
+  if (!options.json) {
+    for (const std::string& text : found.lines) log.note(text);
+    return;
+  }
+  JsonItems warnings;
+  for (const std::string& text : found.warnings) warnings.emplace_back(text);
+  JsonMembers members{{"scene", options.scene.string()}, {"ranks", ranks.size()}, {"warnings", warnings}};
+  members.insert(members.end(), found.json.begin(), found.json.end());
+  std::string text = format_json(members);
+  text.pop_back();  // its newline
+  log.note(text);
+}
+
+// Lines about the scene that need no grid.
+std::vector<std::string> first_lines(const Scene& scene, const CheckOptions& options) {
+  std::vector<std::string> lines{fmt::format("{}: no errors", options.scene.string())};
+  for (const std::string& text : {note_of_end(scene), describe_rheology(scene.liquid.rheology)})
+    if (!text.empty()) lines.push_back(text);
+  return lines;
 }
 
 }  // namespace
 
 ExitCode check_command(const CheckOptions& options, const Surroundings& around) {
-  RunLog log(around.ranks, around.console, Verbosity::normal);
+  const Communicator& ranks = around.ranks;
+  RunLog log(ranks, around.console, Verbosity::normal);
   Scene scene;
-  Verified found;
+  Verified verified;
+  Findings found;
   Cost cost;
-  agree(around.ranks, "checking the scene", [&] {
+  bool set_up = true;
+  agree(ranks, "checking the scene", [&] {
     scene = read_scene(options.scene, options.overrides);
-    cost = estimate_cost(scene, around.ranks.size());
-    check_memory(cost, 1, 1, machine_memory());
-    std::vector<std::string> notes = check_mesh_extents(scene);
-    found = verify_solids(scene, cost.cells <= most_cells_set_up);
-    found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
+    cost = estimate_cost(scene, ranks.size());
+    check_memory(cost, ranks.size(), ranks_on_this_machine(ranks), machine_memory());
+    found.warnings = check_mesh_extents(scene);
+    set_up = cost.cells <= most_cells_set_up || !options.frame_folder.empty() || options.trial_steps > 0;
+    verified = verify_solids(scene, set_up);
   });
-  const Start start = look_at_start(scene, cost, found, around.ranks);
-  for (const std::string& text : start.warnings) log.warn(text);
-  log.note(fmt::format("{}: no errors", options.scene.string()));
-  if (const std::string note = note_of_end(scene); !note.empty()) log.note(note);
-  if (const std::string text = describe_rheology(scene.liquid.rheology); !text.empty()) log.note(text);
-  for (const std::string& text : start.lines) log.note(text);
-  for (const std::string& text : found.factors) log.note(text);
-  log.note(report(scene, cost, around.ranks.size()));
-  if (!found.factors.empty()) log.note("note: the estimated time covers the liquid only; elastic solids add to it");
+  found.warnings.insert(found.warnings.end(), verified.notes.begin(), verified.notes.end());
+  const Threads threads = choose_threads(options.threads, ranks, log);
+  const ThreadLimit limit(threads.count);
+  found.lines = first_lines(scene, options);
+  found.lines.push_back(grid_line(scene, cost.cells));
+  if (set_up)
+    look_at_start(scene, options, threads, ranks, found);
+  else
+    describe_unseen(scene, cost, verified, threads, ranks, found);
+  print(found, options, ranks, log);
   return ExitCode::done;
 }
 

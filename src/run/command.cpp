@@ -43,13 +43,6 @@ double end_of_frames(int frames, const Scene& scene) {
   return frames / scene.time.frame_rate;
 }
 
-void tell_removed(const RemovedFiles& removed, const fs::path& folder, RunLog& log) {
-  if (removed.others + removed.pictures == 0) return;
-  const std::string pictures = removed.pictures > 0 ? fmt::format(", {} of them pictures", removed.pictures) : "";
-  log.note(fmt::format("note: the run that was in {} is replaced ({} files{})", folder.string(),
-                       removed.others + removed.pictures, pictures));
-}
-
 fs::path output_folder(const RunOptions& options) {
   return options.out.value_or(fs::path("out") / options.scene.stem());
 }
@@ -126,8 +119,10 @@ ExitCode run_command(const RunOptions& options, const Surroundings& around) {
   for (const std::string& text : wide) log.warn(text);
   if (stopped_early(ranks, log)) return ExitCode::stopped;
   const fs::path folder = output_folder(options);
-  const auto directory = open_directory(folder, options.existing, ranks);
-  if (directory) tell_removed(directory->removed(), folder, log);
+  const auto announce = [&](const RunContents& held) {
+    log.note(fmt::format("note: --overwrite removes the run in {}: {}", folder.string(), describe_contents(held)));
+  };
+  const auto directory = open_directory(folder, options.existing, ranks, announce);
   if (const std::string note = note_of_end(scene); !note.empty()) log.note(note);
   return run_session({scene, around, options.session, log, RunPaths{fs::absolute(folder).lexically_normal()}}, {});
 }

@@ -45,6 +45,10 @@ struct ResumeOptions {
 struct CheckOptions {
   std::filesystem::path scene;
   std::vector<Override> overrides;
+  std::filesystem::path frame_folder;  // gets scene.toml and frame 0, as a run directory; empty: nothing is written
+  int trial_steps = 0;                 // to measure time and memory by
+  std::optional<int> threads;          // as in SessionOptions, for the estimate of time
+  bool json = false;                   // one JSON object in place of the table
 };
 
 // Environment of a command.

@@ -124,10 +124,10 @@ ExitCode run_loop_to_end(const Session& session, const Threads& threads, Simulat
 }  // namespace
 
 std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
-                                             const Communicator& ranks) {
+                                             const Communicator& ranks, const RunDirectory::Announce& announce) {
   std::unique_ptr<RunDirectory> directory;
   agree_on_root(ranks, "opening the run directory",
-                [&] { directory = std::make_unique<RunDirectory>(folder, policy); });
+                [&] { directory = std::make_unique<RunDirectory>(folder, policy, announce); });
   return directory;
 }
 

@@ -22,9 +22,9 @@ struct Session {
 // Restores the simulation's state and returns that of the run loop.
 using Restore = std::function<RunState(Simulation&)>;
 
-// Locks the run directory on rank 0; null elsewhere. Collective.
+// Locks the run directory on rank 0; null elsewhere. `announce` is told on rank 0 what is removed. Collective.
 std::unique_ptr<RunDirectory> open_directory(const std::filesystem::path& folder, ExistingOutput policy,
-                                             const Communicator& ranks);
+                                             const Communicator& ranks, const RunDirectory::Announce& announce = {});
 
 // True if a rank received a stop signal since the program began; the log then says so. Collective.
 bool stopped_early(const Communicator& ranks, RunLog& log);

@@ -191,7 +191,10 @@ Section<LiquidSpec> liquid_section() {
                                      .most = most_entries},
                                     &S::regions, region_section()),
       list_key<S, LiquidSourceSpec>(
-          {.key = "source", .unset = "none", .doc = "liquid added in a shape for a time", .most = most_entries},
+          {.key = "source",
+           .unset = "none",
+           .doc = "liquid added in a shape for a time, up to a full shape: inside liquid it adds next to nothing",
+           .most = most_entries},
           &S::sources, source_section()),
       list_key<S, SpongeSpec>({.key = "sponge",
                                .unset = "none",

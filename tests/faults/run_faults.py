@@ -4,6 +4,7 @@
 Usage: run_faults.py PROGRAM GROUP [CASE ...]. The docstring of each case names the fault and the required outcome."""
 import base64
 import csv
+import json
 import os
 import pathlib
 import re
@@ -135,22 +136,59 @@ def scene_is_accounted_for(bench):
     sources = ('[[liquid.source]]\nshape = "box"\nlower = [1.2, 0.2]\nupper = [1.5, 0.5]\n'
                '[[liquid.source]]\nshape = "box"\nlower = [0.8, 0.3]\nupper = [0.9, 0.4]\n')
     text = box_scene([16, 16], pool + lost, sources + block + far + ball + sheet)
-    said = ("solid   'block', static: 0.4 m^2, from (0.6, 0.25) to (1.4, 0.75) m; 50 % of it lies outside of the domain",
-            "solid   'ball', rigid: 0.04 m^2, 10 kg/m, centre of mass (0.3, 0.7), from (0.2, 0.6) to (0.4, 0.8) m",
-            "liquid.source.0 has no room at the start: it lies outside", "liquid.source.1 has no room at the start: all of its",
+    lost = ("liquid.source.0 has no room at the start: it lies outside", "liquid.source.1 has no room at the start: all of its",
             "liquid.region.1 holds no liquid: all of its", "liquid.region.2 holds no liquid: it lies outside",
             "solid 'far' lies outside of the domain, from (2.8, 0.3)",
             "solid 'sheet' has parts thinner than a cell of 0.0625 m")
+    logged = ("solid   'block', static: 0.4 m^2, from (0.6, 0.25) to (1.4, 0.75) m; 50 % of it lies outside of the domain",
+              "solid   'ball', rigid: 0.04 m^2, 10 kg/m, centre of mass (0.3, 0.7), from (0.2, 0.6) to (0.4, 0.8) m")
+    rows = (("'block'", "static", "0.4", "(1, 0.5)", "0.8 x 0.5", "50 % lies outside of the domain"),
+            ("'ball'", "rigid", "10", "250", "0.04", "(0.3, 0.7)", "0.2 x 0.2", "floats, 0.05 m"))
     for ranks in (0, 2):
-        for result in (bench.run("check", bench.scene(text), ranks=ranks),
-                       bench.simulate("--frames", "0", "--overwrite", text=text, ranks=ranks)):
-            figures = re.search(r"liquid  (\S+) m\^2, (\S+) kg/m; (\S+) m\^2 of its regions lies inside solids",
-                                result.needs(0, *said).output)
+        checked = bench.run("check", bench.scene(text), ranks=ranks)
+        for row in rows:
+            matching = [line for line in checked.output.splitlines() if line.startswith(row[0])]
+            expect(len(matching) == 1 and all(word in matching[0] for word in row), f"{row} is not once in\n{checked.output}")
+        for result in (checked.needs(0, *lost),
+                       bench.simulate("--frames", "0", "--overwrite", text=text, ranks=ranks).needs(0, *lost, *logged)):
+            figures = re.search(r"liquid  (\S+) m\^2, (\S+) kg/m; (\S+) m\^2 of its regions lies inside solids", result.output)
             expect(figures, f"no line on the liquid in\n{result.output}")
             for figure, right in zip(figures.groups(), (0.4, 400.0, 0.11)):   # corners are cut off within their cells
                 expect(abs(float(figure) - right) < 0.05 * right, f"{figure} where {right} is right")
     thin = '[[solid]]\nname = "sheet"\nkind = "static"\nshape = "box"\nlower = [0.5, 0.2]\nupper = [0.51, 0.9]\n'
     bench.run("check", bench.scene(box_scene([16, 16], pool, thin))).needs(0, "off: leapfrog of surface and velocity (because of: solids thinner than a cell)")
+
+
+def start_in_numbers(bench):
+    """`check`: draughts of bodies that float or sink, one object of JSON, trial steps that leave nothing, sources in liquid."""
+    pool = region('shape = "box"\nlower = [0.0, 0.0]\nupper = [1.0, 0.5]') + region('shape = "box"\nlower = [0.5, 0.5]\nupper = [1.5, 0.6]')
+    def solid(name, density, x, more=""):
+        return (f'[[solid]]\nname = "{name}"\nkind = "rigid"\nshape = "box"\nlower = [{x}, 0.7]\nupper = [{x + 0.1}, 0.8]\n'
+                f'density = {density}\n{more}')
+    joint = '[[joint]]\nname = "pin"\nkind = "hinge"\nbetween = ["hung", "world"]\nat = [0.75, 0.75]\n'
+    source = '[[liquid.source]]\nshape = "box"\nlower = [0.2, 0.1]\nupper = [0.4, 0.3]\n'
+    text = box_scene([16, 16], pool, source + solid("light", 300, 0.1) + solid("stone", 2000, 0.3)
+                     + solid("held", 300, 0.5, 'fixed = ["y"]\n') + solid("hung", 300, 0.7) + joint)
+    scene = bench.scene(text)
+    for ranks in (0, 2):
+        result = bench.run("check", scene, "--json", ranks=ranks).needs(0)
+        found = json.loads(result.output[result.output.index("{"):result.output.rindex("}") + 1])
+        solids = {one["name"]: one for one in found["solids"]}
+        expect(abs(solids["light"]["draught"] - 0.03) < 1e-6, f"draught of a box: {solids['light']}")
+        expect(solids["stone"]["sinks"] and "draught" not in solids["stone"], f"{solids['stone']}")
+        expect(all("sinks" not in solids[name] for name in ("held", "hung")), "draughts of bodies that are not free")
+        expect(any("lies wholly inside the liquid" in text for text in found["warnings"]), f"{found['warnings']}")
+        outside = [re.match(r"liquid.region.1: about (\S+) % of its 0.1 m\^2 lies outside", text) for text in found["notes"]]
+        expect(outside[0] and abs(float(outside[0].group(1)) - 50) < 5, f"{found['notes']}")   # corners are cut off
+        expect(found["ranks"] == max(1, ranks) and found["estimate"]["memory_bytes"] > 5e7, f"{found['estimate']}")
+    before = sorted(bench.path(".").rglob("*"))
+    result = bench.run("check", scene, "--set", "time.end=1.0", "--measure", "4").needs(0, "4 trial steps")
+    expect(result.output.count("no errors") == 1, "not one table")
+    expect(sorted(bench.path(".").rglob("*")) == before, "trial steps left files")
+    bench.run("check", scene, "--picture", "start.png", ranks=2).needs(0, "picture start.png")
+    expect(bench.path("start.png").read_bytes().startswith(b"\x89PNG"), "no picture")
+    bench.run("check", scene, "--picture", "/proc/none/start.png").needs(4, "/proc/none")
+    bench.run("check", scene, "--measure", "0").needs(2, "--measure")
 
 
 def nothing_to_do(bench):
@@ -1159,17 +1197,22 @@ def pictures_and_overwriting(bench):
     bench.simulate("--frames", "1").needs(0)
     pictures = bench.path("out") / "pictures"
     pictures.mkdir()
-    (pictures / "a.png").write_text("x")
-    bench.simulate("--frames", "1").needs(2, "(its pictures, too)")
-    bench.simulate("--frames", "1", "--overwrite").needs(0, "1 of them pictures")
+    (pictures / "frame.0001.png").write_text("x")
+    held = "2 frames to t = 0.05 s, 2 checkpoints, 1 picture; "
+    bench.simulate("--frames", "1").needs(2, f"already holds a run ({held}", "give --overwrite to replace it")
+    bench.simulate("--frames", "1", "--overwrite", ranks=2).needs(0, f"note: --overwrite removes the run in out: {held}")
     expect(not pictures.exists(), "the pictures are still there")
+    bench.path("mine").mkdir()
+    (bench.path("mine") / "scene.toml").write_text("# by hand")
+    bench.simulate("--overwrite", out="mine").needs(2, "holds scene.toml, but no run of Seiche", "another folder")
+    expect((bench.path("mine") / "scene.toml").exists(), "a stranger's scene is gone")
     bench.simulate("--walltime", "0", out="with space").needs(75, "`seiche resume '", "with space'` continues it")
 
 
 TABLES = {
     "domains": [no_liquid_at_all, liquid_drains_away, no_solids_no_container, full_closed_container,
                 full_container_with_moving_solid, inflow_without_outlet, inflow_balanced_to_round_off,
-                droplets_and_enclosed_cells, odd_and_thin_grids, scene_is_accounted_for, nothing_to_do],
+                droplets_and_enclosed_cells, odd_and_thin_grids, scene_is_accounted_for, start_in_numbers, nothing_to_do],
     "formulas": [formula_not_finite_at_start, shape_not_finite, formula_not_finite_later, pinned_step_too_long],
     "ranks": [ranks_share_a_processor, more_ranks_than_cells, more_ranks_than_liquid, many_oversubscribed_ranks, liquid_moves_between_ranks,
               openmp_environment, openmp_differs_between_ranks],

@@ -13,6 +13,8 @@ import pages  # noqa: E402
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 HOME = "README.md"
+# Pages of Doxygen, where the target api has made them, their place in the site, and where api.md gets its link to them.
+API, API_IN_SITE, API_MARK = TOP / "build" / "api" / "html", "api", "<!-- api -->"
 
 
 def repository_path(site_path):
@@ -67,7 +69,10 @@ def on_page_markdown(markdown, page, config, files):
         anchor = "#" + link.split("#")[1] if "#" in link else ""
         return posixpath.relpath(site_path_of(target), posixpath.dirname(page.file.src_uri) or ".") + anchor
 
-    return lists.wider(pages.replace_links(markdown, change))
+    markdown = lists.wider(pages.replace_links(markdown, change))
+    if (API / "index.html").is_file():
+        markdown = markdown.replace(API_MARK, f'<a href="{API_IN_SITE}/index.html">All headers, by Doxygen</a>\n')
+    return markdown
 
 
 def on_page_content(html, page, config, files):
@@ -92,8 +97,10 @@ def on_post_template(output, template_name, config):
 
 
 def on_post_build(config):
-    """Debian's theme asks for another version of jQuery than it brings."""
+    """Pages of Doxygen are copied. Debian's theme asks for another version of jQuery than it brings."""
     folder = pathlib.Path(config["site_dir"])
+    if (API / "index.html").is_file():
+        shutil.copytree(API, folder / API_IN_SITE, dirs_exist_ok=True)
     wanted = re.search(r"js/(jquery-[\d.]+\.min\.js)", (folder / "index.html").read_text(encoding="utf-8"))
     present = sorted((folder / "js").glob("jquery*.min.js"))
     if wanted and present and not (folder / "js" / wanted.group(1)).exists():

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "coupling/state/setup.h"
+#include "coupling/state/start_account.h"
 #include "coupling/state/state.h"
 
 namespace seiche {
@@ -11,13 +12,17 @@ namespace seiche {
 struct DomainSpec;
 
 struct SceneAccount {
-  std::vector<std::string> lines;     // volume of liquid; mass, size and place of the solids
-  std::vector<std::string> warnings;  // regions without liquid, sources without room, solids outside the domain
+  StartAccount start;                 // `floating` of solids unset
+  std::vector<std::string> warnings;  // regions without liquid, sources without room or effect, solids outside
 };
 
 // Account of the initial state. psi: distance to the solids at nodes, m. Collective; equal on all ranks.
 template <int Dim>
 SceneAccount account_scene(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>& solids,
                            const DomainSpec& extent, const State<Dim>& state, const NodeField<Dim>& psi);
+
+// Lines for the log: liquid, solids, others.
+template <int Dim>
+std::vector<std::string> lines_of(const StartAccount& start);
 
 }  // namespace seiche

@@ -181,7 +181,7 @@ Generalised<Dim> missing_load(const CoupledStep<Dim>& step, const Body<Dim>& bod
   });
 }
 
-// What J'p misses of the load of p(x) = rho g.(x - x_0), x_0 at the `level` of the liquid (m along up): the load of p
+// Load that J'p misses of p(x) = rho g.(x - x_0), x_0 at the `level` of the liquid (m along up): that of p
 // on the wet pieces of the surface, less A J'p of its values at the wet cells' centres. It is exact for any shares of
 // faces. Pieces and cells next to the level have p near 0, so which of them are wet matters to second order. Facets cut
 // a little off round shapes; loads count by the ratio of the volumes. This rank's part.

@@ -8,6 +8,7 @@
 #include "base/checkpoint_data.h"
 #include "base/communicator.h"
 #include "base/timers.h"
+#include "coupling/state/start_account.h"
 #include "geometry/mesh/mesh.h"
 #include "solid/mesh/volume_frame.h"
 
@@ -138,6 +139,8 @@ class Simulation {
   virtual VolumeFrame solid_volume(std::size_t /*index*/) const { return {}; }
   // Lines for the log: liquid and solids at the start, features switched off, meshes of elastic solids.
   virtual std::vector<std::string> describe_start() const { return {}; }
+  // The same in numbers, with the draughts of floating bodies.
+  virtual StartAccount start_account() const { return {}; }
   virtual ProbeSample probe(std::size_t index) const = 0;  // collective; equal on all ranks
   // Owned cells of a field: surface (continued into solids), closed_surface (without what lies in them), vel, pressure,
   // viscosity, vorticity.

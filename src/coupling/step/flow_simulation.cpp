@@ -9,6 +9,7 @@
 #include "coupling/report/energy_budget.h"
 #include "coupling/report/measures.h"
 #include "coupling/report/scene_account.h"
+#include "coupling/report/solid_account.h"
 #include "coupling/solids/contact_setup.h"
 #include "coupling/state/attempt.h"
 #include "coupling/state/checkpoint_state.h"
@@ -131,15 +132,28 @@ class FlowSimulation : public Simulation {
   VolumeFrame solid_volume(std::size_t k) const override { return state_.solids[k].volume(); }
 
   std::vector<std::string> describe_start() const override {
-    std::vector<std::string> lines = account_.lines;
-    const std::vector<std::string> features = describe_features(*setup_);
-    lines.insert(lines.end(), features.begin(), features.end());
-    for (std::size_t k = 0; k < state_.solids.size(); ++k)
-      if (std::string line = state_.solids[k].describe_mesh(); !line.empty()) lines.push_back(std::move(line));
-    return lines;
+    StartAccount start = account_.start;
+    add_others(start);
+    return lines_of<Dim>(start);
+  }
+
+  StartAccount start_account() const override {
+    StartAccount start = account_.start;
+    add_others(start);
+    const std::vector<std::optional<Floating>> floating = floating_of(setup_->solids, setup_->fluids);
+    for (std::size_t k = 0; k < floating.size(); ++k) start.solids[k].floating = floating[k];
+    return start;
   }
 
  private:
+  // Adds features switched off, and meshes of elastic solids.
+  void add_others(StartAccount& start) const {
+    const std::vector<std::string> features = describe_features(*setup_);
+    start.others.insert(start.others.end(), features.begin(), features.end());
+    for (std::size_t k = 0; k < state_.solids.size(); ++k)
+      if (std::string line = state_.solids[k].describe_mesh(); !line.empty()) start.others.push_back(std::move(line));
+  }
+
   // Moves the state to blocks of equal work where the present ones have become too unequal. Collective.
   void balance() {
     std::vector<Box<Dim>> blocks = better_blocks(setup_->domain, state_);
@@ -378,20 +392,6 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicat
                                             const OperatorPerturbation& perturbation) {
   if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, perturbation);
   return std::make_unique<FlowSimulation<3>>(scene, ranks, perturbation);
-}
-
-// Memory: some 12 cell or node fields and 20 face fields of doubles at the peak of a step. The matrix with its
-// hierarchy of grids takes about 1 kB a row; half the cells are assumed to have one.
-Cost estimate_cost(const Scene& scene, int ranks) {
-  const double halo = std::ceil(scene.time.cfl) + 3;
-  const double ranks_an_axis = std::pow(double(ranks), 1.0 / scene.dimension);
-  double cells = 1, padded = 1;
-  for (int a = 0; a < scene.dimension; ++a) {
-    cells *= scene.domain.cells[a];
-    padded *= scene.domain.cells[a] / ranks_an_axis + 2 * halo;
-  }
-  const double per_site = 8.0 * (12 + 20 * scene.dimension);
-  return {std::int64_t(std::min(cells, 9e18)), padded * ranks * per_site + 0.5 * cells * 1000};
 }
 
 }  // namespace seiche

@@ -153,8 +153,8 @@ std::optional<fs::path> RunCache::find_begun(const Scene& scene, const std::stri
 void RunCache::begin(const fs::path& run, const Scene& scene, const std::string& identity) {
   std::erase_if(runs_, [&](const auto& entry) { return entry.second == run; });
   const RunDirectory emptied(run, ExistingOutput::overwrite);
-  write_file(RunPaths{run}.scene(), write_scene(scene));
   write_file(identity_file(run), unfinished + identity);
+  write_file(RunPaths{run}.scene(), write_scene(scene));
 }
 
 void RunCache::keep(const fs::path& run, const std::string& identity) {

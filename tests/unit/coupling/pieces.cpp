@@ -131,6 +131,17 @@ TEST_CASE("a grid twice as fine on 2^d times the ranks needs 2^d times the memor
   }
 }
 
+TEST_CASE("memory before the set-up counts gas and viscosity") {
+  Scene scene = test::box_scene(3, 40);
+  const double plain = estimate_cost(scene, 1).bytes;
+  CHECK(plain > 350 * 64000);
+  scene.liquid.viscosity = "0.1*t";
+  const double viscous = estimate_cost(scene, 1).bytes;
+  scene.gas.present = true;
+  const double gas = estimate_cost(scene, 1).bytes;
+  CHECK((plain < viscous && viscous < gas));
+}
+
 TEST_CASE("levels of a flow move one step into the past, and the present one stays") {
   Flow<2> flow;
   const auto first = std::make_shared<TimeLevel<2>>(), second = std::make_shared<TimeLevel<2>>();
