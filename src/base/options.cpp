@@ -44,6 +44,7 @@ std::string type_name(OptionType type) {
     case OptionType::choice:
       return "a name in quotes";
     case OptionType::choice_list:
+    case OptionType::names:
       return "an array of names in quotes";
     case OptionType::pair:
       return "an array of two names in quotes";

@@ -15,6 +15,7 @@ enum class OptionType {
   choice,          // one of `choices`
   choice_list,     // any of `choices`, each at most once
   pair,            // two names
+  names,           // any number of names, at least one
   interval,        // two numbers
   vector,          // as many numbers as the scene has dimensions
   axis,            // three numbers in 2D and 3D

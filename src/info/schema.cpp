@@ -44,6 +44,8 @@ JsonMembers value_schema(const Option& option) {
       return members(names(option.choices));
     case T::choice_list:
       return {{"type", "array"}, {"items", names(option.choices)}, {"uniqueItems", true}};
+    case T::names:
+      return {{"type", "array"}, {"items", type_of("string")}, {"minItems", 1}, {"uniqueItems", true}};
     case T::pair:
       return members(array_of(type_of("string"), 2, 2));
     case T::interval:

@@ -53,12 +53,13 @@ Section<LiquidSourceSpec> source_section() {
                                  .unset = "zero",
                                  .doc = "velocity of the liquid that is added"},
                                 &S::velocity));
-  s.keys.push_back(value_key<S>({.key = "from",
-                                 .unit = "s",
-                                 .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},
-                                 .unset = "0.0",
-                                 .doc = "when the source begins"},
-                                &S::from));
+  s.keys.push_back(
+      value_key<S>({.key = "from",
+                    .unit = "s",
+                    .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set", "height_map"}},
+                    .unset = "0.0",
+                    .doc = "when the source begins"},
+                   &S::from));
   s.keys.push_back(value_key<S>({.key = "start",
                                  .unit = "s",
                                  .only_for = {"shape", {"cylinder", "capsule"}},

@@ -9,7 +9,6 @@ namespace {
 
 using T = OptionType;
 using DomainBoundary = std::array<std::array<SideSpec, 2>, 3>;
-constexpr double shortest_time = 1e-12;  // s; shorter steps would never finish a run
 
 Section<SideSpec> side_section() {
   using S = SideSpec;
@@ -135,66 +134,6 @@ Section<TimeSpec> time_section() {
           {.key = "scheme", .doc = "order of the time stepping"}, &S::scheme,
           {{"first_order", TimeScheme::first_order}, {"second_order", TimeScheme::second_order}}),
   };
-  return s;
-}
-
-std::vector<Key<ProbeSpec>> joint_probe_keys() {
-  using S = ProbeSpec;
-  return {
-      value_key<S>({.key = "joint",
-                    .type = T::text,
-                    .only_for = {"kind", {"joint"}},
-                    .presence = Presence::required,
-                    .doc = "name of the joint"},
-                   &S::joint),
-      choice_key<S, JointQuantity S::*, JointQuantity>(
-          {.key = "quantity",
-           .only_for = {"kind", {"joint"}},
-           .doc = "force or torque on the joint's first solid, as in joints.csv; its coordinate; its power"},
-          &S::quantity,
-          {{"force", JointQuantity::force},
-           {"torque", JointQuantity::torque},
-           {"coordinate", JointQuantity::coordinate},
-           {"power", JointQuantity::power}}),
-  };
-}
-
-Section<ProbeSpec> probe_section() {
-  using S = ProbeSpec;
-  Section<S> s;
-  s.keys = {
-      value_key<S>({.key = "name", .type = T::text, .unset = "`probe1`, `probe2`, ...", .doc = "unique name"},
-                   &S::name),
-      choice_key<S, ProbeKind S::*, ProbeKind>(
-          {.key = "kind", .presence = Presence::required, .doc = "what is measured"}, &S::kind,
-          {{"pressure", ProbeKind::pressure},
-           {"velocity", ProbeKind::velocity},
-           {"surface_height", ProbeKind::surface_height},
-           {"front", ProbeKind::front},
-           {"displacement", ProbeKind::displacement},
-           {"joint", ProbeKind::joint}}),
-      value_key<S>({.key = "position",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"kind", {"pressure", "velocity", "surface_height", "displacement"}},
-                    .presence = Presence::required,
-                    .doc = "where it is measured; displacement: a point of the solid at rest, which is followed"},
-                   &S::position),
-      value_key<S>({.key = "every",
-                    .unit = "s",
-                    .range = {shortest_time, number_limit},
-                    .unset = "each step",
-                    .doc = "time between samples"},
-                   &S::every),
-      value_key<S>({.key = "solid",
-                    .type = T::text,
-                    .only_for = {"kind", {"displacement"}},
-                    .presence = Presence::required,
-                    .doc = "name of the elastic solid"},
-                   &S::solid),
-  };
-  for (Key<S>& key : joint_probe_keys()) s.keys.push_back(std::move(key));
-  s.finish = [](SceneContext& c, const Place& p, ProbeSpec& probe) { probe.where = c.where(p.node->line); };
   return s;
 }
 

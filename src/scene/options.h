@@ -13,6 +13,7 @@ struct ElasticSpec;
 struct JointSpec;
 struct LiquidSpec;
 struct MotionSpec;
+struct ProbeSpec;
 struct RigidSpec;
 struct RobotSpec;
 struct Scene;
@@ -34,6 +35,7 @@ Section<ElasticSpec> elastic_section();
 Section<MotionSpec> motion_section();
 Section<JointSpec> joint_section();
 Section<RobotSpec> robot_section();
+Section<ProbeSpec> probe_section();
 
 // Keys of viscous liquid.
 Key<LiquidSpec> viscosity_key();
@@ -86,6 +88,9 @@ void check_bounded(SceneContext& context, const Place& place, const ShapeSpec& s
 
 // Every key with its full path ("solid[].rotate.degrees"), in the order of the scene file.
 std::vector<Option> scene_options();
+
+// Shortest time between steps or samples, s; shorter ones would never finish a run.
+inline constexpr double shortest_time = 1e-12;
 
 inline constexpr std::size_t most_entries = 20000;  // solids, regions, sources or probes of one scene
 

@@ -215,7 +215,9 @@ void read_value(SceneContext& c, const Place& p, const Option& option, std::arra
 
 void read_value(SceneContext& c, const Place& p, const Option& option, std::vector<std::string>& out) {
   if (p.node->kind != Kind::array) return report_type(c, p, option);
+  const bool is_free = option.type == OptionType::pair || option.type == OptionType::names;
   if (option.type == OptionType::pair && p.node->items.size() != 2) return report_type(c, p, option);
+  if (option.type == OptionType::names && p.node->items.empty()) return c.report(p, p.path + " must name at least one");
   std::vector<std::string> names;
   for (std::size_t i = 0; i < p.node->items.size(); ++i) {
     const Place one = item(p, i);
@@ -223,7 +225,7 @@ void read_value(SceneContext& c, const Place& p, const Option& option, std::vect
       c.report(one, fmt::format("{} must be a name in quotes, not {}", one.path, describe(*one.node)));
     } else if (std::find(names.begin(), names.end(), one.node->text) != names.end()) {
       c.report(one, fmt::format("{} lists \"{}\" twice", p.path, one.node->text));
-    } else if (option.type == OptionType::pair || check_choice(c, one, option, one.node->text)) {
+    } else if (is_free || check_choice(c, one, option, one.node->text)) {
       names.push_back(one.node->text);
     }
   }

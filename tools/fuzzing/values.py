@@ -247,7 +247,7 @@ def pins(c, _):
     for side_of in ((-1, 1) if two else (c.rng.choice([-1, 1]),)):
         center = list(c.slot)
         center[axis] += side_of * c.radius * (0.9 if two else 0.6)
-        left_out = ("mesh",) * (c.dim == 2) + ("plane",) * two
+        left_out = ("mesh",) * (c.dim == 2) + ("plane", "height_map") * two
         kinds = [k for k in c.choices("solid[].pinned", "shape") if k not in left_out]
         here = fit_shape(c.rng, c.dim, c.rng.choice(kinds), center, (0.8 if two else 1.4) * c.radius, SURFACES)
         if here["shape"] == "plane" and "translate" not in here:
@@ -275,6 +275,8 @@ def table_of(name):
 def probe_position(c, here):
     if here["kind"] == "displacement":
         return point(c.followed[here["solid"]])
+    if "count" in here or "counts" in here:
+        return None
     return point(l + e * c.rng.uniform(0.0, 1.0) for l, e in zip(c.lower, c.extent))
 
 
@@ -350,6 +352,12 @@ VALUES = {
     ("probe[]", "joint"): lambda c, _: "",   # named once the joints are made
     ("probe[]", "name"): lambda c, _: f"probe {c.rng.random()}",
     ("probe[]", "position"): probe_position,
+    **{("probe[]", key): lambda c, _: None   # in place of a position, by points()
+       for key in ("from", "to", "count", "corner", "edge_a", "edge_b", "counts")},
+    ("probe[]", "lower"): lambda c, _: None,   # of a box, by points()
+    ("probe[]", "upper"): lambda c, _: None,
+    ("probe[]", "solids"): lambda c, _: c.rng.choice([["*"], ["*", "?*"]]),
+    ("probe[]", "about"): lambda c, _: vector(c, c.length),
     ("probe[]", "every"): lambda c, _: number(c.end / c.rng.uniform(1, 15)),
     ("probe[]", "solid"): lambda c, _: c.rng.choice(list(c.followed)),
     ("solver", "tolerance"): lambda c, _: log_uniform(c, 1e-11, 1e-4),

@@ -143,7 +143,7 @@ template <int Dim>
 void account_solid(const DomainSpec& extent, const Body<Dim>& body, SceneAccount& account) {
   const SolidSpec& spec = body.spec();
   const std::string name = fmt::format("solid   '{}', {}", spec.name, spec.kind.name);
-  if (spec.shape.invert || spec.shape.kind == "plane") {
+  if (spec.shape.invert || spec.shape.kind == "plane" || spec.shape.kind == "height_map") {
     account.lines.push_back(name + (spec.shape.invert ? ": all but a hole" : ": a half-space"));
     return;
   }

@@ -27,8 +27,9 @@ struct Setup {
   Fluids fluids;
   Domain<Dim> domain;
   Solids<Dim> solids;
-  OwnedExterior<Dim> exterior;  // before its start
-  std::vector<Source<Dim>> sources;
+  OwnedExterior<Dim> exterior;               // before its start
+  std::vector<Source<Dim>> sources, drains;  // whose shapes are kept full and empty
+  std::vector<Source<Dim>> feeds;            // sources and drains with a rate
   std::vector<Sponge> sponges;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
@@ -45,8 +46,10 @@ struct Setup {
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
-  // True if initial velocities need not fit the solids and the sides that volumes pass.
-  bool volume_sets_off() const { return volume_lags() && (!solids.bodies.empty() || domain.sides.any_passes()); }
+  // True if initial velocities need not fit the solids, the sides that volumes pass and the feeds.
+  bool volume_sets_off() const {
+    return volume_lags() && (!solids.bodies.empty() || domain.sides.any_passes() || !feeds.empty());
+  }
   // True if the room for liquid in cells changes, State::open.
   bool room_changes() const { return tracks_volume() && !solids.bodies.empty() && !open_parts; }
   Divergence divergence() const { return fluids.has_prescribed_flow() ? Divergence::swells : Divergence::stays; }

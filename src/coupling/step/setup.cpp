@@ -84,12 +84,18 @@ ShapeSpec open_to_sides(ShapeSpec shape, const DomainSpec& domain) {
 }
 
 template <int Dim>
-std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::string>& notes) {
-  std::vector<Source<Dim>> sources;
-  for (const LiquidSourceSpec& spec : scene.liquid.sources)
-    sources.push_back({spec, make_shape<Dim>(open_to_sides(spec.shape, scene.domain), {scene.domain.cell_size, &notes}),
-                       VectorExpression(spec.velocity)});
-  return sources;
+void make_sources(const Scene& scene, Setup<Dim>& setup) {
+  const auto make = [&](const std::vector<LiquidSourceSpec>& specs, const char* list, double sign,
+                        std::vector<Source<Dim>>& kept) {
+    for (std::size_t n = 0; n < specs.size(); ++n) {
+      const ShapeSpec shape = open_to_sides(specs[n].shape, scene.domain);
+      (specs[n].rate ? setup.feeds : kept)
+          .emplace_back(specs[n], fmt::format("liquid.{}.{}", list, n), sign,
+                        make_shape<Dim>(shape, {scene.domain.cell_size, &setup.notes}));
+    }
+  };
+  make(scene.liquid.sources, "source", 1, setup.sources);
+  make(scene.liquid.drains, "drain", -1, setup.drains);
 }
 
 // Message for an initial velocity that is not finite. `region`: its index; -1: the liquid's own velocity.
@@ -180,9 +186,9 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
              ranks, std::move(blocks)),
       solids(from, domain, perturbation, notes),
       exterior(make_exterior(fluids, domain)),
-      sources(make_sources<Dim>(from, notes)),
       sponges(make_sponges(from.liquid, from.domain)),
       followed(find_followed_points(from.probes, solids)) {
+  make_sources(from, *this);
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
   if (!tracks_volume() || solids.bodies.empty()) return;

@@ -21,15 +21,15 @@ namespace {
 template <int Dim>
 double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open,
                            const Vec<Dim>& x) {
-  if (open.oldest == 0) return (*source.shape)(x);
+  if (open.oldest == 0) return source.distance(x);
   const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), open.begin));
-  if (!v.allFinite()) return (*source.shape)(x);
+  if (!v.allFinite()) return source.distance(x);
   const double crossed = v.norm() * (open.oldest - open.youngest) / layout.h();
   const int parts = int(std::ceil(std::min(crossed, double(layout.geometry().cells.sum()))));
-  double distance = (*source.shape)(x - open.youngest * v);
+  double distance = source.distance(x - open.youngest * v);
   for (int n = 1; n <= parts; ++n) {
     const double age = open.youngest + (open.oldest - open.youngest) * n / parts;
-    distance = std::min(distance, (*source.shape)(x - age * v));
+    distance = std::min(distance, source.distance(x - age * v));
   }
   return distance;
 }
@@ -160,7 +160,7 @@ std::vector<FaceImpulse> set_source_velocity(const Domain<Dim>& domain, const st
       for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
         const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
         if (distance_to_brought(domain.layout, source, *open, x) > 0) return;
-        const double v = source.velocity.component(a, extend<Dim>(x), open->begin);
+        const double v = source.velocity(extend<Dim>(x), open->begin)[a];
         impulses.push_back({a, f, mass(a, f) * (v - u.at(a, f))});
         u.at(a, f) = v;
       });
@@ -173,15 +173,14 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
                             double t) {
   const Source<Dim>& source = sources[index];
   std::string fault;
-  if (source.velocity.is_constant() && source.velocity(Vec3::Zero(), t).allFinite()) return fault;
+  if (source.is_uniform() && source.velocity(Vec3::Zero(), t).allFinite()) return fault;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site, const IVec<Dim>& i) {
       const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
-      if (!fault.empty() || (*source.shape)(x) > 0) return;
-      const double v = source.velocity.component(a, extend<Dim>(x), t);
+      if (!fault.empty() || source.distance(x) > 0) return;
+      const double v = source.velocity(extend<Dim>(x), t)[a];
       if (std::isfinite(v)) return;
-      fault = not_finite_text<Dim>(fmt::format("liquid.source.{}.velocity[{}]", index, a), source.spec.velocity[a], v,
-                                   x, t);
+      fault = not_finite_text<Dim>(fmt::format("{}.velocity[{}]", source.name, a), source.spec.velocity[a], v, x, t);
     });
   return fault;
 }
