@@ -212,6 +212,7 @@ void set_axes_of_height_maps(Scene& scene) {
   };
   for (LiquidRegionSpec& region : scene.liquid.regions) set(region.shape);
   for (LiquidSourceSpec& source : scene.liquid.sources) set(source.shape);
+  for (LiquidSourceSpec& drain : scene.liquid.drains) set(drain.shape);
   for (SolidSpec& solid : scene.solids) {
     set(solid.shape);
     for (PinSpec& pin : solid.elastic.pinned) set(pin.shape);
@@ -238,12 +239,14 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("solid") && context.clean("joint")) check_joints(context, root, scene);
+  if (context.clean("solid") && context.clean("liquid")) check_attached(context, root, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
   if (context.clean("gas") && context.clean("liquid") && context.clean("solid")) {
     check_volume(c, scene);
     check_prescribed_flow(context, root, scene);
+    if (context.clean("time")) check_rates(context, root, scene);
   }
   if (context.clean("probe")) expand_probes(context, root, scene);
 }

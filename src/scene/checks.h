@@ -17,6 +17,12 @@ void check_motions(SceneContext& context, const TomlNode& root, const Scene& sce
 // Part of check_scene(): joints name solids that are there, and have what their kind needs.
 void check_joints(SceneContext& context, const TomlNode& root, const Scene& scene);
 
+// Part of check_scene(): solids that sources and drains are attached to are there and do not deform.
+void check_attached(SceneContext& context, const TomlNode& root, const Scene& scene);
+
+// Part of check_scene(): rates of sources and drains are finite and not negative.
+void check_rates(SceneContext& context, const TomlNode& root, const Scene& scene);
+
 // Part of check_scene(): a prescribed flow excludes everything that acts on a flow.
 void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Scene& scene);
 

@@ -217,7 +217,7 @@ bool has_files(const Scene& scene) {
   const auto named = [](const auto& s) { return !s.shape.file.empty(); };
   const auto any = [&](const auto& list) { return std::any_of(list.begin(), list.end(), named); };
   const auto has_pin = [&](const SolidSpec& s) { return any(s.elastic.pinned); };
-  return any(scene.liquid.regions) || any(scene.liquid.sources) || any(scene.solids) ||
+  return any(scene.liquid.regions) || any(scene.liquid.sources) || any(scene.liquid.drains) || any(scene.solids) ||
          std::any_of(scene.solids.begin(), scene.solids.end(), has_pin);
 }
 

@@ -11,6 +11,7 @@ namespace seiche {
 
 struct ElasticSpec;
 struct JointSpec;
+struct LiquidSourceSpec;
 struct LiquidSpec;
 struct MotionSpec;
 struct ProbeSpec;
@@ -29,6 +30,8 @@ Section<ShapeSpec> shape_section();
 // rotate and translate.
 Section<TransformSpec> placement_section();
 Section<LiquidSpec> liquid_section();
+Section<LiquidSourceSpec> source_section();
+Section<LiquidSourceSpec> drain_section();
 Section<SolidSpec> solid_section();
 Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();

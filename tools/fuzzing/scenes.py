@@ -13,7 +13,7 @@ PLANNED = {("", "dimension"), ("", "include"), ("", "parameters"), ("", "signals
            ("", "joint"), ("", "robot"), ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
-SHAPES = ("liquid.region[]", "liquid.source[]", "solid[]", "solid[].pinned", "solid[].traction")
+SHAPES = ("liquid.region[]", "liquid.source[]", "liquid.drain[]", "solid[]", "solid[].pinned", "solid[].traction")
 MAKEABLE = {*shapes.GEOMETRY}
 
 
@@ -96,7 +96,8 @@ LAST = {("probe[]", "position")}
 # Keys with generators that decide themselves whether to omit the key.
 ALWAYS = {("probe[]", "position"), ("solid[]", "fixed"), ("solid[]", "density"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
           ("liquid", "prescribed_velocity"), ("liquid", "density"), ("domain", "boundary"),
-          *((f"solid[].{t}motion.rotate", key) for t in ("", "pinned.") for key in ("axis", "center"))}
+          *((f"{t}.motion.rotate", key) for t in ("solid[]", "solid[].pinned", "liquid.source[]", "liquid.drain[]")
+            for key in ("axis", "center"))}
 
 
 def slots(c):

@@ -90,7 +90,10 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
                   account);
   for (std::size_t k = 0; k < std::min(most, liquid.sources.size()); ++k)
     account_shape(domain, liquid.sources[k].shape, fmt::format("liquid.source.{}", k), "has no room at the start",
-                  needs_centre, psi, account);
+                  needs_centre && !liquid.sources[k].rate, psi, account);
+  for (std::size_t k = 0; k < std::min(most, liquid.drains.size()); ++k)
+    account_shape(domain, liquid.drains[k].shape, fmt::format("liquid.drain.{}", k), "takes nothing",
+                  needs_centre && !liquid.drains[k].rate, psi, account);
 }
 
 // The surface of a solid at the start.

@@ -88,10 +88,14 @@ void make_sources(const Scene& scene, Setup<Dim>& setup) {
   const auto make = [&](const std::vector<LiquidSourceSpec>& specs, const char* list, double sign,
                         std::vector<Source<Dim>>& kept) {
     for (std::size_t n = 0; n < specs.size(); ++n) {
-      const ShapeSpec shape = open_to_sides(specs[n].shape, scene.domain);
+      const bool moves = specs[n].motion || specs[n].attached_to;
+      const ShapeSpec shape = moves ? specs[n].shape : open_to_sides(specs[n].shape, scene.domain);
       (specs[n].rate ? setup.feeds : kept)
           .emplace_back(specs[n], fmt::format("liquid.{}.{}", list, n), sign,
                         make_shape<Dim>(shape, {scene.domain.cell_size, &setup.notes}));
+      Source<Dim>& made = (specs[n].rate ? setup.feeds : kept).back();
+      const auto named = std::ranges::find(scene.solids, specs[n].attached_to.value_or(""), &SolidSpec::name);
+      if (specs[n].attached_to) made.solid = int(named - scene.solids.begin());
     }
   };
   make(scene.liquid.sources, "source", 1, setup.sources);

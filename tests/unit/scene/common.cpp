@@ -130,6 +130,9 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += liquid_text + v("\"sin(x)\"", "0", "0") + "\n";
   text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
+  text += "[[liquid.drain]]\n" + placed + begin +
+          " = 0.5\nuntil = 1.5\nrate = \"0.1*t\"\nmotion = { translate = " + v("\"0.1*t\"", "0", "0") +
+          ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
   text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\n" + tail;
   text += "[[solid]]\nname = \"still\"\n" + placed + "slip = \"no_slip\"\ncontact_angle = 120\n";
   text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
