@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/motion_spec.h"
 #include "base/shape_spec.h"
 
 namespace seiche {
@@ -14,11 +15,15 @@ struct LiquidRegionSpec {
   std::optional<VectorFormula> velocity;
 };
 
+// A region in which liquid is added (a source) or taken away (a drain) while from <= t < until.
 struct LiquidSourceSpec {
   ShapeSpec shape;
-  VectorFormula velocity{"0", "0", "0"};
+  VectorFormula velocity{"0", "0", "0"};  // of the liquid that a source adds, m/s
   double from = 0;
   double until = std::numeric_limits<double>::infinity();
+  std::optional<Formula> rate;             // m^3/s, 2D: m^2/s, in t; unset: the shape is kept full, or empty
+  std::optional<std::string> attached_to;  // solid with which it moves
+  std::optional<MotionSpec> motion;        // how it moves by itself
 };
 
 // A region that draws the flow to a velocity, as a beach absorbs waves: du/dt = -rate (u - velocity).
@@ -63,7 +68,7 @@ struct LiquidSpec {
   VectorFormula velocity{"0", "0", "0"};
   std::optional<VectorFormula> prescribed_velocity;  // at all times; no solve, only the surface moves
   std::vector<LiquidRegionSpec> regions;
-  std::vector<LiquidSourceSpec> sources;
+  std::vector<LiquidSourceSpec> sources, drains;
   std::vector<SpongeSpec> sponges;
 };
 

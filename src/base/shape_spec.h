@@ -1,6 +1,7 @@
 #pragma once
 // Shapes of a scene: liquid, solids, sources, pins. Plain data in SI units.
 #include <filesystem>
+#include <optional>
 
 #include "base/formula.h"
 #include "base/vec.h"
@@ -20,14 +21,15 @@ struct TransformSpec {
 };
 
 struct ShapeSpec {
-  std::string kind;  // a name from the table in geometry/shapes/shapes.h
-  Vec3 lower{0, 0, 0}, upper{0, 0, 0};
+  std::string kind;                     // a name from the table in geometry/shapes/shapes.h
+  Vec3 lower{0, 0, 0}, upper{0, 0, 0};  // box, height_map
   Vec3 center{0, 0, 0};
   Vec3 from{0, 0, 0}, to{0, 0, 0};
   Vec3 point{0, 0, 0}, normal{0, 1, 0};
   double radius = 0;
-  std::filesystem::path file;  // resolved against the scene's folder
-  Formula phi;                 // negative inside
+  std::filesystem::path file;     // resolved against the scene's folder
+  Formula phi;                    // negative inside
+  std::optional<std::string> up;  // height_map: axis of its heights, "y" or "-y"; unset: that against gravity
   bool invert = false;
   TransformSpec transform;
   std::string where;  // "scene.toml:14" for messages

@@ -40,6 +40,7 @@ std::vector<const ShapeSpec*> shapes_of(const Scene& scene, bool set_up) {
   for (const auto& region : scene.liquid.regions) shapes.push_back(&region.shape);
   if (set_up) return shapes;
   for (const auto& source : scene.liquid.sources) shapes.push_back(&source.shape);
+  for (const auto& drain : scene.liquid.drains) shapes.push_back(&drain.shape);
   for (const auto& solid : scene.solids) {
     if (!solid.kind.has_elements) shapes.push_back(&solid.shape);
   }

@@ -59,6 +59,7 @@ std::vector<std::string> check_mesh_extents(const Scene& scene) {
   for (const SolidSpec& solid : scene.solids) look_at(solid.shape, "'" + solid.name + "'", solid.kind.is_free());
   for (const auto& region : scene.liquid.regions) look_at(region.shape, "a region of liquid", false);
   for (const auto& source : scene.liquid.sources) look_at(source.shape, "a source of liquid", false);
+  for (const auto& drain : scene.liquid.drains) look_at(drain.shape, "a drain of liquid", false);
   if (!faults.empty()) throw Error(ExitCode::bad_input, faults);
   return notes;
 }

@@ -13,6 +13,7 @@
 #include "base/suggest.h"
 #include "fluid/rheology/rheology.h"
 #include "scene/copies.h"
+#include "scene/probes.h"
 #include "scene/robots.h"
 #include "scene/waves.h"
 
@@ -125,43 +126,6 @@ void check_names(const Checker& c, std::vector<Item>& items, const std::string& 
   }
 }
 
-void check_probes(const Checker& c, const Scene& scene) {
-  Eigen::Index down = 0;
-  Gravity(scene.gravity).at(0).cwiseAbs().maxCoeff(&down);
-  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
-    const ProbeSpec& probe = scene.probes[i];
-    if (!probe.has_position() || !c.context.clean(fmt::format("probe.{}", i))) continue;
-    for (int axis = 0; axis < scene.dimension; ++axis) {
-      const bool along_column = probe.kind == ProbeKind::surface_height && axis == down;
-      const double x = probe.position[axis], low = scene.domain.lower[axis], high = scene.domain.upper[axis];
-      if (along_column || (x >= low && x <= high)) continue;
-      c.report(fmt::format("probe.{}.position", i),
-               fmt::format("probe \"{}\" lies outside the domain: {} = {} is not within {} "
-                           "and {}",
-                           probe.name, "xyz"[axis], x, low, high));
-    }
-  }
-}
-
-// A displacement probe must name an elastic solid.
-void check_followed_solids(const Checker& c, const Scene& scene) {
-  std::vector<std::string> names;
-  for (const SolidSpec& solid : scene.solids) {
-    if (solid.kind.has_elements) names.push_back(solid.name);
-  }
-  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
-    const ProbeSpec& probe = scene.probes[i];
-    const bool is_known = std::find(names.begin(), names.end(), probe.solid) != names.end();
-    if (probe.kind != ProbeKind::displacement || is_known || !c.context.clean(fmt::format("probe.{}", i))) continue;
-    const auto near = suggest(probe.solid, names);
-    c.report(fmt::format("probe.{}.solid", i),
-             fmt::format("probe \"{}\" needs an elastic solid, and \"{}\" is none; {}", probe.name, probe.solid,
-                         near            ? "did you mean \"" + *near + "\"?"
-                         : names.empty() ? "the scene has none"
-                                         : "there is " + quoted_list(names)));
-  }
-}
-
 // Contact in liquid factors matrices of all rigid bodies together; dense ones of up to 6000 x 6000 in 3D take a GB or
 // two. Tested with 1000 discs in 2D, at tens of seconds a step.
 constexpr int most_rigid_solids = 1000;
@@ -237,6 +201,25 @@ void check_volume(const Checker& c, const Scene& scene) {
            fmt::format("liquid.volume = \"cells\" does not work with {} yet; use \"shift\"", fmt::join(names, ", ")));
 }
 
+// Height maps without an axis of their own rise against gravity, to the axis nearest to that.
+void set_axes_of_height_maps(Scene& scene) {
+  Eigen::Index axis = 1;
+  const Vec3 g = Gravity(scene.gravity).at(0);
+  if (g.norm() > 0) g.cwiseAbs().maxCoeff(&axis);
+  const std::string up = std::string(g[axis] > 0 ? "-" : "") + "xyz"[axis];
+  const auto set = [&](ShapeSpec& shape) {
+    if (shape.kind == "height_map" && !shape.up) shape.up = up;
+  };
+  for (LiquidRegionSpec& region : scene.liquid.regions) set(region.shape);
+  for (LiquidSourceSpec& source : scene.liquid.sources) set(source.shape);
+  for (LiquidSourceSpec& drain : scene.liquid.drains) set(drain.shape);
+  for (SolidSpec& solid : scene.solids) {
+    set(solid.shape);
+    for (PinSpec& pin : solid.elastic.pinned) set(pin.shape);
+    for (TractionSpec& traction : solid.elastic.tractions) set(traction.shape);
+  }
+}
+
 }  // namespace
 
 void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
@@ -251,21 +234,24 @@ void check_scene(SceneContext& context, const TomlNode& root, Scene& scene) {
   if (context.clean("robot") && context.clean("solid") && context.clean("joint")) expand_robots(context, root, scene);
   if (context.clean("solid")) expand_copies(context, root, scene);
   if (context.clean("solid") && context.clean("gravity")) expand_waves(context, root, scene);
+  if (context.clean("gravity")) set_axes_of_height_maps(scene);
   if (!context.clean("domain") || context.dimension == 0) return;
-  check_probes(c, scene);
-  if (context.clean("solid")) check_followed_solids(c, scene);
+  if (context.clean("solid")) check_probes(context, root, scene);
   if (context.clean("solid")) check_moving_solids(c, scene);
   if (context.clean("solid")) check_rigid_count(c, scene);
   if (context.clean("solid") && context.clean("joint")) check_joints(context, root, scene);
   if (context.clean("solid") && context.clean("force")) check_forces(context, root, scene);
   if (context.clean("solid") && context.clean("contact")) check_contacts(context, root, scene);
+  if (context.clean("solid") && context.clean("liquid")) check_attached(context, root, scene);
   if (context.clean("time")) check_motions(context, root, scene);
   if (context.clean("time") && context.clean("liquid") && context.clean("gravity")) check_rheology(c, scene);
   if (context.clean("gas") && context.clean("liquid")) check_gas(c, scene);
   if (context.clean("gas") && context.clean("liquid") && context.clean("solid")) {
     check_volume(c, scene);
     check_prescribed_flow(context, root, scene);
+    if (context.clean("time")) check_rates(context, root, scene);
   }
+  if (context.clean("probe")) expand_probes(context, root, scene);
 }
 
 }  // namespace seiche

@@ -21,6 +21,12 @@ void check_joints(SceneContext& context, const TomlNode& root, const Scene& scen
 void check_forces(SceneContext& context, const TomlNode& root, const Scene& scene);
 void check_contacts(SceneContext& context, const TomlNode& root, const Scene& scene);
 
+// Part of check_scene(): solids that sources and drains are attached to are there and do not deform.
+void check_attached(SceneContext& context, const TomlNode& root, const Scene& scene);
+
+// Part of check_scene(): rates of sources and drains are finite and not negative.
+void check_rates(SceneContext& context, const TomlNode& root, const Scene& scene);
+
 // Part of check_scene(): a prescribed flow excludes everything that acts on a flow.
 void check_prescribed_flow(SceneContext& context, const TomlNode& root, const Scene& scene);
 

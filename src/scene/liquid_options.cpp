@@ -1,6 +1,4 @@
 // Keys of [liquid].
-#include <limits>
-
 #include "base/fluid_spec.h"
 #include "scene/options.h"
 
@@ -20,56 +18,6 @@ Section<LiquidRegionSpec> region_section() {
                                                 .doc = "initial velocity in this region"},
                                                &LiquidRegionSpec::velocity));
   s.finish = [](SceneContext& c, const Place& p, LiquidRegionSpec& r) { finish_shape(c, p, r.shape); };
-  return s;
-}
-
-// A source without an end (until = infinity) is written without this key.
-Key<LiquidSourceSpec> until_key() {
-  const Option option{
-      .key = "until",
-      .unit = "s",
-      .unset = "for ever",
-      .doc =
-          "the source flows while from <= t < until: its shape is filled at the start and kept full, "
-          "parts of a step count. A shape that holds no cell's centre brings nothing, except with volume = \"cells\""};
-  Key<LiquidSourceSpec> key{option, {}, {}};
-  key.read = [option](SceneContext& c, const Place& p, LiquidSourceSpec& s) { read_value(c, p, option, s.until); };
-  key.write = [option](const LiquidSourceSpec& s, int dimension, const std::string& path, SceneLines& lines) {
-    if (s.until == std::numeric_limits<double>::infinity()) return;
-    lines.push_back({join_path(path, option.key), option.key, to_toml(s.until, option, dimension)});
-  };
-  return key;
-}
-
-// Sources begin at `start`, since `from` is a point of cylinders and capsules.
-Section<LiquidSourceSpec> source_section() {
-  using S = LiquidSourceSpec;
-  Section<S> s;
-  s.keys = lift<S>(shape_section(), &S::shape);
-  s.keys.push_back(value_key<S>({.key = "velocity",
-                                 .type = T::formula_vector,
-                                 .unit = "m/s",
-                                 .variables = "xyzt",
-                                 .unset = "zero",
-                                 .doc = "velocity of the liquid that is added"},
-                                &S::velocity));
-  s.keys.push_back(value_key<S>({.key = "from",
-                                 .unit = "s",
-                                 .only_for = {"shape", {"box", "sphere", "plane", "mesh", "expression", "level_set"}},
-                                 .unset = "0.0",
-                                 .doc = "when the source begins"},
-                                &S::from));
-  s.keys.push_back(value_key<S>({.key = "start",
-                                 .unit = "s",
-                                 .only_for = {"shape", {"cylinder", "capsule"}},
-                                 .unset = "0.0",
-                                 .doc = "when the source begins (the from of these shapes is a point)"},
-                                &S::from));
-  s.keys.push_back(until_key());
-  s.finish = [](SceneContext& c, const Place& p, S& source) {
-    finish_shape(c, p, source.shape);
-    if (c.clean(p.path) && !(source.from < source.until)) c.report(p, "[[liquid.source]] must begin before its until");
-  };
   return s;
 }
 
@@ -196,6 +144,9 @@ Section<LiquidSpec> liquid_section() {
            .doc = "liquid added in a shape for a time, up to a full shape: inside liquid it adds next to nothing",
            .most = most_entries},
           &S::sources, source_section()),
+      list_key<S, LiquidSourceSpec>(
+          {.key = "drain", .unset = "none", .doc = "liquid taken away in a shape for a time", .most = most_entries},
+          &S::drains, drain_section()),
       list_key<S, SpongeSpec>({.key = "sponge",
                                .unset = "none",
                                .doc = "where the flow is drawn to a velocity, as a beach absorbs waves",

@@ -88,6 +88,14 @@ std::vector<Moving> motions_of(const SolidSpec& solid, const std::string& path) 
   return all;
 }
 
+// Motions of sources or drains of their own.
+void append_motions(const std::vector<LiquidSourceSpec>& list, const std::string& name, std::vector<Moving>& all) {
+  for (std::size_t n = 0; n < list.size(); ++n)
+    if (list[n].motion)
+      all.push_back({fmt::format("liquid.{}.{}.motion", name, n), fmt::format("liquid.{}.{}", name, n),
+                     &*list[n].motion, Start::anywhere});
+}
+
 }  // namespace
 
 void check_motions(SceneContext& context, const TomlNode& root, const Scene& scene) {
@@ -104,6 +112,10 @@ void check_motions(SceneContext& context, const TomlNode& root, const Scene& sce
         moving.push_back(std::move(m));
       }
     }
+  }
+  if (context.clean("liquid")) {
+    append_motions(scene.liquid.sources, "source", moving);
+    append_motions(scene.liquid.drains, "drain", moving);
   }
   Sampling sampling{scene.time.end, size, most_samples};
   if (!moving.empty()) sampling.count = std::clamp(sample_budget / int(moving.size()), fewest_samples, most_samples);

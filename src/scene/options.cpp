@@ -9,7 +9,6 @@ namespace {
 
 using T = OptionType;
 using DomainBoundary = std::array<std::array<SideSpec, 2>, 3>;
-constexpr double shortest_time = 1e-12;  // s; shorter steps would never finish a run
 
 Section<SideSpec> side_section() {
   using S = SideSpec;
@@ -138,66 +137,6 @@ Section<TimeSpec> time_section() {
   return s;
 }
 
-std::vector<Key<ProbeSpec>> joint_probe_keys() {
-  using S = ProbeSpec;
-  return {
-      value_key<S>({.key = "joint",
-                    .type = T::text,
-                    .only_for = {"kind", {"joint"}},
-                    .presence = Presence::required,
-                    .doc = "name of the joint"},
-                   &S::joint),
-      choice_key<S, JointQuantity S::*, JointQuantity>(
-          {.key = "quantity",
-           .only_for = {"kind", {"joint"}},
-           .doc = "force or torque on the joint's first solid, as in joints.csv; its coordinate; its power"},
-          &S::quantity,
-          {{"force", JointQuantity::force},
-           {"torque", JointQuantity::torque},
-           {"coordinate", JointQuantity::coordinate},
-           {"power", JointQuantity::power}}),
-  };
-}
-
-Section<ProbeSpec> probe_section() {
-  using S = ProbeSpec;
-  Section<S> s;
-  s.keys = {
-      value_key<S>({.key = "name", .type = T::text, .unset = "`probe1`, `probe2`, ...", .doc = "unique name"},
-                   &S::name),
-      choice_key<S, ProbeKind S::*, ProbeKind>(
-          {.key = "kind", .presence = Presence::required, .doc = "what is measured"}, &S::kind,
-          {{"pressure", ProbeKind::pressure},
-           {"velocity", ProbeKind::velocity},
-           {"surface_height", ProbeKind::surface_height},
-           {"front", ProbeKind::front},
-           {"displacement", ProbeKind::displacement},
-           {"joint", ProbeKind::joint}}),
-      value_key<S>({.key = "position",
-                    .type = T::vector,
-                    .unit = "m",
-                    .only_for = {"kind", {"pressure", "velocity", "surface_height", "displacement"}},
-                    .presence = Presence::required,
-                    .doc = "where it is measured; displacement: a point of the solid at rest, which is followed"},
-                   &S::position),
-      value_key<S>({.key = "every",
-                    .unit = "s",
-                    .range = {shortest_time, number_limit},
-                    .unset = "each step",
-                    .doc = "time between samples"},
-                   &S::every),
-      value_key<S>({.key = "solid",
-                    .type = T::text,
-                    .only_for = {"kind", {"displacement"}},
-                    .presence = Presence::required,
-                    .doc = "name of the elastic solid"},
-                   &S::solid),
-  };
-  for (Key<S>& key : joint_probe_keys()) s.keys.push_back(std::move(key));
-  s.finish = [](SceneContext& c, const Place& p, ProbeSpec& probe) { probe.where = c.where(p.node->line); };
-  return s;
-}
-
 Section<Scene> tracking_section() {
   const std::string reason = "particles are not in this version";
   Section<Scene> s;
@@ -278,7 +217,7 @@ bool has_files(const Scene& scene) {
   const auto named = [](const auto& s) { return !s.shape.file.empty(); };
   const auto any = [&](const auto& list) { return std::any_of(list.begin(), list.end(), named); };
   const auto has_pin = [&](const SolidSpec& s) { return any(s.elastic.pinned); };
-  return any(scene.liquid.regions) || any(scene.liquid.sources) || any(scene.solids) ||
+  return any(scene.liquid.regions) || any(scene.liquid.sources) || any(scene.liquid.drains) || any(scene.solids) ||
          std::any_of(scene.solids.begin(), scene.solids.end(), has_pin);
 }
 

@@ -13,8 +13,10 @@ struct ContactSpec;
 struct ElasticSpec;
 struct ForceSpec;
 struct JointSpec;
+struct LiquidSourceSpec;
 struct LiquidSpec;
 struct MotionSpec;
+struct ProbeSpec;
 struct RigidSpec;
 struct RobotSpec;
 struct Scene;
@@ -30,6 +32,8 @@ Section<ShapeSpec> shape_section();
 // rotate and translate.
 Section<TransformSpec> placement_section();
 Section<LiquidSpec> liquid_section();
+Section<LiquidSourceSpec> source_section();
+Section<LiquidSourceSpec> drain_section();
 Section<SolidSpec> solid_section();
 Section<RigidSpec> rigid_section();
 Section<ElasticSpec> elastic_section();
@@ -38,6 +42,7 @@ Section<JointSpec> joint_section();
 Section<ForceSpec> force_section();
 Section<ContactSpec> contact_section();
 Section<RobotSpec> robot_section();
+Section<ProbeSpec> probe_section();
 
 // Keys of viscous liquid.
 Key<LiquidSpec> viscosity_key();
@@ -90,6 +95,9 @@ void check_bounded(SceneContext& context, const Place& place, const ShapeSpec& s
 
 // Every key with its full path ("solid[].rotate.degrees"), in the order of the scene file.
 std::vector<Option> scene_options();
+
+// Shortest time between steps or samples, s; shorter ones would never finish a run.
+inline constexpr double shortest_time = 1e-12;
 
 inline constexpr std::size_t most_entries = 20000;  // solids, regions, sources or probes of one scene
 

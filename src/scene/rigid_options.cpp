@@ -188,6 +188,7 @@ Section<RigidSpec> rigid_section() {
 void check_bounded(SceneContext& c, const Place& p, const ShapeSpec& shape, const std::string& what) {
   const std::string subject = what + " must be bounded: ", remedy = ", or make the solid static";
   if (shape.kind == "plane") c.report(p, subject + "a plane is not; write it as a box" + remedy);
+  if (shape.kind == "height_map") c.report(p, subject + "a height_map is not; give a closed mesh" + remedy);
   if (shape.invert) {
     c.report(p, subject +
                     "an inverted shape is not; write a hollow body as an expression (phi = \"max(outer, "

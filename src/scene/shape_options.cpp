@@ -110,8 +110,11 @@ Key<ShapeSpec> point_key(const std::vector<std::string>& shapes, const std::stri
 std::vector<Key<ShapeSpec>> geometry_keys() {
   using S = ShapeSpec;
   return {
-      point_key({"box"}, "lower", &S::lower, "low corner"),
-      point_key({"box"}, "upper", &S::upper, "high corner"),
+      point_key({"box", "height_map"}, "lower", &S::lower,
+                "low corner; height_map: of the box that the map fills, from black at its bottom to white at its top, "
+                "or with numbers for heights in m along its up; below them is inside, and beyond the box the heights "
+                "of its sides go on"),
+      point_key({"box", "height_map"}, "upper", &S::upper, "high corner"),
       point_key({"sphere"}, "center", &S::center, "centre of the sphere (2D: disc)"),
       point_key(axial, "from", &S::from, "one end of the axis"),
       point_key(axial, "to", &S::to, "other end of the axis"),
@@ -120,12 +123,22 @@ std::vector<Key<ShapeSpec>> geometry_keys() {
       point_key({"plane"}, "point", &S::point, "a point of the plane"),
       geometry_key({"plane"}, {.key = "normal", .type = T::vector, .doc = "points out of the shape; any length"},
                    &S::normal),
-      geometry_key({"mesh", "level_set"},
+      geometry_key({"mesh", "level_set", "height_map"},
                    {.key = "file",
                     .type = T::file,
                     .doc = "mesh: closed triangles (.obj, .ply, .stl), for elastic solids also elements (.msh, .vtu, "
-                           ".mesh); level_set: a frame of Seiche (.vdb)"},
+                           ".mesh); level_set: a frame of Seiche (.vdb); height_map: a grey picture of 8 or 16 bits "
+                           "(.png), or numbers, a "
+                           "row a line (.csv, .txt, .asc), as seen from above with the first axis across up to the "
+                           "right; 2D: one row"},
                    &S::file),
+      value_key<S>({.key = "up",
+                    .type = T::choice,
+                    .choices = {"x", "y", "z", "-x", "-y", "-z"},
+                    .only_for = {"shape", {"height_map"}},
+                    .unset = "against gravity at t = 0; \"y\" without gravity",
+                    .doc = "axis of the heights"},
+                   &S::up),
       geometry_key(
           {"expression"},
           {.key = "phi", .type = T::formula, .variables = "xyz", .doc = "negative inside; need not be a distance"},
@@ -145,6 +158,10 @@ void check_extension(SceneContext& c, const Place& p, const ShapeSpec& shape, Me
     c.report(path, line,
              fmt::format("{}: a level_set is read from a .vdb file, not '{}'", path, shape.file.filename().string()));
   }
+  if (shape.kind == "height_map" && !is_any({".png", ".csv", ".txt", ".asc"}))
+    c.report(path, line,
+             fmt::format("{}: a height_map is read from .png, .csv, .txt or .asc, not '{}'", path,
+                         shape.file.filename().string()));
   if (shape.kind != "mesh" || is_any({".obj", ".ply", ".stl"})) return;
   const bool elements = holds_elements(shape.file);
   if (elements && files == MeshFiles::surfaces_and_elements) return;
@@ -188,14 +205,16 @@ void finish_shape(SceneContext& c, const Place& p, ShapeSpec& shape, MeshFiles f
   shape.where = c.where(p.node->line);
   if (shape.kind == "mesh" && c.dimension == 2) check_flat_mesh(c, p, shape, files);
   if (!c.clean(p.path) || c.dimension == 0) return;
-  if (shape.kind == "box") check_extent(c, p, shape);
+  if (shape.kind == "box" || shape.kind == "height_map") check_extent(c, p, shape);
+  if (c.dimension == 2 && shape.up && shape.up->back() == 'z')
+    c.report(p, join_path(p.path, "up") + ": a scene in 2D has no axis z");
   if (shape.kind == "plane" && shape.normal.norm() == 0) c.report(p, join_path(p.path, "normal") + " must not be zero");
   const bool axial_shape = std::find(axial.begin(), axial.end(), shape.kind) != axial.end();
   if (axial_shape && shape.from == shape.to) {
     c.report(
         p, fmt::format("the {} of {} has no axis: from and to are the same point", shape.kind, section_title(p.path)));
   }
-  if (shape.kind == "mesh" || shape.kind == "level_set") check_extension(c, p, shape, files);
+  if (!shape.file.empty()) check_extension(c, p, shape, files);
 }
 
 Section<TransformSpec> placement_section() {
@@ -216,7 +235,7 @@ Section<ShapeSpec> shape_section() {
   s.keys = {value_key<ShapeSpec>(
       {.key = "shape",
        .type = T::choice,
-       .choices = {"box", "sphere", "cylinder", "capsule", "plane", "mesh", "expression", "level_set"},
+       .choices = {"box", "sphere", "cylinder", "capsule", "plane", "mesh", "expression", "level_set", "height_map"},
        .presence = Presence::required,
        .doc = "kind of shape; it decides which further keys there are"},
       &ShapeSpec::kind)};

@@ -23,7 +23,7 @@ struct FirstSolve {
   DistributedMatrix A = assemble_pressure_matrix(in, rows);
   RowGrid grid = row_grid(in, rows);
   SpdSolver solver{A, grid, closed, coupling.J, c1* c2, {.tolerance = 1e-8}, s.domain.ranks};
-  Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt, {}, g).u);
+  Vector b = pressure_right_side(in, rows, transport_velocity(s, state, state.phi, dt, {}, g, {s, state, 0}).u);
   Vector p = Vector(b.size());
   LiquidProblem<Dim> problem{coupling, solver, closed, b, p, c1, c2, s.domain.ranks};
 

@@ -1,7 +1,9 @@
 """Valid files for scenes: surfaces, elements and a level set of a body of size 1 about the origin."""
 import itertools
+import math
 import pathlib
 import struct
+import zlib
 
 from fuzzing.program import Program
 
@@ -127,9 +129,24 @@ def make_level_set(program: Program, folder: pathlib.Path, dim):
     return (at / "out/frames/frame.0000.vdb").read_bytes()
 
 
+def png(rows):
+    """A grey picture of 16 bits a pixel."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    lines = b"".join(b"\0" + struct.pack(f">{len(row)}H", *row) for row in rows)
+    header = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 16, 0, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines))
+            + chunk(b"IEND", b""))
+
+
+def hills(columns, rows):
+    return [[int(32767 * (1 + math.sin(1.3 * i) * math.cos(j))) for i in range(columns)] for j in range(rows)]
+
+
 def make_assets(program, folder):
     """Contents of the files by name: "ball.obj", "block2.msh", ..."""
     files = {"ball.obj": obj(*surface()), "ball.ply": ply(*surface()), "ball.stl": stl(*surface())}
+    files["hills2.png"], files["hills3.png"] = png(hills(7, 1)), png(hills(5, 6))
     for dim in (2, 3):
         for ending, write in (("msh", msh), ("mesh", medit), ("vtu", vtu)):
             files[f"block{dim}.{ending}"] = write(*elements(dim))

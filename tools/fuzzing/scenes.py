@@ -14,7 +14,7 @@ PLANNED = {("", "dimension"), ("", "include"), ("", "parameters"), ("", "signals
            ("", "joint"), ("", "robot"), ("", "force"), ("", "contact"), ("", "probe"), ("", "tracking"), ("", "solver"), ("", "output"), ("domain", "lower"), ("domain", "upper"),
            ("domain", "cell_size"), ("liquid", "volume"), ("time", "end"), ("time", "frame_rate"),
            *(("domain.boundary", f"{a}_{end}") for a in AXES for end in ("lower", "upper"))}
-SHAPES = ("liquid.region[]", "liquid.source[]", "solid[]", "solid[].pinned", "solid[].traction")
+SHAPES = ("liquid.region[]", "liquid.source[]", "liquid.drain[]", "solid[]", "solid[].pinned", "solid[].traction")
 MAKEABLE = {*shapes.GEOMETRY}
 
 
@@ -95,9 +95,10 @@ class Case:
 # Keys whose values depend on keys further down.
 LAST = {("probe[]", "position")}
 # Keys with generators that decide themselves whether to omit the key.
-ALWAYS = {("solid[]", "fixed"), ("solid[]", "density"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
+ALWAYS = {("probe[]", "position"), ("solid[]", "fixed"), ("solid[]", "density"), ("solid[]", "pinned"), ("liquid", "region"), ("", "gravity"),
           ("liquid", "prescribed_velocity"), ("liquid", "density"), ("domain", "boundary"),
-          *((f"solid[].{t}motion.rotate", key) for t in ("", "pinned.") for key in ("axis", "center"))}
+          *((f"{t}.motion.rotate", key) for t in ("solid[]", "solid[].pinned", "liquid.source[]", "liquid.drain[]")
+            for key in ("axis", "center"))}
 
 
 def slots(c):
@@ -122,7 +123,7 @@ def solid(c, center, radius):
     elastic = here["kind"] == "elastic"
     kinds = [k for k in c.choices("solid[]", "shape") if c.dim == 3 or elastic or k != "mesh"]
     if here["kind"] != "static":
-        kinds.remove("plane")
+        kinds = [k for k in kinds if k not in ("plane", "height_map")]
     files = [f"block{c.dim}.{e}" for e in ("msh", "mesh", "vtu")] if elastic else []
     files += shapes.SURFACES if c.dim == 3 else ()
     kind = c.rng.choice(kinds)
@@ -130,6 +131,9 @@ def solid(c, center, radius):
     if kind == "plane":   # at a corner of the domain, since in the middle it would cut into other solids
         at = point(l + 0.1 * e for l, e in zip(c.lower, c.extent))
         shape = {"shape": "plane", "point": at, "normal": [1.0] * c.dim}
+    if kind == "height_map":   # the lowest tenth of the domain, likewise
+        top = [u if a != 1 else l + 0.1 * e for a, (l, u, e) in enumerate(zip(c.lower, c.upper, c.extent))]
+        shape = {"shape": kind, "file": f"hills{c.dim}.png", "lower": point(c.lower), "upper": point(top), "up": "y"}
     c.use_shape("solid[]", shape)
     here.update(shape)
     own_elements = str(here.get("file", "")).startswith("block")
@@ -154,19 +158,50 @@ def container(c):
     return {"name": "vessel", "kind": "static", **shape, "invert": True}
 
 
+def within(c):
+    """A place in the domain."""
+    return point(l + e * c.rng.uniform(0.05, 0.95) for l, e in zip(c.lower, c.extent))
+
+
+def points(c, kind):
+    """Keys of a probe at several points, or of its box."""
+    low, high = within(c), within(c)
+    if kind in ("flux", "volume"):
+        low, high = [min(p) for p in zip(low, high)], [max(p) for p in zip(low, high)]
+        high = [b if b > a else a + c.h for a, b in zip(low, high)]
+        if kind == "flux":
+            axis = c.rng.randrange(c.dim)
+            high[axis] = low[axis]
+        return {"lower": low, "upper": high}
+    if kind not in ("pressure", "velocity", "surface_height") or c.rng.random() < 0.6:
+        return {}
+    if c.rng.random() < 0.5:
+        return {"from": low, "to": high, "count": c.rng.randint(2, 5)}
+    middle = [0.5 * (a + b) for a, b in zip(low, high)]
+    half = [number(0.4 * (b - a)) for a, b in zip(low, high)]
+    edges = [[half[0], *[0.0] * (c.dim - 1)], [0.0, half[1], *[0.0] * (c.dim - 2)]]
+    return {"corner": point(m - h / 2 for m, h in zip(middle, half)), "edge_a": edges[0], "edge_b": edges[1],
+            "counts": [c.rng.randint(2, 3), 2]}
+
+
 def probes(c):
     found = []
     for _ in range(c.rng.choice([0, 0, 1, 3])):
         kinds = [k for k in c.choices("probe[]", "kind") if k != "displacement" or c.followed]
         here = {"kind": c.rng.choice(kinds)}
         c.use("probe[]", "kind", here["kind"])
+        for key, value in points(c, here["kind"]).items():
+            here[key] = value
+            c.use("probe[]", key)
         c.fill("probe[]", here)
         found.append(here)
     return found
 
 
-def probe_joint(c, probe, joints):
-    """Gives a joint probe a joint. False if there is none."""
+def probe_joint(c, probe, joints, solids):
+    """Gives a joint probe a joint. False if there is none, or no solid whose loads are summed."""
+    if probe["kind"] in ("force", "torque"):
+        return bool(solids)
     if probe["kind"] == "joint":
         if not joints:
             return False
@@ -207,7 +242,7 @@ def make_scene(registry, rng: random.Random):
             scene["robot"] = make_robots(c, places[-1][0])
     scene["force"], scene["contact"] = make_forces(c, scene["solid"]), make_contacts(c, scene["solid"])
     names = [None] + [s.get("name") for s in scene["solid"]]
-    scene["probe"] = [p for p in found if probe_joint(c, p, scene.get("joint")) and p.get("solid") in names]
+    scene["probe"] = [p for p in found if probe_joint(c, p, scene.get("joint"), scene["solid"]) and p.get("solid") in names]
     c.rng = usual
     for table in ("tracking", "solver", "output"):
         if rng.random() < 0.5:

@@ -4,7 +4,7 @@ import math
 AXES = "xyz"
 GEOMETRY = {"box": ("lower", "upper"), "sphere": ("center", "radius"), "cylinder": ("from", "to", "radius"),
             "capsule": ("from", "to", "radius"), "plane": ("point", "normal"), "mesh": ("file",),
-            "expression": ("phi",), "level_set": ("file",)}
+            "expression": ("phi",), "level_set": ("file",), "height_map": ("lower", "upper", "file", "up")}
 TRANSFORM = ("invert", "scale", "rotate", "translate")
 KEYS = {"shape", *TRANSFORM, *(key for keys in GEOMETRY.values() for key in keys)}
 SURFACES = ("ball.obj", "ball.ply", "ball.stl")
@@ -53,7 +53,17 @@ def formula(rng, dim, center, r):
                                f"sqrt({squares})-{number(0.8 * r)!r}*(1+0.2*sin(3*atan2({away[1]},{away[0]})))"])}
 
 
-MAKERS = {"box": box, "sphere": ball, "cylinder": rod, "capsule": rod, "plane": plane, "expression": formula}
+def height_map(rng, dim, center, r):
+    """A surface through the center, up to half of r high."""
+    up = rng.randrange(dim)
+    wide = [2 * r if a != up else 0.5 * r for a in range(dim)]
+    return {"file": f"hills{dim}.png",
+            "lower": point(c - w for c, w in zip(center, wide)), "upper": point(c + w for c, w in zip(center, wide)),
+            "up": rng.choice(["", "-"]) + AXES[up]}
+
+
+MAKERS = {"box": box, "sphere": ball, "cylinder": rod, "capsule": rod, "plane": plane, "expression": formula,
+          "height_map": height_map}
 
 
 def rotation(rng, dim, degrees):

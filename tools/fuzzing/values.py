@@ -1,4 +1,6 @@
 """Generators for every scene key that is not a choice of words, by table and key; None omits the key."""
+import math
+
 from fuzzing.shapes import AXES, SURFACES, fit_shape, number, point, rotation, unit_vector
 
 CLOSED = ("free_slip", "no_slip")
@@ -169,13 +171,23 @@ def regions(c, _):
     return found
 
 
-def sources(c, _):
-    here = random_shape(c, "liquid.source[]", region_center(c), c.length * c.rng.uniform(0.1, 0.2))
+def openings(c, table):
+    """A source or a drain."""
+    here = random_shape(c, table, region_center(c), c.length * c.rng.uniform(0.1, 0.2))
     if c.rng.random() < 0.05:
         here["invert"] = True
-        c.use("liquid.source[]", "invert")
-    c.fill("liquid.source[]", here)
+        c.use(table, "invert")
+    c.slot, c.radius = region_center(c), 0.2 * c.length
+    c.fill(table, here)
+    if "rate" in here:
+        here.pop("velocity", None)
     return [here]
+
+
+def rate(c, _):
+    """At most a tenth of a filled domain in a run; closed ones without a surface stop the run, which is right."""
+    most = 0.02 * math.prod(c.extent) / c.end
+    return None if c.prescribes else c.rng.choice([number(most), f"{number(most)!r}*(1+sin(t/{c.end!r}))"])
 
 
 def sponges(c, _):
@@ -247,7 +259,7 @@ def pins(c, _):
     for side_of in ((-1, 1) if two else (c.rng.choice([-1, 1]),)):
         center = list(c.slot)
         center[axis] += side_of * c.radius * (0.9 if two else 0.6)
-        left_out = ("mesh",) * (c.dim == 2) + ("plane",) * two
+        left_out = ("mesh",) * (c.dim == 2) + ("plane", "height_map") * two
         kinds = [k for k in c.choices("solid[].pinned", "shape") if k not in left_out]
         here = fit_shape(c.rng, c.dim, c.rng.choice(kinds), center, (0.8 if two else 1.4) * c.radius, SURFACES)
         if here["shape"] == "plane" and "translate" not in here:
@@ -275,6 +287,8 @@ def table_of(name):
 def probe_position(c, here):
     if here["kind"] == "displacement":
         return point(c.followed[here["solid"]])
+    if "count" in here or "counts" in here:
+        return None
     return point(l + e * c.rng.uniform(0.0, 1.0) for l, e in zip(c.lower, c.extent))
 
 
@@ -296,7 +310,8 @@ VALUES = {
     ("liquid", "prescribed_velocity"): prescribed,
     ("liquid", "separates"): lambda c, _: not c.has_gas and not c.prescribes and c.rng.random() < 0.3,
     ("liquid", "region"): regions,
-    ("liquid", "source"): sources,
+    ("liquid", "source"): lambda c, _: openings(c, "liquid.source[]"),
+    ("liquid", "drain"): lambda c, _: openings(c, "liquid.drain[]"),
     ("liquid.rheology", "viscosity_zero"): lambda c, _: number(viscosity_scale(c) * log_uniform(c, 1e-2, 10)),
     ("liquid.rheology", "viscosity_infinity"): lambda c, _: number(viscosity_scale(c) * log_uniform(c, 1e-5, 1e-2)),
     ("liquid.rheology", "time"): lambda c, _: number(c.length / c.speed * log_uniform(c, 0.1, 10)),
@@ -316,6 +331,11 @@ VALUES = {
     ("liquid.source[]", "from"): lambda c, _: number(c.end * c.rng.uniform(0, 0.5)),
     ("liquid.source[]", "start"): lambda c, _: number(c.end * c.rng.uniform(0, 0.5)),
     ("liquid.source[]", "until"): lambda c, _: number(c.end * c.rng.uniform(0.6, 1.5)),
+    **{(f"liquid.drain[]", key): (lambda part: lambda c, _: number(c.end * c.rng.uniform(*part)))(part)
+       for key, part in (("from", (0, 0.5)), ("start", (0, 0.5)), ("until", (0.6, 1.5)))},
+    **{(f"liquid.{name}[]", key): make for name in ("source", "drain")
+       for key, make in (("rate", rate), ("attached_to", lambda c, _: None),   # by tests of moving sources
+                         ("motion", lambda c, _, name=name: motion(c, f"liquid.{name}[].motion", 0.3 * c.radius)))},
     ("gas", "density"): lambda c, _: log_uniform(c, c.density_scale * 1e-3, c.density_scale),
     ("gas", "viscosity"): lambda c, _: c.rng.choice([0.0, number(c.density_scale * c.speed * c.length * 1e-4)]),
     ("gas", "velocity"): lambda c, _: flow(c, 0.5 * c.speed),
@@ -350,6 +370,12 @@ VALUES = {
     ("probe[]", "joint"): lambda c, _: "",   # named once the joints are made
     ("probe[]", "name"): lambda c, _: f"probe {c.rng.random()}",
     ("probe[]", "position"): probe_position,
+    **{("probe[]", key): lambda c, _: None   # in place of a position, by points()
+       for key in ("from", "to", "count", "corner", "edge_a", "edge_b", "counts")},
+    ("probe[]", "lower"): lambda c, _: None,   # of a box, by points()
+    ("probe[]", "upper"): lambda c, _: None,
+    ("probe[]", "solids"): lambda c, _: c.rng.choice([["*"], ["*", "?*"]]),
+    ("probe[]", "about"): lambda c, _: vector(c, c.length),
     ("probe[]", "every"): lambda c, _: number(c.end / c.rng.uniform(1, 15)),
     ("probe[]", "solid"): lambda c, _: c.rng.choice(list(c.followed)),
     ("solver", "tolerance"): lambda c, _: log_uniform(c, 1e-11, 1e-4),
@@ -357,7 +383,7 @@ VALUES = {
     ("solver", "rheology_iterations"): lambda c, _: c.rng.choice([30, 60, 200]),
     ("output", "checkpoint_every"): lambda c, _: c.rng.choice([1, 2, 1000]),
 }
-for _prefix in ("solid[].motion", "solid[].pinned.motion"):
+for _prefix in ("solid[].motion", "solid[].pinned.motion", "liquid.source[].motion", "liquid.drain[].motion"):
     VALUES[_prefix, "translate"] = lambda c, _: formulas_of_time(c, c.reach)
     VALUES[_prefix, "waves"] = lambda c, _: None   # by tests/unit/scene/waves.cpp
     VALUES[_prefix, "rotate"] = lambda c, _, table=_prefix + ".rotate": motion_rotate(c, table)

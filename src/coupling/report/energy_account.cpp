@@ -173,7 +173,7 @@ Work work_after(const Setup<Dim>& s, const State<Dim>& before, const StepStats& 
   Work w = a.state.work;
   w.gravity += 0.5 * dt * fluids.gravity.of_step(a.state.time, dt).dot(start.momentum + a.stats.momentum);
   w.tension += dt * powers.tension;
-  w.sides += dt * power_of_sides(domain, fluids, before, a) + powers.work_of_sources;
+  w.sides += dt * (power_of_sides(domain, fluids, before, a) + powers.feeds) + powers.work_of_sources;
   w.solids += dt * (power_of_prescribed(before, a.state, a.geometry, solids) + powers.contact) +
               driven_work(s.solids, before, a.state, dt) + (s.forces.empty() ? 0 : work_of_forces(s, before, a));
   w.lost_viscous += heat_of_step(before, a.state, powers, dt);

@@ -11,6 +11,7 @@
 #include "coupling/tension/surface_tension.h"
 #include "coupling/transport/forces.h"
 #include "coupling/transport/given_motion.h"
+#include "coupling/transport/placed_sources.h"
 #include "fluid/boundary/domain.h"
 #include "grid/loops.h"
 
@@ -96,7 +97,8 @@ double pushed(const Domain<Dim>& domain, const Fluids& fluids, const Solids<Dim>
   }
   const double by_bodies = domain.ranks.global_sum(sum) * domain.layout.geometry().face_area();
   const auto flow = attempt.state.exterior->joined_level(domain, fluids, attempt.state);
-  return std::max(0.0, dt * (pressure_power_of_sides(domain, fluids, flow->u, flow->u, attempt) + by_bodies));
+  const double by_sides = pressure_power_of_sides(domain, fluids, flow->u, flow->u, attempt);
+  return std::max(0.0, dt * (by_sides + by_bodies + attempt.powers.feeds));
 }
 
 // sqrt(f'M^-1 f) with lumped M, f the tractions and body forces.
@@ -129,7 +131,7 @@ EnergyBudget energy_budget(const Setup<Dim>& s, const State<Dim>& before, const 
   b.gain = span * (s.fluids.gravity.of_step(t + dt, dt).norm() + s.fluids.gravity.of_step(t, before.dt_now).norm());
   b.gain += span * largest_field(s.forces, s.domain.layout.geometry(), t, t + span);
   b.given = jitter_speed(s.domain, before, dt) + fastest_led(s.solids, attempt, t, span) +
-            std::sqrt(double(Dim)) * fastest_given_flow(s.domain, s.sources, t, dt) +
+            std::sqrt(double(Dim)) * fastest_given_flow(s.domain, PlacedSources<Dim>(s, before, t).sources(), t, dt) +
             fastest_dragged(s.domain, s.forces, t, span);
   b.momentum = span * std::max(pull_of_forces(s.solids, t), pull_of_forces(s.solids, t + span));
   b.pushed = pushed(s.domain, s.fluids, s.solids, attempt, t, dt);

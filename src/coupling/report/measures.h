@@ -31,10 +31,17 @@ template <int Dim>
 std::vector<SolidState> measure_solids(const Setup<Dim>& setup, const State<Dim>& state,
                                        const StepGeometry<Dim>& geometry);
 
-// One sample of a probe. `geometry`: of the last solve. Collective; equal on all ranks.
+// Fields of one state that several probes share; empty until one needs them.
+template <int Dim>
+struct ProbeFields {
+  std::array<std::optional<FieldValues<double>>, 2> pressure;  // Pa, continued from beyond the surface, and from liquid
+  std::shared_ptr<const TimeLevel<Dim>> flow;                  // of all fluids
+};
+
+// One sample of a probe. `geometry`: of the last solve; `solids`: at the state. Collective; equal on all ranks.
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry,
-                          const ProbeSpec& probe);
+                          const std::vector<SolidState>& solids, const ProbeSpec& probe, ProbeFields<Dim>& fields);
 
 // Material points of displacement probes, by name of the probe. Throws Error(bad_input) if one lies outside its solid.
 template <int Dim>

@@ -1,8 +1,9 @@
 // Probes: pressure and velocity at a point, surface height above it, front along x, displacement of an elastic solid,
-// loads of a joint.
+// loads of a joint or of solids, liquid in a box or through a flat one.
 #include "base/probe_spec.h"
 #include "coupling/report/measures.h"
 #include "coupling/report/pressure_beside_solids.h"
+#include "coupling/report/region_probes.h"
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/solids.h"
@@ -63,21 +64,28 @@ bool has_pressure(const Domain<Dim>& domain, const State<Dim>& state, const Step
                            state.exterior->has_pressure(domain.layout.site(cell_of(domain.layout, x)))));
 }
 
-// Pressure of the fluid at x, extrapolated linearly from its cells: a probe on a wall reads the value at the wall, one
-// on a solid that of the solid's side.
+// Pressure of the liquid or of what is beyond its surface, extrapolated linearly from its cells. Collective.
 template <int Dim>
-double pressure_at(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state,
-                   const StepGeometry<Dim>& geometry, const Vec<Dim>& x) {
-  const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
-  if (const auto beside = pressure_beside_solids(domain, solids, state, geometry, x, in_liquid)) return *beside;
+FieldValues<double> continued_pressure(const Domain<Dim>& domain, const State<Dim>& state, bool liquid) {
   FieldValues<double> p(state.pressure.data(), state.pressure.data() + domain.layout.size());
   FieldValues<char> known(p.size(), 0);
   for_each_site(domain.layout, domain.layout.cells(),
-                [&](Site c) { known[c] = (state.phi[c] < 0) == in_liquid && p[c] != 0; });
+                [&](Site c) { known[c] = (state.phi[c] < 0) == liquid && p[c] != 0; });
   extrapolate(domain.layout, domain.halo, domain.layout.cells(), {2, 2}, p, known);
   extend_beyond_sides<Dim>(domain.layout, p.data(), cell_offset<Dim>(), all_sides<Dim>(Extension::linear));
+  return p;
+}
+
+// Pressure of the fluid at x: a probe on a wall reads the value at the wall, one on a solid that of the solid's side.
+template <int Dim>
+double pressure_at(const Domain<Dim>& domain, const Solids<Dim>& solids, const State<Dim>& state,
+                   const StepGeometry<Dim>& geometry, const Vec<Dim>& x, ProbeFields<Dim>& fields) {
+  const bool in_liquid = domain.ranks.any(holds(domain.layout, x) && level_set_at(domain, state, x) < 0);
+  if (const auto beside = pressure_beside_solids(domain, solids, state, geometry, x, in_liquid)) return *beside;
+  std::optional<FieldValues<double>>& p = fields.pressure[in_liquid ? 1 : 0];
+  if (!p) p = continued_pressure(domain, state, in_liquid);
   const Vec<Dim> g = index_coordinates<Dim>(domain.layout, x, cell_offset<Dim>());
-  return domain.ranks.global_sum(holds(domain.layout, x) ? interpolate_linear<Dim>(domain.layout, p.data(), g) : 0.0);
+  return domain.ranks.global_sum(holds(domain.layout, x) ? interpolate_linear<Dim>(domain.layout, p->data(), g) : 0.0);
 }
 
 // Farthest liquid along `axis` on the line through x: the last zero of phi, or the side of the domain if liquid reaches
@@ -169,56 +177,78 @@ std::map<std::string, MaterialPoint> find_followed_points(const std::vector<Prob
   return points;
 }
 
+namespace {
+
+// The flow on all faces. Collective.
+template <int Dim>
+const FaceField<Dim>& flow_of(const Setup<Dim>& s, const State<Dim>& state, ProbeFields<Dim>& fields) {
+  if (!fields.flow) fields.flow = state.exterior->joined_level(s.domain, s.fluids, state);
+  return fields.flow->u;
+}
+
 // Velocity at x, equal on all ranks; zero if nothing flows there. Collective.
 template <int Dim>
-Vec3 velocity_at(const Domain<Dim>& domain, const Fluids& fluids, const State<Dim>& state, const Vec<Dim>& x,
-                 bool flows) {
-  const auto flow = state.exterior->joined_level(domain, fluids, state);
+Vec3 velocity_at(const Domain<Dim>& domain, const FaceField<Dim>& u, const Vec<Dim>& x, bool flows) {
   Vec3 v = Vec3::Zero();
-  if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, flow->u, x));
+  if (flows && holds(domain.layout, x)) v = extend<Dim>(sample_velocity<Dim>(domain.layout, u, x));
   domain.ranks.global_sum(std::span<double>(v.data(), 3));
   return v;
 }
 
+// Scalars of a point or a region; empty if there is nothing to measure. Collective.
+template <int Dim>
+std::optional<double> measure_scalar(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& geometry,
+                                     const ProbeSpec& probe, ProbeFields<Dim>& fields) {
+  const Vec<Dim> x = truncate<Dim>(probe.position);
+  const auto [up, sense] = upwards<Dim>(s.fluids);
+  switch (probe.kind) {
+    case ProbeKind::pressure:
+      if (!has_pressure(s.domain, state, geometry, x)) return {};
+      return pressure_at(s.domain, s.solids, state, geometry, x, fields);
+    case ProbeKind::surface_height:
+      return farthest_liquid(s.domain, state, x, up, sense);
+    case ProbeKind::front:
+      return front(s.domain, s.fluids, state);
+    case ProbeKind::flux:
+      return flux_through_box(s, state, geometry, flow_of(s, state, fields), probe);
+    case ProbeKind::volume:
+      return volume_in_box(s, state, geometry, probe);
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 ProbeSample measure_probe(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& geometry,
-                          const ProbeSpec& probe) {
+                          const std::vector<SolidState>& solids, const ProbeSpec& probe, ProbeFields<Dim>& fields) {
   ProbeSample out;
   out.name = probe.name;
   out.is_vector = probe.is_vector();
-  const Vec<Dim> x = truncate<Dim>(probe.position);
-  const auto take = [&](std::optional<double> found) {
+  if (probe.kind == ProbeKind::velocity) {
+    const Vec<Dim> x = truncate<Dim>(probe.position);
+    out.defined = is_wet(s.domain, state, geometry, x);
+    out.vector = velocity_at(s.domain, flow_of(s, state, fields), x, out.defined);
+  } else if (probe.kind == ProbeKind::displacement) {
+    out.vector = displacement_of(s.solids, s.followed.at(probe.name), state, probe);
+  } else if (probe.kind == ProbeKind::joint) {
+    measure_joint(s.solids, state, probe, out);
+  } else if (probe.sums_loads()) {
+    out.vector = sum_of_loads(solids, probe);
+  } else {
+    const std::optional<double> found = measure_scalar(s, state, geometry, probe, fields);
     out.defined = found.has_value();
     out.value = found.value_or(0);
-  };
-  switch (probe.kind) {
-    case ProbeKind::pressure:
-      out.defined = has_pressure(s.domain, state, geometry, x);
-      if (out.defined) out.value = pressure_at(s.domain, s.solids, state, geometry, x);
-      break;
-    case ProbeKind::velocity:
-      out.defined = is_wet(s.domain, state, geometry, x);
-      out.vector = velocity_at(s.domain, s.fluids, state, x, out.defined);
-      break;
-    case ProbeKind::surface_height:
-      take(farthest_liquid(s.domain, state, x, upwards<Dim>(s.fluids).first, upwards<Dim>(s.fluids).second));
-      break;
-    case ProbeKind::front:
-      take(front(s.domain, s.fluids, state));
-      break;
-    case ProbeKind::displacement:
-      out.vector = displacement_of(s.solids, s.followed.at(probe.name), state, probe);
-      break;
-    case ProbeKind::joint:
-      measure_joint(s.solids, state, probe, out);
-      break;
   }
   return out;
 }
 
 template std::map<std::string, MaterialPoint> find_followed_points<2>(const std::vector<ProbeSpec>&, const Solids<2>&);
 template std::map<std::string, MaterialPoint> find_followed_points<3>(const std::vector<ProbeSpec>&, const Solids<3>&);
-template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const StepGeometry<2>&, const ProbeSpec&);
-template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const StepGeometry<3>&, const ProbeSpec&);
+template ProbeSample measure_probe<2>(const Setup<2>&, const State<2>&, const StepGeometry<2>&,
+                                      const std::vector<SolidState>&, const ProbeSpec&, ProbeFields<2>&);
+template ProbeSample measure_probe<3>(const Setup<3>&, const State<3>&, const StepGeometry<3>&,
+                                      const std::vector<SolidState>&, const ProbeSpec&, ProbeFields<3>&);
 
 }  // namespace seiche

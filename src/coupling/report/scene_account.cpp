@@ -121,15 +121,28 @@ void account_sources(const Domain<Dim>& domain, const Fluids& fluids, const Stat
     const ShapeSpec& spec = liquid.sources[k].shape;
     const CellField<Dim> phi = level_set_of(domain, spec);
     const double whole = liquid_volume(domain, phi, no_solids(domain));
-    const ShapeUse use{fmt::format("liquid.source.{}", k), "has no room at the start", needs_centre};
-    if (warn_of_shape(domain, spec, use, phi, whole, psi, account.warnings)) continue;
+    const bool by_rate = liquid.sources[k].rate.has_value();
+    const ShapeUse use{fmt::format("liquid.source.{}", k), "has no room at the start", needs_centre && !by_rate};
+    if (warn_of_shape(domain, spec, use, phi, whole, psi, account.warnings) || by_rate) continue;
     if (liquid.sources[k].from > 0 ||
         common_volume(domain, phi, state.phi, psi) < full * liquid_volume(domain, phi, psi))
       continue;
     account.warnings.push_back(fmt::format(
         "{}: {} lies wholly inside the liquid at the start, where it adds next to nothing: a source keeps its shape "
-        "full, and this one is full already; place it above the surface, or use a side of type \"inflow\"",
+        "full, and this one is full already; give it a rate, or place it above the surface",
         spec.where, use.name));
+  }
+}
+
+template <int Dim>
+void account_drains(const Domain<Dim>& domain, const Fluids& fluids, const NodeField<Dim>& psi, SceneAccount& account) {
+  const LiquidSpec& liquid = fluids.liquid;
+  const bool needs_centre = liquid.volume != VolumeKeeping::in_cells && !fluids.has_prescribed_flow();
+  for (std::size_t k = 0; k < std::min(most_shapes, liquid.drains.size()); ++k) {
+    const ShapeSpec& spec = liquid.drains[k].shape;
+    const CellField<Dim> phi = level_set_of(domain, spec);
+    const ShapeUse use{fmt::format("liquid.drain.{}", k), "takes nothing", needs_centre && !liquid.drains[k].rate};
+    warn_of_shape(domain, spec, use, phi, liquid_volume(domain, phi, no_solids(domain)), psi, account.warnings);
   }
 }
 
@@ -143,6 +156,7 @@ void account_liquid(const Domain<Dim>& domain, const Fluids& fluids, const State
   if (whole - liquid.volume > all * whole) liquid.in_solids = whole - liquid.volume;
   account_regions(domain, fluids.liquid, psi, account);
   account_sources(domain, fluids, state, psi, account);
+  account_drains(domain, fluids, psi, account);
 }
 
 template <int Dim>

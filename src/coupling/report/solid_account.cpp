@@ -76,7 +76,7 @@ SolidAtStart account_solid(const DomainSpec& extent, const Body<Dim>& body, bool
   SolidAtStart solid;
   solid.name = spec.name;
   solid.kind = spec.kind.name;
-  if (spec.shape.invert || spec.shape.kind == "plane") {
+  if (spec.shape.invert || spec.shape.kind == "plane" || spec.shape.kind == "height_map") {
     solid.extent = spec.shape.invert ? SolidAtStart::Extent::hole : SolidAtStart::Extent::half_space;
     return solid;
   }

@@ -16,11 +16,13 @@ namespace {
 constexpr double balanced = 1e-6;  // share of the volume moved: round-off, and the balance of inflow formulas
 
 template <int Dim>
-void refuse(const Solids<Dim>& solids, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
+void refuse(const Setup<Dim>& s, const StepGeometry<Dim>& g, const VolumeMismatch& m) {
+  const Solids<Dim>& solids = s.solids;
   if (std::abs(m.net) <= balanced * m.scale) return;
   std::string who;
   for (std::size_t k = 0; k < solids.bodies.size(); ++k)
     if (!g.placed[k].twist.at_rest()) who += (who.empty() ? " by '" : ", '") + solids.bodies[k].spec().name + "'";
+  for (const Source<Dim>& feed : s.feeds) who += (who.empty() ? " by " : ", ") + feed.name;
   throw Error(ExitCode::cannot_continue,
               fmt::format("incompressible container, prescribed volume change {:.6g} m^{}/s{}; give the liquid a free "
                           "surface, an outflow side, or a motion that keeps the volume",
@@ -119,14 +121,14 @@ void refuse_impossible_motion(const CoupledInput<Dim>& in, const PressureProblem
   const NullSpace unchanged = without(liquid.closed, sensed);
   if (coupling.any_held()) take_back_lag(in, coupling, unchanged, r.rows);
   if (coupling.is_constrained()) refuse_driven(coupling, liquid.closed, sensed, in.setup.domain.ranks);
-  refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, unchanged));
+  refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, unchanged));
 }
 
 template <int Dim>
 void refuse_unbalanced_chambers(const CoupledInput<Dim>& in, const PressureProblem<Dim>& liquid,
                                 const std::vector<int>& sensed, const CoupledSolution<Dim>& r) {
   if (r.failure.empty() && !sensed.empty() && r.report.mismatch > balanced)
-    refuse(in.setup.solids, in.geometry, worst_mismatch(in.liquid, r.rows, liquid.closed));
+    refuse(in.setup, in.geometry, worst_mismatch(in.liquid, r.rows, liquid.closed));
 }
 
 template <int Dim>

@@ -13,6 +13,7 @@ struct SolvePowers {
   double viscous_transport = 0;  // of viscosity of fourth order, on the fluid (Transported::viscous_power)
   double tension = 0;            // of surface tension on both fluids
   double contact = 0;            // of prescribed solids on those that they touch
+  double feeds = 0;              // of the pressure on what feeds bring, and kinetic energy of this
   double work_of_sources = 0;    // on what was where they set the velocity, J (2D: J/m)
 };
 

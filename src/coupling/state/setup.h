@@ -29,8 +29,9 @@ struct Setup {
   Domain<Dim> domain;
   std::vector<Force<Dim>> forces;  // before the solids, which refer to them
   Solids<Dim> solids;
-  OwnedExterior<Dim> exterior;  // before its start
-  std::vector<Source<Dim>> sources;
+  OwnedExterior<Dim> exterior;               // before its start
+  std::vector<Source<Dim>> sources, drains;  // whose shapes are kept full and empty
+  std::vector<Source<Dim>> feeds;            // sources and drains with a rate
   std::vector<Sponge> sponges;
   std::map<std::string, MaterialPoint> followed;  // points of displacement probes, by probe name
   Features features;
@@ -43,12 +44,14 @@ struct Setup {
   // True if the liquid's volume is a field of its own (State::liquid), not kept by a shift of the level set.
   bool tracks_volume() const {
     if (fluids.liquid.volume != VolumeKeeping::automatic) return fluids.liquid.volume == VolumeKeeping::in_cells;
-    return fluids.has_prescribed_flow() && sources.empty() && !domain.sides.any_inflow();
+    return fluids.has_prescribed_flow() && sources.empty() && drains.empty() && !domain.sides.any_inflow();
   }
   // True if State::liquid belongs to the time of the solve, the middle of a step.
   bool volume_lags() const { return tracks_volume() && !fluids.has_prescribed_flow(); }
-  // True if initial velocities need not fit the solids and the sides that volumes pass.
-  bool volume_sets_off() const { return volume_lags() && (!solids.bodies.empty() || domain.sides.any_passes()); }
+  // True if initial velocities need not fit the solids, the sides that volumes pass and the feeds.
+  bool volume_sets_off() const {
+    return volume_lags() && (!solids.bodies.empty() || domain.sides.any_passes() || !feeds.empty());
+  }
   // True if the room for liquid in cells changes, State::open.
   bool room_changes() const { return tracks_volume() && !solids.bodies.empty() && !open_parts; }
   Divergence divergence() const { return fluids.has_prescribed_flow() ? Divergence::swells : Divergence::stays; }

@@ -60,7 +60,7 @@ class FlowSimulation : public Simulation {
   std::vector<JointReport> joints() const override { return report_joints(setup_->solids.joints, state_); }
   double expected_volume() const override { return state_.expected_volume; }
   ProbeSample probe(std::size_t k) const override {
-    return measure_probe(*setup_, state_, geometry_, setup_->scene->probes.at(k));
+    return measure_probe(*setup_, state_, geometry_, solids_, setup_->scene->probes.at(k), probe_fields_);
   }
   FrameField frame_field(const std::string& name) const override {
     return make_frame_field(setup_->domain, setup_->fluids, state_, geometry_.psi, name);
@@ -257,6 +257,7 @@ class FlowSimulation : public Simulation {
   void replace_state(State<Dim> next) {
     if (const std::shared_ptr<State<Dim>> kept = kept_.lock()) *kept = std::move(state_);
     kept_.reset();
+    probe_fields_ = {};
     state_ = std::move(next);
   }
 
@@ -374,12 +375,12 @@ class FlowSimulation : public Simulation {
   Phases phases_;
   std::vector<SurfaceMesh> surfaces_;
   SolveReport solve_;
-  double divergence_ = 0;
+  double divergence_ = 0, separation_error_ = 0;
   int newton_iterations_ = 0, contacts_ = 0, rheology_iterations_ = 0, joint_turns_ = 0;
-  double separation_error_ = 0;
   bool told_of_separation_ = false, told_of_rheology_ = false, told_of_crossing_ = false;
   StepStats stats_;
   std::vector<SolidState> solids_;
+  mutable ProbeFields<Dim> probe_fields_;
 };
 
 }  // namespace
@@ -389,9 +390,9 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicat
 }
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Communicator& ranks,
-                                            const OperatorPerturbation& perturbation) {
-  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, perturbation);
-  return std::make_unique<FlowSimulation<3>>(scene, ranks, perturbation);
+                                            const OperatorPerturbation& perturbed) {
+  if (scene.dimension == 2) return std::make_unique<FlowSimulation<2>>(scene, ranks, perturbed);
+  return std::make_unique<FlowSimulation<3>>(scene, ranks, perturbed);
 }
 
 }  // namespace seiche

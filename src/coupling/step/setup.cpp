@@ -86,12 +86,22 @@ ShapeSpec open_to_sides(ShapeSpec shape, const DomainSpec& domain) {
 }
 
 template <int Dim>
-std::vector<Source<Dim>> make_sources(const Scene& scene, std::vector<std::string>& notes) {
-  std::vector<Source<Dim>> sources;
-  for (const LiquidSourceSpec& spec : scene.liquid.sources)
-    sources.push_back({spec, make_shape<Dim>(open_to_sides(spec.shape, scene.domain), {scene.domain.cell_size, &notes}),
-                       VectorExpression(spec.velocity)});
-  return sources;
+void make_sources(const Scene& scene, Setup<Dim>& setup) {
+  const auto make = [&](const std::vector<LiquidSourceSpec>& specs, const char* list, double sign,
+                        std::vector<Source<Dim>>& kept) {
+    for (std::size_t n = 0; n < specs.size(); ++n) {
+      const bool moves = specs[n].motion || specs[n].attached_to;
+      const ShapeSpec shape = moves ? specs[n].shape : open_to_sides(specs[n].shape, scene.domain);
+      (specs[n].rate ? setup.feeds : kept)
+          .emplace_back(specs[n], fmt::format("liquid.{}.{}", list, n), sign,
+                        make_shape<Dim>(shape, {scene.domain.cell_size, &setup.notes}));
+      Source<Dim>& made = (specs[n].rate ? setup.feeds : kept).back();
+      const auto named = std::ranges::find(scene.solids, specs[n].attached_to.value_or(""), &SolidSpec::name);
+      if (specs[n].attached_to) made.solid = int(named - scene.solids.begin());
+    }
+  };
+  make(scene.liquid.sources, "source", 1, setup.sources);
+  make(scene.liquid.drains, "drain", -1, setup.drains);
 }
 
 template <int Dim>
@@ -193,9 +203,9 @@ Setup<Dim>::Setup(const Scene& from, const Communicator& ranks, const OperatorPe
       forces(make_forces<Dim>(from, notes)),
       solids(from, domain, forces, perturbation, notes),
       exterior(make_exterior(fluids, domain)),
-      sources(make_sources<Dim>(from, notes)),
       sponges(make_sponges(from.liquid, from.domain)),
       followed(find_followed_points(from.probes, solids)) {
+  make_sources(from, *this);
   fluids.rheology.yield_stress *= perturbation.yield_stress;
   features = Features(*this);
   if (!tracks_volume() || solids.bodies.empty()) return;

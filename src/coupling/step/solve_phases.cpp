@@ -12,6 +12,7 @@
 #include "coupling/step/step_size.h"
 #include "coupling/thin/gap_flow.h"
 #include "coupling/transport/drifting.h"
+#include "coupling/transport/feeds.h"
 #include "coupling/transport/forces.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
@@ -168,6 +169,22 @@ double work_of(const std::vector<FaceImpulse>& impulses, const FaceField<Dim>& f
   return ranks.global_sum(sum);
 }
 
+// Powers of the solve, with its velocity.
+template <int Dim>
+void set_powers(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, const ProjectionInput<Dim>& liquid,
+                const TimeLevel<Dim>& level, Attempt<Dim>& out) {
+  const Setup<Dim>& s = task.s;
+  const double implicit = task.predicted.viscosity.implicit;
+  out.powers.viscous = {solution.viscous.dissipation / implicit, solution.viscous.sides / implicit,
+                        solution.viscous.before / implicit};
+  out.powers.viscous_transport = task.predicted.viscous_power;
+  out.powers.tension = tension_power(liquid, solution.rows, task.before.now->u, level.u);
+  if (!s.feeds.empty())
+    out.powers.feeds = power_of_feeds(s.domain, s.fluids.density(), task.predicted.fed, out.state.pressure, level.u);
+  if (!s.sources.empty())
+    out.powers.work_of_sources = work_of(task.predicted.by_sources, task.before.now->u, level.u, s.domain.ranks);
+}
+
 // Sets the velocity of `out` from the pressure. `end`: where the solids will be that it fits; null: where they are.
 template <int Dim>
 void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, const EndOfStep<Dim>* end,
@@ -201,13 +218,7 @@ void restore(const SolveTask<Dim>& task, const CoupledSolution<Dim>& solution, c
   out.failure = find_non_finite(s.domain, "u", level->u);
   out.state.now = level;
   out.state.viscous_loads = solution.viscous_loads;
-  const double implicit = task.predicted.viscosity.implicit;
-  out.powers.viscous = {solution.viscous.dissipation / implicit, solution.viscous.sides / implicit,
-                        solution.viscous.before / implicit};
-  out.powers.viscous_transport = task.predicted.viscous_power;
-  out.powers.tension = tension_power(liquid, solution.rows, task.before.now->u, level->u);
-  if (!s.sources.empty())
-    out.powers.work_of_sources = work_of(task.predicted.by_sources, task.before.now->u, level->u, s.domain.ranks);
+  set_powers(task, solution, liquid, *level, out);
 }
 
 // One solve from where surface and solids stand, with a given viscosity (null: none).
@@ -280,7 +291,8 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   const CellField<Dim>& phi = moved.state.phi;
   Predicted<Dim> p;
   p.viscosity = plan_viscosity(s.domain, s.fluids, s.scene->time, s.features, before, phi, times.dt);
-  Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry,
+  const PlacedSources<Dim> sources(s, moved.state, times.start + times.lead);
+  Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry, sources,
                                                     moved.brought ? &*moved.brought : nullptr);
   const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
   if (!s.sponges.empty())
@@ -295,6 +307,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   p.u_star = std::move(transported.u);
   p.viscous_power = transported.viscous_power;
   p.by_sources = std::move(transported.by_sources);
+  p.fed = moved.fed;
   set_gap_velocity(s.domain, moved.geometry.faces, before.gap_flow, gravity, times.dt, p.u_star);
   if (moved.closed)
     keep_inertia_near_closed(s.domain, moved.geometry.faces, *moved.closed, before, phi, gravity, times.dt, p.u_star);

@@ -15,6 +15,7 @@ struct Predicted {
   ViscousPlan viscosity;
   double viscous_power = 0;             // Transported::viscous_power
   std::vector<FaceImpulse> by_sources;  // Transported::by_sources
+  CellValues fed;                       // Moved::fed
   Filling<Dim> filling;                 // cells that count as liquid in the solve
   std::string failure;                  // names a value that is not finite; empty: none
 };

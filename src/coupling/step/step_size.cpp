@@ -11,6 +11,7 @@
 #include "coupling/step/step_size.h"
 #include "coupling/tension/surface_tension.h"
 #include "coupling/transport/given_motion.h"
+#include "coupling/transport/placed_sources.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
@@ -222,8 +223,9 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
     const double plan = std::min(*spec.fixed_step, dt / least);
     return remaining < least * plan ? plan : std::min(plan, remaining);
   }
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources,
-                                                                  s.forces, next, next.time + remaining));
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene->time,
+                                                                  PlacedSources<Dim>(s, next, next.time).sources(), s.forces,
+                                                                  next, next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   plan = limit_of_solids(s.domain, s.solids, next, plan);
   return remaining < least * plan ? plan : share_evenly(plan, remaining);
@@ -233,7 +235,8 @@ template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene->time, state.time);
   const double dt =
-      std::min(state.planned, limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, s.forces, state, until));
+      std::min(state.planned, limit_of_flow(s.domain, s.fluids, s.scene->time,
+                                            PlacedSources<Dim>(s, state, state.time).sources(), s.forces, state, until));
   return limit_of_solids(s.domain, s.solids, state, dt) >= state.planned * (1 - 1e-9);
 }
 
@@ -252,7 +255,8 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   const bool planned = s.solids.leads_ahead() && state.step > 0 && !spec.fixed_step;
   double dt = spec.fixed_step ? *spec.fixed_step
-                              : limit_of_flow(s.domain, s.fluids, s.scene->time, s.sources, s.forces, state, until);
+                              : limit_of_flow(s.domain, s.fluids, s.scene->time,
+                                              PlacedSources<Dim>(s, state, state.time).sources(), s.forces, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) {
     dt = limit_of_given_velocity(state, std::min(dt, remaining));

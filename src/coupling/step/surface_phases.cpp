@@ -9,6 +9,7 @@
 #include "coupling/step/side_flow.h"
 #include "coupling/thin/liquid_beside.h"
 #include "coupling/thin/thin_solids.h"
+#include "coupling/transport/feeds.h"
 #include "coupling/transport/formula_checks.h"
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
@@ -124,7 +125,8 @@ template <int Dim>
 std::optional<CellField<Dim>> transport_and_book(const Setup<Dim>& s, const State<Dim>& at, FaceField<Dim> path,
                                                  double from, double span, const CellField<Dim, char>& closed,
                                                  State<Dim>& next) {
-  Brought<Dim> brought = transport_surface(s, at, std::move(path), from, span, closed, next.phi);
+  Brought<Dim> brought =
+      transport_surface(s, at, std::move(path), from, span, PlacedSources<Dim>(s, next, from + span), closed, next.phi);
   if (!s.tracks_volume()) next.expected_volume += brought.volume;
   next.work.sides += s.fluids.density() * brought.kinetic;
   return std::move(brought.share);
@@ -139,8 +141,11 @@ std::string carry_volumes(const Setup<Dim>& s, const State<Dim>& before, const F
   if (sets_off && !before.trial) return {};
   const State<Dim>& known = sets_off ? *before.trial : before;
   const Room<Dim> room = before.open ? Room<Dim>(*before.open, *known.open) : Room<Dim>();
+  const double from = before.time - before.since_solve;
+  const PlacedSources<Dim> sources(s, known, known.time - known.since_solve);
+  const CellValues brought = brought_by_feeds(s.domain, sources.feeds(), FedLiquid<Dim>(known), from, from + span);
   return carry_liquid(s.domain, sets_off ? known.now->u : u, known.gap_flow, s.perturbation.surface_advection * span,
-                      {s.divergence(), room, next.room()}, before, next);
+                      {s.divergence(), room, next.room()}, brought, before, next);
 }
 
 // Volumes of cells from their last time to that of the solve. Empty, or what fails.
@@ -150,7 +155,8 @@ std::string move_volumes(const Setup<Dim>& s, const State<Dim>& before, const Fa
   if (!s.tracks_volume()) return {};
   const double from = times.start - before.since_solve, until = times.start + times.lead;
   std::string fault = carry_volumes(s, before, u, before.since_solve + times.lead, next);
-  next.expected_volume += add_source_shares(s.domain, s.sources, geometry.psi, from, until, next.liquid);
+  next.expected_volume += add_source_shares(s.domain, PlacedSources<Dim>(s, next, until).openings(), geometry.psi, from,
+                                            until, next.liquid);
   return fault;
 }
 
@@ -177,25 +183,36 @@ void carry_surface(const Setup<Dim>& s, const State<Dim>& before, const StepTime
   inject(s.domain, fault, phi.data());
 }
 
-// phi before the step, with what sources bring on all sides of thin solids.
+// phi before the step, with what sources bring and without what drains take on all sides of thin solids.
 template <int Dim>
-CellField<Dim> known_phi(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const State<Dim>& before,
+CellField<Dim> known_phi(const Domain<Dim>& domain, const Openings<Dim>& openings, const State<Dim>& before,
                          const StepTimes& times) {
   CellField<Dim> phi = before.phi;
-  join_sources(domain, sources, times.start, times.start + times.lead, phi);
+  join_sources(domain, openings, times.start, times.start + times.lead, phi);
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
   return phi;
 }
 
 // Keeps the liquid on its own side of thin solids.
 template <int Dim>
-void keep_sides(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+void keep_sides(const Domain<Dim>& domain, const Solids<Dim>& solids, const Openings<Dim>& openings,
                 const State<Dim>& before, const StepTimes& times, const StepGeometry<Dim>& geometry,
                 CellField<Dim>& phi) {
   if (!has_thin(solids)) return;
   const std::vector<Placement> placed = place_bodies(before);
-  if (sources.empty()) return keep_sides_apart(domain, solids, placed, before.phi, geometry, phi);
-  keep_sides_apart(domain, solids, placed, known_phi(domain, sources, before, times), geometry, phi);
+  if (openings.empty()) return keep_sides_apart(domain, solids, placed, before.phi, geometry, phi);
+  keep_sides_apart(domain, solids, placed, known_phi(domain, openings, before, times), geometry, phi);
+}
+
+// Adds what feeds bring from t0 to t1 to the volume that is expected. `solved`: a state with the liquid in their
+// shapes.
+template <int Dim>
+void book_feeds(const Setup<Dim>& s, const State<Dim>& solved, const StepGeometry<Dim>& geometry, double t0, double t1,
+                State<Dim>& next) {
+  if (s.feeds.empty()) return;
+  const FedLiquid<Dim> liquid(s.domain.layout, solved, geometry.psi);
+  next.expected_volume +=
+      sum_of_cells(s.domain, brought_by_feeds(s.domain, PlacedSources<Dim>(s, solved, t0).feeds(), liquid, t0, t1));
 }
 
 template <int Dim>
@@ -206,16 +223,18 @@ void keep_volumes(const Setup<Dim>& s, const State<Dim>& before, const StepTimes
   const StepGeometry<Dim>& geometry = moved.geometry;
   if (s.tracks_volume()) return couple_liquid(s.domain, geometry.psi, {s.divergence(), next.room()}, next);
   next.expected_volume += times.lead * net_inflow(s.domain, geometry, before.phi, before.now->u);
+  book_feeds(s, before, geometry, times.start, times.start + times.lead, next);
   keep_sides_of_walls(s.domain, geometry, next.phi);
   if (s.features.has(Feature::sealed_cavities)) keep_sealed_full(s.domain, s.solids, before, next, geometry, next.phi);
-  if (has_thin_elastic(s.solids)) keep_sides(s.domain, s.solids, s.sources, before, times, geometry, next.phi);
+  const PlacedSources<Dim> sources(s, next, times.start + times.lead);
+  if (has_thin_elastic(s.solids)) keep_sides(s.domain, s.solids, sources.openings(), before, times, geometry, next.phi);
   const double uncounted =
       gap_volume(s.domain, s.fluids, before.separation) + volume_beyond(s.domain, s.solids, geometry, next.phi);
   const double expected = next.expected_volume + uncounted;
   next.exterior->follow(s.domain, geometry, before.now->u, times.looks_ahead() ? 0 : times.dt, next.phi);
   next.corrected_volume +=
       next.exterior->control_volume(s.domain, geometry, expected, largest_shift(s.domain), next.phi);
-  keep_sides(s.domain, s.solids, s.sources, before, times, geometry, next.phi);
+  keep_sides(s.domain, s.solids, sources.openings(), before, times, geometry, next.phi);
   next.exterior->follow(s.domain, geometry, before.now->u, 0, next.phi);
 }
 
@@ -234,6 +253,10 @@ Moved<Dim> move_surface_and_solids(const Setup<Dim>& s, const State<Dim>& before
   if (s.room_changes()) moved.state.open = room_at_solve(s.domain, moved);
   if (!times.looks_ahead()) carry_surface(s, before, times, phases, moved);
   keep_volumes(s, before, times, phases, moved);
+  if (!s.feeds.empty())
+    moved.fed = set_flux_of_feeds(s.domain, PlacedSources<Dim>(s, moved.state, times.start + times.lead).feeds(),
+                                  FedLiquid<Dim>(s.domain.layout, moved.state, moved.geometry.psi),
+                                  times.start + times.lead, times.dt, moved.geometry.faces);
   if (s.domain.sides.any_passes())
     find_entering(s.domain, before.exterior->joined_level(s.domain, s.fluids, before)->u, moved.geometry.faces);
   const auto timed = phases.timers.measure("surface");
@@ -256,8 +279,10 @@ void move_second_half(const Setup<Dim>& s, const State<Dim>& before, const StepT
   const bool can = can_go_on(s.domain, s.solids, s.scene->time, next, times.dt);
   const State<Dim>& leading = can ? next : before;
   FaceField<Dim> u = leading.exterior->surface_velocity(s.domain, s.fluids, leading);
-  if (!s.tracks_volume())
+  if (!s.tracks_volume()) {
     next.expected_volume += times.lead * net_inflow(s.domain, solved.geometry, next.phi, leading.now->u);
+    book_feeds(s, next, solved.geometry, times.start + times.lead, times.start + times.dt, next);
+  }
   (void)transport_and_book(s, next, std::move(u), times.start + times.lead, times.lead, closed, next);
   for (std::size_t k = 0; k < next.solids.size(); ++k) next.solids[k].go_on(leading.solids[k], times.lead);
   show_solids(s, next);

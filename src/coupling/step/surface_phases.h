@@ -27,13 +27,14 @@ struct Moved {
   StepGeometry<Dim> geometry;
   std::optional<SurfaceTension<Dim>> tension;
   std::optional<CellField<Dim>> brought{};              // share of each cell that sources brought before the solve
+  CellValues fed{};                                     // what feeds bring into cells at the solve, m^Dim/s
   std::shared_ptr<const EndOfStep<Dim>> end = nullptr;  // of a leapfrog step in which solids move freely; else null
   std::optional<CellField<Dim, char>> closed{};         // closed_cells(); none in a look ahead
   std::string failure{};                                // empty, or why the step cannot be taken
 };
 
-// Moves solids and surface, measures the geometry between them, and keeps the volumes of liquid and enclosed air.
-// Collective.
+// Moves solids and surface, lets feeds act, measures the geometry between them, and keeps the volumes of liquid and
+// enclosed air. Collective.
 template <int Dim>
 Moved<Dim> move_surface_and_solids(const Setup<Dim>& setup, const State<Dim>& before, const StepTimes& times,
                                    Phases& phases);

@@ -29,11 +29,11 @@ double fastest_of_side(const Domain<Dim>& domain, int axis, int side, double t) 
 // Largest velocity component in the cells of this rank that the source fills, m/s.
 template <int Dim>
 double fastest_of_source(const Domain<Dim>& domain, const Source<Dim>& source, double t) {
-  if (source.velocity.is_constant()) return truncate<Dim>(source.velocity(Vec3::Zero(), t)).cwiseAbs().maxCoeff();
+  if (source.is_uniform()) return truncate<Dim>(source.velocity(Vec3::Zero(), t)).cwiseAbs().maxCoeff();
   double fastest = 0;
   for_each_index_in_order(domain.layout, domain.layout.cells(), [&](Site, const IVec<Dim>& i) {
     const Vec<Dim> x = domain.layout.position(i, cell_offset<Dim>());
-    if ((*source.shape)(x) > 0) return;
+    if (source.distance(x) > 0) return;
     const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), t));
     if (v.allFinite()) fastest = std::max(fastest, v.cwiseAbs().maxCoeff());
   });

@@ -21,15 +21,15 @@ namespace {
 template <int Dim>
 double distance_to_brought(const Layout<Dim>& layout, const Source<Dim>& source, const OpenTime& open,
                            const Vec<Dim>& x) {
-  if (open.oldest == 0) return (*source.shape)(x);
+  if (open.oldest == 0) return source.distance(x);
   const Vec<Dim> v = truncate<Dim>(source.velocity(extend<Dim>(x), open.begin));
-  if (!v.allFinite()) return (*source.shape)(x);
+  if (!v.allFinite()) return source.distance(x);
   const double crossed = v.norm() * (open.oldest - open.youngest) / layout.h();
   const int parts = int(std::ceil(std::min(crossed, double(layout.geometry().cells.sum()))));
-  double distance = (*source.shape)(x - open.youngest * v);
+  double distance = source.distance(x - open.youngest * v);
   for (int n = 1; n <= parts; ++n) {
     const double age = open.youngest + (open.oldest - open.youngest) * n / parts;
-    distance = std::min(distance, (*source.shape)(x - age * v));
+    distance = std::min(distance, source.distance(x - age * v));
   }
   return distance;
 }
@@ -57,12 +57,37 @@ void join(const Domain<Dim>& domain, const Source<Dim>& source, const OpenTime& 
   });
 }
 
-// The same for all sources that are open in a step.
+// Takes the liquid out of a drain. Sets |v|^2/2 of it, with the velocity u, unless half_square is null. A drain that
+// holds no cell's centre takes nothing, as join() brings nothing. Collective.
 template <int Dim>
-void join_all(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
+void cut_out(const Domain<Dim>& domain, const Source<Dim>& drain, const FaceField<Dim>* u, CellField<Dim>& phi,
+             CellField<Dim>* half_square) {
+  const Layout<Dim>& l = domain.layout;
+  CellField<Dim> distance(l);
+  bool reaches = false;
+  for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>& i) {
+    distance[c] = drain.distance(l.position(i, cell_offset<Dim>()));
+    reaches = reaches || distance[c] < 0;
+  });
+  if (!domain.ranks.any(reaches)) return;
+  const double near = std::sqrt(double(Dim)) * l.h();
+  for_each_site(l, l.cells(), [&](Site c) {
+    phi[c] = std::max(phi[c], -distance[c]);
+    if (!half_square || distance[c] > near) return;
+    double square = 0;
+    for (int a = 0; a < Dim; ++a) square += std::pow(0.5 * (u->at(a, c) + u->at(a, c + l.stride(a))), 2);
+    (*half_square)[c] = 0.5 * square;
+  });
+}
+
+// The same for all sources and drains that are open in a step.
+template <int Dim>
+void join_all(const Domain<Dim>& domain, const Openings<Dim>& openings, double t0, double t1, const FaceField<Dim>* u,
               CellField<Dim>& phi, CellField<Dim>* half_square) {
-  for (const Source<Dim>& source : sources)
+  for (const Source<Dim>& source : openings.sources)
     if (const auto open = open_in_step(source.spec, t0, t1)) join(domain, source, *open, phi, half_square);
+  for (const Source<Dim>& drain : openings.drains)
+    if (open_in_step(drain.spec, t0, t1)) cut_out(domain, drain, u, phi, half_square);
 }
 
 // Share of a cell that a source fills, from the distances at equally spaced points of it.
@@ -83,9 +108,9 @@ double share_within(const Layout<Dim>& layout, const Source<Dim>& source, const 
 }
 
 template <int Dim>
-bool any_open(const std::vector<Source<Dim>>& sources, double t0, double t1) {
-  return std::any_of(sources.begin(), sources.end(),
-                     [&](const Source<Dim>& x) { return open_in_step(x.spec, t0, t1).has_value(); });
+bool any_open(const Openings<Dim>& openings, double t0, double t1) {
+  const auto is_open = [&](const Source<Dim>& x) { return open_in_step(x.spec, t0, t1).has_value(); };
+  return std::ranges::any_of(openings.sources, is_open) || std::ranges::any_of(openings.drains, is_open);
 }
 
 // Share of each cell's volume that is liquid after but not before.
@@ -109,28 +134,29 @@ std::optional<OpenTime> open_in_step(const LiquidSourceSpec& source, double t0, 
 }
 
 template <int Dim>
-Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const Openings<Dim>& openings,
                          const State<Dim>& state, double t0, double t1, CellField<Dim>& phi) {
-  if (!any_open(sources, t0, t1)) return {};
+  if (!any_open(openings, t0, t1)) return {};
   const NodeField<Dim> psi = solids.geometry.measure(place_bodies(state), t0).psi;
   const double before = liquid_volume(domain, phi, psi);
   const CellField<Dim> phi_before = phi;
   CellField<Dim> half_square(domain.layout);
-  join_all(domain, sources, t0, t1, phi, &half_square);
+  join_all(domain, openings, t0, t1, &state.now->u, phi, &half_square);
   fill_level_set_ghosts(domain.layout, domain.halo, phi);
   CellField<Dim> share = share_brought(domain, phi_before, phi, psi);
   const double kinetic = domain.ranks.global_sum(local_sum(
       domain.layout, domain.layout.cells(), [&](Site c, const IVec<Dim>&) { return share[c] * half_square[c]; }));
+  for_each_site(domain.layout, domain.layout.padded(), [&](Site c) { share[c] = std::max(share[c], 0.0); });
   return {liquid_volume(domain, phi, psi) - before, kinetic * domain.layout.geometry().cell_volume(), std::move(share)};
 }
 
 template <int Dim>
-double add_source_shares(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const NodeField<Dim>& psi,
-                         double t0, double t1, CellField<Dim>& share) {
-  if (!any_open(sources, t0, t1)) return 0;
+double add_source_shares(const Domain<Dim>& domain, const Openings<Dim>& openings, const NodeField<Dim>& psi, double t0,
+                         double t1, CellField<Dim>& share) {
+  if (!any_open(openings, t0, t1)) return 0;
   const Layout<Dim>& l = domain.layout;
   double cells = 0;
-  for (const Source<Dim>& source : sources)
+  for (const Source<Dim>& source : openings.sources)
     if (const auto open = open_in_step(source.spec, t0, t1))
       for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>& i) {
         const double within = share_within(l, source, *open, i);
@@ -138,14 +164,26 @@ double add_source_shares(const Domain<Dim>& domain, const std::vector<Source<Dim
         share[c] += lacking;
         cells += lacking;
       });
+  for (const Source<Dim>& drain : openings.drains)
+    if (open_in_step(drain.spec, t0, t1))
+      for_each_index_in_order(l, l.cells(), [&](Site c, const IVec<Dim>& i) {
+        const double within = share[c] > 0 ? share_within_shape(l, drain, i) : 0;
+        const double beyond = within > 0 ? std::max(0.0, share[c] - (1 - within) * open_share(l, psi, c)) : 0;
+        share[c] -= beyond;
+        cells -= beyond;
+      });
   fill_share_ghosts(l, domain.halo, share);
   return domain.ranks.global_sum(cells) * l.geometry().cell_volume();
 }
 
 template <int Dim>
-void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
-                  CellField<Dim>& phi) {
-  join_all<Dim>(domain, sources, t0, t1, phi, nullptr);
+void join_sources(const Domain<Dim>& domain, const Openings<Dim>& openings, double t0, double t1, CellField<Dim>& phi) {
+  join_all<Dim>(domain, openings, t0, t1, nullptr, phi, nullptr);
+}
+
+template <int Dim>
+double share_within_shape(const Layout<Dim>& layout, const Source<Dim>& source, const IVec<Dim>& cell) {
+  return share_within(layout, source, OpenTime{}, cell);
 }
 
 template <int Dim>
@@ -160,7 +198,7 @@ std::vector<FaceImpulse> set_source_velocity(const Domain<Dim>& domain, const st
       for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site f, const IVec<Dim>& i) {
         const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
         if (distance_to_brought(domain.layout, source, *open, x) > 0) return;
-        const double v = source.velocity.component(a, extend<Dim>(x), open->begin);
+        const double v = source.velocity(extend<Dim>(x), open->begin)[a];
         impulses.push_back({a, f, mass(a, f) * (v - u.at(a, f))});
         u.at(a, f) = v;
       });
@@ -173,28 +211,28 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
                             double t) {
   const Source<Dim>& source = sources[index];
   std::string fault;
-  if (source.velocity.is_constant() && source.velocity(Vec3::Zero(), t).allFinite()) return fault;
+  if (source.is_uniform() && source.velocity(Vec3::Zero(), t).allFinite()) return fault;
   for (int a = 0; a < Dim; ++a)
     for_each_index_in_order(domain.layout, domain.layout.faces(a), [&](Site, const IVec<Dim>& i) {
       const Vec<Dim> x = domain.layout.position(i, face_offset<Dim>(a));
-      if (!fault.empty() || (*source.shape)(x) > 0) return;
-      const double v = source.velocity.component(a, extend<Dim>(x), t);
+      if (!fault.empty() || source.distance(x) > 0) return;
+      const double v = source.velocity(extend<Dim>(x), t)[a];
       if (std::isfinite(v)) return;
-      fault = not_finite_text<Dim>(fmt::format("liquid.source.{}.velocity[{}]", index, a), source.spec.velocity[a], v,
-                                   x, t);
+      fault = not_finite_text<Dim>(fmt::format("{}.velocity[{}]", source.name, a), source.spec.velocity[a], v, x, t);
     });
   return fault;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                        \
-  template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const std::vector<Source<D>>&,              \
-                                     const State<D>&, double, double, CellField<D>&);                                \
-  template double add_source_shares<D>(const Domain<D>&, const std::vector<Source<D>>&, const NodeField<D>&, double, \
-                                       double, CellField<D>&);                                                       \
-  template void join_sources<D>(const Domain<D>&, const std::vector<Source<D>>&, double, double, CellField<D>&);     \
-  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double,  \
-                                                           double, const std::function<double(int, Site)>&,          \
-                                                           FaceField<D>&);                                           \
+#define SEICHE_INSTANTIATE(D)                                                                                         \
+  template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const Openings<D>&, const State<D>&, double, \
+                                     double, CellField<D>&);                                                          \
+  template double add_source_shares<D>(const Domain<D>&, const Openings<D>&, const NodeField<D>&, double, double,     \
+                                       CellField<D>&);                                                                \
+  template void join_sources<D>(const Domain<D>&, const Openings<D>&, double, double, CellField<D>&);                 \
+  template double share_within_shape<D>(const Layout<D>&, const Source<D>&, const IVec<D>&);                          \
+  template std::vector<FaceImpulse> set_source_velocity<D>(const Domain<D>&, const std::vector<Source<D>>&, double,   \
+                                                           double, const std::function<double(int, Site)>&,           \
+                                                           FaceField<D>&);                                            \
   template std::string fault_of_source<D>(const Domain<D>&, const std::vector<Source<D>>&, std::size_t, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

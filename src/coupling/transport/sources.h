@@ -27,22 +27,34 @@ struct Brought {
   std::optional<CellField<Dim>> share{};
 };
 
-// Joins phi at t1 with the liquid that sources bring from t0 to t1, with the solids as in `before`. Fills ghosts.
-// Collective.
+// Sources whose shapes are kept full, and drains whose shapes are kept empty.
 template <int Dim>
-Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const std::vector<Source<Dim>>& sources,
+struct Openings {
+  const std::vector<Source<Dim>>&sources, &drains;
+  bool empty() const { return sources.empty() && drains.empty(); }
+};
+
+// Joins phi at t1 with the liquid that sources bring from t0 to t1, and takes away what lies in drains, with the solids
+// as in `before`. Fills ghosts. Collective.
+template <int Dim>
+Brought<Dim> add_sources(const Domain<Dim>& domain, const Solids<Dim>& solids, const Openings<Dim>& openings,
                          const State<Dim>& before, double t0, double t1, CellField<Dim>& phi);
 
-// The same for the shares of liquid in cells: fills them up to what lies within the sources. psi: distance to the
-// solids at nodes (m). Fills ghosts. Returns the volume brought, m^Dim. Collective.
+// The same for the shares of liquid in cells: fills them up to what lies within the sources, and empties them down to
+// what lies beyond the drains. psi: distance to the solids at nodes (m). Fills ghosts. Returns the volume brought,
+// m^Dim. Collective.
 template <int Dim>
-double add_source_shares(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, const NodeField<Dim>& psi,
-                         double t0, double t1, CellField<Dim>& share);
+double add_source_shares(const Domain<Dim>& domain, const Openings<Dim>& openings, const NodeField<Dim>& psi, double t0,
+                         double t1, CellField<Dim>& share);
 
-// Joins phi at t1 with the liquid that sources keep from t0 to t1. Ghosts are not filled. Collective.
+// Joins phi at t1 with the liquid that sources keep from t0 to t1, without what lies in drains. Ghosts are not filled.
+// Collective.
 template <int Dim>
-void join_sources(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, double t0, double t1,
-                  CellField<Dim>& phi);
+void join_sources(const Domain<Dim>& domain, const Openings<Dim>& openings, double t0, double t1, CellField<Dim>& phi);
+
+// Share of a cell that lies in the shape of a source.
+template <int Dim>
+double share_within_shape(const Layout<Dim>& layout, const Source<Dim>& source, const IVec<Dim>& cell);
 
 // Impulse on the fluid at a face, kg m/s (2D: kg/s).
 struct FaceImpulse {

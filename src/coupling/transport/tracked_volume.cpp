@@ -53,16 +53,18 @@ std::optional<FaceField<Dim>> path_beyond_sides(const Domain<Dim>& domain, const
 
 template <int Dim>
 std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
-                         const Ledger<Dim>& ledger, const State<Dim>& before, State<Dim>& state) {
+                         const Ledger<Dim>& ledger, const CellValues& brought, const State<Dim>& before,
+                         State<Dim>& state) {
   const CellField<Dim>& phi = before.liquid_phi.empty() ? before.phi : before.liquid_phi;
   const std::optional<FaceField<Dim>> through =
       ledger.room.is_whole() ? std::nullopt : std::optional(flow_through_faces(domain, solved, u));
   const std::optional<FaceField<Dim>> path = path_beyond_sides(domain, before, ledger.divergence, u);
-  const VolumeStep step = carry_volume(domain.layout, domain.halo, domain.ranks,
-                                       {path ? *path : u, through ? *through : u, domain.sides.any_inflow(),
-                                        cells_beyond_inflows(domain.layout, domain.sides, before.time)},
-                                       span, phi, ledger, state.liquid);
-  state.expected_volume += (step.entered + step.swollen) * domain.layout.geometry().cell_volume();
+  VolumeFlow<Dim> flow{path ? *path : u, through ? *through : u, domain.sides.any_inflow(),
+                       cells_beyond_inflows(domain.layout, domain.sides, before.time)};
+  for (const auto& [c, volume] : brought) flow.brought.emplace_back(c, volume / domain.layout.geometry().cell_volume());
+  const VolumeStep step =
+      carry_volume<Dim>(domain.layout, domain.halo, domain.ranks, flow, span, phi, ledger, state.liquid);
+  state.expected_volume += (step.entered + step.swollen + step.fed) * domain.layout.geometry().cell_volume();
   state.spilled_volume += step.spill.moved * domain.layout.geometry().cell_volume();
   if (step.too_far == 0) return {};
   return fmt::format("{} paths of the liquid cross more than {} cells in a quarter of a step", step.too_far,
@@ -104,7 +106,7 @@ double drifting_volume(const Domain<Dim>& domain, const State<Dim>& state) {
 #define SEICHE_INSTANTIATE(D)                                                                            \
   template void start_volume<D>(const Domain<D>&, const NodeField<D>&, State<D>&);                       \
   template std::string carry_liquid<D>(const Domain<D>&, const FaceField<D>&, const GapFlow<D>&, double, \
-                                       const Ledger<D>&, const State<D>&, State<D>&);                    \
+                                       const Ledger<D>&, const CellValues&, const State<D>&, State<D>&); \
   template void couple_liquid<D>(const Domain<D>&, const NodeField<D>&, const Ledger<D>&, State<D>&);    \
   template std::string fault_of_volume<D>(const Domain<D>&, const State<D>&, const State<D>&);           \
   template double tracked_volume<D>(const Domain<D>&, const State<D>&);                                  \

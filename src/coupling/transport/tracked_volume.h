@@ -3,6 +3,7 @@
 // rounding but for the divergence of a prescribed flow. Where Setup::tracks_volume() is false, a shift of the level set
 // keeps the volume.
 #include "coupling/state/state.h"
+#include "fluid/volume/volume_transport.h"
 
 namespace seiche {
 
@@ -12,11 +13,12 @@ void start_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, State<Di
 
 // Carries State::liquid from the time it belongs to over `span` (s) along the flow u (m/s) that carries the level set.
 // `solved`: of the same flow, on faces that are hardly open. `ledger`: room of cells at both times, and of faces that u
-// fits. `before`: the state as it was. Books what passes the sides, and what the flow's divergence adds. Empty, or a
-// text if paths leave the halo. Collective.
+// fits. `brought`: what feeds bring into owned cells over the span, m^Dim. `before`: the state as it was. Books what
+// passes the sides, and what the flow's divergence adds. Empty, or a text if paths leave the halo. Collective.
 template <int Dim>
 std::string carry_liquid(const Domain<Dim>& domain, const FaceField<Dim>& u, const GapFlow<Dim>& solved, double span,
-                         const Ledger<Dim>& ledger, const State<Dim>& before, State<Dim>& state);
+                         const Ledger<Dim>& ledger, const CellValues& brought, const State<Dim>& before,
+                         State<Dim>& state);
 
 // Brings level set and volume together after both were carried. Collective.
 template <int Dim>

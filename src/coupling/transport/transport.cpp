@@ -244,24 +244,24 @@ double liquid_volume(const Domain<Dim>& domain, const CellField<Dim>& phi, const
 
 template <int Dim>
 Brought<Dim> transport_surface(const Setup<Dim>& s, const State<Dim>& state, FaceField<Dim> path, double t, double dt,
-                               const CellField<Dim, char>& closed, CellField<Dim>& phi) {
-  check_forces_of_step(s.domain, s.fluids, s.sources, t, t + dt);
+                               const PlacedSources<Dim>& sources, const CellField<Dim, char>& closed,
+                               CellField<Dim>& phi) {
+  const Domain<Dim>& d = s.domain;
+  check_forces_of_step(d, s.fluids, sources.sources(), t, t + dt);
   CellField<Dim> joined = phi;
-  if (s.domain.sides.any_inflow())
-    join_inflow(s.domain.layout, s.domain.halo, s.domain.ranks, s.domain.sides, t, joined);
+  if (d.sides.any_inflow()) join_inflow(d.layout, d.halo, d.ranks, d.sides, t, joined);
   LevelSetTransport how;
   if (s.fluids.has_prescribed_flow()) how.trace = Trace::third_order;  // transport is the only error there
   how.one_sided_at_medial_axis = s.features.has(Feature::one_sided_at_medial_axis);  // docs/decisions/0023-kinks.md
   if (!s.fluids.has_prescribed_flow()) {
-    continue_beyond_inflows(s.domain.layout, s.domain.sides, t, path);
-    let_air_follow(s.domain.layout, s.domain.sides, t, state.now->valid, path);
+    continue_beyond_inflows(d.layout, d.sides, t, path);
+    let_air_follow(d.layout, d.sides, t, state.now->valid, path);
   }
   const double span = s.perturbation.surface_advection * dt;
-  advect_level_set(s.domain.layout, path, span, s.domain.band(), joined, phi, how);
-  if (!s.fluids.has_prescribed_flow())
-    carry_slow_near_closed(s.domain, closed, state, std::move(path), span, joined, phi);
-  fill_level_set_ghosts(s.domain.layout, s.domain.halo, phi);
-  return add_sources(s.domain, s.solids, s.sources, state, t, t + dt, phi);
+  advect_level_set(d.layout, path, span, d.band(), joined, phi, how);
+  if (!s.fluids.has_prescribed_flow()) carry_slow_near_closed(d, closed, state, std::move(path), span, joined, phi);
+  fill_level_set_ghosts(d.layout, d.halo, phi);
+  return add_sources(d, s.solids, sources.openings(), state, t, t + dt, phi);
 }
 
 template <int Dim>
@@ -349,7 +349,7 @@ double mass_at_face(const Layout<Dim>& l, const Fluids& fluids, const CellField<
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                                     const ViscousPlan& plan, const StepGeometry<Dim>& geometry,
-                                    const CellField<Dim>* brought) {
+                                    const PlacedSources<Dim>& sources, const CellField<Dim>* brought) {
   Transported<Dim> r = state.exterior->transported_velocity(s, state, phi, dt, plan, geometry);
   const auto mass = [&](int a, Site f) {
     const bool was_within = state.phi[f - s.domain.layout.stride(a)] < 0 && state.phi[f] < 0;
@@ -357,7 +357,7 @@ Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state
                ? mass_at_face(s.domain.layout, s.fluids, phi, geometry.psi, brought, a, f)
                : 0;
   };
-  r.by_sources = set_source_velocity<Dim>(s.domain, s.sources, state.time, state.time + dt, mass, r.u);
+  r.by_sources = set_source_velocity<Dim>(s.domain, sources.sources(), state.time, state.time + dt, mass, r.u);
   fill_velocity_ghosts(s.domain.layout, s.domain.halo, s.domain.sides, r.u);
   return r;
 }
@@ -379,19 +379,20 @@ double control_volume(const Domain<Dim>& domain, const NodeField<Dim>& psi, doub
   return liquid_volume(domain, phi, psi) - volume;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                     \
-  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                   \
-  template Brought<D> transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double,        \
-                                           const CellField<D, char>&, CellField<D>&);                             \
-  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,              \
-                                 const CellField<D, char>&, CellField<D>&);                                       \
-  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                        \
-  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                           \
-  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                     \
-                                            const FaceField<D, char>&, double, const ViscousPlan&,                \
-                                            const StepGeometry<D>&);                                              \
-  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,    \
-                                                const ViscousPlan&, const StepGeometry<D>&, const CellField<D>*); \
+#define SEICHE_INSTANTIATE(D)                                                                                        \
+  template double liquid_volume<D>(const Domain<D>&, const CellField<D>&, const NodeField<D>&);                      \
+  template Brought<D> transport_surface<D>(const Setup<D>&, const State<D>&, FaceField<D>, double, double,           \
+                                           const PlacedSources<D>&, const CellField<D, char>&, CellField<D>&);       \
+  template void make_distance<D>(const Domain<D>&, const Fluids&, const Solids<D>&, const TimeSpec&,                 \
+                                 const CellField<D, char>&, CellField<D>&);                                          \
+  template FaceField<D, char> faces_near_liquid<D>(const Domain<D>&, const CellField<D>&);                           \
+  template FaceField<D, char> faces_near_gas<D>(const Domain<D>&, const CellField<D>&);                              \
+  template Transported<D> transport_flow<D>(const Setup<D>&, const State<D>&, const Flow<D>&,                        \
+                                            const FaceField<D, char>&, double, const ViscousPlan&,                   \
+                                            const StepGeometry<D>&);                                                 \
+  template Transported<D> transport_velocity<D>(const Setup<D>&, const State<D>&, const CellField<D>&, double,       \
+                                                const ViscousPlan&, const StepGeometry<D>&, const PlacedSources<D>&, \
+                                                const CellField<D>*);                                                \
   template double control_volume<D>(const Domain<D>&, const NodeField<D>&, double, double, CellField<D>&);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

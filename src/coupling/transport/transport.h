@@ -3,6 +3,7 @@
 #include "coupling/state/fluids.h"
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
+#include "coupling/transport/placed_sources.h"
 #include "coupling/transport/sources.h"
 #include "coupling/transport/viscous_transport.h"
 #include "fluid/boundary/domain.h"
@@ -12,11 +13,12 @@ namespace seiche {
 struct TimeSpec;
 
 // Transports phi from time t to t + dt (s) with the velocity `path` (m/s). Joins it with inflow and sources. `state`
-// gives the positions of the solids, `closed` the cells of closed_cells(). Returns what sources brought. Throws as
-// check_forces_of_step() does. Fills ghosts. Collective.
+// gives the positions of the solids, `closed` the cells of closed_cells(). `sources`: at the end. Returns what they
+// brought. Throws as check_forces_of_step() does. Fills ghosts. Collective.
 template <int Dim>
 Brought<Dim> transport_surface(const Setup<Dim>& setup, const State<Dim>& state, FaceField<Dim> path, double t,
-                               double dt, const CellField<Dim, char>& closed, CellField<Dim>& phi);
+                               double dt, const PlacedSources<Dim>& sources, const CellField<Dim, char>& closed,
+                               CellField<Dim>& phi);
 
 // Makes phi a distance again, after it has crossed at most ceil(cfl) + 1 cells. `closed`: see
 // redistance_beside_solids(). Collective.
@@ -42,11 +44,11 @@ struct Transported {
 //   dt f + dt/2 (A(x_d) - A(x)) on interior faces,   A = f - G of carried_acceleration(),
 // and dt f on others.
 // The exterior adds its own flow (Exterior::transported_velocity). `phi` and `geometry` are those of the solve.
-// `brought`: share of each cell that sources have brought since `state`; null: none. Collective.
+// `sources`: at the solve. `brought`: share of each cell that they have brought since `state`; null: none. Collective.
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& setup, const State<Dim>& state, const CellField<Dim>& phi,
                                     double dt, const ViscousPlan& plan, const StepGeometry<Dim>& geometry,
-                                    const CellField<Dim>* brought = nullptr);
+                                    const PlacedSources<Dim>& sources, const CellField<Dim>* brought = nullptr);
 
 // The same for one fluid with the levels `flow`, on the faces `near` it, without sources. Sets `acceleration` to its
 // own. Collective.

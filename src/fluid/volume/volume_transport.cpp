@@ -103,7 +103,7 @@ class NodeOrigins {
 template <int Dim>
 struct FrozenFlow {
   const VolumeFlow<Dim>& velocity;
-  double dt;
+  double dt, part;  // part: of the whole step
   const CellField<Dim, char>& near;
   const NodeOrigins<Dim>& origins;
   const CellField<Dim, char>& fed;  // 1 on velocity.fed; empty if there are none
@@ -199,6 +199,18 @@ double entering(const Layout<Dim>& layout, const FaceField<Dim>& flux) {
   return sum;
 }
 
+// Adds what is brought in the part of a step. Returns it, in cells, on this rank.
+template <int Dim>
+double add_brought(const FrozenFlow<Dim>& flow, CellField<Dim>& share) {
+  double sum = 0;
+  for (const auto& [c, whole] : flow.velocity.brought) {
+    const double value = std::max(flow.part * whole, -std::max(share[c], 0.0));
+    share[c] += value;
+    sum += value;
+  }
+  return sum;
+}
+
 // Cells that the fastest path crosses: reaches from a face to the surface that passes it. Collective.
 template <int Dim>
 int cells_of_paths(const Layout<Dim>& layout, const Communicator& ranks, const FaceField<Dim>& u, double dt) {
@@ -232,11 +244,12 @@ VolumeStep carry_part(const Layout<Dim>& layout, const Halo<Dim>& halo, const Co
     for (int a = 0; a < Dim; ++a) change += flux.at(a, c) - flux.at(a, c + layout.stride(a));
     if (change != 0) share[c] += change;
   });
+  const double brought = add_brought(flow, share);
   fill_share_ghosts(layout, halo, share);
-  std::array<double, 2> sums{entering(layout, flux), swollen};
+  std::array<double, 3> sums{entering(layout, flux), swollen, brought};
   ranks.global_sum(sums);
   const bool hands_on = is_last || !ledger.has_moved();
-  return {sums[0], sums[1], hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, share) : Spill{}, 0};
+  return {sums[0], sums[1], sums[2], hands_on ? hand_on_excess(layout, halo, ranks, phi, ledger, share) : Spill{}, 0};
 }
 
 }  // namespace
@@ -263,7 +276,8 @@ VolumeStep carry_volume(const Layout<Dim>& layout, const Halo<Dim>& halo, const 
       parts *= 2;
       continue;
     }
-    all += carry_part(layout, halo, ranks, {flow, part, near, origins, fed}, phi, ledger, done + 1 == parts, share);
+    all += carry_part(layout, halo, ranks, {flow, part, 1.0 / parts, near, origins, fed}, phi, ledger,
+                      done + 1 == parts, share);
     all.too_far += too_far;
     ++done;
   }

@@ -4,15 +4,18 @@
 
 namespace seiche {
 
+using CellValues = std::vector<std::pair<Site, double>>;  // of owned cells
+
 // Volumes that a step moved, in cells, over all ranks.
 struct VolumeStep {
   double entered = 0;        // through the sides of the domain, net
   double swollen = 0;        // by the flow's divergence
+  double fed = 0;            // by VolumeFlow::brought
   Spill spill;               // moved by hand
   std::int64_t too_far = 0;  // nodes whose path is longer than longest_path(), and was cut there
 
   VolumeStep& operator+=(const VolumeStep& other) {
-    entered += other.entered, swollen += other.swollen;
+    entered += other.entered, swollen += other.swollen, fed += other.fed;
     spill.moved += other.spill.moved, spill.worst = std::max(spill.worst, other.spill.worst);
     too_far += other.too_far;
     return *this;
@@ -26,6 +29,9 @@ struct VolumeFlow {
   const FaceField<Dim>&u, &through;
   bool enters = false;         // liquid may enter through sides: the same on all ranks
   std::vector<Site> fed = {};  // cells beyond the sides, full of liquid that enters
+  // Liquid that is added to owned cells in the step, as shares of them, evenly in time; less than 0: taken, as far as
+  // there is any.
+  CellValues brought = {};
 
   VolumeFlow(const FaceField<Dim>& path) : u(path), through(path) {}  // NOLINT: alone in closed boxes u will do
   VolumeFlow(const FaceField<Dim>& path, const FaceField<Dim>& solved, bool may_enter, std::vector<Site> full)

@@ -25,6 +25,9 @@ template <int Dim>
 Field<Dim> make_expression(const ShapeSpec& spec, const ShapeOptions& options);
 template <int Dim>
 Field<Dim> make_level_set(const ShapeSpec& spec, const ShapeOptions& options);
+// Below the heights of a map, without end: edges go on at their height. 3D: as a mesh, sampled.
+template <int Dim>
+Field<Dim> make_height_map(const ShapeSpec& spec, const ShapeOptions& options);
 
 // In world coordinates: vertices are transformed before sampling. 3D only; throws Error(bad_input) in 2D.
 template <int Dim>

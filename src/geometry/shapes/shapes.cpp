@@ -24,7 +24,7 @@ struct Row {
 
 // The shape table. A new shape needs one more row.
 template <int Dim>
-constexpr std::array<Row<Dim>, 8> table{{
+constexpr std::array<Row<Dim>, 9> table{{
     {"box", make_box<Dim>, Frame::own},
     {"sphere", make_sphere<Dim>, Frame::own},
     {"cylinder", make_cylinder<Dim>, Frame::own},
@@ -33,6 +33,7 @@ constexpr std::array<Row<Dim>, 8> table{{
     {"mesh", make_mesh<Dim>, Frame::world},
     {"expression", make_expression<Dim>, Frame::own},
     {"level_set", make_level_set<Dim>, Frame::own},
+    {"height_map", make_height_map<Dim>, Frame::own},
 }};
 
 template <int Dim>

@@ -15,6 +15,7 @@ template <class AnyScene, class Visit>
 void for_each_shape(AnyScene& scene, const Visit& visit) {
   for (auto& region : scene.liquid.regions) visit(region.shape);
   for (auto& source : scene.liquid.sources) visit(source.shape);
+  for (auto& drain : scene.liquid.drains) visit(drain.shape);
   for (auto& solid : scene.solids) {
     visit(solid.shape);
     for (auto& pin : solid.elastic.pinned) visit(pin.shape);

@@ -25,6 +25,8 @@ std::string geometry(int dimension, const std::string& shape) {
   }
   if (shape == "plane") text += "point = " + v("0", "0.5", "0") + "\nnormal = " + v("0", "1", "0") + "\n";
   if (shape == "mesh") text += "file = \"s.obj\"\n";
+  if (shape == "height_map")
+    text += "lower = " + v("0", "0.1", "0") + "\nupper = " + v("1", "0.5", "1") + "\nfile = \"s.png\"\nup = \"-y\"\n";
   if (shape == "level_set") text += "file = \"s.vdb\"\n";
   if (shape == "expression") text += "phi = \"sqrt(x*x+y*y)-0.3\"\n";
   return text;
@@ -71,6 +73,27 @@ const std::string solver_text =
     "[solver]\ntolerance = 1e-9\npreconditioner = \"boomeramg\"\nviscosity = \"coupled\"\nrheology_tolerance = "
     "1e-3\nrheology_iterations = 7\n";
 
+// "line" and "plane": of pressures.
+static std::string probe_text(int dimension, const std::string& probe) {
+  const auto v = [&](const char* x, const char* y, const char* z) { return vector_text(dimension, {x, y, z}); };
+  const bool many = probe == "line" || probe == "plane", box = probe == "flux" || probe == "volume",
+             loads = probe == "force" || probe == "torque";
+  std::string text = "[[probe]]\nname = \"p\"\nkind = \"" + (many ? "pressure" : probe) + "\"\nevery = 0.01\n";
+  if (probe == "displacement") text += "solid = \"soft\"\n";
+  if (probe == "line")
+    text += "from = " + v("0.1", "0.5", "0.5") + "\nto = " + v("0.7", "0.5", "0.5") + "\ncount = 4\n";
+  if (probe == "plane")
+    text += "corner = " + v("0.1", "0.5", "0.5") + "\nedge_a = " + v("0.5", "0", "0") +
+            "\nedge_b = " + v("0", "0.5", "0") + "\ncounts = [3, 2]\n";
+  if (box)
+    text += "lower = " + v("0.5", "0.1", "0.2") + "\nupper = " + v(probe == "flux" ? "0.5" : "0.7", "1", "1") + "\n";
+  if (loads) text += "solids = [\"so?t\", \"*ill\"]\n";
+  if (probe == "torque") text += "about = " + v("0.5", "0.1", "0.2") + "\n";
+  if (!many && !box && !loads && probe != "front" && probe != "joint")
+    text += "position = " + v("0.5", "0.5", "0.5") + "\n";
+  return text;
+}
+
 // A solid on a spring.
 static std::string bob(const std::string& center) {
   return "[[solid]]\nname = \"bob\"\nkind = \"sprung\"\nshape = \"sphere\"\ncenter = " + center +
@@ -107,6 +130,9 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += liquid_text + v("\"sin(x)\"", "0", "0") + "\n";
   text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
+  text += "[[liquid.drain]]\n" + placed + begin +
+          " = 0.5\nuntil = 1.5\nrate = \"0.1*t\"\nmotion = { translate = " + v("\"0.1*t\"", "0", "0") +
+          ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
   text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\n" + tail;
   text += "[[solid]]\nname = \"still\"\n" + placed + "slip = \"no_slip\"\ncontact_angle = 120\n";
   text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
@@ -124,10 +150,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           placed + "motion = { translate = " + v("0", "\"0.01*t\"", "0") + " }\n[solid.traction]\n" + placed +
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
   if (side != "periodic") text += bob(v("0.2", "0.2", "0.2"));
-  text += joints(dimension, v("0.5", "0.5", "0.5"), v("0.5", "1.5", "0.5")) + "[[probe]]\nname = \"p\"\nkind = \"" +
-          probe + "\"\nevery = 0.01\n";
-  if (probe == "displacement") text += "solid = \"soft\"\n";
-  if (probe != "front") text += "position = " + v("0.5", "0.5", "0.5") + "\n";
+  text += joints(dimension, v("0.5", "0.5", "0.5"), v("0.5", "1.5", "0.5")) + probe_text(dimension, probe);
   text += "[tracking]\nmethod = \"level_set\"\n" + solver_text;
   return text + "[output]\nframes = [\"surface\", \"viscosity\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
 }

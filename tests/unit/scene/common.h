@@ -25,7 +25,7 @@ std::string fault(const std::string& text, const Overrides& overrides = {}, cons
 // Checks that the reader refuses the text, with this in its message.
 void check_refused(const std::string& text, const std::string& expected);
 
-// A scene with every table and the given shape, side type and probe kind; 2D or 3D. Files: s.obj and s.vdb.
+// A scene with every table and the given shape, side type and probe kind; 2D or 3D. Files: s.obj, s.png and s.vdb.
 std::string rich_scene(int dimension, const std::string& shape, const std::string& side, const std::string& probe);
 
 std::size_t count_lines(const std::string& text);

@@ -58,6 +58,10 @@ std::string scene_for(const Option& option) {
   if (condition.key == "shape") shape = condition.values[0];
   if (condition.key == "type") side = condition.values[0];
   if (condition.key == "kind" && option.path.rfind("probe[]", 0) == 0) probe = condition.values[0];
+  for (const char* key : {"from", "to", "count"})
+    if (option.path == std::string("probe[].") + key) probe = "line";
+  for (const char* key : {"corner", "edge_a", "edge_b", "counts"})
+    if (option.path == std::string("probe[].") + key) probe = "plane";
   std::string text = rich_scene(3, shape, side, probe);
   if (option.path.rfind("robot[]", 0) == 0)
     text +=

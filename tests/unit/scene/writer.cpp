@@ -11,10 +11,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::vector<std::string> shapes{"box",   "sphere", "cylinder",   "capsule",
-                                      "plane", "mesh",   "expression", "level_set"};
+const std::vector<std::string> shapes{"box",  "sphere",     "cylinder",  "capsule",   "plane",
+                                      "mesh", "expression", "level_set", "height_map"};
 const std::vector<std::string> sides{"free_slip", "no_slip", "periodic", "inflow", "outflow", "moving_wall"};
-const std::vector<std::string> probes{"pressure", "velocity", "surface_height", "front", "displacement"};
+const std::vector<std::string> probes{"pressure", "velocity", "surface_height", "front", "displacement", "flux",
+                                      "volume",   "force",    "torque",         "line",  "plane"};
 
 }  // namespace
 
@@ -22,10 +23,12 @@ TEST_CASE("a written scene reads back to the same scene") {
   const ScratchFolder folder;
   folder.write("s.obj", "o\n");
   folder.write("s.vdb", "v");
+  folder.write("s.png", "p");
   for (const int dimension : {2, 3}) {
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (dimension == 2 && shapes[i] == "mesh") continue;
-      const std::string text = rich_scene(dimension, shapes[i], sides[i % sides.size()], probes[i % probes.size()]);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const std::string& shape = shapes[i % shapes.size()];
+      if (dimension == 2 && shape == "mesh") continue;
+      const std::string text = rich_scene(dimension, shape, sides[i % sides.size()], probes[i % probes.size()]);
       const Scene scene = parse(text, {}, folder.path());
       const std::string written = write_scene(scene);
       const Scene again = parse(written, {}, "/");
