@@ -52,8 +52,11 @@ Image read_png(const std::filesystem::path& file) {
     throw Error(ExitCode::bad_input, fmt::format("{}: not a readable PNG: {}", file.string(), header.message));
   }
   Image image{int(header.width), int(header.height), {}};
-  if (!has_alpha) image.rgb = std::move(bytes);
-  for (std::size_t i = 0; has_alpha && i < bytes.size(); i += 4) {
+  if (!has_alpha) {
+    image.rgb = std::move(bytes);
+    return image;
+  }
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
     image.rgb.insert(image.rgb.end(), {bytes[i], bytes[i + 1], bytes[i + 2]});
     image.alpha.push_back(bytes[i + 3]);
   }

@@ -64,9 +64,10 @@ class LineTracer {
     const int nx = std::max(1, int(float(field_.cells[0]) * field_.h / spacing_));
     const int ny = std::max(1, int(float(field_.cells[1]) * field_.h / spacing_));
     for (int k = 0; k < nx * ny; ++k) {
-      try_from(field_.lower.head<2>() + spacing_ * Vec2f(float(k % nx) + 0.5f, float(k / nx) + 0.5f));
+      const int i = k % nx, j = k / nx;
+      try_from(field_.lower.head<2>() + spacing_ * Vec2f(float(i) + 0.5f, float(j) + 0.5f));
       // candidates beside the lines that came of it
-      for (; done_ < lines_.size(); ++done_) beside(lines_[done_]);
+      for (; done_ < lines_.size(); ++done_) beside(done_);
     }
     return std::move(lines_);
   }
@@ -116,13 +117,14 @@ class LineTracer {
     lines_.push_back(std::move(line));
   }
 
-  void beside(const Polygon& parent) {
-    const Polygon line = parent;  // the list of lines grows
+  void beside(std::size_t parent) {
+    Polygon line = std::move(lines_[parent]);  // the list of lines grows
     for (std::size_t n = 1; n + 1 < line.size(); n += 4) {
       const Vec2f along = (line[n + 1] - line[n - 1]).normalized(), side = spacing_ * Vec2f(-along.y(), along.x());
       try_from(line[n] + side);
       try_from(line[n] - side);
     }
+    lines_[parent] = std::move(line);
   }
 
   const FaceVelocity& field_;
