@@ -114,6 +114,33 @@ Option initial_velocity_option() {
           .doc = "initial velocity (expressions at t = 0)"};
 }
 
+// Keys of where liquid is, comes, goes and is drawn to a velocity.
+std::vector<Key<LiquidSpec>> liquid_place_keys() {
+  using S = LiquidSpec;
+  return {
+      list_key<S, LiquidRegionSpec>({.key = "region",
+                                     .unset = "no liquid",
+                                     .doc = "where liquid is at t = 0: the union of all",
+                                     .most = most_entries},
+                                    &S::regions, region_section()),
+      list_key<S, LiquidSourceSpec>({.key = "source",
+                                     .unset = "none",
+                                     .doc = "liquid added in a shape for a time: up to a full shape, which inside "
+                                            "liquid is next to nothing, or by a "
+                                            "rate; see sources.md",
+                                     .most = most_entries},
+                                    &S::sources, source_section()),
+      list_key<S, LiquidSourceSpec>(
+          {.key = "drain", .unset = "none", .doc = "liquid taken away in a shape for a time", .most = most_entries},
+          &S::drains, drain_section()),
+      list_key<S, SpongeSpec>({.key = "sponge",
+                               .unset = "none",
+                               .doc = "where the flow is drawn to a velocity, as a beach absorbs waves",
+                               .most = most_entries},
+                              &S::sponges, sponge_section()),
+  };
+}
+
 Section<LiquidSpec> liquid_section() {
   using S = LiquidSpec;
   Section<S> s;
@@ -133,26 +160,9 @@ Section<LiquidSpec> liquid_section() {
       rheology_key(),
       value_key<S>(initial_velocity_option(), &S::velocity),
       prescribed_velocity_key(),
-      list_key<S, LiquidRegionSpec>({.key = "region",
-                                     .unset = "no liquid",
-                                     .doc = "where liquid is at t = 0: the union of all",
-                                     .most = most_entries},
-                                    &S::regions, region_section()),
-      list_key<S, LiquidSourceSpec>(
-          {.key = "source",
-           .unset = "none",
-           .doc = "liquid added in a shape for a time, up to a full shape: inside liquid it adds next to nothing",
-           .most = most_entries},
-          &S::sources, source_section()),
-      list_key<S, LiquidSourceSpec>(
-          {.key = "drain", .unset = "none", .doc = "liquid taken away in a shape for a time", .most = most_entries},
-          &S::drains, drain_section()),
-      list_key<S, SpongeSpec>({.key = "sponge",
-                               .unset = "none",
-                               .doc = "where the flow is drawn to a velocity, as a beach absorbs waves",
-                               .most = most_entries},
-                              &S::sponges, sponge_section()),
   };
+  const std::vector<Key<S>> places = liquid_place_keys();
+  s.keys.insert(s.keys.end(), places.begin(), places.end());
   s.finish = [](SceneContext& c, const Place& p, S&) { check_one_viscosity(c, p); };
   return s;
 }

@@ -42,13 +42,12 @@ double limit_of_present_flow(const Domain<Dim>& domain, const Fluids& fluids, co
 
 // Velocities that sides and sources give are limited likewise, as the flow takes them on within the step.
 template <int Dim>
-double limit_of_flow(const Domain<Dim>& domain, const Fluids& fluids, const TimeSpec& time,
-                     const std::vector<Source<Dim>>& sources, const std::vector<Force<Dim>>& forces,
-                     const State<Dim>& state, double until) {
-  const double limit = limit_of_present_flow(domain, fluids, forces, time, state, until);
-  if (fluids.has_prescribed_flow()) return limit;
-  const double span = std::min(limit, until - state.time),
-               given = limit_of_given_flow(domain, time, sources, state.time, span);
+double limit_of_flow(const Setup<Dim>& s, const State<Dim>& state, double until) {
+  const double limit = limit_of_present_flow(s.domain, s.fluids, s.forces, s.scene->time, state, until);
+  if (s.fluids.has_prescribed_flow()) return limit;
+  const double span = std::min(limit, until - state.time);
+  const PlacedSources<Dim> sources(s, state, state.time);
+  const double given = limit_of_given_flow(s.domain, s.scene->time, sources.sources(), state.time, span);
   return given < span ? given : limit;
 }
 
@@ -223,9 +222,7 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
     const double plan = std::min(*spec.fixed_step, dt / least);
     return remaining < least * plan ? plan : std::min(plan, remaining);
   }
-  double plan = std::min(step_growth * dt, margin * limit_of_flow(s.domain, s.fluids, s.scene->time,
-                                                                  PlacedSources<Dim>(s, next, next.time).sources(), s.forces,
-                                                                  next, next.time + remaining));
+  double plan = std::min(step_growth * dt, margin * limit_of_flow(s, next, next.time + remaining));
   if (spec.max_step) plan = std::min(plan, *spec.max_step);
   plan = limit_of_solids(s.domain, s.solids, next, plan);
   return remaining < least * plan ? plan : share_evenly(plan, remaining);
@@ -234,9 +231,7 @@ double choose_horizon(const Setup<Dim>& s, const State<Dim>& next, double dt) {
 template <int Dim>
 bool can_go_as_planned(const Setup<Dim>& s, const State<Dim>& state) {
   const double until = state.time + until_frame(s.scene->time, state.time);
-  const double dt =
-      std::min(state.planned, limit_of_flow(s.domain, s.fluids, s.scene->time,
-                                            PlacedSources<Dim>(s, state, state.time).sources(), s.forces, state, until));
+  const double dt = std::min(state.planned, limit_of_flow(s, state, until));
   return limit_of_solids(s.domain, s.solids, state, dt) >= state.planned * (1 - 1e-9);
 }
 
@@ -254,9 +249,7 @@ double choose_step(const Setup<Dim>& s, const State<Dim>& state, double until) {
   if (!(remaining > 0))
     throw Error(ExitCode::bug, fmt::format("a step from {} s to {} s has no length", state.time, until));
   const bool planned = s.solids.leads_ahead() && state.step > 0 && !spec.fixed_step;
-  double dt = spec.fixed_step ? *spec.fixed_step
-                              : limit_of_flow(s.domain, s.fluids, s.scene->time,
-                                              PlacedSources<Dim>(s, state, state.time).sources(), s.forces, state, until);
+  double dt = spec.fixed_step ? *spec.fixed_step : limit_of_flow(s, state, until);
   if (spec.max_step) dt = std::min(dt, *spec.max_step);
   if (state.step == 0 && !spec.fixed_step) {
     dt = limit_of_given_velocity(state, std::min(dt, remaining));

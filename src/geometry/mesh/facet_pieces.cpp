@@ -56,6 +56,7 @@ void cut_along(const Corners<Dim>& p, int axis, int first, int last, const Facet
   double low = 1e300, high = -1e300;
   for (const FacetWeights<Dim>& w : part)
     low = std::min(low, p.row(axis).dot(w)), high = std::max(high, p.row(axis).dot(w));
+  if (high - low < outward) return pieces.push_back(part);  // in a plane of the grid its corners lie about it by chance
   FacetPart<Dim> rest = part;
   for (double plane = std::max(std::floor(low) + 1, double(first)); plane < high; plane += 1) {
     FacetPart<Dim> below, above;
