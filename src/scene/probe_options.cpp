@@ -44,16 +44,6 @@ Key<ProbeSpec> array_key(const std::string& name, std::optional<Vec3> ProbeArray
 std::vector<Key<ProbeSpec>> array_keys() {
   using A = ProbeArraySpec;
   return {
-      array_key("from", &A::from, "first of count points along a line, named NAME-1, NAME-2, ..."),
-      array_key("to", &A::to, "last of these points"),
-      value_key<ProbeSpec>(
-          {.key = "count",
-           .type = T::integer,
-           .range = between(2, most_points_of_probe),
-           .only_for = {"kind", at_points},
-           .unset = "one point",
-           .doc = "number of points along the line, its ends included"},
-          [](auto& s) -> auto& { return s.array.count; }),
       array_key("corner", &A::corner,
                 "first of the points in a parallelogram, named NAME-1-1, NAME-2-1, ...: number along edge_a, then "
                 "along edge_b"),
@@ -67,6 +57,16 @@ std::vector<Key<ProbeSpec>> array_keys() {
            .unset = "one point",
            .doc = "numbers of points along edge_a and edge_b, the ends included"},
           [](auto& s) -> auto& { return s.array.counts; }),
+      array_key("from", &A::from, "first of count points along a line, named NAME-1, NAME-2, ..."),
+      array_key("to", &A::to, "last of these points"),
+      value_key<ProbeSpec>(
+          {.key = "count",
+           .type = T::integer,
+           .range = between(2, most_points_of_probe),
+           .only_for = {"kind", at_points},
+           .unset = "one point",
+           .doc = "number of points along the line, its ends included"},
+          [](auto& s) -> auto& { return s.array.count; }),
   };
 }
 

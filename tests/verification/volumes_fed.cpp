@@ -69,6 +69,7 @@ TEST_CASE("feeds: with the shift the volume follows the integral of the rates", 
       Scene s = half_full(dim, false);
       const double q = dim == 2 ? 0.4 : 0.2, end = 0.25;
       (sign > 0 ? s.liquid.sources : s.liquid.drains).push_back(fed_box(dim, 0.2, 0.5, std::to_string(q)));
+      s.time.max_step = 0.005;
       const auto sim = make_simulation(s, Communicator());
       const double start = sim->stats().liquid_volume;
       run_to(*sim, end);
@@ -76,7 +77,8 @@ TEST_CASE("feeds: with the shift the volume follows the integral of the rates", 
                << ", corrected " << sim->stats().volume_corrected / (q * end));
       CHECK(sim->expected_volume() == Approx(start + sign * q * end).epsilon(1e-9));
       CHECK(sim->stats().liquid_volume == Approx(start + sign * q * end).epsilon(1e-4));  // what one shift leaves
-      CHECK(std::abs(sim->stats().volume_corrected) < 0.1 * q * end);
+      // The first half step moves with the flow at rest: 1 % here, as measured.
+      CHECK(std::abs(sim->stats().volume_corrected) < 0.03 * q * end);
     }
 }
 
@@ -148,16 +150,16 @@ TEST_CASE("drains: a shape is kept empty, and what it takes is booked", "[volume
       run_to(*sim, 0.05);
       CHECK(sim->stats().liquid_volume == Approx(start).epsilon(1e-9));
       run_to(*sim, 0.06);
-      CHECK(start - sim->stats().liquid_volume > 0.95 * hole);
+      CHECK(start - sim->stats().liquid_volume > 0.9 * hole);  // liquid flows in at once
       run_to(*sim, 0.3);
       const double after = sim->stats().liquid_volume;
       CHECK(start - after > 2 * hole);
-      CHECK(after == Approx(sim->expected_volume()).epsilon(cells ? 1e-9 : 2e-3));  // the shift lags behind
+      CHECK(after == Approx(sim->expected_volume()).epsilon(cells ? 1e-9 : 1e-2));  // the shift lags behind
       run_to(*sim, 0.35);
       const double last = sim->stats().liquid_volume;
       WARN(dim << "D, " << (cells ? "cells" : "shift") << ": taken " << (start - after) / hole << " holes, "
                << last / sim->expected_volume() - 1);
-      CHECK(last == Approx(sim->expected_volume()).epsilon(cells ? 1e-9 : 2e-3));
+      CHECK(last == Approx(sim->expected_volume()).epsilon(cells ? 1e-9 : 1e-2));
     }
 }
 

@@ -79,25 +79,6 @@ bool holds_cell(const Geometry<Dim>& grid, const IVec<Dim>& i, const Vec<Dim>& l
   return (low.array() >= lower.array() - rounding).all() && (low.array() + grid.h <= upper.array() + rounding).all();
 }
 
-// Liquid of the plane of faces with the index `at` along an axis that passes the box, m^Dim/s, on this rank.
-template <int Dim>
-double flux_of_plane(const Domain<Dim>& domain, const State<Dim>& state, const StepGeometry<Dim>& g,
-                     const FaceField<Dim>& u, int axis, int at, Vec<Dim> lower, Vec<Dim> upper) {
-  const Layout<Dim>& l = domain.layout;
-  const Geometry<Dim>& grid = l.geometry();
-  if (grid.periodic[std::size_t(axis)] && at == grid.cells[axis]) at = 0;
-  Box<Dim> box = reached(l, l.faces(axis), lower, upper);
-  box.lower[axis] = std::max(l.faces(axis).lower[axis], at);
-  box.upper[axis] = std::min(l.faces(axis).upper[axis], at + 1);
-  const LiquidAround<Dim> liquid(l, state.phi, g.psi);
-  return grid.face_area() * local_sum(l, box, [&](Site f, const IVec<Dim>& i) {
-           double wet = 0;
-           visit_parts(grid, i, axis, lower, upper,
-                       [&](const Vec<Dim>& x, double within) { wet += within > 0 ? within * liquid.wet(x) : 0; });
-           return wet * g.faces.open.at(axis, f) * u.at(axis, f);
-         });
-}
-
 }  // namespace
 
 template <int Dim>
@@ -120,22 +101,33 @@ double volume_in_box(const Setup<Dim>& s, const State<Dim>& state, const StepGeo
   return s.domain.ranks.global_sum(cells) * l.geometry().cell_volume();
 }
 
+// The wet part is that where the box lies; the velocity there is linear between the faces of cells.
 template <int Dim>
 double flux_through_box(const Setup<Dim>& s, const State<Dim>& state, const StepGeometry<Dim>& g,
                         const FaceField<Dim>& u, const ProbeSpec& probe) {
-  constexpr double rounding = 1e-9;  // cells
-  const Geometry<Dim>& grid = s.domain.layout.geometry();
+  const Layout<Dim>& l = s.domain.layout;
+  const Geometry<Dim>& grid = l.geometry();
   const Vec<Dim> lower = truncate<Dim>(probe.lower), upper = truncate<Dim>(probe.upper);
   int axis = 0;
   for (int a = 0; a < Dim; ++a)
     if (lower[a] == upper[a]) axis = a;
   const double at = (lower[axis] - grid.lower[axis]) / grid.h;
-  const int low = std::clamp(int(std::floor(at + rounding)), 0, grid.cells[axis] - 1);
-  const double t = std::abs(at - low) < rounding ? 0 : at - low;
-  double sum = 0;
-  if (t < 1) sum += (1 - t) * flux_of_plane(s.domain, state, g, u, axis, low, lower, upper);
-  if (t > 0) sum += t * flux_of_plane(s.domain, state, g, u, axis, low + 1, lower, upper);
-  return s.domain.ranks.global_sum(sum);
+  const int low = std::clamp(int(std::floor(at)), 0, grid.cells[axis] - 1);
+  Box<Dim> box = reached(l, l.cells(), lower, upper);
+  box.lower[axis] = std::max(l.cells().lower[axis], low);
+  box.upper[axis] = std::min(l.cells().upper[axis], low + 1);
+  const LiquidAround<Dim> liquid(l, state.phi, g.psi);
+  const double sum = local_sum(l, box, [&](Site c, const IVec<Dim>& i) {
+    double wet = 0;
+    visit_parts(grid, i, axis, lower, upper, [&](Vec<Dim> x, double within) {
+      x[axis] = lower[axis];
+      if (within > 0) wet += within * liquid.wet(x);
+    });
+    const Site high = c + l.stride(axis);
+    return wet * ((low + 1 - at) * g.faces.open.at(axis, c) * u.at(axis, c) +
+                  (at - low) * g.faces.open.at(axis, high) * u.at(axis, high));
+  });
+  return s.domain.ranks.global_sum(sum) * grid.face_area();
 }
 
 Vec3 sum_of_loads(const std::vector<SolidState>& solids, const ProbeSpec& probe) {

@@ -13,8 +13,7 @@ template <int Dim>
 double volume_in_box(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry,
                      const ProbeSpec& probe);
 
-// Liquid that passes the probe's flat box in the direction of its axis, m^Dim/s. Between two planes of faces it is
-// interpolated. Collective.
+// Liquid that passes the probe's flat box in the direction of its axis, m^Dim/s. Collective.
 template <int Dim>
 double flux_through_box(const Setup<Dim>& setup, const State<Dim>& state, const StepGeometry<Dim>& geometry,
                         const FaceField<Dim>& u, const ProbeSpec& probe);

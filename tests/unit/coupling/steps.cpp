@@ -156,7 +156,10 @@ TEST_CASE("pressure and velocity probes measure nothing in the air") {
     test::add_liquid(s, "y-0.5");
     const double z = dim == 3 ? 0.5 : 0;
     for (const ProbeKind kind : {ProbeKind::pressure, ProbeKind::velocity})
-      for (const double y : {0.25, 0.75}) s.probes.push_back({"p", kind, {0.5, y, z}, {}});
+      for (const double y : {0.25, 0.75}) {
+        ProbeSpec& probe = s.probes.emplace_back();
+        probe.name = "p", probe.kind = kind, probe.position = {0.5, y, z};
+      }
     const auto sim = make_simulation(s, Communicator());
     CHECK_FALSE(sim->probe(0).defined);  // before any solve
     CHECK(sim->probe(2).defined);

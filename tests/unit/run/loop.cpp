@@ -30,7 +30,8 @@ Scene small_scene(double end) {
   scene.solids.push_back({});
   scene.solids[0].name = "wall";
   scene.solids[0].shape.kind = "box";
-  scene.probes.push_back({"p", ProbeKind::pressure, {0, 0, 0}, 0.05});
+  ProbeSpec& probe = scene.probes.emplace_back();
+  probe.name = "p", probe.every = 0.05;
   scene.output.formats = {"vdb", "vtk"};
   scene.output.checkpoint_every = 2;
   return scene;
