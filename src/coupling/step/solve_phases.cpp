@@ -17,7 +17,6 @@
 #include "coupling/transport/level_in_solids.h"
 #include "coupling/transport/prescribed_flow.h"
 #include "coupling/transport/restore.h"
-#include "coupling/transport/sponges.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
 #include "levelset/redistance.h"
@@ -295,11 +294,7 @@ Predicted<Dim> predict_velocity(const Setup<Dim>& s, const State<Dim>& before, c
   Transported<Dim> transported = transport_velocity(s, before, phi, times.dt, p.viscosity, moved.geometry, sources,
                                                     moved.brought ? &*moved.brought : nullptr);
   const Vec3 gravity = s.fluids.gravity.of_step(moved.state.time, times.dt);
-  if (!s.sponges.empty())
-    absorb(s.domain, s.sponges, s.perturbation.gravity * gravity, moved.state.time, times.dt, transported.u);
-  if (!s.forces.empty())
-    apply_forces(s.domain, s.fluids, s.forces, phi, s.perturbation.gravity * gravity, moved.state.time, times.dt,
-                 transported.u);
+  act_on_liquid(s, phi, moved.state.time, times.dt, transported.u);
   const double way = since_flow_fitted(s.fluids, s.solids, before, times);
   if (way > 0)
     p.convected =

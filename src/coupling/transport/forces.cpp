@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "coupling/transport/formula_checks.h"
+#include "coupling/transport/sponges.h"
 #include "coupling/transport/transport.h"
 #include "grid/loops.h"
 #include "levelset/fractions.h"
@@ -95,8 +96,6 @@ void for_each_face_near_liquid(const Domain<Dim>& domain, const Fluids& fluids, 
     });
 }
 
-}  // namespace
-
 template <int Dim>
 void apply_forces(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Force<Dim>>& forces,
                   const CellField<Dim>& phi, const Vec3& gravity, double t, double dt, FaceField<Dim>& u) {
@@ -115,6 +114,15 @@ void apply_forces(const Domain<Dim>& domain, const Fluids& fluids, const std::ve
   if (!domain.ranks.any(!fault.empty())) return;
   for (const std::string& text : domain.ranks.all_gather(fault))
     if (!text.empty()) throw Error(ExitCode::cannot_continue, text);
+}
+
+}  // namespace
+
+template <int Dim>
+void act_on_liquid(const Setup<Dim>& s, const CellField<Dim>& phi, double t, double dt, FaceField<Dim>& u) {
+  const Vec3 gravity = s.perturbation.gravity * s.fluids.gravity.of_step(t, dt);
+  if (!s.sponges.empty()) absorb(s.domain, s.sponges, gravity, t, dt, u);
+  if (!s.forces.empty()) apply_forces(s.domain, s.fluids, s.forces, phi, gravity, t, dt, u);
 }
 
 template <int Dim>
@@ -154,10 +162,9 @@ double fastest_dragged(const Domain<Dim>& domain, const std::vector<Force<Dim>>&
   return fastest;
 }
 
-#define SEICHE_INSTANTIATE(D)                                                                                       \
-  template void apply_forces<D>(const Domain<D>&, const Fluids&, const std::vector<Force<D>>&, const CellField<D>&, \
-                                const Vec3&, double, double, FaceField<D>&);                                        \
-  template double work_of_forces<D>(const Setup<D>&, const State<D>&, const Attempt<D>&);                           \
+#define SEICHE_INSTANTIATE(D)                                                                          \
+  template void act_on_liquid<D>(const Setup<D>&, const CellField<D>&, double, double, FaceField<D>&); \
+  template double work_of_forces<D>(const Setup<D>&, const State<D>&, const Attempt<D>&);              \
   template double fastest_dragged<D>(const Domain<D>&, const std::vector<Force<D>>&, double, double);
 SEICHE_INSTANTIATE(2)
 SEICHE_INSTANTIATE(3)

@@ -7,13 +7,12 @@
 
 namespace seiche {
 
-// Adds to u (m/s, ghosts filled again) what the forces do over a step of dt that ends at t. Fields: dt a in the middle
-// of the step. Drag: u approaches w + dt g by exp(-rate dt). Wind: the stress C rho |w - u| (w - u) along the surface,
-// rho that of air, accelerates the topmost layer of liquid, down to the bottom of its cells. `gravity`: of the step,
-// m/s^2. Throws Error(cannot_continue) if a formula is not finite or a rate is negative. Collective.
+// Adds to u (m/s, ghosts filled again) what sponges and forces do over a step of dt that ends at t. Fields: dt a in the
+// middle of the step. Drag: u approaches w + dt g by exp(-rate dt). Wind: the stress C rho |w - u| (w - u) along the
+// surface, rho that of air, accelerates the topmost layer of liquid, down to the bottom of its cells. Throws
+// Error(cannot_continue) if a formula is not finite or a rate is negative. Collective.
 template <int Dim>
-void apply_forces(const Domain<Dim>& domain, const Fluids& fluids, const std::vector<Force<Dim>>& forces,
-                  const CellField<Dim>& phi, const Vec3& gravity, double t, double dt, FaceField<Dim>& u);
+void act_on_liquid(const Setup<Dim>& setup, const CellField<Dim>& phi, double t, double dt, FaceField<Dim>& u);
 
 // Work of the forces on the liquid over the step (J; 2D: J/m), with the mean of the velocities before and after it and
 // the volume of liquid at its end. Collective.
