@@ -102,7 +102,7 @@ SolidAtStart account_solid(const DomainSpec& extent, const Body<Dim>& body, bool
 
 // True if nothing but liquid, gravity and contact moves the body.
 template <int Dim>
-bool moves_freely(const Body<Dim>& body) {
+bool floats_freely(const Body<Dim>& body) {
   const SolidSpec& spec = body.spec();
   if (spec.kind == SolidKind::elastic) return spec.elastic.pinned.empty();
   if (!(spec.kind == SolidKind::rigid)) return false;
@@ -191,7 +191,7 @@ std::vector<std::optional<Floating>> floating_of(const Solids<Dim>& solids, cons
       if (k >= 0) jointed[std::size_t(k)] = true;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Body<Dim>& body = solids.bodies[k];
-    if (jointed[k] || !moves_freely(body) || !(body.mass().mass > 0)) continue;
+    if (jointed[k] || !floats_freely(body) || !(body.mass().mass > 0)) continue;
     all[k] = equilibrium<Dim>(surface_at_start(body), body.mass(), fluids, gravity.normalized());
   }
   return all;

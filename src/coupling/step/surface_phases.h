@@ -7,6 +7,7 @@
 #include "coupling/state/setup.h"
 #include "coupling/state/state.h"
 #include "coupling/tension/surface_tension.h"
+#include "fluid/volume/volume_transport.h"
 
 namespace seiche {
 
