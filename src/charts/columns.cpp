@@ -36,8 +36,8 @@ constexpr UnitRow unit_rows[] = {
     {"joints", " power ", "W"},
     {"joints", " gap ", "m"},
     {"probes", " time ", "s"},
-    {"probes", " value ", "Pa or m"},
-    {"probes", " x y z ", "m/s or m"},
+    {"probes", " value ", "Pa, m, m³/s or m³"},
+    {"probes", " x y z ", "m/s, m, N or N m"},
 };
 
 struct Group {
