@@ -40,6 +40,13 @@ std::string side_text(int dimension, const std::string& side) {
   return '"' + side + '"';
 }
 
+// A contact pair and a force. `zero`: a point.
+std::string force_text(const std::string& acceleration, const std::string& zero) {
+  return "[[contact]]\nbetween = [\"still\", \"so?t\"]\nfriction = 0.2\ncollide = true\n"
+         "[[force]]\nname = \"pull\"\nkind = \"acceleration\"\nacts_on = \"all\"\nsolids = [\"s*\"]\nacceleration = " +
+         acceleration + "\nregion = { shape = \"sphere\", center = " + zero + ", radius = 1 }\n";
+}
+
 }  // namespace
 
 Scene parse(const std::string& text, const Overrides& overrides, const std::filesystem::path& folder) {
@@ -151,10 +158,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
   if (side != "periodic") text += bob(v("0.2", "0.2", "0.2"));
   text += joints(dimension, v("0.5", "0.5", "0.5"), v("0.5", "1.5", "0.5")) + probe_text(dimension, probe);
-  text += "[[contact]]\nbetween = [\"still\", \"so?t\"]\nfriction = 0.2\ncollide = true\n";
-  text += "[[force]]\nname = \"pull\"\nkind = \"acceleration\"\nacts_on = \"all\"\nsolids = [\"s*\"]\nacceleration = " +
-          v("\"sin(t)\"", "0", "0") + "\nregion = { shape = \"sphere\", center = " + v("0", "0", "0") +
-          ", radius = 1 }\n";
+  text += force_text(v("\"sin(t)\"", "0", "0"), v("0", "0", "0"));
   text += "[tracking]\nmethod = \"level_set\"\n" + solver_text;
   return text + "[output]\nframes = [\"surface\", \"viscosity\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
 }
