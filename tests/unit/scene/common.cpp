@@ -158,8 +158,8 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
   if (side != "periodic") text += bob(v("0.2", "0.2", "0.2"));
   text += joints(dimension, v("0.5", "0.5", "0.5"), v("0.5", "1.5", "0.5")) + probe_text(dimension, probe);
-  text += force_text(v("\"sin(t)\"", "0", "0"), v("0", "0", "0"));
-  text += "[tracking]\nmethod = \"level_set\"\n" + solver_text;
+  text +=
+      force_text(v("\"sin(t)\"", "0", "0"), v("0", "0", "0")) + "[tracking]\nmethod = \"level_set\"\n" + solver_text;
   return text + "[output]\nframes = [\"surface\", \"viscosity\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
 }
 
