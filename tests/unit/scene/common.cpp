@@ -141,8 +141,9 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           " = 0.5\nuntil = 1.5\nrate = \"0.1*t\"\nmotion = { translate = " + v("\"0.1*t\"", "0", "0") +
           ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
   text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\n" + tail;
-  text += "[[solid]]\nname = \"still\"\n" + placed + "slip = \"no_slip\"\ncontact_angle = 120\n";
-  text += "[[solid]]\nkind = \"kinematic\"\n" + form + "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
+  text += "[[solid]]\nname = \"still\"\n" + placed +
+          "slip = \"no_slip\"\ncontact_angle = 120\n[[solid]]\nkind = \"kinematic\"\n" + form +
+          "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
           ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
   text += "[[solid]]\nkind = \"rigid\"\nshape = \"sphere\"\ncenter = " + v("0.5", "0.5", "0.5") +
           "\nradius = 0.1\ndensity = 400\nvelocity = " + v("0", "0.5", "0") +
