@@ -40,6 +40,15 @@ std::string side_text(int dimension, const std::string& side) {
   return '"' + side + '"';
 }
 
+// A drain that moves by `way` about a center, and a source.
+std::string feed_text(const std::string& placed, const std::string& begin, const std::string& way,
+                      const std::string& center, const std::string& velocity) {
+  return "[[liquid.drain]]\n" + placed + begin +
+         " = 0.5\nuntil = 1.5\nrate = \"0.1*t\"\nmotion = { translate = " + way +
+         ", rotate = { axis = [0, 0, 1], center = " + center + ", degrees = \"90*t\" } }\n[[liquid.source]]\n" +
+         placed + "velocity = " + velocity + "\n" + begin + " = 0.5\n" + tail;
+}
+
 // A contact pair and a force. `zero`: a point.
 std::string force_text(const std::string& acceleration, const std::string& zero) {
   return "[[contact]]\nbetween = [\"still\", \"so?t\"]\nfriction = 0.2\ncollide = true\n"
@@ -137,10 +146,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
   text += liquid_text + v("\"sin(x)\"", "0", "0") + "\n";
   text += "[[liquid.region]]\n" + placed + "velocity = " + v("1", "2", "3") + "\n[[liquid.region]]\n" + form;
   const std::string begin = shape == "cylinder" || shape == "capsule" ? "start" : "from";
-  text += "[[liquid.drain]]\n" + placed + begin +
-          " = 0.5\nuntil = 1.5\nrate = \"0.1*t\"\nmotion = { translate = " + v("\"0.1*t\"", "0", "0") +
-          ", rotate = { axis = [0, 0, 1], center = " + v("0.5", "0.5", "0") + ", degrees = \"90*t\" } }\n";
-  text += "[[liquid.source]]\n" + placed + "velocity = " + v("1", "0", "0") + "\n" + begin + " = 0.5\n" + tail;
+  text += feed_text(placed, begin, v("\"0.1*t\"", "0", "0"), v("0.5", "0.5", "0"), v("1", "0", "0"));
   text += "[[solid]]\nname = \"still\"\n" + placed +
           "slip = \"no_slip\"\ncontact_angle = 120\n[[solid]]\nkind = \"kinematic\"\n" + form +
           "motion = { translate = " + v("\"0.1*sin(6.28*t)\"", "0", "0") +
