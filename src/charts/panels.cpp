@@ -56,7 +56,8 @@ std::string unit_here(const std::vector<RunTables>& runs, const std::string& tab
 }
 
 std::string with_unit(const std::string& what, const std::string& unit) {
-  return unit.empty() ? what : fmt::format("{} ({})", what, unit);
+  const bool one = !unit.empty() && unit.find(" or ") == std::string::npos;
+  return one ? fmt::format("{} ({})", what, unit) : what;
 }
 
 [[noreturn]] void refuse_column(std::vector<RunTables>& runs, const PlotOptions& options, const std::string& word) {

@@ -40,6 +40,8 @@ std::string side_text(int dimension, const std::string& side) {
   return '"' + side + '"';
 }
 
+const std::string tail = "until = 1.5\n[[liquid.sponge]]\nrate = \"1+x\"\nside = \"x_upper\"\nlength = 0.2\n";
+
 // A drain that moves by `way` about a center, and a source.
 std::string feed_text(const std::string& placed, const std::string& begin, const std::string& way,
                       const std::string& center, const std::string& velocity) {
@@ -80,7 +82,6 @@ void check_refused(const std::string& text, const std::string& expected) {
   CHECK_THAT(message, Catch::Matchers::Contains(expected));
 }
 
-const std::string tail = "until = 1.5\n[[liquid.sponge]]\nrate = \"1+x\"\nside = \"x_upper\"\nlength = 0.2\n";
 const std::string liquid_text =
     "[liquid]\ndensity = 998.2\nseparates = true\nviscosity = \"1+x\"\nsurface_tension = 0.07\n"
     "surface_tension_scheme = \"semi_implicit\"\ncontact_angle = 60\nvelocity = ";

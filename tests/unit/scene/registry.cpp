@@ -63,6 +63,9 @@ std::string scene_for(const Option& option) {
   for (const char* key : {"corner", "edge_a", "edge_b", "counts"})
     if (option.path == std::string("probe[].") + key) probe = "plane";
   std::string text = rich_scene(3, shape, side, probe);
+  const std::string pull = "kind = \"acceleration\"";
+  if (condition.key == "kind" && option.path.rfind("force[]", 0) == 0)
+    text.replace(text.find(pull), pull.size(), "kind = \"" + condition.values[0] + "\"");
   if (option.path.rfind("robot[]", 0) == 0)
     text +=
         "[[robot]]\nfile = \"arm.urdf\"\nrotate = { axis = [0, 0, 1], degrees = 30 }\n[[robot.joint]]\nname = \"j\"\n"
