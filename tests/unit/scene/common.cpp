@@ -51,11 +51,11 @@ std::string feed_text(const std::string& placed, const std::string& begin, const
          placed + "velocity = " + velocity + "\n" + begin + " = 0.5\n" + tail;
 }
 
-// A contact pair and a force. `zero`: a point.
-std::string force_text(const std::string& acceleration, const std::string& zero) {
+// A contact pair and a force.
+std::string force_text(const std::string& acceleration) {
   return "[[contact]]\nbetween = [\"still\", \"so?t\"]\nfriction = 0.2\ncollide = true\n"
          "[[force]]\nname = \"pull\"\nkind = \"acceleration\"\nacts_on = \"all\"\nsolids = [\"s*\"]\nacceleration = " +
-         acceleration + "\nregion = { shape = \"sphere\", center = " + zero + ", radius = 1 }\n";
+         acceleration + "\n";
 }
 
 }  // namespace
@@ -166,8 +166,7 @@ std::string rich_scene(int dimension, const std::string& shape, const std::strin
           "stress = " + v("\"1e3*x*t\"", "0", "0") + "\n";
   if (side != "periodic") text += bob(v("0.2", "0.2", "0.2"));
   text += joints(dimension, v("0.5", "0.5", "0.5"), v("0.5", "1.5", "0.5")) + probe_text(dimension, probe);
-  text +=
-      force_text(v("\"sin(t)\"", "0", "0"), v("0", "0", "0")) + "[tracking]\nmethod = \"level_set\"\n" + solver_text;
+  text += force_text(v("\"sin(t)\"", "0", "0")) + "[tracking]\nmethod = \"level_set\"\n" + solver_text;
   return text + "[output]\nframes = [\"surface\", \"viscosity\"]\nformats = [\"vdb\", \"vtk\"]\ncheckpoint_every = 5\n";
 }
 
