@@ -223,7 +223,21 @@ std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<
   return fault;
 }
 
+template <int Dim>
+double mass_at_face(const Layout<Dim>& l, const Fluids& fluids, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                    const CellField<Dim>* brought, int axis, Site face) {
+  double share = 0;
+  for (const Site c : {face - l.stride(axis), face}) {
+    const int i = l.index(c)[axis];
+    if (l.geometry().periodic[std::size_t(axis)] || (i >= 0 && i < l.geometry().cells[axis]))
+      share += liquid_share(l, phi, psi, c) - (brought ? (*brought)[c] : 0);
+  }
+  return 0.5 * share * l.geometry().cell_volume() * fluids.density();
+}
+
 #define SEICHE_INSTANTIATE(D)                                                                                         \
+  template double mass_at_face<D>(const Layout<D>&, const Fluids&, const CellField<D>&, const NodeField<D>&,          \
+                                  const CellField<D>*, int, Site);                                                    \
   template Brought<D> add_sources<D>(const Domain<D>&, const Solids<D>&, const Openings<D>&, const State<D>&, double, \
                                      double, CellField<D>&);                                                          \
   template double add_source_shares<D>(const Domain<D>&, const Openings<D>&, const NodeField<D>&, double, double,     \

@@ -75,4 +75,10 @@ template <int Dim>
 std::string fault_of_source(const Domain<Dim>& domain, const std::vector<Source<Dim>>& sources, std::size_t index,
                             double t);
 
+// Mass of liquid that a face of unknown velocity stands for, kg (2D: kg/m), where a source acts on what was there
+// before: half of that in the cells beside it, less what the source has brought.
+template <int Dim>
+double mass_at_face(const Layout<Dim>& l, const Fluids& fluids, const CellField<Dim>& phi, const NodeField<Dim>& psi,
+                    const CellField<Dim>* brought, int axis, Site face);
+
 }  // namespace seiche

@@ -335,17 +335,6 @@ Transported<Dim> transport_flow(const Setup<Dim>& s, const State<Dim>& state, co
   return r;
 }
 
-// Mass of liquid that a face of unknown velocity stands for, kg (2D: kg/m), where a source acts on what was there
-// before: half of that in the cells beside it, less what the source has brought.
-template <int Dim>
-double mass_at_face(const Layout<Dim>& l, const Fluids& fluids, const CellField<Dim>& phi, const NodeField<Dim>& psi,
-                    const CellField<Dim>* brought, int axis, Site face) {
-  double share = 0;
-  for (const Site c : {face - l.stride(axis), face})
-    if (l.cells().contains(l.index(c))) share += liquid_share(l, phi, psi, c) - (brought ? (*brought)[c] : 0);
-  return 0.5 * share * l.geometry().cell_volume() * fluids.density();
-}
-
 template <int Dim>
 Transported<Dim> transport_velocity(const Setup<Dim>& s, const State<Dim>& state, const CellField<Dim>& phi, double dt,
                                     const ViscousPlan& plan, const StepGeometry<Dim>& geometry,
